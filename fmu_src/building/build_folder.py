@@ -22,7 +22,7 @@ if sys.platform != "win32":
 
 @contextmanager
 def build_folder(target: str | None, sources: Mapping[str, str]) -> Iterator[Path]:
-    """Give a folder with these C files and headers (name -> text) and nothing else.
+    """Give a folder with these C files and headers (path -> text) and nothing else.
 
     It is that of the target, once no other build uses it. Without a target, where files cannot be
     locked and where no cache can be written it is a temporary one.
@@ -55,10 +55,11 @@ def _lock_file(target: str | None) -> TextIO | None:
 def _update(folder: Path, sources: Mapping[str, str]) -> None:
     """Make the folder hold the sources alone; what is the same keeps its time."""
     same = set()
-    for path in folder.iterdir():
-        text = sources.get(path.name)
+    for path in [path for path in folder.rglob("*") if path.is_file()]:
+        name = path.relative_to(folder).as_posix()
+        text = sources.get(name)
         if text is not None and path.read_bytes() == text.encode():
-            same.add(path.name)
+            same.add(name)
         else:
             path.unlink()
     write_sources({n: text for n, text in sources.items() if n not in same}, folder)

@@ -1,11 +1,15 @@
-"""All C sources of the native FMUs: written by hand, generated, and the headers of FMI."""
+"""All C sources of the native FMUs: written by hand, generated, and the headers of FMI.
+
+A file is named by its path below the root of the sources, as leap/leap.c. It includes others by
+their path from its own folder, so that hosts that compile the sources of an FMU need no option.
+"""
 
 from __future__ import annotations
 
 import importlib.util
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fnmatch import fnmatch
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Literal
 
 from fmu_src.building.build_error import BuildError
@@ -27,38 +31,39 @@ FMI_HEADERS: dict[FmiVersion, tuple[str, ...]] = {
     "2.0": ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h"),
     "3.0": ("fmi3FunctionTypes.h", "fmi3Functions.h", "fmi3PlatformTypes.h"),
 }
+_FMI_FOLDER = ""
 
 _SHELLS: dict[FmiVersion, str] = {"2.0": "fmi2_*", "3.0": "fmi3_*"}
 """The C files of one version of FMI only."""
 
 SHARED = (
-    "component_functions.h",
-    "constants.h",
-    "experiment.[ch]",
-    "fmi2*.[ch]",
-    "fmi_version.h",
-    "instance.[ch]",
-    "lifecycle.h",
-    "memory.h",
-    "model_guid.h",
-    "refusal.[ch]",
-    "refusal_texts.h",
-    "state_access.[ch]",
-    "state_bytes.[ch]",
-    "values.[ch]",
+    "component_functions",
+    "constants",
+    "experiment",
+    "fmi2*",
+    "fmi_version",
+    "instance",
+    "lifecycle",
+    "memory",
+    "model_guid",
+    "refusal",
+    "refusal_texts",
+    "state_access",
+    "state_bytes",
+    "values",
 )
-"""The slider's C files that serve any table of variables."""
+"""The slider's C files that serve any table of variables, without folder and suffix."""
 
 
 def slider_sources(version: FmiVersion = "2.0") -> dict[str, str]:
-    """Return file name -> text of the slider's C files and headers, with UNBUILT_GUID.
+    """Return path -> text of the slider's C files and headers, with UNBUILT_GUID.
 
     Equal sources and equal headers of fmpy give equal texts. Raises BuildError without fmpy.
     """
     others = [pattern for other, pattern in _SHELLS.items() if other != version]
     written = _read(C_SOURCES).items()
     return {
-        **{name: text for name, text in written if not any(fnmatch(name, p) for p in others)},
+        **{name: text for name, text in written if not _is_one_of(name, others)},
         **c_table(VARIABLES, "python/slider_component/variables.py"),
         **c_parameters(VARIABLES),
         "constants.h": c_constants(),
@@ -69,13 +74,13 @@ def slider_sources(version: FmiVersion = "2.0") -> dict[str, str]:
 
 
 def controller_sources() -> dict[str, str]:
-    """Return file name -> text of the velocity controller's; otherwise like `slider_sources`.
+    """Return path -> text of the velocity controller's; otherwise like `slider_sources`.
 
-    Its own files replace those of the slider of the same name.
+    Its own files replace those of the slider of the same path.
     """
     slider = slider_sources()
     return {
-        **{name: slider[name] for name in slider if any(fnmatch(name, p) for p in SHARED)},
+        **{name: slider[name] for name in slider if _is_one_of(name, SHARED)},
         **_read(CONTROLLER_SOURCES),
         **c_table(CONTROLLER_VARIABLES, "controller/variables.py"),
     }
@@ -88,16 +93,29 @@ def guid_header(guid: str) -> str:
     return c_header("model_guid", about, "building/c_sources.py", definition)
 
 
-def write_sources(sources: Mapping[str, str], folder: Path) -> None:
-    """Write C files and headers into a folder, created if missing; line ends are those of Unix."""
-    folder.mkdir(parents=True, exist_ok=True)
+def c_files(sources: Iterable[str]) -> list[str]:
+    """Return the paths of the files to be compiled, in alphabetical order."""
+    return sorted(name for name in sources if name.endswith(".c"))
+
+
+def write_sources(sources: Mapping[str, str], root: Path) -> None:
+    """Write C files and headers below a folder, created if missing; line ends are those of Unix."""
+    root.mkdir(parents=True, exist_ok=True)
     for name, text in sources.items():
-        (folder / name).write_text(text, encoding="utf-8", newline="\n")
+        (root / name).parent.mkdir(exist_ok=True)
+        (root / name).write_text(text, encoding="utf-8", newline="\n")
 
 
-def _read(folder: Path) -> dict[str, str]:
+def _is_one_of(name: str, patterns: Iterable[str]) -> bool:
+    return any(fnmatch(PurePosixPath(name).stem, pattern) for pattern in patterns)
+
+
+def _read(root: Path) -> dict[str, str]:
     # In text mode: line ends do not depend on the checkout.
-    return {path.name: path.read_text(encoding="utf-8") for path in folder.glob("*.[ch]")}
+    return {
+        path.relative_to(root).as_posix(): path.read_text(encoding="utf-8")
+        for path in root.rglob("*.[ch]")
+    }
 
 
 def _fmi_headers(version: FmiVersion) -> dict[str, str]:
@@ -105,4 +123,7 @@ def _fmi_headers(version: FmiVersion) -> dict[str, str]:
     if spec is None or spec.origin is None:
         raise BuildError("fmpy is not installed here; `make setup` installs it")
     folder = Path(spec.origin).parent / "c-code"
-    return {name: (folder / name).read_text(encoding="utf-8") for name in FMI_HEADERS[version]}
+    return {
+        _FMI_FOLDER + name: (folder / name).read_text(encoding="utf-8")
+        for name in FMI_HEADERS[version]
+    }

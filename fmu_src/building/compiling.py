@@ -16,7 +16,7 @@ from platform import machine
 
 from fmu_src.building.build_error import BuildError
 from fmu_src.building.build_folder import build_folder
-from fmu_src.building.c_sources import FmiVersion
+from fmu_src.building.c_sources import FmiVersion, c_files
 from fmu_src.building.cache import cached
 from fmu_src.building.platforms import Platform
 from fmu_src.building.universal_binary import universal_binary
@@ -79,7 +79,7 @@ def compile_binaries(
     progress: Callable[[str], None],
     version: FmiVersion = "2.0",
 ) -> dict[str, bytes]:
-    """Compile C files and headers (name -> text); return path in the FMU -> binary.
+    """Compile C files and headers (path -> text); return path in the FMU -> binary.
 
     Processors of one platform share a file in FMI 2.0, and have one each in FMI 3.0.
 
@@ -130,13 +130,13 @@ def compile_binary(
     flags: Sequence[str],
     compiler: Compiler,
 ) -> bytes:
-    """Return the file `output`, compiled from C files and headers (name -> text).
+    """Return the file `output`, compiled from C files and headers (path -> text).
 
     That of the last build is taken where all that it depends on is the same. Raises BuildError with
     the compiler's messages.
     """
     # Relative names: the binary contains no path of this machine.
-    names = sorted(name for name in sources if name.endswith(".c"))
+    names = c_files(sources)
     arguments = [*(("-target", target) if target else ()), *flags, "-o", output, *names, "-lm"]
 
     def make() -> bytes:

@@ -11,7 +11,13 @@ from typing import Any
 from fmu_src import __version__
 from fmu_src.building.archive import check_folder, write_archive
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.c_sources import GUID_HEADER, FmiVersion, guid_header, slider_sources
+from fmu_src.building.c_sources import (
+    GUID_HEADER,
+    FmiVersion,
+    c_files,
+    guid_header,
+    slider_sources,
+)
 from fmu_src.building.compiling import (
     Compiler,
     compile_binaries,
@@ -37,7 +43,7 @@ MODEL_3 = "SliderResonator3"
 class NativeModel:
     """What distinguishes one native FMU from another.
 
-    `code` is its C sources: name in the folder `sources` -> text. `details` are arguments of both
+    `code` is its C sources: path in the folder `sources` -> text. `details` are arguments of both
     the model description and the documentation page, `page` of the page alone. `version` is that of
     FMI. `takes_derivatives` is for one of FMI 2.0 that takes derivatives of inputs.
     `runs_in_browser` adds the page that runs the component.
@@ -176,7 +182,7 @@ def _description(model: NativeModel, tool: str, guid: str, generated: datetime) 
 
 
 def _source_files(model: NativeModel) -> list[str]:
-    return [name for name in sorted(model.code) if name.endswith(".c")]
+    return c_files(model.code)
 
 
 def _files_2(model: NativeModel) -> dict[str, bytes]:

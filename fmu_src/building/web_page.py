@@ -26,9 +26,8 @@ UPLOT_LICENCE = UPLOT / "LICENSE"
 SCRIPTS = ("component.js", "settings.js", "run.js", "plots.js", "sketch.js", "main.js")
 """In this order they are one JavaScript module."""
 
-_FMI_SHELL = ("fmi2", "instance.", "state_access.")
-_NAMES_OF_FMI = "fmi2_version.c"
-"""All that the kernel needs of the shell."""
+_FMI_SHELL = re.compile(r"(.*/)?(fmi2(?!_version)|instance\.|state_access\.)")
+"""Files that the kernel does not need: of FMI it needs the names alone."""
 
 _TARGET = "wasm32-wasi"
 _FLAGS = (
@@ -54,14 +53,13 @@ def build_page(dest: Path, *, progress: Callable[[str], None] = lambda _: None) 
 
 
 def web_page(code: Mapping[str, str], compiler: Compiler) -> bytes:
-    """Return the page as UTF-8 bytes, its kernel compiled from C sources (name -> text).
+    """Return the page as UTF-8 bytes, its kernel compiled from C sources (path -> text).
 
     Needs no network and no other file; equal sources and compilers give equal bytes. Raises
     BuildError with the compiler's messages.
     """
     files = page_files()
-    shell = {n for n in code if n.startswith(_FMI_SHELL)} - {_NAMES_OF_FMI}
-    sources = {name: text for name, text in code.items() if name not in shell}
+    sources = {name: text for name, text in code.items() if not _FMI_SHELL.match(name)}
     sources["page.c"] = files["page.c"]
     kernel = compile_binary(sources, "page.wasm", _TARGET, _FLAGS, compiler)
     parts = {

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "state.h"
+#include "number.h"
 
 /* `angle` [rad] modulo 2 pi, in [0, 2 pi); exact for angles >= 0. */
 static inline double within_turn(double angle) {

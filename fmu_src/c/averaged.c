@@ -108,10 +108,7 @@ TheoryRange theory_range(const Law *law) {
     double drag = law->friction->averaged->drag(&law->bristle, fastest);
     double normal = device->normal_preload + device->normal_amplitude;
     range.drag = drag / (mu > 0.0 ? mu : 1.0); /* Without friction there is no drag. */
-    double bent = 0.0;
-    if (device->friction_law != 0) {
-        bent = fabs(law->bristle.stiffness * device->initial_bristle_deflection) * (1.0 + range.drag);
-    }
+    double bent = fabs(law->friction->first_bristle(law)) * (1.0 + range.drag);
     range.strongest = TAU * normal * (1.0 + device->friction_faces * (mu + drag + bent));
     return range;
 }

@@ -29,5 +29,24 @@ static FrictionMeans means(const Bristle *bristle, const FastMotion *fast, doubl
                            -2.0 * mu / (n * PI) * sin(n * turning)};
 }
 
+static double bend_damping(const Bristle *bristle, const FastMotion *fast) {
+    (void)bristle;
+    (void)fast;
+    return 0.0;
+}
+
+static double bend_decay(const Bristle *bristle, const FastMotion *fast) {
+    (void)bristle;
+    (void)fast;
+    return INFINITY;
+}
+
 const AveragedFriction AVERAGED_COULOMB = {
-    .is_expensive = false, .grip = grip, .drag = drag, .mean = mean, .means = means};
+    .is_expensive = false,
+    .grip = grip,
+    .drag = drag,
+    .mean = mean,
+    .means = means,
+    .bend_damping = bend_damping,
+    .bend_decay = bend_decay,
+};

@@ -41,6 +41,12 @@ typedef struct {
      * N0 plain + dN (cos(delta) sine + sin(delta) cosine). */
     FrictionMeans (*means)(const Bristle *bristle, const FastMotion *fast, double n,
                            double turning);
+
+    /* Damping by bends of the bristle after reversals, over Coulomb friction; 0 without a bristle. */
+    double (*bend_damping)(const Bristle *bristle, const FastMotion *fast);
+
+    /* Decay of a bend in a turn of the drive, the exponent; infinite without a bristle. */
+    double (*bend_decay)(const Bristle *bristle, const FastMotion *fast);
 } AveragedFriction;
 
 extern const AveragedFriction AVERAGED_COULOMB, AVERAGED_LUGRE;

@@ -208,5 +208,26 @@ static double drag(const Bristle *bristle, double fast_velocity) {
     return bristle->damping * fast_velocity;
 }
 
+/* A bristle bends over a path of 2 mu/s0 after each of two reversals in a turn, and damps by the impulse of 2 mu s1/s0
+ * per normal load; but by no more than s1 v_q all the time. */
+static double bend_damping(const Bristle *bristle, const FastMotion *fast) {
+    double all_time = bristle->damping * fast->velocity / bristle->coefficient;
+    double bends = 2.0 / PI * bristle->damping / bristle->stiffness * fast->frequency;
+    return fmin(all_time, bends);
+}
+
+/* The path of a turn is four times the amplitude. */
+static double bend_decay(const Bristle *bristle, const FastMotion *fast) {
+    double path = 4.0 * fast->velocity / fast->frequency;
+    return bristle->stiffness * path / bristle->coefficient;
+}
+
 const AveragedFriction AVERAGED_LUGRE = {
-    .is_expensive = true, .grip = grip, .drag = drag, .mean = mean, .means = means};
+    .is_expensive = true,
+    .grip = grip,
+    .drag = drag,
+    .mean = mean,
+    .means = means,
+    .bend_damping = bend_damping,
+    .bend_decay = bend_decay,
+};

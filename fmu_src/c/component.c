@@ -280,7 +280,8 @@ static bool take_reached_inputs(Component *component, Refusal *refusal) {
     return true;
 }
 
-/* Take a step; with a `search`, only to the event that it finds. */
+/* Take a step; with a `search`, only to the event that it finds. In this order: refuse a wrong state or time; advance the
+ * moment; refuse numbers out of range; take over the inputs at the end; go on to the new moment and time. */
 static bool step(Component *component, double time, double step_size, EventSearch *search,
                  Refusal *refusal) {
     Snapshot *now = &component->now;

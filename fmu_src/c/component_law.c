@@ -3,6 +3,9 @@
 #include <math.h>
 
 #include "averaged.h"
+#include "friction_laws.h"
+#include "motions.h"
+#include "parameter_values.h"
 #include "refusal_texts.h"
 #include "state.h"
 #include "values.h"
@@ -60,10 +63,7 @@ bool prepare_law(const double values[SETTABLE_COUNT], Law *law, Refusal *refusal
     Device device = device_of(values);
     Inputs inputs = reduced_inputs(values);
     const Motion *motion = motion_of(&device);
-    if (motion == &LEAPING_MOTION) {
-        device.fidelity = 2;
-    }
-    if (!law_prepare(law, &device, &inputs, refusal)) {
+    if (!law_prepare(law, &device, &inputs, refusal) || !motion->prepare(law, refusal)) {
         return false;
     }
     law->motion = motion;

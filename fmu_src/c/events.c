@@ -130,7 +130,12 @@ static void look_at_end(Trace *trace, const Moment *end) {
     }
 }
 
-/* Either or both of `search` and `trace` may be NULL. */
+/* In this order: refuse a motion of too much work, and enter the contact mode of the start. Then leg by leg: find how
+ * long the leg may last, until the contact lifts or touches down, the arc ends or the normal frequency changes sign;
+ * let the friction law follow it, up to a stop or a release; look at it on the way; move to its end; let the inputs
+ * grow; change to the next contact mode. A search ends the motion at the first event.
+ *
+ * Either or both of `search` and `trace` may be NULL. */
 static bool follow_events(const Law *start, const Moment *moment, double duration,
                           EventSearch *search, Trace *trace, Budget *budget, Moment *now,
                           Refusal *refusal) {

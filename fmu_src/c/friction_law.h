@@ -47,7 +47,4 @@ typedef struct FrictionLaw {
 
 extern const FrictionLaw COULOMB, LUGRE;
 
-/* The law with this `friction_law` of the interface, or NULL. */
-const FrictionLaw *friction_law_of(int number);
-
 #endif

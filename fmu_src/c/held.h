@@ -8,14 +8,12 @@
 #include "plant.h"
 #include "split_slide.h"
 
-/* `splits`: whether sliding and flight use `split`; `arc` [s]: the longest leg, after which a motion begins
- * anew from its state. */
 typedef struct {
-    Plant plant;
-    bool splits;
-    Split split;
-    FlightWindow window;
-    double arc;
+    Plant plant;         /* coefficients of the equations of motion */
+    bool splits;         /* whether sliding and flight use `split` */
+    Split split;         /* their closed form, split into momentum and free oscillation */
+    FlightWindow window; /* the phases of the normal load at which the contact is lifted */
+    double arc;          /* longest leg [s]: after that a motion begins anew from its state */
 } Held;
 
 /* Prepares motion of `device` under `inputs`. Refuses as plant_prepare does. */

@@ -1,27 +1,5 @@
 #include "law.h"
 
-#include <stddef.h>
-
-#include "friction_law.h"
-
-bool law_prepare(Law *law, const Device *device, const Inputs *inputs, Refusal *refusal) {
-    law->device = *device;
-    law->inputs = *inputs;
-    law->middle_ratio = inputs->frequency_ratio;
-    law->bristle = bristle_of(device);
-    law->table = NULL;
-    law->bending = NULL;
-    law->motion = NULL;
-    law->friction = friction_law_of(device->friction_law);
-    if (law->friction == NULL) {
-        return refuse(refusal, "friction_law = %d refused: no law has this number",
-                      device->friction_law);
-    }
-    return law->friction->check(device, refusal) &&
-           held_prepare(&law->held, device, inputs, refusal) &&
-           (device->fidelity != 0 || fast_vibration_prepare(&law->fast, device, refusal));
-}
-
 void law_change(Law *law, double phase, double load) {
     law->inputs.phase = law->held.plant.phase = phase;
     law->inputs.load = law->held.plant.load = load;

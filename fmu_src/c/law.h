@@ -11,29 +11,20 @@
 #include "held.h"
 #include "refusal.h"
 
-/* `friction` is the row of functions of its friction law, see friction_law.h, and `motion` that of its kind of
- * motion, see motion.h. `fast` is the steady vibration at fidelity 0 and 1.
- *
- * `table` and `bending` are caches that outlive the law, shared by the laws of one instance: `table` for means
- * of LuGre friction, `bending` for panels of it. NULL where the functions that need them do without.
- *
- * `middle_ratio` is the frequency ratio in the middle of a step in which it grows. */
+/* The caches outlive the law; the laws of one instance share them. They are NULL where the functions that need them do
+ * without. */
 typedef struct Law {
-    Device device;
-    Inputs inputs;
-    double middle_ratio;
-    Held held;
-    Bristle bristle;
-    FastVibration fast;
-    FrictionTable *table;
-    const struct FrictionLaw *friction;
-    const struct Motion *motion;
-    struct BendingTables *bending;
+    Device device;                      /* the parameters; `fidelity` is that of what moves */
+    Inputs inputs;                      /* phase [rad], load [N] and frequency ratio [1], at the start if they grow */
+    double middle_ratio;                /* frequency ratio [1] in the middle of a step in which it grows */
+    Held held;                          /* what resolved motion needs */
+    Bristle bristle;                    /* what friction needs; Coulomb friction has its coefficient alone */
+    FastVibration fast;                 /* the steady vibration, of averaged motion alone */
+    FrictionTable *table;               /* cache: means of expensive friction */
+    const struct FrictionLaw *friction; /* row of the friction law, see friction_law.h */
+    const struct Motion *motion;        /* row of the kind of motion, see motion.h */
+    struct BendingTables *bending;      /* cache: panels of bending bristles */
 } Law;
-
-/* Prepare all of a law but its motion and caches. Refuses where device and friction law do not fit; `law` is then
- * undefined. */
-bool law_prepare(Law *law, const Device *device, const Inputs *inputs, Refusal *refusal);
 
 /* Change phase [rad] and load [N] of a law; nothing else prepared depends on these. */
 void law_change(Law *law, double phase, double load);

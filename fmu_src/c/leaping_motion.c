@@ -2,6 +2,8 @@
  *
  * Resolved to the next section, over a whole number of periods in a leap, resolved again for the last periods: outputs,
  * events and state are those of resolved motion. Where leaping gains nothing or does not hold, motion stays resolved. */
+#include "leaping_motion.h"
+
 #include <stddef.h>
 
 #include "angle.h"
@@ -112,6 +114,7 @@ static double error(const Law *law, const Moment *moment) {
 }
 
 const Motion LEAPING_MOTION = {
+    .prepare = resolved_prepare,
     .start = resolved_start,
     .advance = advance,
     .mode = resolved_mode,

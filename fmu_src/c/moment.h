@@ -7,28 +7,26 @@
 #include "state.h"
 #include "stops.h"
 
-/* Direction of the last sliding (0 before any), number of reversals, and number of sticks begun. Counts are
- * doubles: exact for more events than any run has. */
+/* Events so far. Counts are doubles: exact for more events than any run has. */
 typedef struct {
-    int sliding;
-    double reversals, sticks;
+    int sliding;      /* direction of the last sliding, 0 before any */
+    double reversals; /* number of reversals */
+    double sticks;    /* number of sticks begun */
 } Counts;
 
-/* Position [m], phases [rad], contact mode. `event_age` is the time [s] since the last event,
- * infinite before any; `bristle` is the friction sigma_0 z of the bristle per unit normal load, 0 with
- * Coulomb friction. `stops` determine where the search for a stop begins, and so the last digit of the
- * time that it finds: as part of the state they make a replay equal to the last bit. `leap_error` is what leaps
- * over periods may have added to the error of the slow velocity [m/s]. */
+/* `stops` determine where the search for a stop begins, and so the last digit of the time that it finds: as part of the
+ * state they make a replay equal to the last bit. */
 typedef struct {
-    State state;
-    double position, theta, psi;
-    int mode;
-    Counts counts;
-    double event_age;
-    PeriodMeans means;
-    double bristle;
-    Stops stops;
-    double leap_error;
+    State state;       /* velocities [m/s] of slider and resonator, displacement [m] of the resonator */
+    double position;   /* of the slider [m] */
+    double theta, psi; /* phases of the drive and of the normal load [rad], without the input `phase` */
+    int mode;          /* contact mode */
+    Counts counts;     /* events so far */
+    double event_age;  /* time [s] since the last event, infinite before any */
+    PeriodMeans means; /* sums over the drive period that goes on, means over the last whole one */
+    double bristle;    /* friction sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction */
+    Stops stops;       /* where the slider stopped last in each direction */
+    double leap_error; /* what leaps over periods may have added to the error of the slow velocity [m/s] */
 } Moment;
 
 /* The counts after the slider has moved in `direction`. */

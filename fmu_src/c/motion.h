@@ -1,6 +1,8 @@
 /* The interface of a kind of motion: a row of functions.
  *
- * Motion is resolved (fidelity 1 and 2), averaged (fidelity 0, order 1), or leaps over periods (fidelity 0, order 2). */
+ * Motion is resolved (fidelity 1 and 2), averaged (fidelity 0, order 1), or leaps over periods (fidelity 0, order 2):
+ * motions.h picks it. A law is prepared, a motion started, then advanced step by step, to an event if one is wanted;
+ * all else reads the moment in between. */
 #ifndef SLIDER_MOTION_H
 #define SLIDER_MOTION_H
 
@@ -21,6 +23,9 @@ typedef struct {
 typedef struct Motion {
     /* Whether friction counts with its mean over a turn. */
     bool averages;
+
+    /* Prepare what only this motion needs of a law. Refuses where that is not defined; the law is then undefined. */
+    bool (*prepare)(Law *law, Refusal *refusal);
 
     /* The first moment, at drive and normal phase 0, from the initial values of the device. */
     Moment (*start)(const Law *law);
@@ -46,13 +51,5 @@ typedef struct Motion {
     /* The part [s] of the time `left` for which one law holds, prepared for its middle, where inputs grow by `ramp`. */
     double (*part)(const Device *device, const Ramp *ramp, double left);
 } Motion;
-
-extern const Motion RESOLVED_MOTION, AVERAGED_MOTION, LEAPING_MOTION;
-
-/* The whole time: one law holds however long inputs grow. */
-double whole_part(const Device *device, const Ramp *ramp, double left);
-
-/* The motion of a device, by its fidelity and averaging order. */
-const Motion *motion_of(const Device *device);
 
 #endif

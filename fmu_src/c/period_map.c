@@ -62,7 +62,7 @@ static void prepare_fast_states(PeriodMap *map) {
     map->fast_count = 2;
     map->kept = 0.0;
     map->decay = resonator_decay(&plant->slip, map->period);
-    if (!law->friction->sticks) {
+    if (law->friction->bends) {
         double path = 4.0 * map->turns * map->speed / w;
         map->scale[2] = law->bristle.coefficient;
         map->fast_count = 3;

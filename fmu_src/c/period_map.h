@@ -18,32 +18,31 @@
 /* Largest number of fast states: Y [m], Y' [m/s], and the bristle's friction per unit load. */
 enum { MAX_FAST = 3 };
 
-/* The motion at a section: slow velocity V [m/s], position X [m], fast states; reversals and sticks so far. */
+/* The motion at a section. */
 typedef struct {
-    double velocity, position;
-    double fast[MAX_FAST];
-    double reversals, sticks;
+    double velocity;          /* slow velocity V [m/s] */
+    double position;          /* X [m] */
+    double fast[MAX_FAST];    /* fast states */
+    double reversals, sticks; /* counts so far */
 } Visit;
 
-/* The period map under the inputs of `law`, which may grow.
- *
- * The normal load repeats after `turns` turns of the drive, in `period` [s], but for a `drift` [rad] of its phase.
- * `section` is the drive phase of the section [rad].
- *
- * `speed` is the fast velocity v_q [m/s], `tolerance` the error of V that leaps may make, over v_q; `share` the change of V
- * by full friction in a period, over v_q. The fast state has `fast_count` entries. An error by `scale` in one of them is as
- * large as the vibration, or changes V by v_q times `share`. `resolvent` is the inverse of A - 1, A the map of Y and Y' over a
- * period without friction; `kept` what remains of a bristle's deflection after a period; `decay` the largest factor by which
- * a transient decays in a period. */
+/* The period map under the inputs of `law`, which may grow. An error by `scale` in a fast state is as large as the
+ * vibration, or changes V by v_q times `share`. */
 typedef struct {
-    Law law;
-    FastVibration vibration;
-    int turns;
-    double period, drift, section;
-    double speed, share, tolerance;
-    int fast_count;
-    double scale[MAX_FAST];
-    double resolvent[2][2], kept, decay;
+    Law law;                 /* the full device under its inputs, with the tolerance of maps */
+    FastVibration vibration; /* the steady vibration without friction */
+    int turns;               /* turns of the drive in a period, after which the normal load repeats */
+    double period;           /* the time of these [s] */
+    double drift;            /* by which the phase of the load does not repeat [rad] */
+    double section;          /* drive phase of the section [rad] */
+    double speed;            /* fast velocity v_q [m/s] */
+    double share;            /* change of V by full friction in a period, over v_q */
+    double tolerance;        /* error of V that leaps may make, over v_q */
+    int fast_count;          /* number of fast states */
+    double scale[MAX_FAST];  /* their scales, in their units */
+    double resolvent[2][2];  /* inverse of A - 1, A the map of Y and Y' over a period without friction */
+    double kept;             /* what remains of a bristle's deflection after a period */
+    double decay;            /* largest factor by which a transient decays in a period */
 } PeriodMap;
 
 /* Prepare the map of a law of the full device, for a load that repeats after up to `max_turns` turns. Return false where

@@ -29,18 +29,20 @@
  * While inputs vary, the load grows by `load_rate` [N/s] and the normal frequency by `normal_rate`
  * [rad/s^2]; both are 0 under held inputs. */
 typedef struct {
-    double slider_mass, total_mass, mass_fraction;
-    double drive_frequency, normal_frequency;
-    double phase, load;
-    double load_rate, normal_rate;
-    double friction_preload, friction_amplitude, preload_share;
-    Oscillator slip, stick;
-    Complex drive;
-    double relative_drive, base_acceleration;
-    Complex holding_drive;
-    double spring, damper;
-    bool resolves_resonator;
-    Complex resonator_amplitude;
+    double slider_mass, total_mass;              /* M and M + m [kg] */
+    double mass_fraction;                        /* r_m = m / (M + m) */
+    double drive_frequency, normal_frequency;    /* w and the ratio times w [rad/s] */
+    double phase, load;                          /* inputs [rad, N] */
+    double load_rate, normal_rate;               /* growth of the load [N/s] and of the normal frequency [rad/s^2] */
+    double friction_preload, friction_amplitude; /* F0 and F1 [N] */
+    double preload_share;                        /* N0 / dN */
+    Oscillator slip, stick;                      /* the resonator on a sliding and on a held slider */
+    Complex drive;                               /* force on the pair per total mass [m/s^2] */
+    double relative_drive, base_acceleration;    /* drive of the resonator while sliding and sticking [m/s^2] */
+    Complex holding_drive;                       /* direct force on a held slider [N] */
+    double spring, damper;                       /* k [N/m] and c [N s/m] */
+    bool resolves_resonator;                     /* whether the resonator moves by its own equation */
+    Complex resonator_amplitude;                 /* its steady displacement [m] where it does not */
 } Plant;
 
 /* Angle [rad] that the normal load turns by in `t` [s]. */

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "angle.h"
+#include "friction_laws.h"
 #include "steady_motion.h"
 #include "vibrating_load.h"
 

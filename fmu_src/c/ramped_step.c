@@ -5,7 +5,8 @@
 
 #include "angle.h"
 #include "clock.h"
-#include "motion.h"
+#include "motions.h"
+#include "parameter_values.h"
 #include "values.h"
 
 /* Slow phases that a whole budget buys. */

@@ -7,6 +7,12 @@
 #include "refusal_texts.h"
 #include "state.h"
 
+bool resolved_prepare(Law *law, Refusal *refusal) {
+    (void)law;
+    (void)refusal;
+    return true;
+}
+
 /* Velocity [m/s] at the start. A resonator that is not resolved vibrates steadily at once; the velocity is
  * chosen so that the momentum of the pair is that of the initial values. */
 static double start_velocity(const Law *law) {
@@ -90,6 +96,7 @@ double whole_part(const Device *device, const Ramp *ramp, double left) {
 }
 
 const Motion RESOLVED_MOTION = {
+    .prepare = resolved_prepare,
     .start = resolved_start,
     .advance = advance,
     .mode = resolved_mode,

@@ -1,13 +1,21 @@
-/* What motion that leaps over periods shares with resolved motion; see motion.h. */
+/* Resolved motion, and what motion that leaps over periods shares with it; see motion.h. */
 #ifndef SLIDER_RESOLVED_MOTION_H
 #define SLIDER_RESOLVED_MOTION_H
 
 #include "constants.h"
 #include "motion.h"
 
+extern const Motion RESOLVED_MOTION;
+
+/* Nothing beyond the law itself is needed. */
+bool resolved_prepare(Law *law, Refusal *refusal);
+
 Moment resolved_start(const Law *law);
 int resolved_mode(const Law *law, const Moment *moment);
 double resolved_force(const Law *law, const Moment *moment, int mode);
 Rates resolved_rates(const Law *law, const Moment *moment);
+
+/* The whole time: one law holds however long inputs grow. */
+double whole_part(const Device *device, const Ramp *ramp, double left);
 
 #endif

@@ -4,7 +4,15 @@
 
 #include <stdbool.h>
 
-#include "slow_pass.h"
+/* Acceleration [m/s^2] at time `t` [s] and velocity `v` [m/s]. */
+typedef double (*AccelerationFunction)(const void *motion, double t, double v);
+
+/* Where an integration is: time [s], velocity [m/s], displacement [m], the step size to try next [s], and
+ * the number of steps `tried`. */
+typedef struct {
+    double t, velocity, moved, step;
+    int tried;
+} Reached;
 
 /* Advance `now` to time `end` [s] if its velocity is close to one at which forces balance, relative to the
  * `fast` velocity [m/s], and reaches that well before `end`. Return whether that is so. The acceleration

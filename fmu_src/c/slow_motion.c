@@ -172,6 +172,8 @@ static Moment start(const Law *law) {
     return first;
 }
 
+/* In this order: take the slow velocity and the centre of the pair from the state; pass the slow motion; turn the phases;
+ * add the steady vibration again. */
 static bool advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
                     Budget *budget, Moment *after, Refusal *refusal) {
     (void)search;
@@ -241,8 +243,13 @@ static double part(const Device *device, const Ramp *ramp, double left) {
     return fmin(left, ahead / fabs(ramp->ratio_rate));
 }
 
+static bool prepare(Law *law, Refusal *refusal) {
+    return fast_vibration_prepare(&law->fast, &law->device, refusal);
+}
+
 const Motion AVERAGED_MOTION = {
     .averages = true,
+    .prepare = prepare,
     .start = start,
     .advance = advance,
     .mode = mode,

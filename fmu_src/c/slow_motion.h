@@ -11,6 +11,8 @@
 
 #include "motion.h"
 
+extern const Motion AVERAGED_MOTION;
+
 /* Slow velocity V [m/s] of a state at drive phase `theta` [rad]. */
 double slow_velocity(const Law *law, const State *state, double theta);
 

@@ -1,24 +1,16 @@
 #include "slow_motion_error.h"
 
 #include "elementary.h"
+#include "friction_law.h"
 #include "state.h"
 
 /* Error of first order in friction shares and v_q: that of the average, and that of what the average leaves
  * out, the resonator's first swing and the first bend of bristles. */
 #define FIRST_ORDER 2.0
 
-/* Damping of bristles over Coulomb friction; 0 without bristles. A bristle bends over a path of 2 mu/s0 after
- * each of two reversals in a turn, and damps by the impulse of 2 mu s1/s0 per normal load; but by no more than
- * s1 v_q all the time. */
-static double damping_of_bend(const Law *law) {
-    const Device *device = &law->device;
-    if (device->friction_law == 0) {
-        return 0.0;
-    }
-    const Bristle *bristle = &law->bristle;
-    double all_time = bristle->damping * law->fast.velocity / bristle->coefficient;
-    double bends = 2.0 / PI * bristle->damping / bristle->stiffness * device->drive_frequency;
-    return fmin(all_time, bends);
+/* The fast motion of averages. */
+static FastMotion fast_motion(const Law *law) {
+    return (FastMotion){law->fast.velocity, law->device.drive_frequency};
 }
 
 /* Share of mean friction in the inertia of the vibration, faces mu N0 / (Mt w v_q): the small number by which averages
@@ -26,8 +18,9 @@ static double damping_of_bend(const Law *law) {
 static double friction_share(const Law *law) {
     const Device *device = &law->device;
     double normal = fmax(device->normal_preload, device->normal_amplitude / PI);
-    double friction = device->friction_faces * device->friction_coefficient * normal *
-                      hypot(1.0, damping_of_bend(law));
+    FastMotion fast = fast_motion(law);
+    double damping = law->friction->averaged->bend_damping(&law->bristle, &fast);
+    double friction = device->friction_faces * device->friction_coefficient * normal * hypot(1.0, damping);
     return friction / (device_total_mass(device) * device->drive_frequency * law->fast.velocity);
 }
 
@@ -44,21 +37,14 @@ static double decay_in_turn(const Law *law) {
     return slower * TAU / device->drive_frequency;
 }
 
-/* Decay of the bend of a bristle in a turn, over a path of four times the amplitude; infinite without. */
-static double bristle_decay(const Law *law) {
-    if (law->device.friction_law == 0) {
-        return INFINITY;
-    }
-    double path = 4.0 * law->fast.velocity / law->device.drive_frequency;
-    return law->bristle.stiffness * path / law->bristle.coefficient;
-}
-
 double first_order_error(const Law *law) {
     double share = law->fast.velocity > 0.0 ? friction_share(law) : 0.0;
     if (!(share > 0.0)) {
         return 0.0;
     }
-    double decay = fmin(decay_in_turn(law), bristle_decay(law));
+    FastMotion fast = fast_motion(law);
+    double bend_decay = law->friction->averaged->bend_decay(&law->bristle, &fast);
+    double decay = fmin(decay_in_turn(law), bend_decay);
     double swing = decay > 0.0 ? 1.0 + 1.0 / decay : INFINITY;
     return fmin(FIRST_ORDER * share * swing, 1.0) * law->fast.velocity;
 }

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "runge_kutta.h"
-#include "settling.h"
 
 /* Step tried first, as a share of the time in which friction changes the fast velocity. */
 #define FIRST_STEP 0.1

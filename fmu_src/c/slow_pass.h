@@ -6,16 +6,7 @@
 
 #include "budget.h"
 #include "refusal.h"
-
-/* Acceleration [m/s^2] at time `t` [s] and velocity `v` [m/s]. */
-typedef double (*AccelerationFunction)(const void *motion, double t, double v);
-
-/* Where an integration is: time [s], velocity [m/s], displacement [m], the step size to try next [s], and
- * the number of steps `tried`. */
-typedef struct {
-    double t, velocity, moved, step;
-    int tried;
-} Reached;
+#include "settling.h"
 
 /* How to pass: the `fast` velocity [m/s], the error per step [m/s], the `step` [s] tried first, whether the motion
  * may settle, and the `max_steps` that a whole budget buys. The acceleration repeats after a `beat` [s], and is

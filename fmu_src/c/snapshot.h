@@ -11,16 +11,16 @@
 #include "refusal.h"
 #include "variables.h"
 
-/* Times in s; an open `stop_time` is infinite. `time_carry` is the rounding error of `time` at a located
- * event. `values` are those of the variables that can be set, by reference.
- * `moment` is defined while `moving`, that is from the end of initialization on. */
 typedef struct {
-    Lifecycle lifecycle;
-    double time, time_carry, stop_time, last_event_time;
-    double values[SETTABLE_COUNT];
-    InputDerivative derivatives[INPUT_COUNT];
-    bool moving;
-    Moment moment;
+    Lifecycle lifecycle;                      /* the state of FMI */
+    double time;                              /* present time [s] */
+    double time_carry;                        /* rounding error of `time` [s] at a located event */
+    double stop_time;                         /* end of the experiment [s], infinite if it is open */
+    double last_event_time;                   /* time of the last event [s] */
+    double values[SETTABLE_COUNT];            /* of the variables that can be set, by reference */
+    InputDerivative derivatives[INPUT_COUNT]; /* of the inputs, per s */
+    bool moving;                              /* whether initialization has ended */
+    Moment moment;                            /* defined while `moving` */
 } Snapshot;
 
 /* Number of bytes of any snapshot. */

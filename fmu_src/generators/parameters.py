@@ -18,6 +18,10 @@ typedef struct {{
 typedef struct {{
 {inputs}
 }} Inputs;
+"""
+
+_FUNCTIONS = """\
+#include "parameters.h"
 
 /* Parameters and inputs from all values that can be set, by reference. */
 Device device_of(const double values[]);
@@ -26,7 +30,7 @@ Inputs inputs_of(const double values[]);
 
 _DEFINITIONS = """\
 /* {origin} */
-#include "parameters.h"
+#include "parameter_values.h"
 
 #include "variables.h"
 
@@ -71,13 +75,16 @@ class Inputs:
 
 
 def c_parameters(variables: Sequence[Variable]) -> Mapping[str, str]:
-    """Return parameters.h and parameters.c: file name -> text."""
+    """Return parameters.h, parameter_values.h and parameter_values.c: file name -> text."""
     about = "Parameters and inputs by the names of the interface (SI units)."
     declarations = _filled(_DECLARATIONS, variables, "    {c_type} {name};")
     definitions = _filled(_DEFINITIONS, variables, "        .{name} = {cast}values[VR_{upper}],")
     return {
         "parameters.h": c_header("parameters", about, _TABLE, declarations),
-        "parameters.c": definitions,
+        "parameter_values.h": c_header(
+            "parameter_values", "Parameters and inputs from values.", _TABLE, _FUNCTIONS
+        ),
+        "parameter_values.c": definitions,
     }
 
 

@@ -143,10 +143,12 @@ def test_platforms(tmp_path: Path) -> None:
 def test_sources_compile_without_a_warning(tmp_path: Path, inside: dict[str, bytes]) -> None:
     for name, data in inside.items():
         if name.startswith("sources/"):
-            (tmp_path / Path(name).name).write_bytes(data)
+            path = tmp_path / name.removeprefix("sources/")
+            path.parent.mkdir(exist_ok=True)
+            path.write_bytes(data)
     # The standard's own header declares two types of functions without parameters.
     warnings = [*WARNINGS, "-Wno-strict-prototypes"]
     command = [*default_compiler().command, *FLAGS, *warnings, "-o", "alone.so"]
-    command += [*sorted(p.name for p in tmp_path.glob("*.c")), "-lm"]
+    command += [*sorted(str(p.relative_to(tmp_path)) for p in tmp_path.rglob("*.c")), "-lm"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

@@ -80,7 +80,7 @@ def test_the_prefix_for_static_linking_is_that_of_the_host(tmp_path: Path) -> No
     write_sources(slider_sources(), tmp_path)
     command = [*default_compiler().command, "-target", LINUX.targets[0], *FLAGS]
     command += ["-fvisibility=default", "-DFMI2_FUNCTION_PREFIX=Slider_", "-o", "prefixed.so"]
-    command += [*(path.name for path in tmp_path.glob("*.c")), "-lm"]
+    command += [*map(str, tmp_path.rglob("*.c")), "-lm"]
     subprocess.run(command, cwd=tmp_path, check=True)
     exports = elf_exports((tmp_path / "prefixed.so").read_bytes())
     found = {name for name in exports if "fmi2" in name}

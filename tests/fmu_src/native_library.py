@@ -23,7 +23,7 @@ def compiled_library(folder: Path) -> ctypes.CDLL:
     probes = {path.name: path.read_text() for path in PROBES.glob("*.c")}
     write_sources(slider_sources() | probes, folder)
     library = folder / "probes.so"
-    sources = sorted(str(path) for path in folder.glob("*.c") if not _SHELL.match(path.name))
+    sources = sorted(str(path) for path in folder.rglob("*.c") if not _SHELL.match(path.name))
     command = [*native_compiler(), *FLAGS, *sources, "-o", str(library), "-lm"]
     subprocess.run(command, check=True)
     return ctypes.CDLL(str(library))

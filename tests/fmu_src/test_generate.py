@@ -42,15 +42,19 @@ def test_a_folder_gets_all_sources(
 ) -> None:
     monkeypatch.setattr("sys.argv", ["generate", str(tmp_path)])
     main()
-    assert {p.name: p.read_text() for p in (tmp_path / name).iterdir()} == sources()
+    assert {
+        str(p.relative_to(tmp_path / name)): p.read_text()
+        for p in (tmp_path / name).rglob("*.[ch]")
+    } == sources()
 
 
 def test_the_headers_of_fmi_are_whole_and_have_unix_line_ends() -> None:
     for version, names in FMI_HEADERS.items():
         code = slider_sources(version)
         for name in names:
-            assert "Modelica Association" in code[name]
-            assert "\r" not in code[name]
+            (text,) = (text for path, text in code.items() if path.endswith(name))
+            assert "Modelica Association" in text
+            assert "\r" not in text
 
 
 def test_references_are_positions_in_the_table() -> None:

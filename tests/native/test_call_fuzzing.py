@@ -95,7 +95,7 @@ def test_the_fuzzer_notices_a_refusal_that_is_not_logged(fuzzer: Path, tmp_path:
     code["instance.c"] = code["instance.c"].replace(speaking, quiet)
     write_sources(code, silent)
     library = tmp_path / "silent.so"
-    sources = [str(path) for path in sorted(silent.glob("*.c"))]
+    sources = [str(path) for path in sorted(silent.rglob("*.c"))]
     flags = ["-fPIC", "-shared", "-Wno-error", f"-I{silent}", *sources[1:]]
     compile_program(native_compiler(), Path(sources[0]), library, flags)
     done = run([fuzzer, library, UNBUILT_GUID, 1, CALLS])

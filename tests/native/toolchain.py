@@ -53,7 +53,7 @@ def sanitized_binary(folder: Path, flags: Sequence[str], version: FmiVersion = "
     write_sources(slider_sources(version), folder)
     library = folder / "SliderResonator.so"
     command = [*sanitizing_compiler(), "-std=c99", "-ffp-contract=off", *flags, "-fPIC", "-shared"]
-    command += [*(str(path) for path in sorted(folder.glob("*.c"))), "-o", str(library), "-lm"]
+    command += [*(str(path) for path in sorted(folder.rglob("*.c"))), "-o", str(library), "-lm"]
     subprocess.run(command, check=True)
     return Binary(library, UNBUILT_GUID)
 

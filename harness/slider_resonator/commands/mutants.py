@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 import click
 
@@ -213,13 +213,16 @@ def _kept(journal: Path | None) -> str:
 
 
 def _chosen_changes(files: tuple[str, ...], count: int | None, seed: int) -> list[Change]:
-    """Return the changes of some files, or a sample of them; HarnessError for an unknown file."""
+    """Return the changes of some files, with or without folder, or a sample of them.
+
+    HarnessError for an unknown file.
+    """
     made = [*hand_written_faults(), *harmless_variants()]
-    known = sorted({change.file for change in made})
+    known = sorted({PurePosixPath(change.file).name for change in made})
     for file in files:
-        if file not in known:
+        if not any(PurePosixPath(change.file).match(file) for change in made):
             raise HarnessError(unknown_name("C file with changes", file, known))
-    chosen = [change for change in made if not files or change.file in files]
+    chosen = [c for c in made if not files or any(PurePosixPath(c.file).match(f) for f in files)]
     return chosen if count is None else sample(chosen, count, seed)
 
 

@@ -45,7 +45,9 @@ def test_fmi_functions_are_shared_and_the_model_is_not(controller_fmu: Path) -> 
     slider = slider_sources()
     own = {name for name, data in inside.items() if data.decode() != slider.get(name)}
     generated = {"model_guid.h", "variables.c", "variables.h"}
-    assert own == generated | {path.name for path in CONTROLLER_SOURCES.iterdir()}
+    assert own == generated | {
+        str(path.relative_to(CONTROLLER_SOURCES)) for path in CONTROLLER_SOURCES.rglob("*.[ch]")
+    }
     assert not {"coulomb.c", "law.c", "device.h"} & set(inside)
 
 
@@ -54,6 +56,6 @@ def test_sources_compile_alone_without_a_warning(controller_fmu: Path, tmp_path:
     with zipfile.ZipFile(controller_fmu) as archive:
         archive.extractall(tmp_path)
     sources = tmp_path / "sources"
-    files = [path.name for path in sources.glob("*.c")]
+    files = [str(path.relative_to(sources)) for path in sources.rglob("*.c")]
     done = run_command("gcc", *FLAGS, *WARNINGS, "-o", "alone.so", *files, "-lm", cwd=sources)
     assert done.returncode == 0, done.stderr

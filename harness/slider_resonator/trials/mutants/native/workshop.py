@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
 import shutil
 import subprocess
@@ -21,13 +22,14 @@ TIME_LIMIT = 120.0
 """Seconds for a call of the compiler."""
 
 _INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+_SOURCES = "sources/"
 _VERSION_3 = re.compile(r'fmiVersion="3\.')
 _IDENTIFIER = re.compile(r'modelIdentifier="(\w+)"')
 
 
 @dataclass(frozen=True)
 class NativeSources:
-    """The C sources of an FMU by file name, its model description and model identifier."""
+    """The C sources of an FMU by path, its model description and model identifier."""
 
     files: Mapping[str, str]
     description: bytes
@@ -48,7 +50,9 @@ class NativeSources:
             name = waiting.pop()
             if name not in found and name in self.files:
                 found.add(name)
-                waiting += _INCLUDE.findall(self.files[name])
+                folder = posixpath.dirname(name)
+                paths = (posixpath.join(folder, p) for p in _INCLUDE.findall(self.files[name]))
+                waiting += map(posixpath.normpath, paths)
         return found
 
 
@@ -56,13 +60,13 @@ def read_native_sources(path: Path) -> NativeSources:
     """Read the C sources in an FMU; FmuError when it has none."""
     try:
         with zipfile.ZipFile(path) as archive:
-            inside = {PurePosixPath(name): name for name in archive.namelist()}
+            inside = archive.namelist()
             files = {
-                place.name: archive.read(name).decode("utf-8")
-                for place, name in inside.items()
-                if str(place.parent) == "sources" and place.suffix in (".c", ".h")
+                name.removeprefix(_SOURCES): archive.read(name).decode("utf-8")
+                for name in inside
+                if name.startswith(_SOURCES) and PurePosixPath(name).suffix in (".c", ".h")
             }
-            description = archive.read(DESCRIPTION) if DESCRIPTION in inside.values() else b""
+            description = archive.read(DESCRIPTION) if DESCRIPTION in inside else b""
     except FileNotFoundError:
         raise FmuError(f"{path}: no such file") from None
     except (OSError, zipfile.BadZipFile, UnicodeDecodeError) as error:
@@ -97,7 +101,7 @@ class Workshop:
         return f"binaries/{fmpy.platform_tuple if version_3 else fmpy.platform}/{name}"
 
     def library(self, name: str, changed: Mapping[str, str]) -> bytes:
-        """Return a library for this machine with some of the sources, by file name, replaced.
+        """Return a library for this machine with some of the sources, by path, replaced.
 
         Raises HarnessError when they do not compile.
         """
@@ -124,6 +128,7 @@ class Workshop:
 
     def _write(self, folder: Path, files: Mapping[str, str]) -> None:
         for name, text in files.items():
+            (folder / name).parent.mkdir(exist_ok=True)
             (folder / name).write_text(text, encoding="utf-8", newline="\n")
 
     def _compile(self, folder: Path, units: list[str]) -> None:

@@ -20,7 +20,14 @@ SHELL = {
     *("state_bytes.c", "values.c", "experiment.c"),
 }
 """Sources without physics, and those that the build generates."""
-FORWARDING = {"friction_laws.c", "slide.c", "held.c", "parameters.c", "variables.c"}
+FORWARDING = {
+    "friction_laws.c",
+    "motions.c",
+    "slide.c",
+    "held.c",
+    "parameter_values.c",
+    "variables.c",
+}
 """Sources that only choose between others, or are generated."""
 
 

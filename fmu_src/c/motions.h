@@ -1,0 +1,10 @@
+/* The choice of the kind of motion. */
+#ifndef SLIDER_MOTIONS_H
+#define SLIDER_MOTIONS_H
+
+#include "motion.h"
+
+/* The motion of a device, by its fidelity and averaging order; `device` becomes the one that this motion moves. */
+const Motion *motion_of(Device *device);
+
+#endif
