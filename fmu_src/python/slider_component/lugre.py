@@ -37,14 +37,18 @@ _COUNT = range(1, ORDER + 2)
 _STEPS = tuple(1.0 / count for count in range(1, ORDER + 1))
 """By which integration multiplies each coefficient."""
 
-SMALL = 1e-3
-"""Share of a motion that the last terms of its series may have."""
+MUCH_SMALLER = 0.1
+"""Share of the scale of velocities below which a velocity is measured by itself: its series is cut
+shorter to keep the tolerance relative to it."""
+
+FIRST_TERMS = 5
+"""Terms of a series by which its velocity is measured."""
 
 NEGLIGIBLE_MOTION = 1e-200
 """Motion [m/s] below which a series is not cut shorter."""
 
-MAX_SHRINKS = 4
-"""How often a series is cut shorter to reach that share."""
+MAX_SHRINKS = 10
+"""How often a series is cut shorter."""
 
 
 class LuGre:
@@ -96,8 +100,8 @@ def _motion(system: System, now: Moment, direction: int) -> tuple[Motion, float]
     mu = system.device.friction_coefficient
     if now.mode == LIFTED or abs(mu - direction * now.bristle) <= tolerance * mu:
         return slide(system, now, direction), inf
-    allowed = tolerance * velocity_scale(system, now.velocity, now.displacement, now.rate)
-    series = BristleSeries(system, direction, now, allowed)
+    scale = velocity_scale(system, now.velocity, now.displacement, now.rate)
+    series = BristleSeries(system, direction, now, tolerance, scale)
     return series, series.reach
 
 
@@ -112,12 +116,15 @@ def _departs(motion: Motion, reach: float) -> bool:
 class BristleSeries:
     """Motion in contact while a bristle bends, in direction `sign`, as a Taylor series in time.
 
-    At its `reach` [s] the last terms of the series are `tolerance` [m/s].
+    At its `reach` [s] the last terms of the series are `tolerance` times `scale` [m/s] or, if that
+    is much less, times the velocity itself.
     """
 
     __slots__ = ("_displacement", "_position", "_rate", "_sign", "_velocity", "reach")
 
-    def __init__(self, system: System, sign: int, now: Moment, tolerance: float) -> None:
+    def __init__(
+        self, system: System, sign: int, now: Moment, tolerance: float, scale: float
+    ) -> None:
         w, q = system.drive_frequency, system.normal_frequency
         device, mu = system.device, system.device.friction_coefficient
         bending, share = (mu - sign * now.bristle) / mu, now.bristle / mu
@@ -154,15 +161,10 @@ class BristleSeries:
         self._sign = sign
         self._velocity, self._displacement, self._rate = v, y, u
         self._position = [0.0, *map(truediv, v, _COUNT)]
-        self.reach = _reach(v, tolerance)
+        self.reach = _reach(v, tolerance, scale)
         if resonates:
-            self.reach = min(self.reach, _reach(u, tolerance / (system.mass_fraction or 1.0)))
-        # The last terms of a motion far below the tolerance would exceed the motion itself.
-        for _ in range(MAX_SHRINKS):
-            small = SMALL * (abs(v[0]) + abs(v[1]) * self.reach)
-            if not NEGLIGIBLE_MOTION < small < tolerance:
-                break
-            self.reach = min(self.reach, _reach(v, small))
+            weight = system.mass_fraction or 1.0
+            self.reach = min(self.reach, _reach(u, tolerance, scale / weight))
 
     def departs(self) -> bool:
         """Whether the motion begins in direction `sign`, or stays at rest."""
@@ -197,8 +199,20 @@ def _value(coefficients: list[float], t: float) -> float:
     return total
 
 
-def _reach(coefficients: list[float], tolerance: float) -> float:
-    """How far a series holds [s]: where its last two terms are `tolerance`."""
+def _reach(coefficients: list[float], tolerance: float, scale: float) -> float:
+    """How far the series of a velocity holds [s]; see BristleSeries."""
+    reach = _reach_of_last(coefficients, tolerance * scale)
+    for _ in range(MAX_SHRINKS):
+        size = _value(list(map(abs, coefficients[:FIRST_TERMS])), reach)
+        if not NEGLIGIBLE_MOTION < size < MUCH_SMALLER * scale:
+            break
+        scale = size
+        reach = _reach_of_last(coefficients, tolerance * scale)
+    return reach
+
+
+def _reach_of_last(coefficients: list[float], tolerance: float) -> float:
+    """Where the last two terms of a series are `tolerance` [s]."""
     last = len(coefficients) - 1
     reach = inf
     for k in (last - 1, last):
