@@ -22,7 +22,7 @@ from fmu_src.generators.variable_table import c_table
 from fmu_src.python.slider_component.variables import VARIABLES
 from fmu_src.sources import C_SOURCES, CONTROLLER_SOURCES
 
-GUID_HEADER = "model_guid.h"
+GUID_HEADER = "component/model_guid.h"
 UNBUILT_GUID = "00000000-0000-0000-0000-000000000000"
 
 FmiVersion = Literal["2.0", "3.0"]
@@ -31,7 +31,7 @@ FMI_HEADERS: dict[FmiVersion, tuple[str, ...]] = {
     "2.0": ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h"),
     "3.0": ("fmi3FunctionTypes.h", "fmi3Functions.h", "fmi3PlatformTypes.h"),
 }
-_FMI_FOLDER = ""
+_FMI_FOLDER = "fmi/"
 
 _SHELLS: dict[FmiVersion, str] = {"2.0": "fmi2_*", "3.0": "fmi3_*"}
 """The C files of one version of FMI only."""
@@ -66,8 +66,8 @@ def slider_sources(version: FmiVersion = "2.0") -> dict[str, str]:
         **{name: text for name, text in written if not _is_one_of(name, others)},
         **c_table(VARIABLES, "python/slider_component/variables.py"),
         **c_parameters(VARIABLES),
-        "constants.h": c_constants(),
-        "refusal_texts.h": c_refusal_texts(),
+        "base/constants.h": c_constants(),
+        "base/refusal_texts.h": c_refusal_texts(),
         GUID_HEADER: guid_header(UNBUILT_GUID),
         **_fmi_headers(version),
     }

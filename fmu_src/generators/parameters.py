@@ -21,7 +21,7 @@ typedef struct {{
 """
 
 _FUNCTIONS = """\
-#include "parameters.h"
+#include "../device/parameters.h"
 
 /* Parameters and inputs from all values that can be set, by reference. */
 Device device_of(const double values[]);
@@ -80,11 +80,11 @@ def c_parameters(variables: Sequence[Variable]) -> Mapping[str, str]:
     declarations = _filled(_DECLARATIONS, variables, "    {c_type} {name};")
     definitions = _filled(_DEFINITIONS, variables, "        .{name} = {cast}values[VR_{upper}],")
     return {
-        "parameters.h": c_header("parameters", about, _TABLE, declarations),
-        "parameter_values.h": c_header(
+        "device/parameters.h": c_header("parameters", about, _TABLE, declarations),
+        "component/parameter_values.h": c_header(
             "parameter_values", "Parameters and inputs from values.", _TABLE, _FUNCTIONS
         ),
-        "parameter_values.c": definitions,
+        "component/parameter_values.c": definitions,
     }
 
 

@@ -57,8 +57,10 @@ def c_table(variables: Sequence[Variable], table: str) -> Mapping[str, str]:
     )
     rows = "\n".join(map(_row, variables))
     return {
-        "variables.h": c_header("variables", "The table of FMU variables.", table, header),
-        "variables.c": _SOURCE.format(origin=generated_from(table), rows=rows),
+        "component/variables.h": c_header(
+            "variables", "The table of FMU variables.", table, header
+        ),
+        "component/variables.c": _SOURCE.format(origin=generated_from(table), rows=rows),
     }
 
 

@@ -4,7 +4,7 @@
  * reason in `refusal_text`. */
 #include <stdlib.h>
 
-#include "component.h"
+#include "component/component.h"
 
 #define EXPORT(name) __attribute__((export_name(#name)))
 

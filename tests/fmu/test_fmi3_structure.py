@@ -32,7 +32,7 @@ DOCUMENTS = {
 
 def fmi_3_functions() -> set[str]:
     """All functions of the standard, those of the other interface types too, by its header."""
-    header = slider_sources("3.0")["fmi3Functions.h"]
+    header = slider_sources("3.0")["fmi/fmi3Functions.h"]
     return set(re.findall(r"FMI3_Export +(?:fmi3\w+TYPE) +(fmi3\w+);", header))
 
 

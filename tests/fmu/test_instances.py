@@ -44,8 +44,8 @@ def _python_build(folder: Path) -> Path:
 def _native_build(folder: Path) -> Path:
     code = slider_sources()
     old, new = (f'{{"friction_coefficient", false, false, {start}' for start in (0.1, 0.2))
-    assert code["variables.c"].count(old) == 1
-    code["variables.c"] = code["variables.c"].replace(old, new)
+    assert code["component/variables.c"].count(old) == 1
+    code["component/variables.c"] = code["component/variables.c"].replace(old, new)
     return build_native(folder, platforms=[HOST], code=code)
 
 

@@ -26,7 +26,7 @@ MODEL = "SliderResonator"
 
 def fmi_functions() -> set[str]:
     """All functions of the standard, those of model exchange too, by its header."""
-    header = slider_sources()["fmi2Functions.h"]
+    header = slider_sources()["fmi/fmi2Functions.h"]
     return set(re.findall(r"FMI2_Export +(?:fmi2\w+TYPE) +(fmi2\w+);", header))
 
 

@@ -58,13 +58,14 @@ def test_the_headers_of_fmi_are_whole_and_have_unix_line_ends() -> None:
 
 
 def test_references_are_positions_in_the_table() -> None:
-    found = re.findall(r"VR_(\w+) = (\d+),", CODE["variables.h"])
+    found = re.findall(r"VR_(\w+) = (\d+),", CODE["component/variables.h"])
     assert found == [(v.name.upper(), str(i)) for i, v in enumerate(VARIABLES)]
 
 
 def test_bounds_read_back_exactly() -> None:
     rows = re.findall(
-        r'\{"(\w+)", (true|false), (true|false), (\S+), (\S+), (\S+),\s+"', CODE["variables.c"]
+        r'\{"(\w+)", (true|false), (true|false), (\S+), (\S+), (\S+),\s+"',
+        CODE["component/variables.c"],
     )
     assert [r[0] for r in rows] == [v.name for v in VARIABLES]
     for variable, (_, integer, fixed, start, minimum, maximum) in zip(VARIABLES, rows, strict=True):
@@ -85,7 +86,7 @@ def test_outputs_must_come_last() -> None:
 
 
 def test_fields_of_the_twins_are_those_of_the_table() -> None:
-    in_c = re.findall(r"^    (double|int) (\w+);", CODE["parameters.h"], re.MULTILINE)
+    in_c = re.findall(r"^    (double|int) (\w+);", CODE["device/parameters.h"], re.MULTILINE)
     types = {"float": "double", "int": "int"}
     in_python = [(types[str(f.type)], f.name) for f in (*fields(Parameters), *fields(Inputs))]
     assert in_c == in_python
@@ -95,7 +96,7 @@ def test_fields_of_the_twins_are_those_of_the_table() -> None:
 
 
 def test_constants_read_back_exactly() -> None:
-    found = re.findall(r"^#define ([A-Z_]+) (\S+)$", CODE["constants.h"], re.MULTILINE)
+    found = re.findall(r"^#define ([A-Z_]+) (\S+)$", CODE["base/constants.h"], re.MULTILINE)
     in_python = {name: value for name, value in vars(constants).items() if name.isupper()}
     assert {name: float(text) for name, text in found} == in_python
 

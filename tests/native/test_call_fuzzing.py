@@ -90,9 +90,9 @@ def test_the_fuzzer_notices_a_refusal_that_is_not_logged(fuzzer: Path, tmp_path:
     silent = tmp_path / "silent"
     code = slider_sources()
     speaking = "done ? STATUS_OK : send_report(instance, STATUS_ERROR, refusal->text)"
-    assert code["instance.c"].count(speaking) == 1
+    assert code["fmi/instance.c"].count(speaking) == 1
     quiet = "(void)instance, (void)refusal, done ? STATUS_OK : STATUS_ERROR"
-    code["instance.c"] = code["instance.c"].replace(speaking, quiet)
+    code["fmi/instance.c"] = code["fmi/instance.c"].replace(speaking, quiet)
     write_sources(code, silent)
     library = tmp_path / "silent.so"
     sources = [str(path) for path in sorted(silent.rglob("*.c"))]

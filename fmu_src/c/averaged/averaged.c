@@ -2,13 +2,13 @@
 
 #include <stdbool.h>
 
-#include "complex_number.h"
-#include "elementary.h"
-#include "fast_vibration.h"
-#include "friction_law.h"
-#include "plant.h"
-#include "refusal.h"
-#include "state.h"
+#include "../base/complex_number.h"
+#include "../base/elementary.h"
+#include "../base/refusal.h"
+#include "../device/fast_vibration.h"
+#include "../device/plant.h"
+#include "../device/state.h"
+#include "../friction/friction_law.h"
 
 /* Halvings of [0, pi] that select one of several balances. */
 enum { SORTING = 4 };

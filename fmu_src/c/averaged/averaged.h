@@ -10,7 +10,7 @@
 
 #include <stdbool.h>
 
-#include "law.h"
+#include "../friction/law.h"
 
 /* Steady velocity [m/s] and blocking force [N] by averaged theory, and whether they apply. */
 typedef struct {

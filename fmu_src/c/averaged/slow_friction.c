@@ -1,9 +1,9 @@
 #include "slow_friction.h"
 
-#include "elementary.h"
-#include "friction_law.h"
+#include "../base/elementary.h"
+#include "../device/state.h"
+#include "../friction/friction_law.h"
 #include "slow_phase.h"
-#include "state.h"
 
 /* Angle tau at which sliding turns forward [rad]; 0 or pi where it never reverses. */
 static double turning_at(double velocity, double fast_velocity) {

@@ -6,7 +6,7 @@
 #ifndef SLIDER_SLOW_FRICTION_H
 #define SLIDER_SLOW_FRICTION_H
 
-#include "law.h"
+#include "../friction/law.h"
 #include "slow_phase.h"
 
 /* How mean friction is computed: from the means under a sine, under a load that counts with its mean, or

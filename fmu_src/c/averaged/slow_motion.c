@@ -1,8 +1,8 @@
 #include "slow_motion.h"
 
-#include "angle.h"
-#include "constants.h"
-#include "elementary.h"
+#include "../base/angle.h"
+#include "../base/constants.h"
+#include "../base/elementary.h"
 #include "slow_friction.h"
 #include "slow_motion_error.h"
 #include "slow_pass.h"

@@ -9,7 +9,7 @@
 #ifndef SLIDER_SLOW_MOTION_H
 #define SLIDER_SLOW_MOTION_H
 
-#include "motion.h"
+#include "../resolved/motion.h"
 
 extern const Motion AVERAGED_MOTION;
 

@@ -1,8 +1,8 @@
 #include "slow_motion_error.h"
 
-#include "elementary.h"
-#include "friction_law.h"
-#include "state.h"
+#include "../base/elementary.h"
+#include "../device/state.h"
+#include "../friction/friction_law.h"
 
 /* Error of first order in friction shares and v_q: that of the average, and that of what the average leaves
  * out, the resonator's first swing and the first bend of bristles. */

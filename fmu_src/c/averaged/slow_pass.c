@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "runge_kutta.h"
+#include "../base/runge_kutta.h"
 
 /* Step tried first, as a share of the time in which friction changes the fast velocity. */
 #define FIRST_STEP 0.1

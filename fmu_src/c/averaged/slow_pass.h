@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-#include "budget.h"
-#include "refusal.h"
+#include "../base/refusal.h"
+#include "../device/budget.h"
 #include "settling.h"
 
 /* How to pass: the `fast` velocity [m/s], the error per step [m/s], the `step` [s] tried first, whether the motion

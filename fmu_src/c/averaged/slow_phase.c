@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "state.h"
-#include "vibrating_load.h"
+#include "../device/state.h"
+#include "../device/vibrating_load.h"
 
 /* Largest distance of the frequency ratio from an integer at which the phase counts as slow. Under a lifting
  * contact: largest distance of q times the ratio, times q, for q up to a few turns. */

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "device.h"
+#include "../device/device.h"
 
 /* The normal load is near `waves` waves in a turn of the drive, which repeat after `turns` turns; `turns` is
  * 0 where no phase is slow. Its phase drifts by `drift` [rad/s], which grows by `chirp` [rad/s^2]; `fastest`

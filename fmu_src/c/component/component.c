@@ -3,12 +3,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "../base/constants.h"
+#include "../base/refusal_texts.h"
+#include "../device/state.h"
+#include "../friction/friction_law.h"
 #include "component_law.h"
-#include "constants.h"
-#include "friction_law.h"
 #include "output_derivatives.h"
-#include "refusal_texts.h"
-#include "state.h"
 #include "values.h"
 
 void component_begin(Component *component, const Memory *memory) {

@@ -5,14 +5,14 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "bending_kernels.h"
+#include "../base/memory.h"
+#include "../base/refusal.h"
+#include "../friction/bending_kernels.h"
+#include "../friction/friction_table.h"
+#include "../friction/law.h"
 #include "experiment.h"
-#include "friction_table.h"
-#include "law.h"
-#include "memory.h"
 #include "outputs.h"
 #include "ramped_step.h"
-#include "refusal.h"
 #include "snapshot.h"
 
 /* A slider-resonator. `now` is its complete state, the rest a cache of what follows from it: laws[present]

@@ -5,7 +5,7 @@
 #ifndef COMPONENT_FUNCTIONS_H
 #define COMPONENT_FUNCTIONS_H
 
-#include "memory.h"
+#include "../base/memory.h"
 
 /* Let a new component, zeroed memory, take what it needs later from `memory`, or give all of that back. */
 void component_begin(Component *component, const Memory *memory);

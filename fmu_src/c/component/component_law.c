@@ -2,12 +2,12 @@
 
 #include <math.h>
 
-#include "averaged.h"
-#include "friction_laws.h"
+#include "../base/refusal_texts.h"
+#include "../device/state.h"
+#include "../friction/friction_laws.h"
+#include "../averaged/averaged.h"
 #include "motions.h"
 #include "parameter_values.h"
-#include "refusal_texts.h"
-#include "state.h"
 #include "values.h"
 
 bool all_finite(const double *numbers, size_t count) {

@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "motion.h"
-#include "refusal.h"
+#include "../base/refusal.h"
+#include "../resolved/motion.h"
 #include "variables.h"
 
 bool all_finite(const double *numbers, size_t count);

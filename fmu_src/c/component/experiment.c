@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "constants.h"
-#include "refusal_texts.h"
+#include "../base/constants.h"
+#include "../base/refusal_texts.h"
 
 double experiment_end(const Experiment *experiment) {
     return experiment->stop_time_defined ? experiment->stop_time : INFINITY;

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "refusal.h"
+#include "../base/refusal.h"
 
 /* Start time [s], and stop time [s] and tolerance where they are defined. */
 typedef struct {

@@ -8,8 +8,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "../base/refusal.h"
 #include "lifecycle.h"
-#include "refusal.h"
 
 /* The inputs are the first variables: phase, load and frequency ratio. */
 enum { INPUT_COUNT = 3 };

@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
+#include "../base/refusal_texts.h"
 #include "fmi_version.h"
-#include "refusal_texts.h"
 
 /* Whether initialization has ended and the simulation has not. */
 static inline bool is_running(Lifecycle state) {

@@ -1,8 +1,8 @@
 #include "motions.h"
 
-#include "leaping_motion.h"
-#include "resolved_motion.h"
-#include "slow_motion.h"
+#include "../resolved/resolved_motion.h"
+#include "../averaged/slow_motion.h"
+#include "../leap/leaping_motion.h"
 
 const Motion *motion_of(Device *device) {
     if (device->fidelity != 0) {

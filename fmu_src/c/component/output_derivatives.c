@@ -2,8 +2,8 @@
 
 #include <stddef.h>
 
-#include "elementary.h"
-#include "motion.h"
+#include "../base/elementary.h"
+#include "../resolved/motion.h"
 #include "variables.h"
 
 static double normal_force_rate(const Law *law, const Moment *moment, double phase_rate) {

@@ -4,9 +4,9 @@
 
 #include <stdbool.h>
 
-#include "law.h"
-#include "moment.h"
-#include "refusal.h"
+#include "../base/refusal.h"
+#include "../device/moment.h"
+#include "../friction/law.h"
 
 /* The right-hand derivative of the output `reference`, per s: 0 for outputs that change only at events and
  * at the ends of periods. `phase_rate` [rad/s] is the derivative of the input `phase`. Refuses variables

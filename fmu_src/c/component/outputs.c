@@ -2,11 +2,11 @@
 
 #include <stddef.h>
 
-#include "elementary.h"
-#include "fast_vibration.h"
-#include "motion.h"
-#include "prediction.h"
-#include "state.h"
+#include "../base/elementary.h"
+#include "../device/fast_vibration.h"
+#include "../device/state.h"
+#include "../resolved/motion.h"
+#include "../leap/prediction.h"
 #include "variables.h"
 
 /* Displacement [m] and velocity [m/s] of the resonator. */

@@ -4,9 +4,9 @@
 
 #include <stdbool.h>
 
-#include "averaged.h"
-#include "law.h"
-#include "moment.h"
+#include "../device/moment.h"
+#include "../friction/law.h"
+#include "../averaged/averaged.h"
 
 /* A cache of the prediction of a law at `normal_lead` [rad]; its owner clears `known` when the law changes. */
 typedef struct {

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "angle.h"
-#include "clock.h"
+#include "../base/angle.h"
+#include "../base/clock.h"
 #include "motions.h"
 #include "parameter_values.h"
 #include "values.h"

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "refusal_texts.h"
-#include "state.h"
+#include "../base/refusal_texts.h"
+#include "../device/state.h"
 #include "state_bytes.h"
 #include "values.h"
 

@@ -5,10 +5,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "../base/refusal.h"
+#include "../device/moment.h"
 #include "input_derivatives.h"
 #include "lifecycle.h"
-#include "moment.h"
-#include "refusal.h"
 #include "variables.h"
 
 typedef struct {

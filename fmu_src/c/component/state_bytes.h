@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "refusal.h"
+#include "../base/refusal.h"
 
 /* The header is "SLIDRES", the version of this layout in one byte, and the GUID in 40 bytes, padded
  * with 0. Numbers are IEEE doubles, lowest byte first. The checksum covers all bytes before it. */

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "refusal_texts.h"
+#include "../base/refusal_texts.h"
 
 bool reference_check(unsigned place, ValueType type, Refusal *refusal) {
     unsigned reference = place + FMI.reference_offset;

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "refusal_texts.h"
+#include "../base/refusal_texts.h"
 
 bool budget_refuse(const Budget *budget, double reached, int max_count, const char *what,
                    Refusal *refusal) {

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "refusal.h"
+#include "../base/refusal.h"
 
 /* The step has `step_size` [s], of which `passed` [s] were over when its present part began. `spent` is the
  * share of the budget that is spent. */

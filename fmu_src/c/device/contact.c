@@ -1,7 +1,7 @@
 #include "contact.h"
 
-#include "angle.h"
-#include "elementary.h"
+#include "../base/angle.h"
+#include "../base/elementary.h"
 #include "state.h"
 
 /* Distance [rad] from a boundary within which it counts as reached: rounding. The shortest flight that

@@ -4,11 +4,11 @@
 
 #include <stdbool.h>
 
-#include "complex_number.h"
+#include "../base/complex_number.h"
+#include "../base/elementary_functions.h"
+#include "../base/refusal.h"
 #include "device.h"
-#include "elementary_functions.h"
 #include "oscillator.h"
-#include "refusal.h"
 
 /* Velocity amplitudes [m/s]: v_q of the slider (`velocity`), and the one that the drive force gives to the
  * pair (`pair_velocity`). `lag` theta_1 [rad]. `resonator`: complex amplitude of e [m]. */

@@ -1,6 +1,6 @@
 #include "oscillator.h"
 
-#include "elementary.h"
+#include "../base/elementary.h"
 
 /* Damping ratio below which the complex eigenvalue is used; hyperbolic forms are used above. */
 #define OSCILLATORY 0.9

@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-#include "complex_number.h"
+#include "../base/complex_number.h"
 
 /* Share of the drive frequency below which an oscillator or a forcing counts as slow: its steady response
  * would be far larger than the response between two reversals, and lose as many digits. */

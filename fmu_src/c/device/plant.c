@@ -1,7 +1,7 @@
 #include "plant.h"
 
-#include "elementary.h"
-#include "refusal_texts.h"
+#include "../base/elementary.h"
+#include "../base/refusal_texts.h"
 #include "state.h"
 
 /* Relative difference of two squared frequencies that is due to rounding: without damping the steady force

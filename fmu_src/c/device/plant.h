@@ -13,10 +13,10 @@
 
 #include <stdbool.h>
 
-#include "complex_number.h"
+#include "../base/complex_number.h"
+#include "../base/refusal.h"
 #include "device.h"
 #include "oscillator.h"
-#include "refusal.h"
 
 /* Coefficients under held inputs (SI units; complex numbers are amplitudes of e).
  *

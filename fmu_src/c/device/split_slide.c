@@ -1,6 +1,6 @@
 #include "split_slide.h"
 
-#include "elementary.h"
+#include "../base/elementary.h"
 
 bool split_prepare(Split *split, const Plant *plant) {
     const Oscillator *slip = &plant->slip;

@@ -9,7 +9,7 @@
 
 #include <stdbool.h>
 
-#include "first_zero.h"
+#include "../base/first_zero.h"
 #include "plant.h"
 #include "state.h"
 

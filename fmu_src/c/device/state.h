@@ -2,7 +2,7 @@
 #ifndef SLIDER_STATE_H
 #define SLIDER_STATE_H
 
-#include "number.h"
+#include "../base/number.h"
 
 /* Slider velocity [m/s], resonator displacement [m] and velocity [m/s]. */
 typedef struct {

@@ -1,6 +1,6 @@
 #include "stick.h"
 
-#include "elementary.h"
+#include "../base/elementary.h"
 
 /* Horizon of the bounds of a response from rest, as an angle [rad] of the oscillator: longer than most
  * sticks. */

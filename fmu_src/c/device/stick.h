@@ -3,7 +3,7 @@
 #ifndef SLIDER_STICK_H
 #define SLIDER_STICK_H
 
-#include "first_zero.h"
+#include "../base/first_zero.h"
 #include "plant.h"
 #include "state.h"
 

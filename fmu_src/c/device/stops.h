@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "angle.h"
+#include "../base/angle.h"
 
 /* Largest change of the phase of a stop [rad] in a turn that counts as a drift. */
 #define MAX_DRIFT 0.1

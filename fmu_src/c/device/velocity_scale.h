@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "complex_number.h"
+#include "../base/complex_number.h"
 #include "plant.h"
 #include "state.h"
 

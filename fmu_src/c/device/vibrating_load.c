@@ -1,6 +1,6 @@
 #include "vibrating_load.h"
 
-#include "elementary.h"
+#include "../base/elementary.h"
 #include "state.h"
 
 static double in_turn(const VibratingLoad *load, double angle) {

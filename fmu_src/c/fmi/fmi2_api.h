@@ -2,9 +2,9 @@
 #ifndef SLIDER_FMI2_API_H
 #define SLIDER_FMI2_API_H
 
+#include "../component/values.h"
 #include "fmi2Functions.h"
 #include "instance.h"
-#include "values.h"
 
 /* The header of fmpy leaves out the prefix of FMI 2.0 for static linking. */
 #ifdef FMI2_FUNCTION_PREFIX

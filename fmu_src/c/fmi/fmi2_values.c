@@ -1,6 +1,6 @@
 /* FMI 2.0: get and set values of variables, all of a call or none. */
+#include "../component/values.h"
 #include "fmi2_api.h"
-#include "values.h"
 
 bool references_check(const char *call, const fmi2ValueReference *references, size_t count,
                       const void *values, ValueType type, Refusal *refusal) {

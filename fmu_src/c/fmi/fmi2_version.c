@@ -1,5 +1,5 @@
 /* The names of FMI 2.0. */
-#include "fmi_version.h"
+#include "../component/fmi_version.h"
 
 const FmiVersion FMI = {
     .min_reference = 0,

@@ -3,8 +3,8 @@
  * A refused call returns fmi3Error and leaves the instance as it was, ready for the next call. */
 #include <stddef.h>
 
+#include "../component/lifecycle.h"
 #include "fmi3_api.h"
-#include "lifecycle.h"
 
 static void log_message(const Host *host, const char *instance_name, Status status,
                         const char *category, const char *text) {

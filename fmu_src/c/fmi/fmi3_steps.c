@@ -2,8 +2,8 @@
  *
  * If the host uses event mode and allows early return, a step ends at the first reversal, stick,
  * release, lift-off or touchdown, located to rounding. Otherwise it passes over them. */
+#include "../component/lifecycle.h"
 #include "fmi3_api.h"
-#include "lifecycle.h"
 
 bool results_check(const char *call, bool all_given, Refusal *refusal) {
     return all_given

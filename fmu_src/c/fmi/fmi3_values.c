@@ -1,6 +1,6 @@
 /* FMI 3.0: get and set values of variables, all of a call or none. */
+#include "../component/values.h"
 #include "fmi3_api.h"
-#include "values.h"
 
 /* Of `time`, which is no row of the table. */
 enum { TIME_REFERENCE = 1 };

@@ -1,5 +1,5 @@
 /* The names of FMI 3.0. */
-#include "fmi_version.h"
+#include "../component/fmi_version.h"
 
 /* Reference 1 is the time; the variables of the table follow. */
 const FmiVersion FMI = {

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model_guid.h"
+#include "../component/model_guid.h"
 
 static const char *const CATEGORIES[STATUSES] = {"logAll", "logStatusWarning", "logStatusDiscard",
                                                  "logStatusError", "logStatusFatal"};

@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "component.h"
-#include "refusal.h"
+#include "../base/refusal.h"
+#include "../component/component.h"
 
 /* The status of a call, with the numbers of FMI. */
 typedef enum {

@@ -1,7 +1,7 @@
 /* Averaged Coulomb friction (eqs 4 and 20): elementary integrals over the two arcs of sliding. */
+#include "../base/elementary.h"
+#include "../device/state.h"
 #include "averaged_friction.h"
-#include "elementary.h"
-#include "state.h"
 
 static double grip(const Bristle *bristle, double amplitude, double frequency) {
     (void)amplitude;

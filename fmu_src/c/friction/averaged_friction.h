@@ -7,8 +7,8 @@
 
 #include <stdbool.h>
 
+#include "../device/vibrating_load.h"
 #include "bristle.h"
-#include "vibrating_load.h"
 
 /* Fast velocity amplitude v_q [m/s] and drive frequency [rad/s]. */
 typedef struct {

@@ -5,10 +5,10 @@
  * slow manifold (17), hard ones Coulomb friction (5). */
 #include <stddef.h>
 
+#include "../base/elementary.h"
+#include "../base/gauss_nodes.h"
+#include "../device/state.h"
 #include "averaged_friction.h"
-#include "elementary.h"
-#include "gauss_nodes.h"
-#include "state.h"
 
 enum { EDGES = 6, MAX_BISECTIONS = 60 };
 

@@ -1,6 +1,6 @@
 #include "bending_kernels.h"
 
-#include "elementary.h"
+#include "../base/elementary.h"
 
 /* |z t| up to which exp(z t) - 1 - z t is summed as a series, and the terms of that. */
 #define SOON 0.25

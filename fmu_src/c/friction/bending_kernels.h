@@ -12,8 +12,8 @@
 
 #include <stdbool.h>
 
-#include "gauss_nodes.h"
-#include "plant.h"
+#include "../base/gauss_nodes.h"
+#include "../device/plant.h"
 
 /* The points of a panel: its nodes, then its end, repeated to make their number even. */
 enum { END = GAUSS_NODES, POINTS = GAUSS_NODES + 2 };

@@ -1,7 +1,7 @@
 #include "bending_panel.h"
 
-#include "elementary.h"
-#include "fast_decay.h"
+#include "../base/elementary.h"
+#include "../base/fast_decay.h"
 
 /* Exponent of E at which the decay of f is first estimated. */
 #define GUESSED_EXPONENT 16.0

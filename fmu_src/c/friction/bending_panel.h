@@ -18,11 +18,11 @@
 
 #include <stdbool.h>
 
+#include "../device/held.h"
+#include "../device/moment.h"
+#include "../device/split_slide.h"
 #include "bending_kernels.h"
 #include "bristle.h"
-#include "held.h"
-#include "moment.h"
-#include "split_slide.h"
 
 /* How to follow a bending bristle: in one panel; as sliding under full friction, where f changes the
  * velocity by less than the tolerance; or by series otherwise. */

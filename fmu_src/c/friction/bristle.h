@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-#include "device.h"
-#include "elementary_functions.h"
+#include "../base/elementary_functions.h"
+#include "../device/device.h"
 
 /* Coefficient mu > 0 [1], stiffness sigma_0 [1/m] and damping sigma_1 [s/m]. */
 typedef struct {

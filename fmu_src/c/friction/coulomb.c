@@ -2,7 +2,7 @@
  *
  * Events are a stop of the slider (then it sticks if friction can hold it, and reverses otherwise),
  * a release, and the lift-off and touchdown of the contact. There is no step size, no tolerance. */
-#include "elementary.h"
+#include "../base/elementary.h"
 #include "friction_law.h"
 
 /* Share of the longest arc within which a release and a lift-off may be the same event. */

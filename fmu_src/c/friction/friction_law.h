@@ -6,11 +6,11 @@
 
 #include <stdbool.h>
 
+#include "../base/refusal.h"
+#include "../device/moment.h"
 #include "averaged_friction.h"
 #include "law.h"
 #include "leg.h"
-#include "moment.h"
-#include "refusal.h"
 
 typedef struct FrictionLaw {
     /* Whether a slider at rest sticks: friction then balances the other forces. */

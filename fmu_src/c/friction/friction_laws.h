@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
+#include "../base/refusal.h"
 #include "law.h"
-#include "refusal.h"
 
 /* Prepare all of a law but its motion and caches, by the number `friction_law` of the device. Refuses where device and
  * friction law do not fit; `law` is then undefined. */

@@ -2,8 +2,8 @@
 
 #include <stdbool.h>
 
-#include "elementary.h"
-#include "state.h"
+#include "../base/elementary.h"
+#include "../device/state.h"
 
 enum { CHECKS = 5 };
 

@@ -4,12 +4,12 @@
 
 #include <stdbool.h>
 
+#include "../base/refusal.h"
+#include "../device/device.h"
+#include "../device/fast_vibration.h"
+#include "../device/held.h"
 #include "bristle.h"
-#include "device.h"
-#include "fast_vibration.h"
 #include "friction_table.h"
-#include "held.h"
-#include "refusal.h"
 
 /* The caches outlive the law; the laws of one instance share them. They are NULL where the functions that need them do
  * without. */

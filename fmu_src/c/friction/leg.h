@@ -3,12 +3,12 @@
 #ifndef SLIDER_LEG_H
 #define SLIDER_LEG_H
 
+#include "../device/held.h"
+#include "../device/moment.h"
+#include "../device/split_slide.h"
+#include "../device/stick.h"
 #include "bending_panel.h"
 #include "bristle.h"
-#include "held.h"
-#include "moment.h"
-#include "split_slide.h"
-#include "stick.h"
 #include "taylor_slide.h"
 
 /* What the motion is: rest, sliding or flight in closed form, or either by series: on bending bristles,

@@ -6,8 +6,8 @@
  * as an oscillation on the bristles. */
 #include <math.h>
 
+#include "../base/refusal_texts.h"
 #include "friction_law.h"
-#include "refusal_texts.h"
 
 /* Share of the tolerance for the error of one leg, and for the bend that a bristle still lacks when closed
  * forms take over. */

@@ -1,6 +1,6 @@
 #include "taylor_slide.h"
 
-#include "elementary.h"
+#include "../base/elementary.h"
 
 /* 1 / k: divisions would take a good part of the time. */
 static const double INVERSE[TAYLOR_TERMS + 1] = {

@@ -13,11 +13,11 @@
 
 #include <stdbool.h>
 
+#include "../base/first_zero.h"
+#include "../device/plant.h"
+#include "../device/split_slide.h"
+#include "../device/state.h"
 #include "bristle.h"
-#include "first_zero.h"
-#include "plant.h"
-#include "split_slide.h"
-#include "state.h"
 
 /* Order of the series: close to the cheapest one at any tolerance. */
 enum { TAYLOR_ORDER = 22, TAYLOR_TERMS = TAYLOR_ORDER + 1 };

@@ -1,8 +1,8 @@
 #include "leap.h"
 
-#include "runge_kutta.h"
-#include "elementary.h"
-#include "state.h"
+#include "../base/elementary.h"
+#include "../base/runge_kutta.h"
+#include "../device/state.h"
 
 /* Evaluations in a step of the solver, and the share of the leapt periods that they may map: the rest is the gain. */
 #define EVALUATIONS 6.0

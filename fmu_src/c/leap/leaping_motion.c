@@ -6,12 +6,12 @@
 
 #include <stddef.h>
 
-#include "angle.h"
-#include "clock.h"
-#include "elementary.h"
-#include "events.h"
+#include "../base/angle.h"
+#include "../base/clock.h"
+#include "../base/elementary.h"
+#include "../resolved/events.h"
+#include "../resolved/resolved_motion.h"
 #include "leap.h"
-#include "resolved_motion.h"
 
 /* Largest number of turns after which the normal load may repeat. */
 enum { MAX_TURNS_OF_PERIOD = 4 };

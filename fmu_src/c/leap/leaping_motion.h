@@ -2,7 +2,7 @@
 #ifndef SLIDER_LEAPING_MOTION_H
 #define SLIDER_LEAPING_MOTION_H
 
-#include "motion.h"
+#include "../resolved/motion.h"
 
 extern const Motion LEAPING_MOTION;
 

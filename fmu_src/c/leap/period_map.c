@@ -2,11 +2,11 @@
 
 #include <stddef.h>
 
-#include "angle.h"
-#include "elementary.h"
-#include "events.h"
-#include "friction_law.h"
-#include "state.h"
+#include "../base/angle.h"
+#include "../base/elementary.h"
+#include "../device/state.h"
+#include "../friction/friction_law.h"
+#include "../resolved/events.h"
 
 /* Largest tolerance of LuGre friction in a map: differences of high order amplify its error. */
 #define MAP_TOLERANCE 1e-10

@@ -10,10 +10,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "budget.h"
-#include "fast_vibration.h"
-#include "law.h"
-#include "moment.h"
+#include "../device/budget.h"
+#include "../device/fast_vibration.h"
+#include "../device/moment.h"
+#include "../friction/law.h"
 
 /* Largest number of fast states: Y [m], Y' [m/s], and the bristle's friction per unit load. */
 enum { MAX_FAST = 3 };

@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-#include "angle.h"
-#include "friction_laws.h"
+#include "../base/angle.h"
+#include "../device/vibrating_load.h"
+#include "../friction/friction_laws.h"
 #include "steady_motion.h"
-#include "vibrating_load.h"
 
 /* Largest number of turns after which the normal load may repeat. */
 enum { MAX_TURNS_OF_LOAD = 32 };

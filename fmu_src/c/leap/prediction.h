@@ -2,8 +2,8 @@
 #ifndef SLIDER_PREDICTION_H
 #define SLIDER_PREDICTION_H
 
-#include "averaged.h"
-#include "law.h"
+#include "../friction/law.h"
+#include "../averaged/averaged.h"
 
 /* Number of turns of the drive, at most 32, after which the normal load repeats; 0 if it does not. */
 int turns_of_load(const Law *law);

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "state.h"
+#include "../device/state.h"
 
 /* Largest factor by which corrections shrink. */
 #define SHRINKS 0.5

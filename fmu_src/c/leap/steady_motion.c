@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "linear_system.h"
+#include "../base/linear_system.h"
 
 /* Unknowns, each over its scale: slow velocity, fast states and, for blocked motion, the load. */
 enum { VELOCITY, FIRST_FAST };

@@ -3,10 +3,10 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "clock.h"
-#include "constants.h"
-#include "friction_law.h"
-#include "leg.h"
+#include "../base/clock.h"
+#include "../base/constants.h"
+#include "../friction/friction_law.h"
+#include "../friction/leg.h"
 
 /* Largest number of legs accepted in a turn of the fastest oscillation: several times as many as
  * presliding on the hardest bristles takes. */

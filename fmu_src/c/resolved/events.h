@@ -4,11 +4,11 @@
 
 #include <stdbool.h>
 
-#include "budget.h"
+#include "../base/refusal.h"
+#include "../device/budget.h"
+#include "../device/moment.h"
+#include "../friction/law.h"
 #include "event_search.h"
-#include "law.h"
-#include "moment.h"
-#include "refusal.h"
 #include "trace.h"
 
 /* Advance by `duration` > 0 [s] from `moment` to `now`, another moment, under the inputs of the law, or to

@@ -8,11 +8,11 @@
 
 #include <stdbool.h>
 
-#include "budget.h"
+#include "../base/refusal.h"
+#include "../device/budget.h"
+#include "../device/moment.h"
+#include "../friction/law.h"
 #include "event_search.h"
-#include "law.h"
-#include "moment.h"
-#include "refusal.h"
 
 /* Rates of the state and of the mean velocity [m/s, m/s^2]. */
 typedef struct {

@@ -1,11 +1,11 @@
 /* Resolved motion, event by event: fidelity 1 and 2. */
 #include "resolved_motion.h"
 
-#include "elementary.h"
+#include "../base/elementary.h"
+#include "../base/refusal_texts.h"
+#include "../device/state.h"
+#include "../friction/friction_law.h"
 #include "events.h"
-#include "friction_law.h"
-#include "refusal_texts.h"
-#include "state.h"
 
 bool resolved_prepare(Law *law, Refusal *refusal) {
     (void)law;

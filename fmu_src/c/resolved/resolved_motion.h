@@ -2,7 +2,7 @@
 #ifndef SLIDER_RESOLVED_MOTION_H
 #define SLIDER_RESOLVED_MOTION_H
 
-#include "constants.h"
+#include "../base/constants.h"
 #include "motion.h"
 
 extern const Motion RESOLVED_MOTION;

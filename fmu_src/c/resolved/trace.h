@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "moment.h"
+#include "../device/moment.h"
 
 /* The last mode of an itinerary that has none yet. */
 enum { NO_MODE = -2 };

@@ -44,11 +44,11 @@ def test_fmi_functions_are_shared_and_the_model_is_not(controller_fmu: Path) -> 
         }
     slider = slider_sources()
     own = {name for name, data in inside.items() if data.decode() != slider.get(name)}
-    generated = {"model_guid.h", "variables.c", "variables.h"}
+    generated = {"component/model_guid.h", "component/variables.c", "component/variables.h"}
     assert own == generated | {
         str(path.relative_to(CONTROLLER_SOURCES)) for path in CONTROLLER_SOURCES.rglob("*.[ch]")
     }
-    assert not {"coulomb.c", "law.c", "device.h"} & set(inside)
+    assert not {"friction/coulomb.c", "friction/law.c", "device/device.h"} & set(inside)
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")

@@ -54,7 +54,7 @@ def test_another_content_gets_another_guid(
     native_fmu: Path, tmp_path: Path, code: dict[str, str]
 ) -> None:
     messages: list[str] = []
-    code["values.c"] += "/* one comment more */\n"
+    code["component/values.c"] += "/* one comment more */\n"
     other = build_native(tmp_path, platforms=[HOST], code=code, progress=messages.append)
     assert guid(other) != guid(native_fmu), "hosts and states must tell builds apart"
     assert f"compiling for {host_platform().name} with ziglang" in messages[0]
@@ -62,7 +62,7 @@ def test_another_content_gets_another_guid(
 
 def test_the_guid_is_in_the_sources_and_in_the_binary(native_fmu: Path) -> None:
     inside = contents(native_fmu)
-    for name in ("sources/model_guid.h", BINARY):
+    for name in ("sources/component/model_guid.h", BINARY):
         assert inside[name].count(guid(native_fmu).encode()) == 1, name
 
 
@@ -123,7 +123,10 @@ def written_sources(tmp_path: Path) -> Path:
 def test_options_that_remove_the_checks_for_nan_do_not_compile(
     flag: str, written_sources: Path
 ) -> None:
-    source, object_file = str(written_sources / "values.c"), str(written_sources / "values.o")
+    source, object_file = (
+        str(written_sources / "component/values.c"),
+        str(written_sources / "values.o"),
+    )
     command = [*default_compiler().command, "-std=c99", "-c", source, "-o", object_file]
     assert subprocess.run(command, check=False).returncode == 0
     done = subprocess.run([*command, flag], capture_output=True, text=True, check=False)
@@ -135,7 +138,10 @@ def test_options_that_remove_the_checks_for_nan_do_not_compile(
 def test_reassociation_does_not_compile(written_sources: Path) -> None:
     """It removes the rounding by which sines count quarter turns."""
     flags = ("-fassociative-math", "-fno-signed-zeros", "-fno-trapping-math")
-    source, object_file = str(written_sources / "values.c"), str(written_sources / "values.o")
+    source, object_file = (
+        str(written_sources / "component/values.c"),
+        str(written_sources / "values.o"),
+    )
     command = ["gcc", "-std=c99", *flags, "-c", source, "-o", object_file]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode != 0
@@ -144,7 +150,7 @@ def test_reassociation_does_not_compile(written_sources: Path) -> None:
 
 X87_RUN = """
 #include <stdio.h>
-#include "contact.h"
+#include "device/contact.h"
 int main(void) {
     Plant plant = {.preload_share = -1.0};
     FlightWindow window = flight_window(&plant);
@@ -162,7 +168,7 @@ def test_a_contact_without_load_stays_lifted_in_extended_precision(written_sourc
     """Constants of more digits than a double must not end a flight that has no end."""
     (written_sources / "run.c").write_text(X87_RUN, encoding="utf-8")
     flags = ("-std=c99", "-O1", "-mfpmath=387")
-    files = ("run.c", "contact.c", "elementary.c")
+    files = ("run.c", "device/contact.c", "base/elementary.c")
     command = ["gcc", *flags, *files, "-o", "run", "-lm"]
     subprocess.run(command, cwd=written_sources, check=True)
     run = [str(written_sources / "run")]
@@ -173,7 +179,7 @@ def test_a_contact_without_load_stays_lifted_in_extended_precision(written_sourc
 def test_static_initializers_are_constants_for_every_compiler() -> None:
     """For some, as tcc, INFINITY and HUGE_VAL with a sign are none."""
     for sources in (slider_sources(), controller_sources()):
-        assert not re.search("INFINITY|HUGE_VAL", sources["variables.c"])
+        assert not re.search("INFINITY|HUGE_VAL", sources["component/variables.c"])
 
 
 @pytest.mark.skipif(shutil.which("tcc") is None, reason="needs tcc")
@@ -204,13 +210,13 @@ def test_a_compiler_for_another_platform_is_refused(tmp_path: Path) -> None:
 
 
 def test_compiler_messages_are_passed_on(tmp_path: Path, code: dict[str, str]) -> None:
-    code["values.c"] = "#error broken on purpose\n"
+    code["component/values.c"] = "#error broken on purpose\n"
     with pytest.raises(BuildError, match="broken on purpose"):
         build_native(tmp_path / "dist", platforms=[HOST], code=code)
     assert not (tmp_path / "dist").exists()
 
 
 def test_a_function_that_is_missing_is_noticed(tmp_path: Path, code: dict[str, str]) -> None:
-    code["law.c"] = "int nothing;\n"
+    code["friction/law.c"] = "int nothing;\n"
     with pytest.raises(BuildError, match="law_after"):
         build_native(tmp_path / "dist", platforms=[HOST], code=code)

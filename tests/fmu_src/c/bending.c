@@ -4,12 +4,12 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-#include "bending_panel.h"
-#include "events.h"
-#include "fast_decay.h"
-#include "gauss_nodes.h"
-#include "resolved_motion.h"
-#include "values.h"
+#include "base/fast_decay.h"
+#include "base/gauss_nodes.h"
+#include "friction/bending_panel.h"
+#include "resolved/events.h"
+#include "resolved/resolved_motion.h"
+#include "component/values.h"
 
 enum { STATES = 5 };
 

@@ -1,5 +1,5 @@
 /* The elementary functions by their number. */
-#include "elementary_functions.h"
+#include "base/elementary_functions.h"
 
 static double sine(double x) { return elementary_sine_cosine(x).sine; }
 static double cosine(double x) { return elementary_sine_cosine(x).cosine; }

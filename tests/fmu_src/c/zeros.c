@@ -1,7 +1,7 @@
 /* The search for the first zero of a sum of sines, for tests: numbers in, numbers out. */
 #include <math.h>
 
-#include "first_zero.h"
+#include "base/first_zero.h"
 
 /* offset + sum of a sin(w t + p), the `waves` being (a, w, p); `loose` times the sum of |a| w^2 bounds its
  * curvature. */

@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "../base/refusal.h"
 #include "experiment.h"
-#include "refusal.h"
 #include "snapshot.h"
 
 /* A velocity controller; `now` is its complete state. */

@@ -5,9 +5,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "../base/refusal.h"
 #include "control.h"
 #include "lifecycle.h"
-#include "refusal.h"
 #include "variables.h"
 
 /* Times in s; an open `stop_time` is infinite. `values` are those that can be set, by reference.

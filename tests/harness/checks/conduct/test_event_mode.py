@@ -10,7 +10,7 @@ from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.trials.mutants.native.changes import Change
 from slider_resonator.trials.mutants.native.native_run import run_changes
 
-STEPS, VALUES, FUNCTIONS = "fmi3_steps.c", "fmi3_values.c", "fmi3_functions.c"
+STEPS, VALUES, FUNCTIONS = "fmi/fmi3_steps.c", "fmi/fmi3_values.c", "fmi/fmi3_functions.c"
 FOUND = "if (now->event_age == 0.0 && found_at(search, &clock)) {"
 TIME = "values[i] = time ? own->component.now.time : *next++;"
 EXPERIMENT = "stopTimeDefined, stopTime, toleranceDefined"
@@ -69,10 +69,18 @@ FAULTS = {
         EXPERIMENT,
         EXPERIMENT.replace("stopTimeDefined", "fmi3False"),
     ),
-    "a lift-off is no event": ("events.c", FOUND, FOUND.replace("&&", "&& now->mode != LIFTED &&")),
-    "a release is no event": ("events.c", FOUND, FOUND.replace("&&", "&& !leg_released(&leg) &&")),
+    "a lift-off is no event": (
+        "resolved/events.c",
+        FOUND,
+        FOUND.replace("&&", "&& now->mode != LIFTED &&"),
+    ),
+    "a release is no event": (
+        "resolved/events.c",
+        FOUND,
+        FOUND.replace("&&", "&& !leg_released(&leg) &&"),
+    ),
     "an event at the end of a step is lost": (
-        "events.c",
+        "resolved/events.c",
         "            end_at_event(&leg, law, now);\n",
         "",
     ),

@@ -13,39 +13,39 @@ from slider_resonator.trials.mutants.native.native_run import run_changes
 FAULTS = {
     "a bad experiment is accepted": (
         "refusal_faults",
-        "fmi3_functions.c",
+        "fmi/fmi3_functions.c",
         "component_setup_experiment(&own->component, &experiment, &refusal)",
         "(component_setup_experiment(&own->component, &experiment, &refusal) || true)",
     ),
     "initialisation mode ends where it has not begun": (
         "refusal_faults",
-        "component.c",
+        "component/component.c",
         'if (!require("exitInitializationMode", component->now.lifecycle, INITIALIZATION, refusal)'
         "\n        || !prepare",
         "if (!prepare",
     ),
     "a refused change of several values is kept in part": (
         "refusal_faults",
-        "values.c",
+        "component/values.c",
         "    return value_check(variable, value, refusal);\n}\n\nvoid start",
         "    return isfinite(value) || value_check(variable, value, refusal);\n}\n\nvoid start",
     ),
     "a state is not got into the place of another": (
         "state_faults",
-        "state_access.c",
+        "fmi/state_access.c",
         "    memcpy(*state, snapshot, sizeof *snapshot);\n    return true;",
         "    if (((const Snapshot *)*state)->time == 0.0) {\n"
         "        memcpy(*state, snapshot, sizeof *snapshot);\n    }\n    return true;",
     ),
     "a damaged state is taken": (
         "state_faults",
-        "state_bytes.c",
+        "component/state_bytes.c",
         "get_bits(bytes + checked) == checksum(bytes, checked)",
         "true",
     ),
     "the pointer to a state that is freed stays": (
         "state_faults",
-        "state_access.c",
+        "fmi/state_access.c",
         "        *state = NULL;\n",
         "",
     ),

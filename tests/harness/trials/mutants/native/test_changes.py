@@ -14,19 +14,26 @@ from slider_resonator.trials.mutants.native.changes import (
 
 FAULTS, VARIANTS = hand_written_faults(), harmless_variants()
 SHELL = {
-    *("fmi2_functions.c", "fmi2_model_exchange.c", "fmi2_state.c", "fmi2_steps.c"),
-    "fmi2_derivatives.c",
-    *("fmi2_values.c", "fmi2_version.c", "instance.c", "state_access.c", "refusal.c", "budget.c"),
-    *("state_bytes.c", "values.c", "experiment.c"),
+    *("fmi/fmi2_functions.c", "fmi/fmi2_model_exchange.c", "fmi/fmi2_state.c", "fmi/fmi2_steps.c"),
+    "fmi/fmi2_derivatives.c",
+    *(
+        "fmi/fmi2_values.c",
+        "fmi/fmi2_version.c",
+        "fmi/instance.c",
+        "fmi/state_access.c",
+        "base/refusal.c",
+        "device/budget.c",
+    ),
+    *("component/state_bytes.c", "component/values.c", "component/experiment.c"),
 }
 """Sources without physics, and those that the build generates."""
 FORWARDING = {
-    "friction_laws.c",
-    "motions.c",
+    "friction/friction_laws.c",
+    "component/motions.c",
     "slide.c",
-    "held.c",
-    "parameter_values.c",
-    "variables.c",
+    "device/held.c",
+    "component/parameter_values.c",
+    "component/variables.c",
 }
 """Sources that only choose between others, or are generated."""
 

@@ -8,7 +8,7 @@ from slider_resonator.trials.mutants.native.change_verdict import ChangeVerdict
 from slider_resonator.trials.mutants.native.changes import Change
 from slider_resonator.trials.mutants.native.kept_changes import entry_of, verdicts_on
 
-FAULT = Change("no_drag", "stick.c", "-1", "1", "friction drives")
+FAULT = Change("no_drag", "device/stick.c", "-1", "1", "friction drives")
 ON_FAULT = ChangeVerdict(FAULT, True, "scene", "position", "off by 2 m")
 
 

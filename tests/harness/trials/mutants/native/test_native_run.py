@@ -74,9 +74,9 @@ def test_faults_that_once_passed_are_rejected_by_the_scenes_made_for_them(
 
 def test_a_unit_includes_headers_of_headers(native_fmu: Path) -> None:
     sources = read_native_sources(native_fmu)
-    assert "outputs.c" in sources.units_with("moment.h")
-    assert "outputs.c" in sources.units_with("stops.h"), "by way of moment.h"
-    assert sources.units_with("stick.c") == ["stick.c"]
+    assert "component/outputs.c" in sources.units_with("device/moment.h")
+    assert "component/outputs.c" in sources.units_with("device/stops.h"), "by way of moment.h"
+    assert sources.units_with("device/stick.c") == ["device/stick.c"]
     assert sources.model == "SliderResonator"
 
 
@@ -103,6 +103,8 @@ def test_fmus_without_sources_and_changes_that_do_not_fit_are_refused(
         read_native_sources(python_fmu)
     with pytest.raises(FmuError, match="no such file"):
         read_native_sources(Path("no.fmu"))
-    stale = Change("stale", "stick.c", "no such text", "", "m")
-    with pytest.raises(HarnessError, match=r"stale: 'no such text' occurs 0 times in stick\.c"):
+    stale = Change("stale", "device/stick.c", "no such text", "", "m")
+    with pytest.raises(
+        HarnessError, match=r"stale: 'no such text' occurs 0 times in device/stick\.c"
+    ):
         run_changes(native_fmu, [stale], [], jobs=1, time_limit=1.0)
