@@ -55,6 +55,8 @@ lint: $(LINT)/.ready ## check style, formatting, types and layers, with the vers
 	$(LINT)/bin/ruff format --check .
 	$(LINT)/bin/mypy
 	PYTHONPATH=harness $(LINT)/bin/lint-imports
+	$(LINT)/bin/python -m fmu_src.c_layers
+	$(LINT)/bin/python -m fmu_src.c_layers fmu_src/controller/c
 
 lock: ## write the lock files anew, with uv
 	uv pip compile -q --universal --python-version 3.11 --all-extras pyproject.toml -o requirements.lock
