@@ -46,8 +46,9 @@ def _lock_file(target: str | None) -> TextIO | None:
     if target is None or base is None or sys.platform == "win32":
         return None
     try:
-        (base / target).mkdir(exist_ok=True)
-        return (base / f"{target}.lock").open("w")
+        # Not `target` alone: older checkouts keep a folder of that name, without folders in it.
+        (base / f"{target}-tree").mkdir(exist_ok=True)
+        return (base / f"{target}-tree.lock").open("w")
     except OSError:
         return None
 
