@@ -9,7 +9,7 @@
 #include "friction/bending_panel.h"
 #include "resolved/events.h"
 #include "resolved/resolved_motion.h"
-#include "component/values.h"
+#include "component/parameter_values.h"
 
 enum { STATES = 5 };
 
