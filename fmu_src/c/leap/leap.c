@@ -18,7 +18,7 @@
 
 /* Estimated error of a step that is accepted, in tolerances; by how much that estimate, of the embedded method of order 4,
  * exceeds the error. */
-#define STEP_TOLERANCE 4.0
+#define STEP_TOLERANCE 3.0
 #define OVERESTIMATE 5.0
 
 /* Share of the tolerance for errors of the fast states: on the manifold, and where a transient is left out. Such a transient
@@ -125,7 +125,8 @@ static bool rate_at(void *data, double n, double velocity, SlowRate *rate) {
 /* Time, in periods, in which the rates change. */
 static double time_of_change(const SlowMotion *motion) {
     const SlowRates *rates = &motion->here.rates;
-    double by_motion = fabs(rates->acceleration / rates->jerk);
+    bool moves = fabs(rates->acceleration) > rates->error;
+    double by_motion = moves ? fabs(rates->acceleration / rates->jerk) : INFINITY;
     double by_drift = motion->varies ? 1.0 / fabs(motion->manifold.map->drift) : INFINITY;
     return fmin(by_motion, by_drift);
 }
@@ -172,7 +173,7 @@ static bool prepare(SlowMotion *motion, double longest, double *h) {
             return false;
         }
         *here = motion->other;
-        if (here->rates.error * fmin(time, longest) <= allowed) {
+        if (here->rates.error * fmin(time, longest) <= allowed && here->rates.swing_error <= allowed) {
             return true;
         }
         placed = false;
@@ -195,11 +196,12 @@ static double step_of(const SlowMotion *motion, const SlowPoint *now, double h, 
 
 /* The error of the slow velocity [m/s] behind a step: what there was before has decayed as differences of velocity do, and the
  * step adds that of the solver and that of the rates. */
-static double error_behind(const SlowMotion *motion, const SlowStep *step, double h, double before) {
+static double error_behind(const SlowMotion *motion, const SlowStep *step, double of_step, double h,
+                           double before) {
     double gain = fmax(step->gain, -MAX_DECAY * motion->manifold.map->share);
     double decay = gain < 0.0 ? exp(gain * h) : 1.0;
     double of_rates = fmax(motion->here.rates.error, motion->other.rates.error);
-    return decay * before + step->error / OVERESTIMATE + h * of_rates;
+    return decay * before + of_step + h * of_rates;
 }
 
 /* The rest of a leap of `h` periods in one step, near a steady velocity: the slow velocity changes so little that its rate is
@@ -238,10 +240,12 @@ static SlowPoint integrate(SlowMotion *motion, double longest, double h, double 
         Visited before = *here;
         double rest = longest - now.t;
         const RungeKutta *pair = is_short(motion, h) ? &BOGACKI_SHAMPINE : &DORMAND_PRINCE;
-        if (linear_step(motion, &now, rest, &step) ||
+        bool is_linear = linear_step(motion, &now, rest, &step);
+        if (is_linear ||
             (runge_kutta_step(pair, rate_at, motion, &now, h, &step) && step.error <= allowed)) {
+            double of_step = is_linear ? step.error : step.error / OVERESTIMATE;
             h = step.to.t - now.t;
-            *error = error_behind(motion, &step, h, *error);
+            *error = error_behind(motion, &step, of_step, h, *error);
             now = step.to;
             *here = motion->other;
         }
@@ -291,7 +295,7 @@ Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *bu
         SlowPoint end = integrate(&motion, longest - manifold->order, h, &error);
         if (end.t > 0.0) {
             land(&motion, &end, after);
-            after->leap_error = error;
+            after->leap_error = error + here->rates.swing_error;
             done.outcome = LEAPT;
             done.periods = end.t + manifold->order;
         }

@@ -20,8 +20,10 @@ enum { MAX_TURNS_OF_PERIOD = 4 };
 #define SHORTEST_LEAP 64.0
 
 /* Periods that are resolved after an attempt, by period mapped in vain: attempts cost an eighth of resolved motion at most.
- * `MIN_PAUSE` follows an attempt that told that nothing is to be gained. */
+ * `MIN_WAIT` and `MIN_PAUSE` follow an attempt that told that fast states are off the manifold, or that nothing is to be
+ * gained: to look at a period takes half as long again as to resolve it. */
 #define PAUSE 8.0
+#define MIN_WAIT 8.0
 #define MIN_PAUSE 32.0
 
 /* A motion on its way: the present moment, and the time left [s]. It began `passed` [s] after the step. */
@@ -61,7 +63,7 @@ static bool resolve_to_section(Way *way, const PeriodMap *map, double periods, R
 static double pause_after(const Leap *leap) {
     switch (leap->outcome) {
     case NOT_ON_MANIFOLD:
-        return ceil(leap->wait);
+        return fmax(MIN_WAIT, ceil(leap->wait));
     case NO_GAIN:
         return fmax(MIN_PAUSE, PAUSE * leap->in_vain);
     case LEAPT:

@@ -5,16 +5,27 @@
 
 #include "../device/state.h"
 
+/* Largest change of the slow velocity in a period, over itself and the share of friction. */
+#define MAX_RATE 4.0
+
 /* Largest factor by which corrections shrink. */
 #define SHRINKS 0.5
 
-/* Differences of order 0 to `order` of a sequence of order + 1 numbers, in its place. */
-static void take_differences(double *numbers, int order) {
+/* Differences of order 0 to `order` of a number of order + 1 visits, at `offset` in these. */
+static void differences_of(const Visit *visits, size_t offset, int order, double *differences) {
+    for (int j = 0; j <= order; j++) {
+        differences[j] = *(const double *)((const char *)&visits[j] + offset);
+    }
     for (int j = 1; j <= order; j++) {
         for (int i = order; i >= j; i--) {
-            numbers[i] -= numbers[i - 1];
+            differences[i] -= differences[i - 1];
         }
     }
+}
+
+/* Where a fast state is in a visit. */
+static size_t offset_of_fast(int i) {
+    return offsetof(Visit, fast) + (size_t)i * sizeof(double);
 }
 
 /* Rate per period of a smooth sequence, from its differences: the logarithm of the shift operator. */
@@ -26,60 +37,63 @@ static double rate_of(const double *differences, int order) {
     return rate;
 }
 
-/* Size of the next term after a term `last`, if terms shrink as they did from `before` to `last`. */
-static double next_term(double before, double last) {
-    before = fabs(before);
-    last = fabs(last);
-    return before > last ? last * (last / before) : last;
+/* The factor by which differences of an order shrink to the next: the larger of the last two, as either may happen to be next
+ * to zero, but not more than the slow motion and the drift allow. */
+static double ratio_of(const PeriodMap *map, const double *differences, int order) {
+    double last = fabs(differences[order] / differences[order - 1]);
+    double before = fabs(differences[order - 1] / differences[order - 2]);
+    return fmin(MAX_RATE * map->share + fabs(map->drift), fmax(last, before));
+}
+
+/* Size of the next difference after that of an order, if differences shrink by a `ratio`. */
+static double next_difference(const double *differences, int order, double ratio) {
+    return ratio * fmax(fabs(differences[order]), ratio * fabs(differences[order - 1]));
 }
 
 /* The correction of the fast states: their differences of the manifold's order must vanish. `missing` is the size of what
  * those differences are on the manifold, estimated from lower orders, as a change of the fast states. */
-static void correction_of(const Manifold *manifold, const Visit *visits,
+static void correction_of(const Manifold *manifold, const Visit *visits, double ratio,
                           double correction[MAX_FAST], double *missing) {
     const PeriodMap *map = manifold->map;
     int order = manifold->order;
     double beyond[MAX_FAST];
     for (int i = 0; i < MAX_FAST; i++) {
-        double numbers[MAX_ORDER + 1];
-        for (int j = 0; j <= order; j++) {
-            numbers[j] = visits[j].fast[i];
-        }
-        take_differences(numbers, order);
-        correction[i] = -numbers[order];
-        beyond[i] = next_term(numbers[order - 2], numbers[order - 1]);
+        double differences[MAX_ORDER + 1];
+        differences_of(visits, offset_of_fast(i), order, differences);
+        correction[i] = -differences[order];
+        beyond[i] = next_difference(differences, order - 1, ratio);
     }
     apply_resolvent(map, order, correction);
     apply_resolvent(map, order, beyond);
     *missing = fast_size(map, beyond);
 }
 
+/* What a free swing of a size, over the scale of the resonator's displacement, adds at most to the mean velocity of a turn
+ * [m/s]: it is of the other sign half a turn later. */
+static double mean_velocity_of(const PeriodMap *map, double size) {
+    const Plant *plant = &map->law.held.plant;
+    return plant->mass_fraction * size * map->scale[0] * plant->drive_frequency / PI;
+}
+
 /* The rates of a sequence of visits. */
-static SlowRates rates_of(const Manifold *manifold, const Visit *visits,
+static SlowRates rates_of(const Manifold *manifold, const Visit *visits, double ratio,
                           const double step[MAX_FAST]) {
     int order = manifold->order;
     double velocities[MAX_ORDER + 1], positions[MAX_ORDER + 1];
-    for (int j = 0; j <= order; j++) {
-        velocities[j] = visits[j].velocity;
-        positions[j] = visits[j].position - visits[0].position;
-    }
-    take_differences(velocities, order);
-    take_differences(positions, order);
+    differences_of(visits, offsetof(Visit, velocity), order, velocities);
+    differences_of(visits, offsetof(Visit, position), order, positions);
     SlowRates rates = {.acceleration = rate_of(velocities, order),
                        .travel = rate_of(positions, order),
                        .jerk = velocities[2] - velocities[3]};
     for (int i = 0; i < MAX_FAST; i++) {
-        double numbers[MAX_ORDER + 1];
-        for (int j = 0; j <= order; j++) {
-            numbers[j] = visits[j].fast[i];
-        }
-        take_differences(numbers, order);
-        rates.fast_rate[i] = rate_of(numbers, order);
+        double differences[MAX_ORDER + 1];
+        differences_of(visits, offset_of_fast(i), order, differences);
+        rates.fast_rate[i] = rate_of(differences, order);
         rates.fast[i] = visits[0].fast[i] + step[i];
     }
     rates.reversals = visits[order].reversals - visits[order - 1].reversals;
     rates.sticks = visits[order].sticks - visits[order - 1].sticks;
-    rates.error = next_term(velocities[order - 1], velocities[order]) / (order + 1);
+    rates.error = next_difference(velocities, order, ratio) / (order + 1);
     return rates;
 }
 
@@ -118,12 +132,16 @@ bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
             rates->offset = INFINITY;
             return false;
         }
-        correction_of(manifold, visits, step, &missing);
+        double velocities[MAX_ORDER + 1];
+        differences_of(visits, offsetof(Visit, velocity), manifold->order, velocities);
+        double ratio = ratio_of(map, velocities, manifold->order);
+        correction_of(manifold, visits, ratio, step, &missing);
         double size = fast_size(map, step);
         offset = i == 0 ? size : offset;
         if (size <= manifold->allowed) {
-            *rates = rates_of(manifold, visits, step);
+            *rates = rates_of(manifold, visits, ratio, step);
             rates->error += map->share * map->speed * (missing + size);
+            rates->swing_error = mean_velocity_of(map, missing + size);
             rates->offset = offset;
             rates->itinerary = itinerary;
             return true;
