@@ -14,7 +14,7 @@ enum { VELOCITY, FIRST_FAST };
 /* Largest change of an unknown in an iteration, and the change at which the iteration ends: as it converges quadratically, the
  * next change would be rounding. Number of iterations. */
 #define MAX_CHANGE 0.2
-#define CONVERGED 1e-9
+#define CONVERGED 1e-10
 enum { MAX_ITERATIONS = 16 };
 
 /* Squarings of the linear map after which it has grown or decayed: 2^30 periods. */

@@ -23,7 +23,7 @@ BESIDE = 1e-6
 MAX_CHANGE = 0.2
 """Largest change of an unknown in an iteration."""
 
-CONVERGED = 1e-9
+CONVERGED = 1e-10
 """Change at which the iteration ends: the next one would be rounding."""
 
 MAX_ITERATIONS = 16

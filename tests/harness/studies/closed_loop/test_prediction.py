@@ -57,12 +57,13 @@ def errors_of(package: Path) -> tuple[float, float]:
 
 @pytest.mark.usefixtures("brief")
 def test_the_device_is_that_of_the_package(closed_loop_package: Path, tmp_path: Path) -> None:
-    design, _ = run_loop(closed_loop_package, HOSTS[0], DUTY)
+    first = changed(closed_loop_package, tmp_path / "first.ssp", PLACE, ORDER_1 + PLACE)
+    design, _ = run_loop(first, HOSTS[0], DUTY)
     more = (
         b'<ssv:Parameter name="slider.friction_coefficient"><ssv:Real value="0.3"/></ssv:Parameter>'
     )
-    slow = changed(closed_loop_package, tmp_path / "slow.ssp", PLACE, more + PLACE)
-    (usual,) = predicted_errors(closed_loop_package, design, DUTY)
+    slow = changed(first, tmp_path / "slow.ssp", PLACE, more + PLACE)
+    (usual,) = predicted_errors(first, design, DUTY)
     (rough,) = predicted_errors(slow, design, DUTY)
     assert usual is not None
     assert rough is not None
