@@ -86,7 +86,9 @@ def test_undamped_resonance_to_rounding(instantiate: Instantiate, fidelity: int,
     for _ in range(abs(ulps)):
         frequency = math.nextafter(frequency, math.copysign(INF, ulps))
     undamped = {"damping_ratio": 0.0, "resonator_frequency": frequency, "fidelity": fidelity}
-    undamped["averaging_order"] = 1  # leaps need no steady vibration: there is none, so none is made
+    undamped["averaging_order"] = (
+        1  # leaps need no steady vibration: there is none, so none is made
+    )
     instance = instantiate().enter_initialization(**undamped)
     with instance.refuses("damping_ratio = 0.0 refused", "drive_frequency = 3500.0", "be above 0"):
         instance.slave.exitInitializationMode()

@@ -36,7 +36,7 @@ RANDOM = 1e-10
 """The same of random devices: the builds are independent, and some devices amplify rounding."""
 
 PREDICTIONS = 2e-9
-"""Largest difference of predicted velocities, over the peak: where friction and load balance weakly,
+"""Largest difference of predicted velocities, over the peak: where friction balances weakly,
 or at the end of a flat, rounding of friction shows in the velocity."""
 
 UNDETERMINED = ("prediction_of_neutral",)
@@ -61,9 +61,7 @@ def twins(native_fmu: Path, python_fmu: Path) -> Iterator[Twins]:
         yield native, python
 
 
-def assert_equal(
-    native: Record, python: Record, allowed: float, predicted: bool = True
-) -> None:
+def assert_equal(native: Record, python: Record, allowed: float, predicted: bool = True) -> None:
     """Equal counts; other signals within `allowed` of their peaks, `predicted` ones if asked."""
     for name in OUTPUTS:
         ours, other = native[name], python[name]

@@ -26,6 +26,10 @@ enum { MAX_TURNS_OF_PERIOD = 4 };
 #define MIN_WAIT 8.0
 #define MIN_PAUSE 32.0
 
+/* Factor of the tolerance of LuGre friction where a leap is to follow: what resolved motion errs by stays in the slow
+ * velocity, and adds up over many periods to several tolerances. */
+#define TIGHT 0.1
+
 /* A motion on its way: the present moment, and the time left [s]. It began `passed` [s] after the step. */
 typedef struct {
     const Law *law;
@@ -36,9 +40,11 @@ typedef struct {
     Moment now;
 } Way;
 
-static bool resolve(Way *way, double duration, Refusal *refusal) {
+/* Resolve the motion for `duration` [s]; `tight` where a leap is to follow. */
+static bool resolve(Way *way, double duration, bool tight, Refusal *refusal) {
     Moment before = way->now;
     Law law = law_after(way->law, way->clock.elapsed);
+    law.device.tolerance *= tight ? TIGHT : 1.0;
     way->budget->passed = way->passed + way->clock.elapsed;
     if (!events_advance(&law, &before, duration, NULL, way->budget, &way->now, refusal)) {
         return false;
@@ -48,11 +54,12 @@ static bool resolve(Way *way, double duration, Refusal *refusal) {
 }
 
 /* Resolve the motion for `periods`, and on to the next section. */
-static bool resolve_to_section(Way *way, const PeriodMap *map, double periods, Refusal *refusal) {
+static bool resolve_to_section(Way *way, const PeriodMap *map, double periods, bool tight,
+                               Refusal *refusal) {
     double w = way->law->held.plant.drive_frequency;
     double to_section = within_turn(map->section - way->now.theta) / w;
     double duration = periods * map->period + to_section;
-    if (duration > 0.0 && !resolve(way, duration, refusal)) {
+    if (duration > 0.0 && !resolve(way, duration, tight, refusal)) {
         return false;
     }
     way->now.theta = map->section;
@@ -90,9 +97,10 @@ static bool advance(const Law *law, const Moment *moment, double duration, Event
     Way way = {law, budget, budget->passed, clock_of(duration), duration, *moment};
     double turn = TAU / law->held.plant.drive_frequency, pause = 0.0;
     PeriodMap map;
+    bool gains = true;
     bool leaps = way.left > SHORTEST_LEAP * turn && prepare_map(&way, &map);
     while (leaps && way.left > (SHORTEST_LEAP + pause) * map.period) {
-        if (!resolve_to_section(&way, &map, pause, refusal)) {
+        if (!resolve_to_section(&way, &map, pause, gains, refusal)) {
             return false;
         }
         if (is_ramped(&law->held.plant) && !prepare_map(&way, &map)) {
@@ -102,8 +110,9 @@ static bool advance(const Law *law, const Moment *moment, double duration, Event
         Leap done = leap(&map, &before, floor(way.left / map.period), budget, &way.now);
         way.left = clock_advance(&way.clock, done.periods * map.period);
         pause = pause_after(&done);
+        gains = done.outcome != NO_GAIN;
     }
-    if (way.left > 0.0 && !resolve(&way, way.left, refusal)) {
+    if (way.left > 0.0 && !resolve(&way, way.left, false, refusal)) {
         return false;
     }
     *after = way.now;

@@ -1,4 +1,4 @@
-"""Scenes whose cheapest model the cost of orbits once hid, or that were not chosen for at all.
+"""Scenes whose cheapest model a wrong cost once hid, or that were not chosen for at all.
 
 What is cheapest was found by the CPU time of the native FMU for each candidate that meets the need.
 """
@@ -14,27 +14,21 @@ from tests.harness.studies.choose.judging import described, judge
 
 ALTERNATING = ", ".join(f"[{0.18 * i:.2f}, {i % 2}.0]" for i in range(60))
 SCENES = {
-    "phases that alternate share two curves of orbits": (
+    "phases that alternate": (
         f"[inputs]\nphase = {{ steps = [{ALTERNATING}] }}\n"
         "[run]\nstop_time = 10.8\nstep_size = 0.01\n[need]\nmean_velocity = { rel = 1e-4 }\n",
         (0, 2, 0),
     ),
-    "orbits in flight": (
+    "leaps in flight": (
         "[device]\nnormal_amplitude = 1.8\n[inputs]\nphase = 0.3\n"
         "[run]\nstop_time = 12.0\nstep_size = 0.05\n[need]\nposition = { rel = 1e-4 }\n",
         (0, 2, 0),
     ),
-    "stiff bristles whose orbits cost little": (
+    "stiff bristles in a long run": (
         "[device]\nfriction_law = 1\nbristle_stiffness = 1e6\n[inputs]\nphase = 0.2\n"
         "[run]\nstop_time = 2.0\nstep_size = 0.05\n"
         '[need]\nmean_velocity = { rel = 1e-4 }\nfriction_law = "free"\n',
         (0, 2, 1),
-    ),
-    "a short run on stiff bristles": (
-        "[device]\nfriction_law = 1\nbristle_stiffness = 1e6\n[inputs]\nphase = 0.2\n"
-        "[run]\nstop_time = 0.5\nstep_size = 0.05\n"
-        '[need]\nmean_velocity = { rel = 1e-4 }\nfriction_law = "free"\n',
-        (2, None, 1),
     ),
     "a chirp that is passed on": (
         "[inputs]\nfrequency_ratio = { ramp = [[0, 1], [5, 1.02]] }\n"
@@ -53,13 +47,6 @@ SCENES = {
         "[run]\nstop_time = 4.0\nstep_size = 0.01\n[need]\nposition = { rel = 0.01 }\n"
         "[tuning]\nnormal_preload = { ramp = [[0, 1.0], [4, 1.5]] }\n",
         (0, 1, 0),
-    ),
-    "a beat that lasts three thousand relaxation times": (
-        "[device]\ndrive_frequency = 757.0\nresonator_frequency = 757.0\n"
-        "friction_coefficient = 0.5\nbase_amplitude = 3e-4\n[inputs]\nfrequency_ratio = 1.00001\n"
-        "[run]\ndrive_periods = 1e5\nsteps_per_period = 0.0016\n"
-        "[need]\nmean_velocity = { rel = 3e-6 }\n",
-        (2, None, 0),
     ),
     "soft bristles in flight": (
         "[device]\nfriction_law = 1\nbristle_stiffness = 300.0\nnormal_amplitude = 1.5\n"
