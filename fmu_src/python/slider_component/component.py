@@ -220,16 +220,14 @@ def motion_of(device: Device, inputs: Inputs) -> Motion:
     """The motion of a device under held inputs.
 
     Raises Refusal for LuGre friction without friction, where (8) divides by mu, and where undamped
-    resonance leaves no steady vibration that fidelity 0 or 1 needs.
+    resonance leaves no steady vibration that fidelity 1 or averages of first order need.
     """
     if device.friction_law == 1 and device.friction_coefficient == 0.0:
         raise Refusal(refusal_texts.lugre_without_friction(device.friction_coefficient))
+    if device.fidelity == 0 and device.averaging_order == 2:
+        return Leaping(hold(replace(device, fidelity=2), inputs))
     system = hold(device, inputs)
-    if device.fidelity > 0:
-        return Resolved(system)
-    if device.averaging_order == 1:
-        return Averaged(system, inputs.frequency_ratio)
-    return Leaping(hold(replace(device, fidelity=2), inputs))
+    return Resolved(system) if device.fidelity > 0 else Averaged(system, inputs.frequency_ratio)
 
 
 def _finite_output(name: str, output: Callable[[View], float], view: View) -> float:
