@@ -41,7 +41,7 @@ def test_the_velocity_is_held_at_both_fidelities_and_they_agree(
         assert entry["largest"] > 0.02, "each step of the load shows before the controller answers"
     assert [agreement["load"] for agreement in found["agreements"]] == [0.03, 0.06, -0.03, 0.0]
     for agreement in found["agreements"]:
-        assert agreement["difference"] == 0.0, "steps of six periods are resolved by both"
+        assert agreement["difference"] <= 1e-6, "short steps of order 2 are resolved"
         assert 0.0 < agreement["predicted"] < 1e-3
     assert (tmp_path / "closed_loop.png").read_bytes().startswith(b"\x89PNG")
     with (tmp_path / "closed_loop.csv").open(encoding="utf-8", newline="") as file:
