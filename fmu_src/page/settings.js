@@ -15,7 +15,7 @@ const RANGES = new Map([
   ["drive_frequency", [1750, 7000]],
 ]);
 const CHOICES = new Map([
-  ["fidelity", [[0, "0: averaged"], [1, "1: slider"], [2, "2: full device"]]],
+  ["fidelity", [[0, "0: slow motion"], [1, "1: slider"], [2, "2: full device"]]],
   ["friction_law", [[0, "0: Coulomb"], [1, "1: LuGre"]]],
 ]);
 

@@ -97,6 +97,18 @@ def test_undamped_resonance_to_rounding(instantiate: Instantiate, fidelity: int,
     instance.step(STEP)
 
 
+def test_undamped_resonance_is_resolved_by_order_2(instantiate: Instantiate) -> None:
+    frequency = 3500.0 * math.sqrt(1.0 / 1.1)
+    undamped = {"damping_ratio": 0.0, "resonator_frequency": frequency}
+    found = []
+    for fidelity in (0, 2):
+        instance = instantiate().initialize(**undamped, fidelity=fidelity)
+        instance.step(0.2)
+        assert instance.get("prediction_valid", "slow_motion_error") == (0.0, 0.0)
+        found.append(instance.get("position", "velocity", "mean_velocity"))
+    assert found[0] == found[1]
+
+
 @pytest.mark.parametrize("fidelity", [0, 1, 2])
 def test_values_that_do_not_fit_each_other(instantiate: Instantiate, fidelity: int) -> None:
     instance = instantiate().enter_initialization(

@@ -17,15 +17,8 @@ MAX_SLOW_STEPS = 400_000
 MAX_QUADRATURE_STEPS = 4_000
 """The same if each step costs quadratures, which take longer the more waves the load has."""
 
-MAX_STEP_MAPS = 8_000
-"""Turns mapped for held orbits in one communication step, under few waves of the normal load."""
-
-MAP_WAVES = 10.0
-"""Waves of the normal load in a drive turn that double the cost of such a map."""
-
 PYTHON_SLOWDOWN = 20
-"""In Python each of these bounds is so much lower, but that of maps; a leg takes some hundred times
-as long."""
+"""In Python each of these bounds is so much lower; a leg takes some hundred times as long."""
 
 TIME_SLACK = 1e-6
 """Fraction of a step by which hosts may round their own time."""

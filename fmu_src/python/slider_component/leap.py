@@ -12,6 +12,7 @@ periods vanish (Gear, Kaper, Kevrekidis, Zagaris 2005).
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import pairwise
 from math import ceil, exp, expm1, floor, inf, log, pi, sqrt, tau
@@ -372,9 +373,11 @@ class Leaping(Resolved):
     """Motion of the full device that leaps over periods (methods as of `Resolved`)."""
 
     def __init__(self, system: System) -> None:
-        """Raises Refusal where undamped resonance leaves no steady vibration."""
         super().__init__(system)
-        self._vibration: Vibration = vibration(system.device)
+        self._vibration: Vibration | None = None
+        # Undamped resonance has no steady vibration: all is resolved.
+        with suppress(Refusal):
+            self._vibration = vibration(system.device)
 
     def slow_motion_error(self, now: Moment) -> float:
         """What leaps have erred by so far in the slow velocity [m/s]."""
@@ -384,7 +387,7 @@ class Leaping(Resolved):
         """As of `Resolved`."""
         budget, clock, now, left, pause = Budget(duration), Clock(duration), moment, duration, 0.0
         w = self.system.drive_frequency
-        if duration * w > SHORTEST_LEAP * tau:
+        if self._vibration is not None and duration * w > SHORTEST_LEAP * tau:
             try:
                 period_map = PeriodMap(self.system, self._vibration, MAX_TURNS)
                 while left > (SHORTEST_LEAP + pause) * period_map.period:

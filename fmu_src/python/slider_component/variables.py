@@ -64,7 +64,7 @@ _AVERAGED_THEORY = (
     "tolerance",
 )
 
-# What selects the model of the motion: averages of second order apply only to slow motion.
+# What selects the model of the motion: `averaging_order` matters at fidelity 0 only.
 _WHICH_MOTION = ("fidelity", *_AVERAGED_THEORY)
 
 VARIABLES: tuple[Variable, ...] = (
@@ -208,24 +208,25 @@ VARIABLES: tuple[Variable, ...] = (
     ),
     _choice(
         "fidelity",
-        "Number of resolved degrees of freedom: 0 averaged motion, 1 slider under the steady "
-        "resonator force (eq. 34), 2 full device (eqs 26-27)",
+        "Number of resolved degrees of freedom: 0 slow motion, by averaging_order, 1 slider under "
+        "the steady resonator force (eq. 34), 2 full device (eqs 26-27)",
         start=2,
         minimum=0,
         maximum=2,
     ),
     _choice(
         "averaging_order",
-        "Order of averages: 1 over the vibration without friction, 2 over held orbits; for motion "
-        "at fidelity 0 and for the predictions at all fidelities",
+        "1: averages over the vibration without friction, 2: resolved motion that leaps over "
+        "periods; for motion at fidelity 0 and for the predictions at all fidelities",
         start=2,
         minimum=1,
         maximum=2,
     ),
     _fixed(
         "tolerance",
-        "Tolerance of LuGre friction, relative to the velocities of slider and resonator, each by "
-        "itself; Coulomb friction needs none",
+        "Error of LuGre friction, relative to the velocities of slider and resonator, each by "
+        "itself; error that leaps over periods may make in the slow velocity, over the fast "
+        "velocity. Resolved Coulomb friction needs none",
         start=1e-8,
         unit="1",
         minimum=1e-14,
@@ -394,7 +395,8 @@ VARIABLES: tuple[Variable, ...] = (
     _count(
         "prediction_valid",
         "1: steady_velocity and blocking_force apply; 0: the load exceeds the mean friction of "
-        "sliding, or there is no steady vibration that overcomes this friction",
+        "sliding, no steady vibration overcomes this friction, or (averaging_order 2) no periodic "
+        "motion of the full device was found",
         unit="1",
         minimum=0.0,
         maximum=1.0,
@@ -403,7 +405,8 @@ VARIABLES: tuple[Variable, ...] = (
     ),
     _output(
         "slow_motion_error",
-        "Estimate of the error of the slow velocity at fidelity 0; 0 at fidelity 1 and 2",
+        "Estimated error of the slow velocity at fidelity 0, measured along leaps by "
+        "averaging_order 2; 0 at fidelity 1 and 2",
         unit="m/s",
         display_unit="mm/s",
         minimum=0.0,

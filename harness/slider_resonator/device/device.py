@@ -53,7 +53,7 @@ class Device:
 
     Names are those of the FMU parameters. ``friction_law`` is 0 (Coulomb) or 1 (LuGre),
     ``fidelity`` the number of resolved degrees of freedom (0 averaged, 1, 2), and
-    ``averaging_order`` the order of the averaged motion.
+    ``averaging_order`` 1 averages or 2 leaps over periods.
     """
 
     slider_mass: float = _real(1.0, "kg", 1e-12)

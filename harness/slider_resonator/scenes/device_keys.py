@@ -22,14 +22,14 @@ PARAMETER_MEANINGS: Mapping[str, str] = {
     "friction_law": "0 Coulomb, 1 LuGre",
     "bristle_stiffness": "LuGre: bristle stiffness per unit normal load",
     "bristle_damping": "LuGre: bristle damping per unit normal load",
-    "fidelity": "0 averaged motion, 1 slider with the resonator's steady force, 2 full device",
-    "tolerance": "LuGre: error tolerance of the integration",
+    "fidelity": "0 slow motion, 1 slider with the resonator's steady force, 2 full device",
+    "tolerance": "error of LuGre friction; error of leaps in the slow velocity over the fast one",
     "initial_position": "position at the start",
     "initial_velocity": "velocity at the start",
     "initial_resonator_displacement": "displacement of the resonator against the slider",
     "initial_resonator_velocity": "velocity of the resonator against the slider",
     "initial_bristle_deflection": "LuGre: bristle deflection at the start",
-    "averaging_order": "fidelity 0: order of the averaged motion, 1 or 2",
+    "averaging_order": "fidelity 0: 1 averages, 2 leaps over periods; predictions alike",
 }
 """The meaning of each parameter, in the order of the interface."""
 

@@ -14,6 +14,7 @@ from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.parameters import Inputs
 from fmu_src.python.slider_component.period_map import PeriodMap
 from fmu_src.python.slider_component.prediction import prediction
+from fmu_src.python.slider_component.values import Refusal
 
 PERIOD = math.tau / 3500.0
 FAST_VELOCITY = 0.2366097
@@ -140,3 +141,14 @@ def test_predictions_are_where_motion_settles(ratio: float) -> None:
 
 def test_ratios_that_never_repeat_have_no_prediction() -> None:
     assert not prediction(Device(), Inputs(0.0, 0.0, math.sqrt(2.0)), 0.0).valid
+
+
+def test_undamped_resonance_is_resolved() -> None:
+    """No steady vibration exists, so that nothing can be leapt over."""
+    mass = 0.0999999999999
+    free = 3500.0 * math.sqrt(1.0 / (1.0 + mass))
+    device = replace(SLOW, damping_ratio=0.0, resonator_mass=mass, resonator_frequency=free)
+    with pytest.raises(Refusal):
+        motion_of(replace(device, averaging_order=1), Inputs())
+    leapt, resolved = pair(device, Inputs(0.4), 200)
+    assert leapt == resolved
