@@ -35,9 +35,10 @@ some tolerances of its own, as their steps differ."""
 RANDOM = 1e-10
 """The same of random devices: the builds are independent, and some devices amplify rounding."""
 
+PREDICTED = ("steady_velocity", "blocking_force")
 PREDICTIONS = 2e-9
-"""Largest difference of predicted velocities, over the peak: where friction balances weakly,
-or at the end of a flat, rounding of friction shows in the velocity."""
+"""Largest difference of predictions, over the peak: where friction and load balance weakly, or at
+the end of a flat, rounding of friction shows in the velocity."""
 
 UNDETERMINED = ("prediction_of_neutral",)
 """Scenes with a range of steady velocities: each build names one of them."""
@@ -71,7 +72,7 @@ def assert_equal(native: Record, python: Record, allowed: float, predicted: bool
             np.testing.assert_array_equal(ours, other, f"{name}: the twins see other events")
         elif allowed <= ROUNDING or name != "last_event_time":
             gap = np.abs(ours - other).max()
-            bound = max(allowed, PREDICTIONS) if name == "steady_velocity" else allowed
+            bound = max(allowed, PREDICTIONS) if name in PREDICTED else allowed
             assert gap <= bound * scale(name, python), f"{name}: the twins differ by {gap:.3g}"
 
 
