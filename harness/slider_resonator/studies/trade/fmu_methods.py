@@ -30,6 +30,10 @@ USUAL_STEP = 10.0
 TOLERANCES = (1e-4, 1e-6, 1e-10, 1e-12)
 """Of LuGre friction, besides the one that the FMU starts with."""
 USUAL_TOLERANCE = 1e-8
+LEAP_STEP = 1000.0
+"""The step for other tolerances of leaps."""
+LEAP_TOLERANCES = (1e-5, 1e-6, 1e-7)
+"""Of motion that leaps, besides the usual one."""
 AVERAGING_ORDERS = (2, 1)
 LAWS = ("Coulomb", "LuGre")
 OUTPUTS = ("position", "velocity", "mean_velocity")
@@ -57,6 +61,11 @@ class Model:
         """The FMU parameters that make it."""
         order = {"averaging_order": self.order} if self.order else {}
         return {"fidelity": self.fidelity, **order}
+
+    @property
+    def leaps(self) -> bool:
+        """Whether it is motion that leaps over periods, to a tolerance under any friction law."""
+        return self.fidelity == 0 and self.order == 2
 
 
 class TaskRunner(Protocol):
@@ -103,6 +112,8 @@ class FmuMethods:
             yield self._method(model, 1 - own, USUAL_STEP, USUAL_TOLERANCE)
             for tolerance in TOLERANCES if own == 1 and model.fidelity else ():
                 yield self._method(model, own, USUAL_STEP, tolerance)
+            for tolerance in LEAP_TOLERANCES if model.leaps else ():
+                yield self._method(model, own, LEAP_STEP, tolerance)
 
     def answers(self) -> Iterator[SteadyMethod]:
         """Yield the searches for steady motion and blocking force, and the outputs of theory."""
@@ -137,10 +148,11 @@ class FmuMethods:
         name = family
         if step is not None:
             name += f", steps of {step:g} period{'s' if step != 1.0 else ''}"
-        if law == 1 and tolerance != USUAL_TOLERANCE:
+        has_tolerance = law == 1 or model.leaps
+        if has_tolerance and tolerance != USUAL_TOLERANCE:
             name += f", tol {tolerance:.0e}"
         kind = RESOLVED if model.fidelity else AVERAGED
-        used = tolerance if law == 1 else None
+        used = tolerance if has_tolerance else None
         return Label(kind, family, name, law, model.fidelity, step, used, model.order)
 
     def _method(self, model: Model, law: int, step: float, tolerance: float) -> Method:
