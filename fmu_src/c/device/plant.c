@@ -40,7 +40,7 @@ double held_amplitude(const Device *device) {
 }
 
 bool equivalent_force(const Device *device, Complex *force, Refusal *refusal) {
-    Complex swing;
+    Complex swing = {0.0, 0.0};
     if (!steady_resonator(device, &swing, refusal)) {
         return false;
     }

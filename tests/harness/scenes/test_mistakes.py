@@ -78,7 +78,7 @@ BELOW_THE_HEAD = {
     "a fidelity that does not exist": Mistake(
         "[device]\nfidelity = 3\n",
         "device.fidelity = 3",
-        "an integer from 0 to 2 (0 averaged",
+        "an integer from 0 to 2 (0 slow motion",
     ),
     "no face with friction": Mistake(
         "[device]\nfriction_faces = 0\n",

@@ -158,8 +158,8 @@ class _Choosing:
         if "event_times" in self.needs:
             return "averaged motion has no events"
         if model.averaging_order == 2:
-            if self.scales.has_slow_motion:
-                return None
+            if self.scales.has_slow_motion or not self.scene.stop_time:
+                return None  # predictions need no slow motion
             return "no motion is slow against the resonator: there is nothing to leap over"
         error = self.scales.averaging_error or 0.0
         for name in ("mean_velocity", "velocity") if self.law == COULOMB else ():

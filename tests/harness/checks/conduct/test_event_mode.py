@@ -12,7 +12,7 @@ from slider_resonator.trials.mutants.native.native_run import run_changes
 
 STEPS, VALUES, FUNCTIONS = "fmi/fmi3_steps.c", "fmi/fmi3_values.c", "fmi/fmi3_functions.c"
 FOUND = "if (now->event_age == 0.0 && found_at(search, &clock)) {"
-TIME = "values[i] = time ? own->component.now.time : *next++;"
+TIME = "is_time(references[i], type) ? own->component.now.time : *next++;"
 EXPERIMENT = "stopTimeDefined, stopTime, toleranceDefined"
 
 FAULTS = {

@@ -48,12 +48,6 @@ SCENES = {
         "[tuning]\nnormal_preload = { ramp = [[0, 1.0], [4, 1.5]] }\n",
         (0, 1, 0),
     ),
-    "soft bristles in flight": (
-        "[device]\nfriction_law = 1\nbristle_stiffness = 300.0\nnormal_amplitude = 1.5\n"
-        "[inputs]\nphase = 0.3\n[run]\ndrive_periods = 3000\nsteps_per_period = 0.1\n"
-        "[need]\nmean_velocity = { rel = 1e-6 }\n",
-        (0, 2, 1),
-    ),
 }
 """Fidelity, averaging order and friction law that are the cheapest by measurement."""
 
