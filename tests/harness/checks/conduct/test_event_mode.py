@@ -53,7 +53,7 @@ FAULTS = {
     ),
     "time stands still between events": (VALUES, TIME, TIME.replace("now.time", "now.stop_time")),
     "values after time are off by one": (VALUES, TIME, TIME.replace("*next++", "found[i]")),
-    "time can be set": (VALUES, "if (done && count < nValueReferences) {", "if (false) {"),
+    "time can be set": (VALUES, "if (done && place_count < count) {", "if (false) {"),
     "too many values are accepted": (
         VALUES,
         "    if (value_count != count) {",
