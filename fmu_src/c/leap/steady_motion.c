@@ -17,8 +17,10 @@ enum { VELOCITY, FIRST_FAST };
 #define CONVERGED 1e-10
 enum { MAX_ITERATIONS = 16 };
 
-/* Squarings of the linear map after which it has grown or decayed: 2^30 periods. */
-enum { SQUARINGS = 30 };
+/* Squarings of the linear map after which it must have decayed: in 2^24 periods, more than rounding of its derivatives could
+ * make it. */
+enum { SQUARINGS = 24 };
+#define DECAYED 0.5
 
 /* A periodic motion that is looked for: `count` unknowns. */
 typedef struct {
@@ -155,7 +157,7 @@ static bool is_stable(double jacobian[UNKNOWNS][UNKNOWNS], int count) {
         }
         memcpy(power, square, sizeof power);
     }
-    return largest < 1.0;
+    return largest < DECAYED;
 }
 
 /* A search from the steady vibration without friction on. */

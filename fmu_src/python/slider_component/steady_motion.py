@@ -28,8 +28,12 @@ CONVERGED = 1e-10
 
 MAX_ITERATIONS = 16
 
-SQUARINGS = 30
-"""Squarings of the linear map after which it has grown or decayed: 2^30 periods."""
+SMALLEST_PIVOT = 1e-13
+"""Smallest pivot that counts as different from 0, over the largest entry of a matrix."""
+SQUARINGS = 24
+DECAYED = 0.5
+"""Squarings of the linear map after which it must have decayed: in 2^24 periods, more than rounding
+of its derivatives could make it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,10 +127,11 @@ def solved(matrix: Matrix, right: Vector) -> Vector:
     Raises NoMapError for a singular matrix.
     """
     rows = [[*row, value] for row, value in zip(matrix, right, strict=True)]
+    smallest = SMALLEST_PIVOT * max(abs(x) for row in matrix for x in row)
     for k in range(len(rows)):
         pivot = max(range(k, len(rows)), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]
-        if not 0.0 < abs(rows[k][k]) < inf:
+        if not smallest < abs(rows[k][k]) < inf:
             raise NoMapError
         for i in range(len(rows)):
             if i != k:
@@ -146,4 +151,4 @@ def _is_stable(jacobian: Matrix) -> bool:
         ]
         if not max(abs(x) for row in power for x in row) < 1e100:
             return False
-    return max(abs(x) for row in power for x in row) < 1.0
+    return max(abs(x) for row in power for x in row) < DECAYED
