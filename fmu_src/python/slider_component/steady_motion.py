@@ -79,7 +79,7 @@ class PeriodicMotion:
             if largest <= CONVERGED:
                 if self.blocked:
                     return unknowns[-1] * self.force
-                if not _is_stable(jacobian):
+                if not _is_stable(self._jacobian(unknowns, change)):
                     break
                 return travel / period_map.period
             # Broyden's update: what the Jacobian did not expect.
