@@ -30,7 +30,7 @@ static double stick_fraction(const Law *law, const Moment *moment) {
 
 /* Parts of a radian to which leads of the normal load are rounded: inputs that return to earlier values find their
  * prediction in spite of rounding errors of phases. */
-#define LEAD_PARTS 1e13
+#define LEAD_PARTS 1e12
 
 /* psi - n theta [rad], the same in all turns of the load; 0 where it never repeats. */
 static double normal_lead(const Law *law, const Moment *moment) {

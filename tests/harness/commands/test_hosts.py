@@ -37,7 +37,7 @@ def test_the_reference_agrees_with_itself(
     ]
     for result in results[:2]:
         assert [case["deviation"] for case in result["cases"]] == [0.0] * 6
-    assert max(case["deviation"] for case in results[2]["cases"]) <= 1e-12, "LuGre: 5e-13"
+    assert max(case["deviation"] for case in results[2]["cases"]) <= 1e-13
     assert out.read_text().count("| 0 | 0 | 0 | 0 | 0 | 0 |") == 2
 
 
