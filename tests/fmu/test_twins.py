@@ -40,9 +40,6 @@ PREDICTIONS = 2e-9
 """Largest difference of predictions, over the peak: where friction and load balance weakly, or at
 the end of a flat, rounding of friction shows in the velocity."""
 
-UNDETERMINED = ("prediction_of_neutral",)
-"""Scenes with a range of steady velocities: each build names one of them."""
-
 MIN_FAST_VELOCITY = 1e-4
 """Smallest fast velocity of the devices below, m/s."""
 
@@ -62,12 +59,10 @@ def twins(native_fmu: Path, python_fmu: Path) -> Iterator[Twins]:
         yield native, python
 
 
-def assert_equal(native: Record, python: Record, allowed: float, predicted: bool = True) -> None:
-    """Equal counts; other signals within `allowed` of their peaks, `predicted` ones if asked."""
+def assert_equal(native: Record, python: Record, allowed: float) -> None:
+    """Equal counts; other signals within `allowed` of their peaks."""
     for name in OUTPUTS:
         ours, other = native[name], python[name]
-        if name == "steady_velocity" and not predicted:
-            continue
         if name in COUNTS:
             np.testing.assert_array_equal(ours, other, f"{name}: the twins see other events")
         elif allowed <= ROUNDING or name != "last_event_time":
@@ -118,7 +113,7 @@ def test_scenes(twins: Twins, name: str) -> None:
     allowed = device.tolerance if device.friction_law == 1 else ROUNDING
     if device.fidelity == 0 and device.averaging_order == 2:
         allowed = LEAPS * device.tolerance
-    assert_equal(native, python, max(allowed, ROUNDING), name not in UNDETERMINED)
+    assert_equal(native, python, max(allowed, ROUNDING))
 
 
 ratios = st.one_of(st.sampled_from([1.0, 3.0, 0.0, -1.0, 0.5, 1e-5, 1.01]), st.floats(-3.0, 3.0))
