@@ -13,7 +13,7 @@ import click
 import pytest
 import yaml
 
-from slider_resonator.cli import main
+from studies.cli import main
 from tests.processes import ROOT
 
 CI = ROOT / ".github" / "workflows" / "ci.yml"

@@ -29,16 +29,10 @@ INTERRUPTED = 130
 """The exit code that shells report for a process ended by SIGINT."""
 COMMANDS: Mapping[str, str] = {
     "baseline": "Compare an FMU with its own earlier results.",
-    "bench": "Measure what a step costs in a C host.",
     "blocking": "Find the load that stops an FMU, without a long run.",
-    "build": "Build the FMUs from the sources of a checkout.",
     "campaign": "Run random devices and schedules on FMUs.",
     "choose": "Choose the cheapest model that meets a scene's needs.",
-    "closed-loop": "Hold the slider's velocity with a controller.",
     "extremes": "Run FMUs at the extremes of every parameter and input.",
-    "hosts": "Run table 1 in other simulators; compare with fmpy.",
-    "mutants": "Make faulty FMUs and count those that validate rejects.",
-    "paper": "Reproduce the figures and statements of the paper.",
     "run": "Run one scene and report results and cost.",
     "scenes": "List the built-in scenes; help to write your own.",
     "steady": "Find the steady velocity of an FMU, without a long run.",
@@ -46,9 +40,7 @@ COMMANDS: Mapping[str, str] = {
     "trade": "Measure error and cost of every model and peer method.",
     "validate": "Compare FMUs with the references, scene by scene.",
 }
-"""Name to summary. Each is `<name>_command` in `slider_resonator.commands.<name>`, with _ for -.
-
-A command is loaded when it is called: loading all takes longer than running most."""
+"""Name to summary of what is installed."""
 
 
 click.Context.formatter_class = FittingHelp
@@ -58,35 +50,50 @@ click.Context.formatter_class = FittingHelp
 class HarnessGroup(click.Group):
     """A group of commands in which exit code 1 always means a failed verdict.
 
-    Python and click exit with 1 on some errors too.
+    Python and click exit with 1 on some errors too. A command is loaded when it is called: loading
+    all takes longer than running most.
     """
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.packages: dict[str, str] = {}
+        self.summaries: dict[str, str] = {}
+        self.add_package("slider_resonator.commands", COMMANDS)
+
+    def add_package(self, package: str, summaries: Mapping[str, str]) -> None:
+        """Add commands, by name and summary.
+
+        Each is `<name>_command` in the module `<package>.<name>`, with _ for -.
+        """
+        self.packages |= dict.fromkeys(summaries, package)
+        self.summaries = dict(sorted((self.summaries | dict(summaries)).items()))
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return all names, in the order of the help."""
-        return list(COMMANDS)
+        return list(self.summaries)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """Load a command; return None for an unknown name."""
-        if cmd_name not in COMMANDS:
+        if cmd_name not in self.summaries:
             return None
         name = cmd_name.replace("-", "_")
-        module = importlib.import_module(f"slider_resonator.commands.{name}")
+        module = importlib.import_module(f"{self.packages[cmd_name]}.{name}")
         command: click.Command = getattr(module, f"{name}_command")
-        command.short_help = COMMANDS[cmd_name]
+        command.short_help = self.summaries[cmd_name]
         return command
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """Return a command with its name and arguments; name the nearest to one that is unknown."""
-        if args[0] not in COMMANDS and not args[0].startswith("-"):
-            ctx.fail(unknown_name("command", args[0], COMMANDS))
+        if args[0] not in self.summaries and not args[0].startswith("-"):
+            ctx.fail(unknown_name("command", args[0], self.summaries))
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write names and summaries without loading the commands."""
         with formatter.section("Commands"):
-            formatter.write_dl(list(COMMANDS.items()))
+            formatter.write_dl(list(self.summaries.items()))
 
     def main(
         self,
@@ -179,12 +186,9 @@ def main(max_memory: int | None, max_unpacked: int | None) -> None:
       slider-resonator steady my.fmu --set phase=0.4 --set load=0.05 --json
       slider-resonator blocking my.fmu --json
       slider-resonator choose feed_forward --json
-      slider-resonator paper --out paper
       slider-resonator extremes --out extremes
       slider-resonator sweep grid.toml --out table.parquet
       slider-resonator trade table_1 --out trade
-      slider-resonator closed-loop --out closed_loop
-      slider-resonator mutants --sample 200
       slider-resonator baseline check my.fmu --dir baseline
     """
     for variable, value in ((MEMORY, max_memory), (UNPACKED, max_unpacked)):

@@ -12,7 +12,7 @@ import pytest
 from _pytest.mark.structures import ParameterSet
 
 import build_fmu
-from slider_resonator.cli import main
+from studies.cli import main
 from tests.processes import ROOT
 
 PAGES = sorted(

@@ -8,7 +8,7 @@ import subprocess
 from pathlib import Path
 
 from fmu_src.building.c_sources import slider_sources, write_sources
-from slider_resonator.trials.hosts.compiler import native_compiler
+from studies.hosts.compiler import native_compiler
 
 PROBES = Path(__file__).parent / "c"
 FLAGS = ("-std=c99", "-O1", "-ffp-contract=off", "-fPIC", "-shared")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from click.testing import CliRunner, Result
 
-from slider_resonator.cli import main
+from studies.cli import main
 
 
 def call(*arguments: object, **environment: str) -> Result:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from studies import COMMANDS as STUDIES
 from tests.harness import faulty_fmus
 from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
@@ -29,7 +30,8 @@ COMMANDS = (
 def test_help_shows_examples(command: str) -> None:
     result = call(*command.split(), "--help")
     assert result.exit_code == 0
-    assert f"slider-resonator {command}" in result.stdout
+    program = "python -m harness" if command in STUDIES else "slider-resonator"
+    assert f"{program} {command}" in result.stdout
 
 
 def test_every_command_is_listed() -> None:

@@ -15,8 +15,8 @@ import pytest
 from fmu_src.building.native_fmu import MODEL_3, build_native_3
 from fmu_src.building.platforms import AARCH64_LINUX, HOST, Platform, host_platform
 from fmu_src.python.slider_component.variables import VARIABLES
-from slider_resonator.trials.hosts.compiler import compile_program, native_compiler, zig_compiler
-from slider_resonator.trials.hosts.job import describe
+from studies.hosts.compiler import compile_program, native_compiler, zig_compiler
+from studies.hosts.job import describe
 
 pytestmark = [
     pytest.mark.interop,

@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from slider_resonator.studies.closed_loop.duty import Duty
-from slider_resonator.studies.closed_loop.judge import judge_agreement, judge_intervals
-from slider_resonator.studies.closed_loop.loop import HOSTS, run_loop
-from slider_resonator.studies.closed_loop.prediction import predicted_errors
-from slider_resonator.trials.hosts.ecos_host import preload_tbb
-from slider_resonator.trials.hosts.hosts import Host
+from studies.closed_loop.duty import Duty
+from studies.closed_loop.judge import judge_agreement, judge_intervals
+from studies.closed_loop.loop import HOSTS, run_loop
+from studies.closed_loop.prediction import predicted_errors
+from studies.hosts.ecos_host import preload_tbb
+from studies.hosts.hosts import Host
 
 pytestmark = pytest.mark.interop
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.trials.hosts.driver_host import BINARY, native_driver
-from slider_resonator.trials.hosts.job import describe
+from studies.hosts.driver_host import BINARY, native_driver
+from studies.hosts.job import describe
 from tests.native.toolchain import Binary, run, unpacked_binary
 
 STEADY = {

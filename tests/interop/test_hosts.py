@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENTS, Host, hosts
-from slider_resonator.trials.hosts.runs import ALLOWED, FMI_3, run_host
+from studies.hosts.hosts import OWN_ENVIRONMENTS, Host, hosts
+from studies.hosts.runs import ALLOWED, FMI_3, run_host
 
 pytestmark = pytest.mark.interop
 

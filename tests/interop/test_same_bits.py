@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from slider_resonator.device.interface import OUTPUTS
-from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENTS, hosts
-from slider_resonator.trials.hosts.runs import CASES, run_jobs, table_1_jobs
+from studies.hosts.hosts import OWN_ENVIRONMENTS, hosts
+from studies.hosts.runs import CASES, run_jobs, table_1_jobs
 
 pytestmark = pytest.mark.interop
 

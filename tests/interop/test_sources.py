@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.trials.hosts.hosts import hosts
-from slider_resonator.trials.hosts.runs import CASES, by_case, run_jobs, table_1_jobs
+from studies.hosts.hosts import hosts
+from studies.hosts.runs import CASES, by_case, run_jobs, table_1_jobs
 from tests.processes import run_command
 
 pytestmark = pytest.mark.interop

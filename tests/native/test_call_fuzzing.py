@@ -9,7 +9,7 @@ import pytest
 
 from fmu_src.building.c_sources import UNBUILT_GUID, slider_sources, write_sources
 from fmu_src.controller.variables import VARIABLES
-from slider_resonator.trials.hosts.compiler import compile_program, native_compiler
+from studies.hosts.compiler import compile_program, native_compiler
 from tests.native.toolchain import COUNTS, PROGRAMS, Binary, program, run, unpacked_binary
 
 CALLS = 300_000

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.trials.hosts.compiler import SOURCES
+from studies.hosts.compiler import SOURCES
 from tests.native.scripts import CHOICES, devices, script
 from tests.native.toolchain import (
     COUNTS,

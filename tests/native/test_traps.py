@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from slider_resonator.trials.hosts.driver_host import native_driver
+from studies.hosts.driver_host import native_driver
 from tests.native.scripts import CHOICES, script
 from tests.native.toolchain import PROGRAMS, Binary, program, run
 from tests.problems import PROBLEMS

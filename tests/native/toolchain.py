@@ -14,9 +14,9 @@ import pytest
 
 from fmu_src.building.c_sources import UNBUILT_GUID, FmiVersion, slider_sources, write_sources
 from fmu_src.python.slider_component.variables import VARIABLES
-from slider_resonator.trials.hosts.compiler import compile_program, native_compiler
-from slider_resonator.trials.hosts.driver_host import BINARY
-from slider_resonator.trials.hosts.job import describe
+from studies.hosts.compiler import compile_program, native_compiler
+from studies.hosts.driver_host import BINARY
+from studies.hosts.job import describe
 
 PROGRAMS = Path(__file__).parent / "c"
 COUNTS = (sum(v.causality != "output" for v in VARIABLES), len(VARIABLES))

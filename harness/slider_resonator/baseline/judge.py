@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from slider_resonator.baseline.golden import SIGNALS, Golden, order
 from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.tolerance import Tolerance
@@ -14,7 +15,6 @@ from slider_resonator.checks.validate import Curves, curves_of
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.scene import ScenePoint
 from slider_resonator.scenes.vocabulary import QUANTITIES
-from slider_resonator.trials.baseline.golden import SIGNALS, Golden, order
 
 TOLERANCE = 1e-8
 """Relative change that passes: other platforms and compilers round differently."""

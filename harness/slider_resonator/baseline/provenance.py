@@ -14,10 +14,10 @@ import fmpy
 import numpy as np
 
 from slider_resonator import __version__
+from slider_resonator.baseline.golden import MAX_POINTS
 from slider_resonator.fmu.opening import Fmu
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import built_in_scenes
-from slider_resonator.trials.baseline.golden import MAX_POINTS
 
 FMU_DIGEST = "fmu_sha256"
 SCENE_DIGEST = "scene_sha256"

@@ -12,13 +12,13 @@ from pathlib import Path
 
 import numpy as np
 
+from slider_resonator.baseline.golden import NUMBERS_AND_WORDS, SIGNALS, Golden, order, unit
+from slider_resonator.baseline.provenance import Provenance
 from slider_resonator.checks.compare import Value
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.output.atomic import clear_abandoned, temporary_prefix
 from slider_resonator.scenes.vocabulary import QUANTITIES
-from slider_resonator.trials.baseline.golden import NUMBERS_AND_WORDS, SIGNALS, Golden, order, unit
-from slider_resonator.trials.baseline.provenance import Provenance
 
 NUMBERS, TRAJECTORY, PROVENANCE = "numbers.csv", "trajectory.csv", "provenance.csv"
 DIGITS = 13

@@ -9,6 +9,26 @@ from itertools import count
 from pathlib import Path
 from time import perf_counter
 
+from slider_resonator.baseline.golden import Golden, measure_golden
+from slider_resonator.baseline.judge import TOLERANCE, compare_golden
+from slider_resonator.baseline.provenance import (
+    BUILT_IN,
+    FMU_DIGEST,
+    SCENE_DIGEST,
+    SCENE_FILE,
+    file_digest,
+    provenance,
+    scene_digest,
+)
+from slider_resonator.baseline.store import (
+    At,
+    Recorded,
+    key,
+    read_recorded,
+    recorded_scenes,
+    replace_folder,
+    write_recorded,
+)
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.validate import Curves, NotApplied, RunFailure, Validation
@@ -21,26 +41,6 @@ from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.targets import make_folder
 from slider_resonator.scenes.scene import Scene, ScenePoint, read_scene
 from slider_resonator.scenes.scene_files import built_in_scenes
-from slider_resonator.trials.baseline.golden import Golden, measure_golden
-from slider_resonator.trials.baseline.judge import TOLERANCE, compare_golden
-from slider_resonator.trials.baseline.provenance import (
-    BUILT_IN,
-    FMU_DIGEST,
-    SCENE_DIGEST,
-    SCENE_FILE,
-    file_digest,
-    provenance,
-    scene_digest,
-)
-from slider_resonator.trials.baseline.store import (
-    At,
-    Recorded,
-    key,
-    read_recorded,
-    recorded_scenes,
-    replace_folder,
-    write_recorded,
-)
 
 CHANGED = ".changed"
 """Folder beside the scenes with the changed results of the last check; git ignores it."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from slider_resonator.choose.errors import ErrorEstimate
+from slider_resonator.choose.scales import NEAR_AN_INTEGER, Scales
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose.errors import ErrorEstimate
-from slider_resonator.studies.choose.scales import NEAR_AN_INTEGER, Scales
 
 MIN_BEATS = 2.0
 """Beats in the later half of a run from which their frequency can be read."""

@@ -7,12 +7,7 @@ from functools import partial
 from math import inf
 from pathlib import Path
 
-from slider_resonator.errors import FmuError, SceneError
-from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.isolation.process import IsolatedFmu
-from slider_resonator.output.progress import Progress, counted, no_progress
-from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose.candidate import (
+from slider_resonator.choose.candidate import (
     COULOMB,
     LUGRE,
     START_TOLERANCE,
@@ -20,15 +15,20 @@ from slider_resonator.studies.choose.candidate import (
     Model,
     models,
 )
-from slider_resonator.studies.choose.choice import Choice, Evaluation, RuledOut
-from slider_resonator.studies.choose.cost import run_cost, search_cost
-from slider_resonator.studies.choose.coverage import FINEST_TOLERANCE
-from slider_resonator.studies.choose.errors import Estimates
-from slider_resonator.studies.choose.ladder import step_ladder
-from slider_resonator.studies.choose.probe import Probe
-from slider_resonator.studies.choose.scales import check_magnitudes
-from slider_resonator.studies.choose.search import coarsest
-from slider_resonator.studies.choose.steady_need import SteadyValue, find, steady_error
+from slider_resonator.choose.choice import Choice, Evaluation, RuledOut
+from slider_resonator.choose.cost import run_cost, search_cost
+from slider_resonator.choose.coverage import FINEST_TOLERANCE
+from slider_resonator.choose.errors import Estimates
+from slider_resonator.choose.ladder import step_ladder
+from slider_resonator.choose.probe import Probe
+from slider_resonator.choose.scales import check_magnitudes
+from slider_resonator.choose.search import coarsest
+from slider_resonator.choose.steady_need import SteadyValue, find, steady_error
+from slider_resonator.errors import FmuError, SceneError
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.isolation.process import IsolatedFmu
+from slider_resonator.output.progress import Progress, counted, no_progress
+from slider_resonator.scenes.scene import Scene
 
 HOPELESS = 1000.0
 """Ratio of predicted to allowed averaging error above which no probe is needed."""

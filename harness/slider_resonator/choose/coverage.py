@@ -5,12 +5,11 @@ from __future__ import annotations
 from functools import cached_property
 from math import inf
 
-from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose.candidate import Model
-from slider_resonator.studies.choose.input_grid import vary
-from slider_resonator.studies.choose.resolved_cost import period_cost
-from slider_resonator.studies.choose.scales import Scales
-from slider_resonator.studies.choose.windows import (
+from slider_resonator.choose.candidate import Model
+from slider_resonator.choose.input_grid import vary
+from slider_resonator.choose.resolved_cost import period_cost
+from slider_resonator.choose.scales import Scales
+from slider_resonator.choose.windows import (
     WINDOW_PERIODS,
     WINDOWS,
     corner_periods,
@@ -19,6 +18,7 @@ from slider_resonator.studies.choose.windows import (
     places,
     settling,
 )
+from slider_resonator.scenes.scene import Scene
 
 FINEST_TOLERANCE = 1e-13
 """Tolerance of the resolved LuGre device, the reference of all candidates."""

@@ -10,9 +10,9 @@ import numpy as np
 
 from slider_resonator.checks.measures.deviation import peak
 from slider_resonator.checks.measures.frequency import dominant_frequency
+from slider_resonator.choose.candidate import COULOMB
+from slider_resonator.choose.stretch import Samples
 from slider_resonator.device.schedule import nearest
-from slider_resonator.studies.choose.candidate import COULOMB
-from slider_resonator.studies.choose.stretch import Samples
 
 ROUNDING = {0: 1e-12, 1: 1e-10}
 """Error of the resolved run itself, by friction law, as a share of the magnitude."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from math import ceil, floor, inf, log2
 
+from slider_resonator.choose.coverage import SIGNAL_NEEDS
+from slider_resonator.choose.probe import Probe
 from slider_resonator.device import schedule
-from slider_resonator.studies.choose.coverage import SIGNAL_NEEDS
-from slider_resonator.studies.choose.probe import Probe
 
 MAX_PERIODS = 10_000
 """Maximum drive periods in a step: beyond, the overhead of a step is negligible."""

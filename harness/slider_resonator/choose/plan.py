@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
+from slider_resonator.choose.scales import NEAR_AN_INTEGER
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.studies.choose.scales import NEAR_AN_INTEGER
 
 SAME = 1e-9
 """Share of a change of an input that counts as rounding."""

@@ -10,28 +10,28 @@ from math import inf
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.fmu.instance import Instance
-from slider_resonator.scenes.need_table import RUN_NEEDS, STEADY_NEEDS
-from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose.beat import lacking_beat, unseen_beat
-from slider_resonator.studies.choose.candidate import START_TOLERANCE, Candidate, Model
-from slider_resonator.studies.choose.carrying import Drift, carried, defect, over_the_scene
-from slider_resonator.studies.choose.cost import AVERAGING_ORDERS
-from slider_resonator.studies.choose.coverage import (
+from slider_resonator.choose.beat import lacking_beat, unseen_beat
+from slider_resonator.choose.candidate import START_TOLERANCE, Candidate, Model
+from slider_resonator.choose.carrying import Drift, carried, defect, over_the_scene
+from slider_resonator.choose.cost import AVERAGING_ORDERS
+from slider_resonator.choose.coverage import (
     MAX_STEPS,
     SIGNAL_NEEDS,
     Coverage,
 )
-from slider_resonator.studies.choose.errors import ErrorEstimate, Estimates, errors
-from slider_resonator.studies.choose.holding import holding_errors, with_holding
-from slider_resonator.studies.choose.input_grid import (
+from slider_resonator.choose.errors import ErrorEstimate, Estimates, errors
+from slider_resonator.choose.holding import holding_errors, with_holding
+from slider_resonator.choose.input_grid import (
     sampled_inputs,
 )
-from slider_resonator.studies.choose.plan import Plan, plan_of
-from slider_resonator.studies.choose.runs import Runs
-from slider_resonator.studies.choose.scales import scales_of
-from slider_resonator.studies.choose.stretch import Samples, Stretch, checkpoints_between
-from slider_resonator.studies.choose.windows import Windows, lay_windows
+from slider_resonator.choose.plan import Plan, plan_of
+from slider_resonator.choose.runs import Runs
+from slider_resonator.choose.scales import scales_of
+from slider_resonator.choose.stretch import Samples, Stretch, checkpoints_between
+from slider_resonator.choose.windows import Windows, lay_windows
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.scenes.need_table import RUN_NEEDS, STEADY_NEEDS
+from slider_resonator.scenes.scene import Scene
 
 HOLDING_STEPS = 500
 """Steps of averaged motion from which the error of holding the inputs follows."""

@@ -6,12 +6,12 @@ from dataclasses import asdict, dataclass
 from itertools import pairwise
 from math import inf, pi, sqrt
 
+from slider_resonator.choose.candidate import LUGRE
 from slider_resonator.device.device import Device
 from slider_resonator.device.signal import Signal
 from slider_resonator.errors import SceneError
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose.candidate import LUGRE
 
 LONG_MEMORY = 100.0
 """Drive periods beyond which memory does not indicate the distance from resonance."""

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf
 
+from slider_resonator.choose.candidate import Candidate
+from slider_resonator.choose.errors import ROUNDING, ErrorEstimate
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.search_result import SearchResult
 from slider_resonator.steady.steady_velocity import find_steady
-from slider_resonator.studies.choose.candidate import Candidate
-from slider_resonator.studies.choose.errors import ROUNDING, ErrorEstimate
 
 EXISTS = {"steady_velocity": ("steady", "stuck"), "blocking_force": ("blocked",)}
 """Outcomes of a search at which a device settles."""

@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from slider_resonator.arrays import Array
+from slider_resonator.choose.input_grid import InputGrid
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose.input_grid import InputGrid
 
 SIGNALS = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
 MAX_CHECKPOINTS = 20_000

@@ -15,15 +15,15 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.measures.deviation import peak
+from slider_resonator.choose.candidate import Model
+from slider_resonator.choose.input_grid import inputs_as_they_vary
+from slider_resonator.choose.scales import Scales, longest_memory
+from slider_resonator.choose.stretch import GOLDEN, Stretch, follow
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose.candidate import Model
-from slider_resonator.studies.choose.input_grid import inputs_as_they_vary
-from slider_resonator.studies.choose.scales import Scales, longest_memory
-from slider_resonator.studies.choose.stretch import GOLDEN, Stretch, follow
 
 WINDOWS = 6
 """Windows spread through the time of a scene, besides those across corners."""

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import click
 
+from slider_resonator.baseline.judge import TOLERANCE
+from slider_resonator.baseline.work import accept, applicable_scenes, check, record
 from slider_resonator.commands.options import fmu_argument, scenes_option, time_limit_option
 from slider_resonator.commands.reports import (
     Reports,
@@ -19,8 +21,6 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.terminal import one_line
 from slider_resonator.scenes.scene_files import files_of_scenes
-from slider_resonator.trials.baseline.judge import TOLERANCE
-from slider_resonator.trials.baseline.work import accept, applicable_scenes, check, record
 
 dir_option = click.option(
     "--dir",

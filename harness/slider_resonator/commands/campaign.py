@@ -26,9 +26,9 @@ from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.targets import distinct
 from slider_resonator.output.terminal import one_line
-from slider_resonator.trials.campaign.campaign_run import TIME_LIMIT, Campaign, run_campaign
-from slider_resonator.trials.campaign.listing import as_plain, sentences
-from slider_resonator.trials.campaign.random_case import random_case
+from slider_resonator.stress.campaign.campaign_run import TIME_LIMIT, Campaign, run_campaign
+from slider_resonator.stress.campaign.listing import as_plain, sentences
+from slider_resonator.stress.campaign.random_case import random_case
 
 
 @click.command("campaign")
@@ -112,7 +112,7 @@ def campaign_command(
             write_text(out, to_json(as_plain(finished), provenance))
         if html is not None:
             # Imported here: it takes longer to load than a case to run.
-            from slider_resonator.trials.campaign.page import write_campaigns
+            from slider_resonator.stress.campaign.page import write_campaigns
 
             write_campaigns(html, finished, provenance)
 

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import click
 
+from slider_resonator.choose import Choice, choose
+from slider_resonator.choose.choosing import TIME_LIMIT
 from slider_resonator.commands.options import (
     SettingsCommand,
     check_left_to_choose,
@@ -22,8 +24,6 @@ from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.scene import read_scene
 from slider_resonator.scenes.scene_files import find_scene
-from slider_resonator.studies.choose import Choice, choose
-from slider_resonator.studies.choose.choosing import TIME_LIMIT
 
 UNITS = {
     "mean_velocity": "m/s",

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from slider_resonator.output.atomic import replacing
-from slider_resonator.studies.trade.result import Row, Trade
-from slider_resonator.studies.trade.solution import QUANTITIES
+from slider_resonator.trade.result import Row, Trade
+from slider_resonator.trade.solution import QUANTITIES
 
 COLUMNS = (
     *("scene", "answer", "kind", "family", "method", "fidelity", "averaging_order"),

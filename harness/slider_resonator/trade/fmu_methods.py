@@ -18,10 +18,10 @@ from slider_resonator.fmu.run import run
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.search_result import SearchResult
 from slider_resonator.steady.steady_velocity import find_steady
-from slider_resonator.studies.trade.method import Label, Method, SteadyAnswer, SteadyMethod
-from slider_resonator.studies.trade.problem import Problem
-from slider_resonator.studies.trade.result import AVERAGED, RESOLVED
-from slider_resonator.studies.trade.solution import Solution
+from slider_resonator.trade.method import Label, Method, SteadyAnswer, SteadyMethod
+from slider_resonator.trade.problem import Problem
+from slider_resonator.trade.result import AVERAGED, RESOLVED
+from slider_resonator.trade.solution import Solution
 
 STEPS = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 """Communication steps in drive periods."""

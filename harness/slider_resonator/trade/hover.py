@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import isfinite
 
 from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, look
-from slider_resonator.studies.trade.result import FLOOR, Row, Trade, curve, families, front
-from slider_resonator.studies.trade.solution import QUANTITIES
-from slider_resonator.studies.trade.summary import duration
+from slider_resonator.trade.result import FLOOR, Row, Trade, curve, families, front
+from slider_resonator.trade.solution import QUANTITIES
+from slider_resonator.trade.summary import duration
 
 
 def work_precision_plot(trade: Trade, quantity: str) -> HoverPlot:

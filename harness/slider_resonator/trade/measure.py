@@ -11,14 +11,14 @@ from typing import Any
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.output.progress import Progress, counted
-from slider_resonator.studies.trade.fmu_methods import FmuMethods, TaskRunner
-from slider_resonator.studies.trade.in_turn import Timed, in_turn
-from slider_resonator.studies.trade.method import Label, Method, SteadyMethod, cpu_seconds
-from slider_resonator.studies.trade.peer_methods import peer_answers, peer_methods
-from slider_resonator.studies.trade.problem import Problem
-from slider_resonator.studies.trade.reference import Reference, find_reference
-from slider_resonator.studies.trade.result import Omission, Row, Trade
-from slider_resonator.studies.trade.solution import QUANTITIES, Solution, errors
+from slider_resonator.trade.fmu_methods import FmuMethods, TaskRunner
+from slider_resonator.trade.in_turn import Timed, in_turn
+from slider_resonator.trade.method import Label, Method, SteadyMethod, cpu_seconds
+from slider_resonator.trade.peer_methods import peer_answers, peer_methods
+from slider_resonator.trade.problem import Problem
+from slider_resonator.trade.reference import Reference, find_reference
+from slider_resonator.trade.result import Omission, Row, Trade
+from slider_resonator.trade.solution import QUANTITIES, Solution, errors
 
 BUDGET = 1.0
 """CPU time (s) for the longest run or search of a method, and as much again for repeats."""

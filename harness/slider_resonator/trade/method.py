@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from time import process_time
 
-from slider_resonator.studies.trade.solution import Solution
+from slider_resonator.trade.solution import Solution
 
 
 @dataclass(frozen=True)

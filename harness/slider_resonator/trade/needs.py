@@ -10,9 +10,9 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.output import html_page, markdown
 from slider_resonator.output.marked_text import write_marked
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.studies.trade.fmu_methods import LAWS
-from slider_resonator.studies.trade.result import PEER, Row, Trade, cheapest
-from slider_resonator.studies.trade.summary import duration
+from slider_resonator.trade.fmu_methods import LAWS
+from slider_resonator.trade.result import PEER, Row, Trade, cheapest
+from slider_resonator.trade.summary import duration
 
 BEGIN, END = "<!-- trade -->", "<!-- end of trade -->"
 SUFFIXES = (".md", ".html")

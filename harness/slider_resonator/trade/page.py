@@ -10,11 +10,11 @@ from slider_resonator.fmu.provenance_text import provenance_html
 from slider_resonator.output.hover_plot import hover_scripts, hover_style, plot_html
 from slider_resonator.output.html_page import escaped, folded, rendered, write_page
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.studies.trade.hover import work_precision_plot
-from slider_resonator.studies.trade.needs import title
-from slider_resonator.studies.trade.result import Omission, Row, Trade
-from slider_resonator.studies.trade.solution import QUANTITIES
-from slider_resonator.studies.trade.summary import comparisons, duration
+from slider_resonator.trade.hover import work_precision_plot
+from slider_resonator.trade.needs import title
+from slider_resonator.trade.result import Omission, Row, Trade
+from slider_resonator.trade.solution import QUANTITIES
+from slider_resonator.trade.summary import comparisons, duration
 
 _COLUMNS = (
     *texts("method"),

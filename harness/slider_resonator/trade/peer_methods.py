@@ -9,13 +9,13 @@ from time import process_time
 
 import numpy as np
 
-from slider_resonator.studies.trade.method import Label, Method, SteadyMethod
-from slider_resonator.studies.trade.peers.peer import Peer
-from slider_resonator.studies.trade.peers.registry import peers
-from slider_resonator.studies.trade.problem import Problem
-from slider_resonator.studies.trade.result import PEER
-from slider_resonator.studies.trade.shooting import shoot
-from slider_resonator.studies.trade.solution import Solution
+from slider_resonator.trade.method import Label, Method, SteadyMethod
+from slider_resonator.trade.peers.peer import Peer
+from slider_resonator.trade.peers.registry import peers
+from slider_resonator.trade.problem import Problem
+from slider_resonator.trade.result import PEER
+from slider_resonator.trade.shooting import shoot
+from slider_resonator.trade.solution import Solution
 
 
 def peer_methods(problem: Problem) -> Iterator[Method]:

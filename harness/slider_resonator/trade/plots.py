@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from slider_resonator.output.plot_style import save, style
-from slider_resonator.studies.trade.result import (
+from slider_resonator.trade.result import (
     AVERAGED,
     FLOOR,
     PEER,

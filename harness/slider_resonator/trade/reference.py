@@ -13,10 +13,10 @@ from slider_resonator.references.resolved import taylor
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import Simulate
-from slider_resonator.studies.trade.peers.peer import solution_of
-from slider_resonator.studies.trade.problem import REFERENCE_STEPS, Problem
-from slider_resonator.studies.trade.shooting import shoot
-from slider_resonator.studies.trade.solution import WindowReadings, windows
+from slider_resonator.trade.peers.peer import solution_of
+from slider_resonator.trade.problem import REFERENCE_STEPS, Problem
+from slider_resonator.trade.shooting import shoot
+from slider_resonator.trade.solution import WindowReadings, windows
 
 SHOOTING = 1e-10
 """Accuracy of the steady state in units of its scale."""

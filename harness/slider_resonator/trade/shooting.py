@@ -14,8 +14,8 @@ from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
     reference_steady_velocity,
 )
-from slider_resonator.studies.trade.method import SteadyAnswer
-from slider_resonator.studies.trade.problem import Problem
+from slider_resonator.trade.method import SteadyAnswer
+from slider_resonator.trade.problem import Problem
 
 
 def shoot(

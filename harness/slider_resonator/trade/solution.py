@@ -12,7 +12,7 @@ from slider_resonator.checks.measures.deviation import peak, share_of
 from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
 from slider_resonator.checks.measures.slow import slow_displacement
 from slider_resonator.device.schedule import nearest
-from slider_resonator.studies.trade.problem import Problem
+from slider_resonator.trade.problem import Problem
 
 QUANTITIES: Mapping[str, str] = {
     "mean_velocity": "mean velocity over a drive period, share of its peak",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from slider_resonator.studies.trade.result import (
+from slider_resonator.trade.result import (
     AVERAGED,
     PEER,
     RESOLVED,

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.studies.closed_loop.duty import Duty, LoadInterval
-from slider_resonator.studies.closed_loop.loop import LoopRecord
+from studies.closed_loop.duty import Duty, LoadInterval
+from studies.closed_loop.loop import LoopRecord
 
 AGREEMENT = 1e-6
 """Difference (m/s) of two fidelities that always counts as agreement."""

@@ -11,11 +11,11 @@ from fmpy.ssp.ssd import read_ssv
 
 from slider_resonator.arrays import Array
 from slider_resonator.errors import HarnessError
-from slider_resonator.studies.closed_loop.duty import Duty
-from slider_resonator.trials.hosts.hosts import Host, package_version
-from slider_resonator.trials.hosts.job import Job
-from slider_resonator.trials.hosts.runs import TIME_LIMIT, run_jobs
-from slider_resonator.trials.hosts.ssp_package import WITH_CONNECTORS
+from studies.closed_loop.duty import Duty
+from studies.hosts.hosts import Host, package_version
+from studies.hosts.job import Job
+from studies.hosts.runs import TIME_LIMIT, run_jobs
+from studies.hosts.ssp_package import WITH_CONNECTORS
 
 DESIGN, PROOF = "design", "proof"
 """The parameter sets in the package: averaged motion, and the full device."""

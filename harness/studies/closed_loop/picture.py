@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 
 from slider_resonator.arrays import Array
 from slider_resonator.output.plot_style import COLOURS, save, style
-from slider_resonator.studies.closed_loop.duty import Duty
-from slider_resonator.studies.closed_loop.judge import Agreement
-from slider_resonator.studies.closed_loop.loop import LoopRecord
+from studies.closed_loop.duty import Duty
+from studies.closed_loop.judge import Agreement
+from studies.closed_loop.loop import LoopRecord
 
 DESIGN_COLOUR, PROOF_COLOUR = COLOURS["theory"], COLOURS["slow"]
 BAND_COLOUR = "#d8e6ee"

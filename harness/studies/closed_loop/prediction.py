@@ -10,17 +10,17 @@ from pathlib import Path
 
 from fmpy.ssp.ssd import read_ssd
 
+from slider_resonator.choose.candidate import START_TOLERANCE, Candidate, Model
+from slider_resonator.choose.choosing import TIME_LIMIT
+from slider_resonator.choose.probe import Probe
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.output.temporary import temporary_folder
 from slider_resonator.scenes.scene import Scene, scene_from
-from slider_resonator.studies.choose.candidate import START_TOLERANCE, Candidate, Model
-from slider_resonator.studies.choose.choosing import TIME_LIMIT
-from slider_resonator.studies.choose.probe import Probe
-from slider_resonator.studies.closed_loop.duty import Duty, LoadInterval
-from slider_resonator.studies.closed_loop.loop import DESIGN, FIDELITY, LoopRecord, parameters
+from studies.closed_loop.duty import Duty, LoadInterval
+from studies.closed_loop.loop import DESIGN, FIDELITY, LoopRecord, parameters
 
 FIRST = 10
 """Communication steps after a step of the load, at each of whose ends the error is predicted."""

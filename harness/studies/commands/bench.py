@@ -22,7 +22,7 @@ from slider_resonator.output.console import nothing_kept, noting_on_interrupt
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.trials.hosts.step_cost import StepCost, measure_steps, short_step_ratio
+from studies.hosts.step_cost import StepCost, measure_steps, short_step_ratio
 
 
 @click.command("bench")
@@ -44,8 +44,8 @@ def bench_command(fmu: Path | None, repeats: int, time_limit: float, as_json: bo
 
     \b
     Examples:
-      slider-resonator bench
-      slider-resonator bench my.fmu --repeats 11 --json
+      python -m harness bench
+      python -m harness bench my.fmu --repeats 11 --json
     """
     path = default_fmu(fmu)
     provenance = provenance_of(path)

@@ -28,8 +28,8 @@ def build_command(context: click.Context, arguments: tuple[str, ...]) -> None:
 
     \b
     Examples:
-      slider-resonator build
-      slider-resonator build --only native --platform host
+      python -m harness build
+      python -m harness build --only native --platform host
     """
     if not SCRIPT.is_file():
         raise HarnessError(

@@ -23,17 +23,17 @@ from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line
-from slider_resonator.studies.closed_loop.duty import Duty
-from slider_resonator.studies.closed_loop.judge import (
+from studies.closed_loop.duty import Duty
+from studies.closed_loop.judge import (
     Agreement,
     IntervalResult,
     judge_agreement,
     judge_intervals,
 )
-from slider_resonator.studies.closed_loop.loop import HOSTS, LoopRecord, run_loop
-from slider_resonator.studies.closed_loop.picture import draw_loop
-from slider_resonator.studies.closed_loop.prediction import predicted_errors
-from slider_resonator.trials.hosts.runs import TIME_LIMIT
+from studies.closed_loop.loop import HOSTS, LoopRecord, run_loop
+from studies.closed_loop.picture import draw_loop
+from studies.closed_loop.prediction import predicted_errors
+from studies.hosts.runs import TIME_LIMIT
 
 PACKAGE = "ClosedLoop.ssp"
 NAMES = [host.name for host in HOSTS]
@@ -80,8 +80,8 @@ def closed_loop_command(
 
     \b
     Examples:
-      slider-resonator closed-loop --out closed_loop
-      slider-resonator closed-loop --out closed_loop --host fmpy --host libcosimpy --json
+      python -m harness closed-loop --out closed_loop
+      python -m harness closed-loop --out closed_loop --host fmpy --host libcosimpy --json
     """
     package, duty = package or finished_path(PACKAGE, COMMANDS_LOOK_IN), Duty()
     if not package.is_file():

@@ -22,9 +22,9 @@ from slider_resonator.output.console import nothing_kept, noting_on_interrupt
 from slider_resonator.output.progress import counted
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, texts, verdict
-from slider_resonator.trials.hosts.hosts import OWN_ENVIRONMENTS, Host, hosts
-from slider_resonator.trials.hosts.runs import ALLOWED, TIME_LIMIT, HostResult, run_host
-from slider_resonator.trials.hosts.table import host_table, write_table
+from studies.hosts.hosts import OWN_ENVIRONMENTS, Host, hosts
+from studies.hosts.runs import ALLOWED, TIME_LIMIT, HostResult, run_host
+from studies.hosts.table import host_table, write_table
 
 NAMES = [host.name for host in hosts()]
 
@@ -89,9 +89,9 @@ def hosts_command(
 
     \b
     Examples:
-      slider-resonator hosts
-      slider-resonator hosts my.fmu --host "C driver" --json
-      slider-resonator hosts --out docs/hosts.md
+      python -m harness hosts
+      python -m harness hosts my.fmu --host "C driver" --json
+      python -m harness hosts --out docs/hosts.md
     """
     python = python_fmu or finished_path(FMUS["python"], COMMANDS_LOOK_IN)
     native_3 = fmi3_fmu or finished_path(FMUS["fmi3"], COMMANDS_LOOK_IN)

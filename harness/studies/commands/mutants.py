@@ -22,30 +22,30 @@ from slider_resonator.output.console import nothing_kept, noting_on_interrupt, o
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.targets import distinct
 from slider_resonator.scenes.scene_files import files_of_scenes
-from slider_resonator.studies.sweep.local import available_cores
-from slider_resonator.trials.mutants.archive import read_python_fmu
-from slider_resonator.trials.mutants.enumerate_fmu import fmu_mutants, sample
-from slider_resonator.trials.mutants.listing import (
+from slider_resonator.sweep.local import available_cores
+from studies.mutants.archive import read_python_fmu
+from studies.mutants.enumerate_fmu import fmu_mutants, sample
+from studies.mutants.listing import (
     mutant_as_plain,
     print_mutants,
     print_run,
     run_as_plain,
 )
-from slider_resonator.trials.mutants.mutant import KINDS
-from slider_resonator.trials.mutants.mutation_run import PROBES, TIME_LIMIT, run_mutants
-from slider_resonator.trials.mutants.native.changes import (
+from studies.mutants.mutant import KINDS
+from studies.mutants.mutation_run import PROBES, TIME_LIMIT, run_mutants
+from studies.mutants.native.changes import (
     Change,
     hand_written_faults,
     harmless_variants,
 )
-from slider_resonator.trials.mutants.native.listing import (
+from studies.mutants.native.listing import (
     change_as_plain,
     native_run_as_plain,
     print_changes,
     print_native_run,
 )
-from slider_resonator.trials.mutants.native.native_run import run_changes
-from slider_resonator.trials.mutants.page import write_mutants
+from studies.mutants.native.native_run import run_changes
+from studies.mutants.page import write_mutants
 
 MIN_RATE = 0.95
 """Share of the mutants that change a result that must be rejected for a pass."""
@@ -146,11 +146,11 @@ def mutants_command(
 
     \b
     Examples:
-      slider-resonator mutants --list --file coulomb.py
-      slider-resonator mutants --sample 200 --seed 1 --html mutants.html
-      slider-resonator mutants --kind event --kind input --kind parameter --kind unit
-      slider-resonator mutants --file coulomb.py --json > mutants.json
-      slider-resonator mutants --native --file lugre.c
+      python -m harness mutants --list --file coulomb.py
+      python -m harness mutants --sample 200 --seed 1 --html mutants.html
+      python -m harness mutants --kind event --kind input --kind parameter --kind unit
+      python -m harness mutants --file coulomb.py --json > mutants.json
+      python -m harness mutants --native --file lugre.c
     """
     if native:
         if kinds or html is not None:

@@ -17,8 +17,8 @@ from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.terminal import one_line
-from slider_resonator.studies.paper.listing import verdicts
-from slider_resonator.studies.paper.reproduce import NAMES, TIME_LIMIT, Outcome, reproduce
+from studies.paper.listing import verdicts
+from studies.paper.reproduce import NAMES, TIME_LIMIT, Outcome, reproduce
 
 
 @click.command("paper")
@@ -51,8 +51,8 @@ def paper_command(
 
     \b
     Examples:
-      slider-resonator paper --out paper
-      slider-resonator paper --out paper --only figure_8 --only claims --json
+      python -m harness paper --out paper
+      python -m harness paper --out paper --only figure_8 --only claims --json
     """
     path = default_fmu(fmu)
     provenance = provenance_of(path)

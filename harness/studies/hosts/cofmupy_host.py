@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cofmupy import Coordinator
 
-from slider_resonator.trials.hosts.job import Job, Rows, serve
+from studies.hosts.job import Job, Rows, serve
 
 SLIDER = "slider"
 

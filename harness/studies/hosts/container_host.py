@@ -14,8 +14,8 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
-from slider_resonator.trials.hosts import fmpy_host
-from slider_resonator.trials.hosts.job import Job, Rows, serve
+from studies.hosts import fmpy_host
+from studies.hosts.job import Job, Rows, serve
 
 LEADER, FOLLOWER, PAIR = "leader.fmu", "follower.fmu", "pair.fmu"
 

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from slider_resonator.trials.hosts.compiler import SOURCES, compile_program, native_compiler
-from slider_resonator.trials.hosts.job import Job, Rows, describe, serve
+from studies.hosts.compiler import SOURCES, compile_program, native_compiler
+from studies.hosts.job import Job, Rows, describe, serve
 
 BINARY = {
     "Linux": ("linux64", ".so"),

@@ -6,7 +6,7 @@ import ctypes
 import sys
 from pathlib import Path
 
-from slider_resonator.trials.hosts.job import Job, Rows, serve
+from studies.hosts.job import Job, Rows, serve
 
 SLIDER = "slider"
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from slider_resonator.trials.hosts.ecos_host import preload_tbb
-from slider_resonator.trials.hosts.job import Job, Rows, serve
-from slider_resonator.trials.hosts.ssp_package import system_inputs
+from studies.hosts.ecos_host import preload_tbb
+from studies.hosts.job import Job, Rows, serve
+from studies.hosts.ssp_package import system_inputs
 
 
 def run(job: Job) -> Rows:

@@ -8,7 +8,7 @@ from fmpy import extract
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 
-from slider_resonator.trials.hosts.job import Description, Job, Rows, describe, serve
+from studies.hosts.job import Description, Job, Rows, describe, serve
 
 
 def run(job: Job) -> Rows:

@@ -11,8 +11,8 @@ from pathlib import Path
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import Parameter, ParameterSet
 
-from slider_resonator.trials.hosts.job import Job, Rows, serve
-from slider_resonator.trials.hosts.ssp_package import write_with_connectors
+from studies.hosts.job import Job, Rows, serve
+from studies.hosts.ssp_package import write_with_connectors
 
 
 def run(job: Job) -> Rows:

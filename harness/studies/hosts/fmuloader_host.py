@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fmuloader.fmi2 import Fmi2Slave, Fmi2Type
 
-from slider_resonator.trials.hosts.job import Job, Rows, describe, serve
+from studies.hosts.job import Job, Rows, describe, serve
 
 
 def run(job: Job) -> Rows:

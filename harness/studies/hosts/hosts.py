@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.trials.hosts.compiler import compiler_version, native_compiler, zig_compiler
+from studies.hosts.compiler import compiler_version, native_compiler, zig_compiler
 
 OWN_ENVIRONMENTS = Path(".venv-hosts")
 """Where `make hosts` puts an environment each for CoFmuPy, which pins old versions of fmpy and
@@ -22,7 +22,7 @@ INSTALL = "`make hosts` installs it"
 
 @dataclass(frozen=True)
 class Host:
-    """A simulator, run as `python -m slider_resonator.trials.hosts.MODULE`.
+    """A simulator, run as `python -m studies.hosts.MODULE`.
 
     `version` raises HarnessError where the host is missing. `loads_python` is whether it can
     load an FMU that needs Python in the process, `loads_fmi_3` whether it can load one of FMI 3.0,

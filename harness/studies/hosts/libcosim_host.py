@@ -10,7 +10,7 @@ from libcosimpy.CosimManipulator import CosimManipulator
 from libcosimpy.CosimObserver import CosimObserver
 from libcosimpy.CosimSlave import CosimLocalSlave
 
-from slider_resonator.trials.hosts.job import Job, Rows, describe, serve
+from studies.hosts.job import Job, Rows, describe, serve
 
 NANOSECONDS = 1e9
 

@@ -14,14 +14,14 @@ from fmpy.ssp.ssd import read_ssd
 from libcosimpy.CosimExecution import CosimExecution
 from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
 
-from slider_resonator.trials.hosts.job import Description, Job, Rows, describe, serve
-from slider_resonator.trials.hosts.libcosim_host import (
+from studies.hosts.job import Description, Job, Rows, describe, serve
+from studies.hosts.libcosim_host import (
     NANOSECONDS,
     Variable,
     set_initial,
     stepped,
 )
-from slider_resonator.trials.hosts.ssp_package import system_inputs
+from studies.hosts.ssp_package import system_inputs
 
 
 class _Components:

@@ -8,7 +8,7 @@ from pathsim import Connection, Simulation
 from pathsim.blocks import Scope, Source
 from pathsim_fmi import CoSimulationFMU
 
-from slider_resonator.trials.hosts.job import Job, Rows, serve
+from studies.hosts.job import Job, Rows, serve
 
 
 def run(job: Job) -> Rows:

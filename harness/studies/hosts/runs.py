@@ -12,9 +12,9 @@ import numpy as np
 from slider_resonator.device.interface import OUTPUTS
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.temporary import temporary_folder
-from slider_resonator.trials.hosts.hosts import Host
-from slider_resonator.trials.hosts.job import HostAnswer, Job, Rows, read_answers, write_jobs
-from slider_resonator.trials.hosts.program import run_program
+from studies.hosts.hosts import Host
+from studies.hosts.job import HostAnswer, Job, Rows, read_answers, write_jobs
+from studies.hosts.program import run_program
 
 STEP, STEPS = 1e-3, 40
 
@@ -106,7 +106,7 @@ def run_jobs(host: Host, jobs: Sequence[Job], time_limit: float = TIME_LIMIT) ->
         write_jobs(todo, jobs)
         # Else a link would stand for the interpreter that it leads to, without its packages.
         python = os.path.abspath(host.python)
-        command = [python, "-P", "-m", f"slider_resonator.trials.hosts.{host.module}"]
+        command = [python, "-P", "-m", f"studies.hosts.{host.module}"]
         end = run_program([*command, str(todo), str(done)], folder, log, time_limit)
         answers = read_answers(done)
         printed = log.read_text(errors="replace").strip()[-MAX_PRINTED:]

@@ -10,9 +10,9 @@ from statistics import median
 
 from slider_resonator.errors import FmuError
 from slider_resonator.output.progress import Progress, counted
-from slider_resonator.trials.hosts.driver_host import DriverFiles, initialised, run_natively
-from slider_resonator.trials.hosts.job import describe
-from slider_resonator.trials.hosts.program import run_program
+from studies.hosts.driver_host import DriverFiles, initialised, run_natively
+from studies.hosts.job import describe
+from studies.hosts.program import run_program
 
 
 @dataclass(frozen=True)

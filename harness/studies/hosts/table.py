@@ -8,7 +8,7 @@ from pathlib import Path
 from slider_resonator.output import markdown
 from slider_resonator.output.marked_text import write_marked
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
-from slider_resonator.trials.hosts.runs import CASES, HostComparison, HostResult
+from studies.hosts.runs import CASES, HostComparison, HostResult
 
 BEGIN, END = "<!-- hosts -->", "<!-- end of hosts -->"
 COLUMNS = (*texts("host", "version", "FMU"), *numbers(*(case.title for case in CASES)))

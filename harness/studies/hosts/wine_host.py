@@ -9,15 +9,15 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path, PureWindowsPath
 
-from slider_resonator.trials.hosts.compiler import SOURCES, WINDOWS, compile_program, zig_compiler
-from slider_resonator.trials.hosts.driver_host import (
+from studies.hosts.compiler import SOURCES, WINDOWS, compile_program, zig_compiler
+from studies.hosts.driver_host import (
     BINARY,
     commands,
     execute_directly,
     run_driver,
     temporary_folder,
 )
-from slider_resonator.trials.hosts.job import Job, Rows, serve
+from studies.hosts.job import Job, Rows, serve
 
 LIKE_THE_FMU = ("-g0", "-s")
 """The options of the FMU's build: with others ziglang would first build another C library."""

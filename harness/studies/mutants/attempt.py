@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from slider_resonator.trials.mutants.reach import Place
-from slider_resonator.trials.mutants.trial import ExpectedPoint, Rejection
+from studies.mutants.reach import Place
+from studies.mutants.trial import ExpectedPoint, Rejection
 
 
 @dataclass(frozen=True)

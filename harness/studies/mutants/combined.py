@@ -6,8 +6,8 @@ import threading
 from collections.abc import Sequence
 from functools import cache
 
-from slider_resonator.trials.mutants.mutant import Mutant
-from slider_resonator.trials.mutants.reach import noting_source
+from studies.mutants.mutant import Mutant
+from studies.mutants.reach import noting_source
 
 _PARSING = threading.Lock()
 """Threads of Python 3.11 that parse at once may end in SystemError (python/cpython#106905)."""

@@ -7,11 +7,11 @@ from random import Random
 from typing import TypeVar
 
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
-from slider_resonator.trials.mutants.archive import DESCRIPTION, PythonFmu
-from slider_resonator.trials.mutants.enumerate_source import source_mutants
-from slider_resonator.trials.mutants.faults import fault_mutants, missing_names
-from slider_resonator.trials.mutants.mutant import Mutant
-from slider_resonator.trials.mutants.units import unit_mutants
+from studies.mutants.archive import DESCRIPTION, PythonFmu
+from studies.mutants.enumerate_source import source_mutants
+from studies.mutants.faults import fault_mutants, missing_names
+from studies.mutants.mutant import Mutant
+from studies.mutants.units import unit_mutants
 
 Change = TypeVar("Change")
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from slider_resonator.trials.mutants.mutant import Mutant
-from slider_resonator.trials.mutants.operators import Edit, Source, edits, negated
+from studies.mutants.mutant import Mutant
+from studies.mutants.operators import Edit, Source, edits, negated
 
 _SHOWN = 40
 """Characters of a removed statement that its name repeats."""

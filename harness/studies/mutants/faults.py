@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS
-from slider_resonator.trials.mutants.mutant import Mutant
+from studies.mutants.mutant import Mutant
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from slider_resonator.trials.mutants.trial import Rejection
+from studies.mutants.trial import Rejection
 
 Member = TypeVar("Member")
 

@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from slider_resonator.output.journal import Journal
-from slider_resonator.trials.mutants.mutant import Mutant
-from slider_resonator.trials.mutants.trial import ExpectedPoint
-from slider_resonator.trials.mutants.verdict import MutantVerdict
+from studies.mutants.mutant import Mutant
+from studies.mutants.trial import ExpectedPoint
+from studies.mutants.verdict import MutantVerdict
 
 
 def open_journal(path: Path, fmu: Path, points: Sequence[ExpectedPoint]) -> Journal:

@@ -13,8 +13,8 @@ from slider_resonator.output.fitting_text import fitting, terminal_width
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Row, Style, Table, numbers, texts
 from slider_resonator.output.terminal import escaped, rendered
-from slider_resonator.trials.mutants.mutant import KINDS, Mutant
-from slider_resonator.trials.mutants.verdict import STATUSES, SURVIVED, MutationRun
+from studies.mutants.mutant import KINDS, Mutant
+from studies.mutants.verdict import STATUSES, SURVIVED, MutationRun
 
 MAX_REJECTIONS = 12
 """Rows of the table of rejecting checks; all are in the JSON document."""

@@ -12,17 +12,17 @@ from random import Random
 from slider_resonator.errors import FmuError
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.temporary import temporary_folder
-from slider_resonator.trials.mutants.archive import PythonFmu
-from slider_resonator.trials.mutants.attempt import Bench
-from slider_resonator.trials.mutants.kept_verdicts import entry_of, open_journal, verdicts_on
-from slider_resonator.trials.mutants.mutant import Mutant
-from slider_resonator.trials.mutants.points import probe_points, scene_points
-from slider_resonator.trials.mutants.probes import probe_scenes
-from slider_resonator.trials.mutants.reach import reaches
-from slider_resonator.trials.mutants.staged_trials import StagedTrials
-from slider_resonator.trials.mutants.trial import ExpectedPoint, trial
-from slider_resonator.trials.mutants.trial_client import trial_servers
-from slider_resonator.trials.mutants.verdict import MutantVerdict, MutationRun
+from studies.mutants.archive import PythonFmu
+from studies.mutants.attempt import Bench
+from studies.mutants.kept_verdicts import entry_of, open_journal, verdicts_on
+from studies.mutants.mutant import Mutant
+from studies.mutants.points import probe_points, scene_points
+from studies.mutants.probes import probe_scenes
+from studies.mutants.reach import reaches
+from studies.mutants.staged_trials import StagedTrials
+from studies.mutants.trial import ExpectedPoint, trial
+from studies.mutants.trial_client import trial_servers
+from studies.mutants.verdict import MutantVerdict, MutationRun
 
 TIME_LIMIT = 30.0
 """Seconds for a mutant and a scene or point of a sweep; the slowest built-in one takes a few."""

@@ -9,8 +9,8 @@ from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.fmu.provenance_text import provenance_html
 from slider_resonator.output.html_page import escaped, rendered, write_page
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.trials.mutants.listing import rejections, summary, tally
-from slider_resonator.trials.mutants.verdict import (
+from studies.mutants.listing import rejections, summary, tally
+from studies.mutants.verdict import (
     EQUIVALENT,
     NOT_REACHED,
     STATUSES,

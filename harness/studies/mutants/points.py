@@ -12,8 +12,8 @@ from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.checks.validate import points_to_check
 from slider_resonator.output.progress import Progress, counted
 from slider_resonator.scenes.scene import Scene, read_scene
-from slider_resonator.trials.mutants.probes import allowed_share
-from slider_resonator.trials.mutants.trial import ExpectedPoint, Observed, observe
+from studies.mutants.probes import allowed_share
+from studies.mutants.trial import ExpectedPoint, Observed, observe
 
 
 def scene_points(files: Sequence[Path], progress: Progress) -> list[ExpectedPoint]:

@@ -19,9 +19,9 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.measuring import measure_all
 from slider_resonator.output.temporary import temporary_folder
-from slider_resonator.trials.mutants.archive import PythonFmu
-from slider_resonator.trials.mutants.enumerate_source import Function, blocks
-from slider_resonator.trials.mutants.trial import ExpectedPoint
+from studies.mutants.archive import PythonFmu
+from studies.mutants.enumerate_source import Function, blocks
+from studies.mutants.trial import ExpectedPoint
 
 Place = tuple[str, int]
 """Module and line in which a statement begins."""

@@ -13,16 +13,16 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import Executor, as_completed
 
 from slider_resonator.output.temporary import temporary_folder
-from slider_resonator.trials.mutants.archive import PythonFmu
-from slider_resonator.trials.mutants.attempt import Attempt, Bench
-from slider_resonator.trials.mutants.combined import combined_sources, groups_of
-from slider_resonator.trials.mutants.group_trials import Outcome, rejected_members
-from slider_resonator.trials.mutants.mutant import Mutant
-from slider_resonator.trials.mutants.reach import Place
-from slider_resonator.trials.mutants.rejecting_points import RejectingPoints
-from slider_resonator.trials.mutants.trial import Rejection, trial
-from slider_resonator.trials.mutants.trial_client import TrialServers
-from slider_resonator.trials.mutants.verdict import (
+from studies.mutants.archive import PythonFmu
+from studies.mutants.attempt import Attempt, Bench
+from studies.mutants.combined import combined_sources, groups_of
+from studies.mutants.group_trials import Outcome, rejected_members
+from studies.mutants.mutant import Mutant
+from studies.mutants.reach import Place
+from studies.mutants.rejecting_points import RejectingPoints
+from studies.mutants.trial import Rejection, trial
+from studies.mutants.trial_client import TrialServers
+from studies.mutants.verdict import (
     EQUIVALENT,
     NOT_REACHED,
     REJECTED,

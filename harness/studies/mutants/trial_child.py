@@ -15,9 +15,9 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import FmuError, HarnessError, NotApplicable
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.opening import Fmu
-from slider_resonator.trials.mutants.attempt import Attempt, Attempted, Bench
-from slider_resonator.trials.mutants.reach import Place, forget_noted, noted_places
-from slider_resonator.trials.mutants.trial import (
+from studies.mutants.attempt import Attempt, Attempted, Bench
+from studies.mutants.reach import Place, forget_noted, noted_places
+from studies.mutants.trial import (
     Rejection,
     judge,
     observe,

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.child_environment import child_environment
-from slider_resonator.trials.mutants.attempt import Attempt, Attempted, Bench
+from studies.mutants.attempt import Attempt, Attempted, Bench
 
 
 class TrialServers:

@@ -1,6 +1,6 @@
 """The process that forks trials.
 
-`python -m slider_resonator.trials.mutants.trial_server FILE` loads the `Bench` pickled in FILE, and
+`python -m studies.mutants.trial_server FILE` loads the `Bench` pickled in FILE, and
 all that a trial needs, once. Then it forks a process for each pickled `Attempt` that it reads from
 its standard input and writes the `Attempted`, or an exception, to its standard output. Python, its
 modules and the references take longer to load than most scenes take to run. SIGTERM ends it, and
@@ -23,10 +23,10 @@ from pathlib import Path
 
 from slider_resonator.fmu.opening import Fmu, open_fmu
 from slider_resonator.output.temporary import temporary_folder
-from slider_resonator.trials.mutants.attempt import Attempt, Attempted, Bench
-from slider_resonator.trials.mutants.trial import Rejection
-from slider_resonator.trials.mutants.trial_child import run_in_child
-from slider_resonator.trials.mutants.variant_folder import VariantFolder
+from studies.mutants.attempt import Attempt, Attempted, Bench
+from studies.mutants.trial import Rejection
+from studies.mutants.trial_child import run_in_child
+from studies.mutants.variant_folder import VariantFolder
 
 PATIENCE = 10.0
 """Wall time that a point may take over the limit of its CPU time: the machine may be busy."""

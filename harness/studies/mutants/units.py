@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from slider_resonator.trials.mutants.archive import DESCRIPTION
-from slider_resonator.trials.mutants.mutant import Mutant
+from studies.mutants.archive import DESCRIPTION
+from studies.mutants.mutant import Mutant
 
 _DEFINED = re.compile(r'<Unit name="([^"]+)"')
 _VARIABLE = re.compile(r'<ScalarVariable name="(\w+)"[^>]*>\s*<Real( unit="([^"]+)")')

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from slider_resonator.trials.mutants.mutant import Mutant
+from studies.mutants.mutant import Mutant
 
 REJECTED = "rejected"
 SURVIVED = "survived"

@@ -10,10 +10,10 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references import closed_forms
 from slider_resonator.references.averaged import uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from slider_resonator.studies.paper import labels
-from slider_resonator.studies.paper.figure import SHADES, Data, PaperFigure, curve, panels
-from slider_resonator.studies.paper.mapping import coulomb_case, lugre_case
-from slider_resonator.studies.paper.measure import steady_velocity
+from studies.paper import labels
+from studies.paper.figure import SHADES, Data, PaperFigure, curve, panels
+from studies.paper.mapping import coulomb_case, lugre_case
+from studies.paper.measure import steady_velocity
 
 PHASE, AMPLITUDE_RATIO = 1.0, 0.8
 CASE = LugreCase(phase=PHASE, amplitude_ratio=AMPLITUDE_RATIO)

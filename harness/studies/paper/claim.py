@@ -44,7 +44,7 @@ class ClaimGroup:
 @cache
 def statements() -> Mapping[str, Mapping[str, str]]:
     """Return the statements by name: where, statement, verdict and why."""
-    file = resources.files("slider_resonator.studies.paper") / "claims.toml"
+    file = resources.files("studies.paper") / "claims.toml"
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
 

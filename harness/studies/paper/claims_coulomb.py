@@ -10,9 +10,9 @@ import numpy as np
 from slider_resonator.checks.measures.ripple import ripple_amplitude
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references import closed_forms
-from slider_resonator.studies.paper.claim import Claim, ClaimGroup, claim, labelled, near
-from slider_resonator.studies.paper.mapping import coulomb_case
-from slider_resonator.studies.paper.measure import blocking_force, record, steady_velocity
+from studies.paper.claim import Claim, ClaimGroup, claim, labelled, near
+from studies.paper.mapping import coulomb_case
+from studies.paper.measure import blocking_force, record, steady_velocity
 
 FREQUENCY = 1000.0
 HIGH_FREQUENCY = 10000.0

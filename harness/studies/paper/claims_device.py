@@ -10,8 +10,8 @@ from slider_resonator.checks.measures.ripple import ripple_amplitude
 from slider_resonator.device.device import Device
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.closed_forms import device_blocking_force, equivalent_force
-from slider_resonator.studies.paper.claim import Claim, ClaimGroup, claim, near
-from slider_resonator.studies.paper.measure import blocking_force, record, steady_motion
+from studies.paper.claim import Claim, ClaimGroup, claim, near
+from studies.paper.measure import blocking_force, record, steady_motion
 
 FAST = {"base_amplitude": 1e-5, "drive_frequency": 35000.0, "resonator_frequency": 35000.0}
 RIPPLE_PERIODS = 8

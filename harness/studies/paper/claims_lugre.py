@@ -10,9 +10,9 @@ import numpy as np
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from slider_resonator.studies.paper.claim import Claim, ClaimGroup, claim, labelled, near
-from slider_resonator.studies.paper.mapping import lugre_case
-from slider_resonator.studies.paper.measure import blocking_force, steady_velocity
+from studies.paper.claim import Claim, ClaimGroup, claim, labelled, near
+from studies.paper.mapping import lugre_case
+from studies.paper.measure import blocking_force, steady_velocity
 
 FREQUENCY = 1000.0
 SOFT = 10.0

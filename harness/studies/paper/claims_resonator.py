@@ -11,10 +11,10 @@ from slider_resonator.checks.measures.frequency import dominant_frequency
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_coulomb
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.studies.paper.claim import Claim, ClaimGroup, claim, labelled, near
-from slider_resonator.studies.paper.figure_7 import CASE, PERIOD, STOP_PERIODS
-from slider_resonator.studies.paper.figure_8 import DEVICE, velocity_at
-from slider_resonator.studies.paper.measure import blocking_force, record, steady_velocity
+from studies.paper.claim import Claim, ClaimGroup, claim, labelled, near
+from studies.paper.figure_7 import CASE, PERIOD, STOP_PERIODS
+from studies.paper.figure_8 import DEVICE, velocity_at
+from studies.paper.measure import blocking_force, record, steady_velocity
 
 DETUNINGS = (1.0, 2.0, 4.0, 8.0)
 BEATS = 6

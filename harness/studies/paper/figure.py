@@ -13,7 +13,7 @@ from matplotlib.figure import Figure as Drawing
 
 from slider_resonator.arrays import Array
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.studies.paper import labels
+from studies.paper import labels
 
 LINE_POINTS = 121
 """Points of a line over a panel."""

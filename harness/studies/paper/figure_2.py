@@ -13,10 +13,10 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_coulomb, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase, fast_displacement
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
-from slider_resonator.studies.paper import labels
-from slider_resonator.studies.paper.figure import SHADES, Data, PaperFigure, markers, panels
-from slider_resonator.studies.paper.mapping import Values, coulomb_case, lugre_case
-from slider_resonator.studies.paper.measure import plain, record
+from studies.paper import labels
+from studies.paper.figure import SHADES, Data, PaperFigure, markers, panels
+from studies.paper.mapping import Values, coulomb_case, lugre_case
+from studies.paper.measure import plain, record
 
 STOP = 8.0
 STRENGTH = 1.0

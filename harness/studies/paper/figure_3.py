@@ -8,9 +8,9 @@ import numpy as np
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references import closed_forms
-from slider_resonator.studies.paper.figure import SHADES, Line, SweptPanel, swept_figure
-from slider_resonator.studies.paper.mapping import coulomb_case
-from slider_resonator.studies.paper.measure import steady_velocity
+from studies.paper.figure import SHADES, Line, SweptPanel, swept_figure
+from studies.paper.mapping import coulomb_case
+from studies.paper.measure import steady_velocity
 
 FREQUENCY = 1000.0
 

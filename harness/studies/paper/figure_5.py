@@ -9,9 +9,9 @@ import numpy as np
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from slider_resonator.studies.paper.figure import SHADES, Line, SweptPanel, swept_figure
-from slider_resonator.studies.paper.mapping import lugre_case
-from slider_resonator.studies.paper.measure import steady_velocity
+from studies.paper.figure import SHADES, Line, SweptPanel, swept_figure
+from studies.paper.mapping import lugre_case
+from studies.paper.measure import steady_velocity
 
 FREQUENCY = 1000.0
 STIFFNESS = 100.0

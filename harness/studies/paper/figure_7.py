@@ -13,10 +13,10 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_coulomb
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.studies.paper import labels
-from slider_resonator.studies.paper.figure import SHADES, Data, PaperFigure, markers, panels
-from slider_resonator.studies.paper.mapping import resonator_case
-from slider_resonator.studies.paper.measure import plain, record
+from studies.paper import labels
+from studies.paper.figure import SHADES, Data, PaperFigure, markers, panels
+from studies.paper.mapping import resonator_case
+from studies.paper.measure import plain, record
 
 PHASE = 0.85
 CASE = resonator_case(0.1, 100.0, 100.0, 0.01, amplitude_ratio=1.0, phase=PHASE, damping_ratio=0.05)

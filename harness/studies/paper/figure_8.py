@@ -18,15 +18,15 @@ from slider_resonator.references.averaged.averaged_coulomb import (
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.steady.steady_velocity import find_steady
-from slider_resonator.studies.paper import labels
-from slider_resonator.studies.paper.figure import (
+from studies.paper import labels
+from studies.paper.figure import (
     SHADES,
     Data,
     PaperFigure,
     markers,
     panels,
 )
-from slider_resonator.studies.paper.measure import plain, record
+from studies.paper.measure import plain, record
 
 DEVICE = Device()
 PERIOD = 2.0 * pi / DEVICE.drive_frequency

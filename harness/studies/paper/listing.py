@@ -12,9 +12,9 @@ from slider_resonator.output import html_page, markdown
 from slider_resonator.output.atomic import write_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
-from slider_resonator.studies.paper.claim import Claim
-from slider_resonator.studies.paper.figure import Data, PaperFigure
-from slider_resonator.studies.paper.table import PaperTable
+from studies.paper.claim import Claim
+from studies.paper.figure import Data, PaperFigure
+from studies.paper.table import PaperTable
 
 HEAD = (
     "The FMU runs with masses, loads and reference frequency of 1, so that its SI values are the "

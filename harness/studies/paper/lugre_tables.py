@@ -9,9 +9,9 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.studies.paper.mapping import lugre_case
-from slider_resonator.studies.paper.measure import blocking_force, steady_velocity
-from slider_resonator.studies.paper.table import PaperTable, rows_over
+from studies.paper.mapping import lugre_case
+from studies.paper.measure import blocking_force, steady_velocity
+from studies.paper.table import PaperTable, rows_over
 
 KAPPAS = tuple(np.geomspace(0.01, 1000.0, 11).tolist())
 CASE = LugreCase()

@@ -19,7 +19,7 @@ from slider_resonator.output.json_output import to_json
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.output.progress import Progress, counted
 from slider_resonator.output.targets import make_folder
-from slider_resonator.studies.paper import (
+from studies.paper import (
     average_error,
     claims_coulomb,
     claims_device,
@@ -35,15 +35,15 @@ from slider_resonator.studies.paper import (
     stiffness_validity,
     velocity_map,
 )
-from slider_resonator.studies.paper.claim import Claim, ClaimGroup
-from slider_resonator.studies.paper.figure import Data, PaperFigure
-from slider_resonator.studies.paper.listing import (
+from studies.paper.claim import Claim, ClaimGroup
+from studies.paper.figure import Data, PaperFigure
+from studies.paper.listing import (
     write_claims,
     write_figures,
     write_index,
     write_tables,
 )
-from slider_resonator.studies.paper.table import PaperTable
+from studies.paper.table import PaperTable
 
 FIGURES: Mapping[str, PaperFigure] = {
     module.FIGURE.name: module.FIGURE

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.studies.paper.figure import Data
+from studies.paper.figure import Data
 
 
 @dataclass(frozen=True)

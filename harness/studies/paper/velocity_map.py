@@ -10,9 +10,9 @@ from matplotlib.figure import Figure as Drawing
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged.averaged_coulomb import device_steady_velocity_at_ratio
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.studies.paper import labels
-from slider_resonator.studies.paper.figure import Data, PaperFigure, panels
-from slider_resonator.studies.paper.figure_8 import DEVICE, velocity_at
+from studies.paper import labels
+from studies.paper.figure import Data, PaperFigure, panels
+from studies.paper.figure_8 import DEVICE, velocity_at
 
 RATIOS = tuple((np.arange(2, 21) / 4.0).tolist())
 PHASES = tuple(np.linspace(-pi, pi, 25)[:-1].tolist())

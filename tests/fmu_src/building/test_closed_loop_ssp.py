@@ -10,7 +10,7 @@ from fmpy.ssp.ssd import read_ssd, read_ssv
 
 from fmu_src.building.build_error import BuildError
 from fmu_src.building.closed_loop_ssp import FIDELITIES, build_closed_loop
-from slider_resonator.trials.hosts.ssp_package import write_with_connectors
+from studies.hosts.ssp_package import write_with_connectors
 
 
 @pytest.fixture

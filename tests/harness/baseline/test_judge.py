@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from slider_resonator.baseline.judge import compare_golden
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.verdict import sentence
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.scene import ScenePoint, read_scene
 from slider_resonator.scenes.scene_files import find_scene
-from slider_resonator.trials.baseline.judge import compare_golden
 
 TIMES = np.linspace(0.0, 0.1, 48)
 WAVE = 1e-3 * np.sin(500.0 * TIMES)

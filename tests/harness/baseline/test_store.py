@@ -9,10 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from slider_resonator.checks.measuring import Measurement
-from slider_resonator.errors import HarnessError
-from slider_resonator.trials.baseline.golden import SIGNALS
-from slider_resonator.trials.baseline.store import (
+from slider_resonator.baseline.golden import SIGNALS
+from slider_resonator.baseline.store import (
     DIGITS,
     Recorded,
     key,
@@ -20,6 +18,8 @@ from slider_resonator.trials.baseline.store import (
     recorded_scenes,
     write_recorded,
 )
+from slider_resonator.checks.measuring import Measurement
+from slider_resonator.errors import HarnessError
 
 TIMES = np.array([0.0, 0.1, 0.25])
 GOLDEN = {

@@ -1,6 +1,6 @@
 """Measured over modelled cost of hard scenes, by model: whether the prices of `cost` still hold.
 
-`python -m tests.harness.studies.choose.pricing dist/SliderResonator.fmu` prints the quantiles: near
+`python -m tests.harness.choose.pricing dist/SliderResonator.fmu` prints the quantiles: near
 1 where they hold. CPU times of a busy machine scatter.
 """
 
@@ -17,6 +17,10 @@ from pathlib import Path
 
 import numpy as np
 
+from slider_resonator.choose.candidate import Candidate
+from slider_resonator.choose.choosing import candidates
+from slider_resonator.choose.cost import search_cost
+from slider_resonator.choose.scales import scales_of
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance, instantiate
@@ -25,11 +29,7 @@ from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.steady_velocity import find_steady
-from slider_resonator.studies.choose.candidate import Candidate
-from slider_resonator.studies.choose.choosing import candidates
-from slider_resonator.studies.choose.cost import search_cost
-from slider_resonator.studies.choose.scales import scales_of
-from tests.harness.studies.choose.hard_scenes import KINDS, hard_scene
+from tests.harness.choose.hard_scenes import KINDS, hard_scene
 
 OUTPUTS = ("position", "velocity", "mean_velocity", "reversals")
 REPEATS = 3

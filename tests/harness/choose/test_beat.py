@@ -2,13 +2,13 @@ from __future__ import annotations
 
 import pytest
 
+from slider_resonator.choose.beat import unseen_beat
+from slider_resonator.choose.choosing import choose_with
+from slider_resonator.choose.errors import ErrorEstimate
+from slider_resonator.choose.scales import scales_of
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.studies.choose.beat import unseen_beat
-from slider_resonator.studies.choose.choosing import choose_with
-from slider_resonator.studies.choose.errors import ErrorEstimate
-from slider_resonator.studies.choose.scales import scales_of
+from tests.harness.choose.hard_scenes import hard_scene
 from tests.harness.scene_text import scene_of
-from tests.harness.studies.choose.hard_scenes import hard_scene
 
 
 @pytest.mark.parametrize(

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from slider_resonator.choose import coverage
+from slider_resonator.choose.candidate import Candidate, Model
+from slider_resonator.choose.carrying import SAFETY
+from slider_resonator.choose.input_grid import inputs_as_they_vary
+from slider_resonator.choose.probe import Probe
+from slider_resonator.choose.stretch import Stretch, follow
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose import coverage
-from slider_resonator.studies.choose.candidate import Candidate, Model
-from slider_resonator.studies.choose.carrying import SAFETY
-from slider_resonator.studies.choose.input_grid import inputs_as_they_vary
-from slider_resonator.studies.choose.probe import Probe
-from slider_resonator.studies.choose.stretch import Stretch, follow
 from tests.harness.scene_text import scene_of
 
 LONG = (

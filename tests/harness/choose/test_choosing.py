@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator.choose import choose
+from slider_resonator.choose.choosing import candidates, choose_with
 from slider_resonator.errors import Refusal, SceneError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose import choose
-from slider_resonator.studies.choose.choosing import candidates, choose_with
 from tests.harness.scene_text import scene_of, table_1
 
 

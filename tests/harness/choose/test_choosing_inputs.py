@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from slider_resonator.choose import choose
+from slider_resonator.choose.choosing import choose_with
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
-from slider_resonator.studies.choose import choose
-from slider_resonator.studies.choose.choosing import choose_with
 from tests.harness.scene_text import scene_of
 
 

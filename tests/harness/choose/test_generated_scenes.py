@@ -10,11 +10,11 @@ import time
 import numpy as np
 import pytest
 
+from slider_resonator.choose.choosing import choose_with
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.resolved import located_events
-from slider_resonator.studies.choose.choosing import choose_with
-from tests.harness.studies.choose.generated_scenes import COUNT, generated_scene
-from tests.harness.studies.choose.judging import Judge, Verdict, described, judge
+from tests.harness.choose.generated_scenes import COUNT, generated_scene
+from tests.harness.choose.judging import Judge, Verdict, described, judge
 
 FIRST, CHUNK = 10, 25
 REFEREED = (46, 50)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from slider_resonator.choose.choosing import choose_with
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.studies.choose.choosing import choose_with
-from tests.harness.studies.choose.hard_scenes import KINDS, hard_scene
-from tests.harness.studies.choose.judging import described, judge
+from tests.harness.choose.hard_scenes import KINDS, hard_scene
+from tests.harness.choose.judging import described, judge
 
 KNOWN_MISSES = (
     ("jump_near_the_end", 10),

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from slider_resonator.choose.candidate import Model
+from slider_resonator.choose.holding import holding_errors
+from slider_resonator.choose.input_grid import inputs_as_they_vary, sampled_inputs
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.studies.choose.candidate import Model
-from slider_resonator.studies.choose.holding import holding_errors
-from slider_resonator.studies.choose.input_grid import inputs_as_they_vary, sampled_inputs
 from tests.harness.scene_text import scene_of
 
 SCENE = "[inputs]\nload = { ramp = [[0, 0], [2.0, 0.04], [7.0, 0.04]] }\n"

@@ -3,12 +3,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from slider_resonator.scenes.scene import Scene
-from slider_resonator.studies.choose.input_grid import (
+from slider_resonator.choose.input_grid import (
     inputs_as_they_vary,
     sampled_inputs,
     vary,
 )
+from slider_resonator.scenes.scene import Scene
 from tests.harness.scene_text import scene_of
 
 RAMP = (

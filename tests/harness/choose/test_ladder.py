@@ -5,9 +5,9 @@ from math import log2, pi
 
 import pytest
 
+from slider_resonator.choose.ladder import BEAT_POINTS, FINEST, STEPS_PER_BEAT, step_ladder
+from slider_resonator.choose.probe import Probe
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.studies.choose.ladder import BEAT_POINTS, FINEST, STEPS_PER_BEAT, step_ladder
-from slider_resonator.studies.choose.probe import Probe
 from tests.harness.scene_text import scene_of
 
 PERIOD = 2.0 * pi / 3500.0

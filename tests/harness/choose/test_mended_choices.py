@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import pytest
 
+from slider_resonator.choose.choosing import choose_with
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.studies.choose.choosing import choose_with
+from tests.harness.choose.judging import described, judge
 from tests.harness.scene_text import scene_of
-from tests.harness.studies.choose.judging import described, judge
 
 ALTERNATING = ", ".join(f"[{0.18 * i:.2f}, {i % 2}.0]" for i in range(60))
 SCENES = {

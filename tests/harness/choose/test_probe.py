@@ -6,11 +6,11 @@ from math import inf
 
 import pytest
 
+from slider_resonator.choose.candidate import Candidate, Model
+from slider_resonator.choose.coverage import HEAD_PERIODS, SHORT
+from slider_resonator.choose.probe import CAUTION, Probe
+from slider_resonator.choose.resolved_cost import RESOLVED
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.studies.choose.candidate import Candidate, Model
-from slider_resonator.studies.choose.coverage import HEAD_PERIODS, SHORT
-from slider_resonator.studies.choose.probe import CAUTION, Probe
-from slider_resonator.studies.choose.resolved_cost import RESOLVED
 from tests.harness.scene_text import scene_of
 
 PERIOD = RESOLVED[2, 0].sliding

@@ -4,9 +4,9 @@ from math import inf
 
 import pytest
 
+from slider_resonator.choose.candidate import Candidate, Model
+from slider_resonator.choose.steady_need import SteadyValue, find, steady_error
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.studies.choose.candidate import Candidate, Model
-from slider_resonator.studies.choose.steady_need import SteadyValue, find, steady_error
 
 
 @pytest.mark.parametrize(

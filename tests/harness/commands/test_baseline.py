@@ -11,9 +11,9 @@ from xml.etree import ElementTree as ET
 import pytest
 from click.testing import Result
 
+from slider_resonator.baseline.work import applicable_scenes
 from slider_resonator.scenes.scene import read_scene
 from slider_resonator.scenes.scene_files import built_in_scenes
-from slider_resonator.trials.baseline.work import applicable_scenes
 from tests.harness import calling, faulty_fmus
 from tests.harness.public_json import assert_public_keys
 

@@ -11,14 +11,14 @@ from pathlib import Path
 import click
 import pytest
 
-from slider_resonator.cli import COMMANDS, main
+from studies.cli import main
 from tests.harness.calling import call, refused
 
 
 def commands() -> Iterator[tuple[str, click.Command]]:
     """Yield every command by its name, with those of a group."""
     context = click.Context(main)
-    for name in COMMANDS:
+    for name in main.summaries:
         command = main.get_command(context, name)
         assert command is not None
         yield name, command
@@ -41,7 +41,7 @@ def having(option: str) -> set[str]:
 def test_summaries_are_whole_at_80_columns(group: str) -> None:
     printed = call(*group.split(), "--help", COLUMNS="80").stdout
     rows = printed[printed.index("Commands:") :].splitlines()[1:]
-    assert len(rows) == len(COMMANDS) if not group else 3
+    assert len(rows) == len(main.summaries) if not group else 3
     assert not [row for row in rows if row.endswith("...") or len(row) > 80]
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from slider_resonator.references.resolved import taylor
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.steady.reference_steady import Simulate
-from slider_resonator.studies.trade.peers.peer import solution_of
-from slider_resonator.studies.trade.problem import Problem, problem_of
-from slider_resonator.studies.trade.solution import WindowReadings, windows
+from slider_resonator.trade.peers.peer import solution_of
+from slider_resonator.trade.problem import Problem, problem_of
+from slider_resonator.trade.solution import WindowReadings, windows
 from tests.harness.scene_text import scene_of
 
 

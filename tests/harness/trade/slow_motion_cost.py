@@ -1,6 +1,6 @@
 """What leaps over periods cost against resolved motion of the same accuracy.
 
-`python -m tests.harness.studies.trade.slow_motion_cost dist/SliderResonator.fmu` prints two tables
+`python -m tests.harness.trade.slow_motion_cost dist/SliderResonator.fmu` prints two tables
 for each device. Over run length: CPU times of whole runs, start and preparation included. Each
 model has the loosest tolerance with which its mean velocity errs by no more than a millionth of the
 peak all along the run. Times of both are taken in turn; their ratio is the median of these pairs.

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.studies.trade.fmu_methods import LEAP_TOLERANCES, STEPS, FmuMethods
-from slider_resonator.studies.trade.method import Method
-from slider_resonator.studies.trade.problem import Problem
-from slider_resonator.studies.trade.result import AVERAGED
-from slider_resonator.studies.trade.solution import errors
+from slider_resonator.trade.fmu_methods import LEAP_TOLERANCES, STEPS, FmuMethods
+from slider_resonator.trade.method import Method
+from slider_resonator.trade.problem import Problem
+from slider_resonator.trade.result import AVERAGED
+from slider_resonator.trade.solution import errors
 from tests.harness.in_process import InProcess
-from tests.harness.studies.trade.problems import LUGRE, RAMP, TABLE_1, problem, reference_of
+from tests.harness.trade.problems import LUGRE, RAMP, TABLE_1, problem, reference_of
 
 
 def followed(problem: Problem, method: Method) -> dict[str, float]:

@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import pytest
 
-from slider_resonator.studies.trade import measure
-from slider_resonator.studies.trade.measure import measure_trade
-from slider_resonator.studies.trade.method import Label, Method
-from slider_resonator.studies.trade.problem import Problem
-from slider_resonator.studies.trade.result import PEER
-from slider_resonator.studies.trade.solution import Solution
-from tests.harness.studies.trade.problems import STICKING, TABLE_1, problem
+from slider_resonator.trade import measure
+from slider_resonator.trade.measure import measure_trade
+from slider_resonator.trade.method import Label, Method
+from slider_resonator.trade.problem import Problem
+from slider_resonator.trade.result import PEER
+from slider_resonator.trade.solution import Solution
+from tests.harness.trade.problems import STICKING, TABLE_1, problem
 
 
 def quiet(name: str, share: float) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.studies.trade.needs import (
+from slider_resonator.trade.needs import (
     BEGIN,
     COLUMNS,
     END,
@@ -19,10 +19,10 @@ from slider_resonator.studies.trade.needs import (
     choices,
     write_choices,
 )
-from slider_resonator.studies.trade.result import AVERAGED, PEER, RESOLVED, Row, Trade
-from tests.harness.studies.trade.test_result import row
+from slider_resonator.trade.result import AVERAGED, PEER, RESOLVED, Row, Trade
+from tests.harness.trade.test_result import row
 
-REPOSITORY = Path(__file__).parents[4]
+REPOSITORY = Path(__file__).parents[3]
 PAGE = REPOSITORY / "docs" / "how-to-choose.md"
 HEAD = tuple(column.heading for column in COLUMNS)
 DOCUMENTATION = REPOSITORY / "fmu_src" / "assets" / "choosing.html"

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from slider_resonator.studies.trade.page import write_trades
-from slider_resonator.studies.trade.plots import draw_picture
-from slider_resonator.studies.trade.result import Omission
+from slider_resonator.trade.page import write_trades
+from slider_resonator.trade.plots import draw_picture
+from slider_resonator.trade.result import Omission
 from tests.harness.known_provenance import PROVENANCE
-from tests.harness.studies.trade.test_needs import TRADE
+from tests.harness.trade.test_needs import TRADE
 from tests.html_pages import Page
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from slider_resonator.studies.trade.peer_methods import peer_answers, peer_methods
-from tests.harness.studies.trade.problems import LUGRE, RAMP, TABLE_1, problem
+from slider_resonator.trade.peer_methods import peer_answers, peer_methods
+from tests.harness.trade.problems import LUGRE, RAMP, TABLE_1, problem
 
 
 def test_every_setting_has_a_name_of_its_own() -> None:

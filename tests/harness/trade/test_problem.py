@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from slider_resonator.references.resolved.located_events import simulate
-from slider_resonator.studies.trade.problem import MIN_PERIODS
-from tests.harness.studies.trade.problems import (
+from slider_resonator.trade.problem import MIN_PERIODS
+from tests.harness.trade.problems import (
     BEAT,
     JUMPS,
     LUGRE,

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from slider_resonator.references.resolved import taylor
-from slider_resonator.studies.trade.problem import REFERENCE_STEPS
-from slider_resonator.studies.trade.reference import find_reference
-from tests.harness.studies.trade.problems import RAMP, STICKING, TABLE_1, TURNS_BACK, problem
+from slider_resonator.trade.problem import REFERENCE_STEPS
+from slider_resonator.trade.reference import find_reference
+from tests.harness.trade.problems import RAMP, STICKING, TABLE_1, TURNS_BACK, problem
 
 HELD_BY_FRICTION = """
 [device]

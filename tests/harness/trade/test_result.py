@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from slider_resonator.studies.trade.result import (
+from slider_resonator.trade.result import (
     AVERAGED,
     PEER,
     RESOLVED,
@@ -18,7 +18,7 @@ from slider_resonator.studies.trade.result import (
     front,
     paired_ratio,
 )
-from slider_resonator.studies.trade.summary import duration, heading, sentence, standings
+from slider_resonator.trade.summary import duration, heading, sentence, standings
 
 
 def row(cost: float, error: float, kind: str = RESOLVED, quantity: str = "position") -> Row:

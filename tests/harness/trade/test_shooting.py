@@ -7,8 +7,8 @@ from math import inf
 import pytest
 
 from slider_resonator.references.resolved import taylor
-from slider_resonator.studies.trade.shooting import shoot
-from tests.harness.studies.trade.problems import TABLE_1, problem
+from slider_resonator.trade.shooting import shoot
+from tests.harness.trade.problems import TABLE_1, problem
 
 
 def test_any_integrator_can_be_shot_with() -> None:

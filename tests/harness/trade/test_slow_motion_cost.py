@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.fmu.opening import open_fmu
-from tests.harness.studies.trade.slow_motion_cost import (
+from tests.harness.trade.slow_motion_cost import (
     DEVICES,
     LEAPING,
     MAX_ERROR,

@@ -8,9 +8,9 @@ from math import inf, nan
 import numpy as np
 import pytest
 
-from slider_resonator.studies.trade.problem import Problem
-from slider_resonator.studies.trade.solution import Solution, errors, last_events, windows
-from tests.harness.studies.trade.problems import BEAT, TABLE_1, problem
+from slider_resonator.trade.problem import Problem
+from slider_resonator.trade.solution import Solution, errors, last_events, windows
+from tests.harness.trade.problems import BEAT, TABLE_1, problem
 
 
 @pytest.fixture

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from slider_resonator.studies.closed_loop.duty import Duty, LoadInterval
+from studies.closed_loop.duty import Duty, LoadInterval
 
 
 def test_a_load_counts_from_its_own_time_on_despite_rounding() -> None:

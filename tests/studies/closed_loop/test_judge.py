@@ -3,9 +3,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from slider_resonator.studies.closed_loop.duty import Duty
-from slider_resonator.studies.closed_loop.judge import judge_agreement, judge_intervals
-from slider_resonator.studies.closed_loop.loop import LoopRecord
+from studies.closed_loop.duty import Duty
+from studies.closed_loop.judge import judge_agreement, judge_intervals
+from studies.closed_loop.loop import LoopRecord
 
 DUTY = Duty(reference=0.1, loads=((0.0, 0.0), (1.0, 0.05)), end=2.0, settling=0.5, band=0.02)
 TIMES = 0.01 * np.arange(1.0, 201.0)

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.studies.closed_loop import prediction
-from slider_resonator.studies.closed_loop.duty import Duty
-from slider_resonator.studies.closed_loop.loop import HOSTS, run_loop
-from slider_resonator.studies.closed_loop.prediction import predicted_errors
+from studies.closed_loop import prediction
+from studies.closed_loop.duty import Duty
+from studies.closed_loop.loop import HOSTS, run_loop
+from studies.closed_loop.prediction import predicted_errors
 
 DUTY = Duty(loads=((0.0, 0.0), (0.8, 0.03)), end=1.6, settling=0.5)
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.commands import bench
-from slider_resonator.trials.hosts.step_cost import LONG_STEP, ONE_PERIOD, StepCost
+from studies.commands import bench
+from studies.hosts.step_cost import LONG_STEP, ONE_PERIOD, StepCost
 from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
 

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.commands import closed_loop
-from slider_resonator.studies.closed_loop import prediction
-from slider_resonator.studies.closed_loop.judge import Agreement
-from slider_resonator.trials.hosts.ssp_package import WITH_CONNECTORS
+from studies.closed_loop import prediction
+from studies.closed_loop.judge import Agreement
+from studies.commands import closed_loop
+from studies.hosts.ssp_package import WITH_CONNECTORS
 from tests.harness import faulty_fmus
 from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.commands import hosts
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.finished import FMUS
-from slider_resonator.trials.hosts.hosts import hosts as all_hosts
+from studies.commands import hosts
+from studies.hosts.hosts import hosts as all_hosts
 from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 
@@ -63,7 +63,7 @@ def test_a_host_that_fails_is_a_verdict(
     tmp_path: Path,
 ) -> None:
     monkeypatch.setenv("CC", str(tmp_path / "no compiler"))
-    monkeypatch.setattr("slider_resonator.trials.hosts.hosts.compiler_version", lambda _: "none")
+    monkeypatch.setattr("studies.hosts.hosts.compiler_version", lambda _: "none")
     out = tmp_path / "hosts.md"
     done = call("hosts", native_fmu, *others, "--host", "C driver", "--out", out)
     assert done.exit_code == 1

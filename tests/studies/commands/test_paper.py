@@ -31,16 +31,14 @@ def test_what_cannot_run_exits_with_2(arguments: list[str], tmp_path: Path) -> N
 def in_process(monkeypatch: pytest.MonkeyPatch) -> None:
     """Run measurements, which need no FMU here, where they are replaced: in this process."""
     fmu = SimpleNamespace(guid="{1}", run=lambda task: task(None))
-    monkeypatch.setattr(
-        "slider_resonator.studies.paper.reproduce.IsolatedFmu", lambda *_: nullcontext(fmu)
-    )
+    monkeypatch.setattr("studies.paper.reproduce.IsolatedFmu", lambda *_: nullcontext(fmu))
 
 
 def test_an_unconfirmed_claim_exits_with_1(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from slider_resonator.studies.paper import reproduce
-    from slider_resonator.studies.paper.claim import Claim, ClaimGroup
+    from studies.paper import reproduce
+    from studies.paper.claim import Claim, ClaimGroup
 
     claim = Claim("speed", "(5)", "It flies", {"v": 1.0}, "agrees", "it does not", False)
     group = ClaimGroup("claims_x", "X", (lambda instance: [claim],))
@@ -58,8 +56,8 @@ def test_an_unconfirmed_claim_exits_with_1(
 def test_a_table_that_deviates_exits_with_1(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from slider_resonator.studies.paper import reproduce
-    from slider_resonator.studies.paper.table import PaperTable
+    from studies.paper import reproduce
+    from studies.paper.table import PaperTable
 
     def measure(instance: object) -> dict[str, object]:
         return {"rows": [{"error": 0.3}]}

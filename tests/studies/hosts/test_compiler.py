@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.trials.hosts.compiler import (
+from studies.hosts.compiler import (
     SOURCES,
     compile_program,
     compiler_version,

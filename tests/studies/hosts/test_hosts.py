@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.trials.hosts.hosts import hosts, package_version, wine_version
+from studies.hosts.hosts import hosts, package_version, wine_version
 
 
 def test_the_version_is_that_of_the_environment() -> None:

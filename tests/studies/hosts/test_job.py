@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.trials.hosts.job import (
+from studies.hosts.job import (
     HostAnswer,
     Job,
     Rows,

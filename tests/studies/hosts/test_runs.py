@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.device.interface import INPUTS, OUTPUTS
-from slider_resonator.trials.hosts.hosts import Host
-from slider_resonator.trials.hosts.job import HostAnswer
-from slider_resonator.trials.hosts.runs import (
+from studies.hosts.hosts import Host
+from studies.hosts.job import HostAnswer
+from studies.hosts.runs import (
     ALLOWED,
     CASES,
     by_case,

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.trials.hosts.step_cost import (
+from studies.hosts.step_cost import (
     LONG_STEP,
     ONE_PERIOD,
     STEPS,

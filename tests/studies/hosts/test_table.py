@@ -4,11 +4,11 @@ import re
 from pathlib import Path
 
 from slider_resonator.output import markdown
-from slider_resonator.trials.hosts.hosts import hosts
-from slider_resonator.trials.hosts.runs import CASES, FMI_3, HostComparison, HostResult
-from slider_resonator.trials.hosts.table import BEGIN, COLUMNS, END, host_table, write_table
+from studies.hosts.hosts import hosts
+from studies.hosts.runs import CASES, FMI_3, HostComparison, HostResult
+from studies.hosts.table import BEGIN, COLUMNS, END, host_table, write_table
 
-PAGE = Path(__file__).parents[4] / "docs" / "hosts.md"
+PAGE = Path(__file__).parents[3] / "docs" / "hosts.md"
 RESULT = HostResult(
     "a host",
     "1.2",

@@ -1,8 +1,8 @@
 from __future__ import annotations
 
-from slider_resonator.trials.mutants.combined import combined_sources, groups_of
-from slider_resonator.trials.mutants.enumerate_source import source_mutants
-from slider_resonator.trials.mutants.mutant import Mutant
+from studies.mutants.combined import combined_sources, groups_of
+from studies.mutants.enumerate_source import source_mutants
+from studies.mutants.mutant import Mutant
 
 MODULE = """def worth(x):
     y = 2.0 * x

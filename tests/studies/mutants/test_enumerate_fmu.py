@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import FmuError, HarnessError
-from slider_resonator.trials.mutants.archive import DESCRIPTION, PythonFmu, read_python_fmu
-from slider_resonator.trials.mutants.enumerate_fmu import fmu_mutants, sample
-from slider_resonator.trials.mutants.mutant import KINDS, Mutant
+from studies.mutants.archive import DESCRIPTION, PythonFmu, read_python_fmu
+from studies.mutants.enumerate_fmu import fmu_mutants, sample
+from studies.mutants.mutant import KINDS, Mutant
 
 
 @pytest.fixture(scope="module")

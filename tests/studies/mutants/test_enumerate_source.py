@@ -3,7 +3,7 @@ from __future__ import annotations
 import ast
 from collections import Counter
 
-from slider_resonator.trials.mutants.enumerate_source import source_mutants
+from studies.mutants.enumerate_source import source_mutants
 
 MODULE = '''"""A module."""
 

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS
-from slider_resonator.trials.mutants.faults import FAULTS, fault_mutants, missing_names
+from studies.mutants.faults import FAULTS, fault_mutants, missing_names
 
 
 def test_a_module_that_lacks_a_name_is_told() -> None:

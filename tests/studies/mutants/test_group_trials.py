@@ -2,8 +2,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from slider_resonator.trials.mutants.group_trials import Outcome, Try, rejected_members
-from slider_resonator.trials.mutants.trial import Rejection
+from studies.mutants.group_trials import Outcome, Try, rejected_members
+from studies.mutants.trial import Rejection
 
 FAULTY: Mapping[str, int] = {"c": 2, "f": 0, "h": 4}
 """Members that are rejected alone, by the point that does so."""

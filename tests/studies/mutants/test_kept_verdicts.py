@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.trials.mutants.kept_verdicts import entry_of, open_journal, verdicts_on
-from slider_resonator.trials.mutants.mutant import Mutant
-from slider_resonator.trials.mutants.trial import ExpectedPoint
-from slider_resonator.trials.mutants.verdict import REJECTED, SURVIVED, MutantVerdict
+from studies.mutants.kept_verdicts import entry_of, open_journal, verdicts_on
+from studies.mutants.mutant import Mutant
+from studies.mutants.trial import ExpectedPoint
+from studies.mutants.verdict import REJECTED, SURVIVED, MutantVerdict
 from tests.harness.scene_text import scene_of
 
 FIRST, SECOND = (

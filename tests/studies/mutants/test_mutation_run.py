@@ -6,12 +6,12 @@ import pytest
 
 from slider_resonator.errors import FmuError
 from slider_resonator.scenes.scene_files import find_scene
-from slider_resonator.trials.mutants.archive import PythonFmu, read_python_fmu
-from slider_resonator.trials.mutants.enumerate_fmu import fmu_mutants
-from slider_resonator.trials.mutants.mutant import Mutant
-from slider_resonator.trials.mutants.mutation_run import run_mutants
-from slider_resonator.trials.mutants.staged_trials import StagedTrials
-from slider_resonator.trials.mutants.verdict import (
+from studies.mutants.archive import PythonFmu, read_python_fmu
+from studies.mutants.enumerate_fmu import fmu_mutants
+from studies.mutants.mutant import Mutant
+from studies.mutants.mutation_run import run_mutants
+from studies.mutants.staged_trials import StagedTrials
+from studies.mutants.verdict import (
     EQUIVALENT,
     NOT_REACHED,
     REJECTED,

@@ -4,7 +4,7 @@ import ast
 
 import pytest
 
-from slider_resonator.trials.mutants.operators import Source, edits
+from studies.mutants.operators import Source, edits
 
 
 def changed(expression: str) -> set[str]:

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from slider_resonator.trials.mutants.probes import MODELS, probe_scenes
+from studies.mutants.probes import MODELS, probe_scenes
 
 
 def test_probes_are_scenes_of_every_model() -> None:

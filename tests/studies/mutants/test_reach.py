@@ -3,9 +3,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from slider_resonator.scenes.scene import read_scene
-from slider_resonator.trials.mutants.archive import read_python_fmu
-from slider_resonator.trials.mutants.reach import noting_source, reaches
-from slider_resonator.trials.mutants.trial import ExpectedPoint
+from studies.mutants.archive import read_python_fmu
+from studies.mutants.reach import noting_source, reaches
+from studies.mutants.trial import ExpectedPoint
 from tests.harness import faulty_fmus
 
 MODULE = '''"""A module."""

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from slider_resonator.trials.mutants.rejecting_points import RejectingPoints
+from studies.mutants.rejecting_points import RejectingPoints
 
 
 def test_what_rejected_a_variant_of_the_file_last_comes_first() -> None:

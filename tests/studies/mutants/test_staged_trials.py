@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import cast
 
-from slider_resonator.trials.mutants.archive import PythonFmu
-from slider_resonator.trials.mutants.attempt import Attempt, Attempted, Bench
-from slider_resonator.trials.mutants.mutant import Mutant
-from slider_resonator.trials.mutants.staged_trials import StagedTrials
-from slider_resonator.trials.mutants.trial import ExpectedPoint, Rejection
-from slider_resonator.trials.mutants.trial_client import TrialServers
-from slider_resonator.trials.mutants.verdict import REJECTED, MutantVerdict
+from studies.mutants.archive import PythonFmu
+from studies.mutants.attempt import Attempt, Attempted, Bench
+from studies.mutants.mutant import Mutant
+from studies.mutants.staged_trials import StagedTrials
+from studies.mutants.trial import ExpectedPoint, Rejection
+from studies.mutants.trial_client import TrialServers
+from studies.mutants.verdict import REJECTED, MutantVerdict
 
 CHEAP, SCENE, PROBE = range(3)
 COSTS = (1.0, 2.0, 3.0)

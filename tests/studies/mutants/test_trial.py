@@ -7,9 +7,9 @@ import pytest
 
 from slider_resonator.output.progress import no_progress
 from slider_resonator.scenes.scene import scene_from
-from slider_resonator.trials.mutants.archive import PythonFmu, read_python_fmu
-from slider_resonator.trials.mutants.points import probe_points, scene_points
-from slider_resonator.trials.mutants.trial import ExpectedPoint, Rejection, trial
+from studies.mutants.archive import PythonFmu, read_python_fmu
+from studies.mutants.points import probe_points, scene_points
+from studies.mutants.trial import ExpectedPoint, Rejection, trial
 from tests.harness import faulty_fmus
 
 Faulty = Callable[[str, str, str], Path]

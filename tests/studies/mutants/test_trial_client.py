@@ -9,11 +9,11 @@ import pytest
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.progress import no_progress
-from slider_resonator.trials.mutants.archive import PythonFmu, read_python_fmu
-from slider_resonator.trials.mutants.attempt import Attempt, Attempted, Bench
-from slider_resonator.trials.mutants.points import scene_points
-from slider_resonator.trials.mutants.reach import noting_source
-from slider_resonator.trials.mutants.trial_client import TrialServers, trial_servers
+from studies.mutants.archive import PythonFmu, read_python_fmu
+from studies.mutants.attempt import Attempt, Attempted, Bench
+from studies.mutants.points import scene_points
+from studies.mutants.reach import noting_source
+from studies.mutants.trial_client import TrialServers, trial_servers
 from tests.harness import faulty_fmus
 from tests.processes import has_ended
 

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from slider_resonator.trials.mutants.units import unit_mutants
+from studies.mutants.units import unit_mutants
 
 DESCRIPTION = """<fmiModelDescription>
   <UnitDefinitions>

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.trials.mutants.variant_folder import VariantFolder
+from studies.mutants.variant_folder import VariantFolder
 
 MODULE = "VALUE = 1\n"
 

@@ -7,11 +7,11 @@ import pytest
 from rich.console import Console
 
 from slider_resonator.output.json_output import to_json
-from slider_resonator.trials.mutants import listing
-from slider_resonator.trials.mutants.enumerate_source import source_mutants
-from slider_resonator.trials.mutants.listing import run_as_plain, summary
-from slider_resonator.trials.mutants.page import write_mutants
-from slider_resonator.trials.mutants.verdict import (
+from studies.mutants import listing
+from studies.mutants.enumerate_source import source_mutants
+from studies.mutants.listing import run_as_plain, summary
+from studies.mutants.page import write_mutants
+from studies.mutants.verdict import (
     EQUIVALENT,
     NOT_REACHED,
     REJECTED,

@@ -7,17 +7,17 @@ from dataclasses import replace
 from html import escape
 from pathlib import Path
 
-from slider_resonator.studies.paper import figure_2, figure_3, figure_5, figure_7, figure_8, labels
-from slider_resonator.studies.paper.claim import Claim, near, statements
-from slider_resonator.studies.paper.listing import (
+from studies.paper import figure_2, figure_3, figure_5, figure_7, figure_8, labels
+from studies.paper.claim import Claim, near, statements
+from studies.paper.listing import (
     verdicts,
     write_claims,
     write_figures,
     write_index,
     write_tables,
 )
-from slider_resonator.studies.paper.reproduce import FIGURES
-from slider_resonator.studies.paper.table import PaperTable
+from studies.paper.reproduce import FIGURES
+from studies.paper.table import PaperTable
 from tests.harness.known_provenance import PROVENANCE
 
 CLAIM = Claim("speed", "(5)", "It moves", {"v_m_per_s": 0.5}, "agrees", "it | does", True)

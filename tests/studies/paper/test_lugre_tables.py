@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.studies.paper import lugre_tables
+from studies.paper import lugre_tables
 
 
 def test_the_blocking_force_goes_from_24_to_coulomb(instance: Instance) -> None:

@@ -8,8 +8,8 @@ from slider_resonator.device.device import Device
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.studies.paper import mapping
-from slider_resonator.studies.paper.measure import record
+from studies.paper import mapping
+from studies.paper.measure import record
 
 
 def _device(values: mapping.Values) -> Device:

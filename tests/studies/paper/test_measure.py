@@ -7,8 +7,8 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references import closed_forms
 from slider_resonator.references.averaged import uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from slider_resonator.studies.paper.mapping import coulomb_case, lugre_case
-from slider_resonator.studies.paper.measure import blocking_force, plain, record, steady_velocity
+from studies.paper.mapping import coulomb_case, lugre_case
+from studies.paper.measure import blocking_force, plain, record, steady_velocity
 
 
 def test_a_record_covers_the_span(instance: Instance) -> None:

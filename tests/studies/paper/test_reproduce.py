@@ -12,11 +12,11 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.references.averaged import uniform_average
 from slider_resonator.references.averaged.averaged_coulomb import device_steady_velocity_at_ratio
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.studies.paper.average_error import errors, slope
-from slider_resonator.studies.paper.claim import statements
-from slider_resonator.studies.paper.figure_8 import PHASES
-from slider_resonator.studies.paper.reproduce import FIGURES, NAMES, TABLES, reproduce
-from slider_resonator.studies.paper.stiffness_validity import CASE, stiffness_of
+from studies.paper.average_error import errors, slope
+from studies.paper.claim import statements
+from studies.paper.figure_8 import PHASES
+from studies.paper.reproduce import FIGURES, NAMES, TABLES, reproduce
+from studies.paper.stiffness_validity import CASE, stiffness_of
 
 
 def _quiet(label: str, share: float) -> None:

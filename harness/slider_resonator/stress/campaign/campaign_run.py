@@ -18,9 +18,9 @@ from slider_resonator.fmu.isolation.tasks import run_all_tasks
 from slider_resonator.fmu.opening import lacking
 from slider_resonator.fmu.run import run
 from slider_resonator.output.progress import Progress, counted
-from slider_resonator.trials.campaign.expected import AVERAGED, RESOLVED
-from slider_resonator.trials.campaign.random_case import RandomCase
-from slider_resonator.trials.campaign.verdict import FAILED, PASSED, REFUSED, CaseVerdict, judge
+from slider_resonator.stress.campaign.expected import AVERAGED, RESOLVED
+from slider_resonator.stress.campaign.random_case import RandomCase
+from slider_resonator.stress.campaign.verdict import FAILED, PASSED, REFUSED, CaseVerdict, judge
 
 TIME_LIMIT = 60.0
 """Time limit of a case, s."""

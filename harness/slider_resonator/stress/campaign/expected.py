@@ -16,7 +16,7 @@ from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.taylor import simulate
 from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
-from slider_resonator.trials.campaign.random_case import RandomCase
+from slider_resonator.stress.campaign.random_case import RandomCase
 
 RESOLVED = ("position", "velocity", "resonator_displacement", "resonator_velocity")
 AVERAGED = ("position", "mean_velocity")

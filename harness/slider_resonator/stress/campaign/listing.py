@@ -8,9 +8,9 @@ import numpy as np
 
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.terminal import one_line
-from slider_resonator.trials.campaign.campaign_run import Campaign
-from slider_resonator.trials.campaign.random_case import RandomCase
-from slider_resonator.trials.campaign.verdict import NO_REFERENCE, PASSED
+from slider_resonator.stress.campaign.campaign_run import Campaign
+from slider_resonator.stress.campaign.random_case import RandomCase
+from slider_resonator.stress.campaign.verdict import NO_REFERENCE, PASSED
 
 
 def as_plain(campaigns: Sequence[Campaign]) -> dict[str, object]:

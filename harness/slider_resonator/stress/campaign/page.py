@@ -20,8 +20,8 @@ from slider_resonator.output.hover_plot import (
 )
 from slider_resonator.output.html_page import escaped, rendered, write_page
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict_so_far
-from slider_resonator.trials.campaign.campaign_run import Campaign
-from slider_resonator.trials.campaign.verdict import (
+from slider_resonator.stress.campaign.campaign_run import Campaign
+from slider_resonator.stress.campaign.verdict import (
     FAILED,
     NO_REFERENCE,
     PASSED,

@@ -9,8 +9,8 @@ from slider_resonator.checks.leap_error import (
     allowed_by_leaps,
     centre_signals,
 )
-from slider_resonator.trials.campaign.expected import Expected
-from slider_resonator.trials.campaign.random_case import RandomCase
+from slider_resonator.stress.campaign.expected import Expected
+from slider_resonator.stress.campaign.random_case import RandomCase
 
 
 def of_second_order(case: RandomCase, full: Expected) -> Expected:

@@ -9,9 +9,9 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.leap_error import centre_signals
-from slider_resonator.trials.campaign.expected import CONDITIONING, Expected, expected, moved
-from slider_resonator.trials.campaign.random_case import RandomCase
-from slider_resonator.trials.campaign.second_order import of_second_order
+from slider_resonator.stress.campaign.expected import CONDITIONING, Expected, expected, moved
+from slider_resonator.stress.campaign.random_case import RandomCase
+from slider_resonator.stress.campaign.second_order import of_second_order
 
 PASSED, FAILED, REFUSED = "passed", "failed", "refused"
 NO_REFERENCE, SENSITIVE = "no reference", "sensitive"

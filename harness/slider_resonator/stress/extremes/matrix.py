@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from itertools import chain
 
-from slider_resonator.trials.extremes.beat_axes import beat_cells
-from slider_resonator.trials.extremes.cell import MatrixCell
-from slider_resonator.trials.extremes.device_axes import device_cells
-from slider_resonator.trials.extremes.event_axes import event_cells
-from slider_resonator.trials.extremes.input_axes import input_cells
-from slider_resonator.trials.extremes.step_axes import step_cells
+from slider_resonator.stress.extremes.beat_axes import beat_cells
+from slider_resonator.stress.extremes.cell import MatrixCell
+from slider_resonator.stress.extremes.device_axes import device_cells
+from slider_resonator.stress.extremes.event_axes import event_cells
+from slider_resonator.stress.extremes.input_axes import input_cells
+from slider_resonator.stress.extremes.step_axes import step_cells
 
 
 def all_cells(*, long: bool = False) -> list[MatrixCell]:

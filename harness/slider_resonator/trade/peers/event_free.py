@@ -24,7 +24,7 @@ from slider_resonator.references.resolved.scipy_methods import (
     take_step,
 )
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.studies.trade.peers.without_events import RunWithoutEvents
+from slider_resonator.trade.peers.without_events import RunWithoutEvents
 
 MAX_EVALUATIONS = 20_000_000
 

@@ -21,7 +21,7 @@ from slider_resonator.references.resolved.equations import Equations
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
 from slider_resonator.references.resolved.segment import Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.studies.trade.peers.sundials import MAX_STEPS, cvode
+from slider_resonator.trade.peers.sundials import MAX_STEPS, cvode
 
 _FOUND_A_ROOT = 2
 

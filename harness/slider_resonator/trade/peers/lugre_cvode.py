@@ -14,8 +14,8 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.studies.trade.peers.sundials import MAX_STEPS, cvode
-from slider_resonator.studies.trade.peers.switching_taylor import SlidingRun
+from slider_resonator.trade.peers.sundials import MAX_STEPS, cvode
+from slider_resonator.trade.peers.switching_taylor import SlidingRun
 
 
 def simulate_lugre_cvode(

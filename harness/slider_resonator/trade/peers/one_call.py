@@ -15,10 +15,10 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
 from slider_resonator.steady.reference_steady import Simulate
-from slider_resonator.studies.trade.peers.lugre_cvode import simulate_lugre_cvode
-from slider_resonator.studies.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, solution_of
-from slider_resonator.studies.trade.peers.switching_taylor import SlidingRun, simulate_sliding
-from slider_resonator.studies.trade.solution import Solution
+from slider_resonator.trade.peers.lugre_cvode import simulate_lugre_cvode
+from slider_resonator.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, solution_of
+from slider_resonator.trade.peers.switching_taylor import SlidingRun, simulate_sliding
+from slider_resonator.trade.solution import Solution
 
 
 def heyoka_in_one_call(

@@ -10,7 +10,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import Simulate
-from slider_resonator.studies.trade.solution import Solution, last_events
+from slider_resonator.trade.solution import Solution, last_events
 
 Follow = Callable[[Device, Sequence[HeldInputs], Array], Solution]
 

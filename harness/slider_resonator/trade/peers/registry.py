@@ -14,11 +14,11 @@ from slider_resonator.references.resolved import located_events, lugre_scipy, ta
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import Simulate
-from slider_resonator.studies.trade.peers import event_free, located_cvode, moreau_jean
-from slider_resonator.studies.trade.peers.one_call import cvode_in_one_call, heyoka_in_one_call
-from slider_resonator.studies.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, solution_of
-from slider_resonator.studies.trade.problem import Problem
-from slider_resonator.studies.trade.solution import Solution
+from slider_resonator.trade.peers import event_free, located_cvode, moreau_jean
+from slider_resonator.trade.peers.one_call import cvode_in_one_call, heyoka_in_one_call
+from slider_resonator.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, solution_of
+from slider_resonator.trade.problem import Problem
+from slider_resonator.trade.solution import Solution
 
 MAX_EVALUATIONS = 1_000_000
 """Maximum evaluations of a method on sgn: one that chatters is stopped early."""

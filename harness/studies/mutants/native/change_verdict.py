@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from slider_resonator.trials.mutants.native.changes import Change
+from studies.mutants.native.changes import Change
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from slider_resonator.output.journal import Journal
-from slider_resonator.trials.mutants.native.change_verdict import ChangeVerdict
-from slider_resonator.trials.mutants.native.changes import Change
+from studies.mutants.native.change_verdict import ChangeVerdict
+from studies.mutants.native.changes import Change
 
 
 def entry_of(verdict: ChangeVerdict) -> list[object]:

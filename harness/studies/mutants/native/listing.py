@@ -13,8 +13,8 @@ from slider_resonator.output.fitting_text import fitting, terminal_width
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Row, Style, Table, numbers, texts
 from slider_resonator.output.terminal import escaped, rendered
-from slider_resonator.trials.mutants.native.change_verdict import ChangeVerdict, NativeRun
-from slider_resonator.trials.mutants.native.changes import Change
+from studies.mutants.native.change_verdict import ChangeVerdict, NativeRun
+from studies.mutants.native.changes import Change
 
 
 def print_changes(console: Console, changes: Sequence[Change]) -> None:

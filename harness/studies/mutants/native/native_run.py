@@ -13,22 +13,22 @@ from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.errors import FmuError
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.temporary import temporary_folder
-from slider_resonator.trials.mutants.attempt import Attempt, Bench
-from slider_resonator.trials.mutants.kept_verdicts import open_journal
-from slider_resonator.trials.mutants.native.change_verdict import ChangeVerdict, NativeRun
-from slider_resonator.trials.mutants.native.changes import Change
-from slider_resonator.trials.mutants.native.kept_changes import entry_of, verdicts_on
-from slider_resonator.trials.mutants.native.workshop import Workshop, read_native_sources
-from slider_resonator.trials.mutants.points import scene_points
-from slider_resonator.trials.mutants.rejecting_points import RejectingPoints
-from slider_resonator.trials.mutants.trial import (
+from studies.mutants.attempt import Attempt, Bench
+from studies.mutants.kept_verdicts import open_journal
+from studies.mutants.native.change_verdict import ChangeVerdict, NativeRun
+from studies.mutants.native.changes import Change
+from studies.mutants.native.kept_changes import entry_of, verdicts_on
+from studies.mutants.native.workshop import Workshop, read_native_sources
+from studies.mutants.points import scene_points
+from studies.mutants.rejecting_points import RejectingPoints
+from studies.mutants.trial import (
     ExpectedPoint,
     Observed,
     Rejection,
     judge,
     observe_expected,
 )
-from slider_resonator.trials.mutants.trial_client import trial_servers
+from studies.mutants.trial_client import trial_servers
 
 
 def run_changes(

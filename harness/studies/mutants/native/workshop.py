@@ -14,7 +14,7 @@ from pathlib import Path, PurePosixPath
 import fmpy
 
 from slider_resonator.errors import FmuError, HarnessError
-from slider_resonator.trials.mutants.archive import DESCRIPTION
+from studies.mutants.archive import DESCRIPTION
 
 FLAGS = ("-std=c99", "-O1", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-w")
 COMPILERS = ("gcc", "clang", "cc")

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.scenes.scene_files import find_scene
-from slider_resonator.trials.mutants.native.changes import Change
-from slider_resonator.trials.mutants.native.native_run import run_changes
+from studies.mutants.native.changes import Change
+from studies.mutants.native.native_run import run_changes
 
 FAULTS = {
     "a bad experiment is accepted": (

@@ -12,12 +12,12 @@ from slider_resonator.checks.leap_error import CENTRE, CENTRE_VELOCITY
 from slider_resonator.fmu.opening import Fmu
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.progress import no_progress
-from slider_resonator.trials.campaign.campaign_run import Campaign, run_campaign
-from slider_resonator.trials.campaign.expected import expected
-from slider_resonator.trials.campaign.listing import as_plain, sentences
-from slider_resonator.trials.campaign.random_case import MODELS, random_case
-from slider_resonator.trials.campaign.second_order import of_second_order
-from slider_resonator.trials.campaign.verdict import (
+from slider_resonator.stress.campaign.campaign_run import Campaign, run_campaign
+from slider_resonator.stress.campaign.expected import expected
+from slider_resonator.stress.campaign.listing import as_plain, sentences
+from slider_resonator.stress.campaign.random_case import MODELS, random_case
+from slider_resonator.stress.campaign.second_order import of_second_order
+from slider_resonator.stress.campaign.verdict import (
     FAILED,
     NO_REFERENCE,
     PASSED,

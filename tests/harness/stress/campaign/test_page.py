@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.trials.campaign.campaign_run import Campaign
-from slider_resonator.trials.campaign.page import repeating, write_campaigns
-from slider_resonator.trials.campaign.verdict import (
+from slider_resonator.stress.campaign.campaign_run import Campaign
+from slider_resonator.stress.campaign.page import repeating, write_campaigns
+from slider_resonator.stress.campaign.verdict import (
     FAILED,
     NO_REFERENCE,
     PASSED,

@@ -11,7 +11,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved import located_events
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.studies.trade.peers.event_free import simulate_sgn, simulate_tanh
+from slider_resonator.trade.peers.event_free import simulate_sgn, simulate_tanh
 
 TABLE_1 = Device()
 PERIOD = 2.0 * math.pi / 3500.0

@@ -10,7 +10,7 @@ import pytest
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved import taylor
-from slider_resonator.studies.trade.peers.located_cvode import simulate
+from slider_resonator.trade.peers.located_cvode import simulate
 from tests.harness.references.known_motions import (
     FIRST_SLIP,
     KNOWN_MOTIONS,

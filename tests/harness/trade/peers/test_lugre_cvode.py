@@ -11,7 +11,7 @@ import pytest
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.studies.trade.peers.lugre_cvode import simulate_lugre_cvode
+from slider_resonator.trade.peers.lugre_cvode import simulate_lugre_cvode
 
 DEVICE = Device(friction_law=1, bristle_stiffness=1e4, initial_velocity=-0.0491)
 HELD = HeldInputs(0.0, 4.0 * math.pi / DEVICE.drive_frequency, phase=0.3, load=0.02)

@@ -11,7 +11,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved import taylor
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.studies.trade.peers.moreau_jean import simulate
+from slider_resonator.trade.peers.moreau_jean import simulate
 
 PERIOD = 2.0 * math.pi / 3500.0
 BLOCK = {"resonator_mass": 0.0, "base_amplitude": 0.0, "normal_amplitude": 0.0}

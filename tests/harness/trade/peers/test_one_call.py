@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from slider_resonator.studies.trade.peer_methods import peer_methods
-from slider_resonator.studies.trade.peers.registry import peers
-from tests.harness.studies.trade.problems import RAMP, TABLE_1, problem
+from slider_resonator.trade.peer_methods import peer_methods
+from slider_resonator.trade.peers.registry import peers
+from tests.harness.trade.problems import RAMP, TABLE_1, problem
 
 
 def test_one_call_of_heyoka_covers_no_inputs_that_vary() -> None:

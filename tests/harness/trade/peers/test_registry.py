@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from slider_resonator.studies.trade.peers.peer import Peer
-from slider_resonator.studies.trade.peers.registry import peers
-from slider_resonator.studies.trade.problem import Problem
-from slider_resonator.studies.trade.solution import errors
-from tests.harness.studies.trade.problems import LUGRE, TABLE_1, problem, reference_of
+from slider_resonator.trade.peers.peer import Peer
+from slider_resonator.trade.peers.registry import peers
+from slider_resonator.trade.problem import Problem
+from slider_resonator.trade.solution import errors
+from tests.harness.trade.problems import LUGRE, TABLE_1, problem, reference_of
 
 PERIODS = 4
 UNDAMPED_RESONANCE = """

@@ -13,8 +13,8 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.taylor import simulate
-from slider_resonator.studies.trade.peers.one_call import device_at
-from slider_resonator.studies.trade.peers.switching_taylor import simulate_sliding
+from slider_resonator.trade.peers.one_call import device_at
+from slider_resonator.trade.peers.switching_taylor import simulate_sliding
 
 MOVING = Device(
     initial_velocity=-0.0491,

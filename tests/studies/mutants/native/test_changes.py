@@ -6,7 +6,7 @@ import pytest
 
 from fmu_src.building.c_sources import slider_sources
 from slider_resonator.errors import HarnessError
-from slider_resonator.trials.mutants.native.changes import (
+from studies.mutants.native.changes import (
     Change,
     hand_written_faults,
     harmless_variants,

@@ -3,10 +3,10 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from slider_resonator.trials.mutants.kept_verdicts import open_journal
-from slider_resonator.trials.mutants.native.change_verdict import ChangeVerdict
-from slider_resonator.trials.mutants.native.changes import Change
-from slider_resonator.trials.mutants.native.kept_changes import entry_of, verdicts_on
+from studies.mutants.kept_verdicts import open_journal
+from studies.mutants.native.change_verdict import ChangeVerdict
+from studies.mutants.native.changes import Change
+from studies.mutants.native.kept_changes import entry_of, verdicts_on
 
 FAULT = Change("no_drag", "device/stick.c", "-1", "1", "friction drives")
 ON_FAULT = ChangeVerdict(FAULT, True, "scene", "position", "off by 2 m")

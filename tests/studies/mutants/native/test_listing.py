@@ -2,9 +2,9 @@ from __future__ import annotations
 
 from rich.console import Console
 
-from slider_resonator.trials.mutants.native.change_verdict import ChangeVerdict, NativeRun
-from slider_resonator.trials.mutants.native.changes import Change
-from slider_resonator.trials.mutants.native.listing import print_native_run, summary
+from studies.mutants.native.change_verdict import ChangeVerdict, NativeRun
+from studies.mutants.native.changes import Change
+from studies.mutants.native.listing import print_native_run, summary
 
 VERDICTS = (
     ChangeVerdict(Change("seen", "a.c", "x", "y", "breaks it"), True, "scene", "position", "off"),

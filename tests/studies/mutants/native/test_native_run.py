@@ -6,15 +6,15 @@ import pytest
 
 from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.scenes.scene_files import find_scene
-from slider_resonator.trials.mutants.native.change_verdict import ChangeVerdict, NativeRun
-from slider_resonator.trials.mutants.native.changes import (
+from studies.mutants.native.change_verdict import ChangeVerdict, NativeRun
+from studies.mutants.native.changes import (
     Change,
     hand_written_faults,
     harmless_variants,
 )
-from slider_resonator.trials.mutants.native.native_run import run_changes
-from slider_resonator.trials.mutants.native.workshop import read_native_sources
-from slider_resonator.trials.mutants.trial_client import TrialServers
+from studies.mutants.native.native_run import run_changes
+from studies.mutants.native.workshop import read_native_sources
+from studies.mutants.trial_client import TrialServers
 
 SCENES = ("less_than_a_period", "lugre_less_than_a_period", "averaged_less_than_a_period")
 REJECTED = ("mean_before_first_period", "first_bristle_sign", "swing_sign")

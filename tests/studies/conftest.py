@@ -1,0 +1,3 @@
+from tests.harness.conftest import fmu, instance
+
+__all__ = ["fmu", "instance"]
