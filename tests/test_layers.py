@@ -54,13 +54,13 @@ def test_sources_keep_their_layers(copy: Path) -> None:
             id="from the ground to the roof",
         ),
         pytest.param(
-            "slider_resonator/choose/cost.py",
-            "import slider_resonator.sweep.grid",
-            "slider_resonator.choose is not allowed to import",
+            "slider_resonator/choosing/cost.py",
+            "import slider_resonator.sweeping.grid",
+            "slider_resonator.choosing is not allowed to import",
             id="between rooms of a layer",
         ),
         pytest.param(
-            "slider_resonator/sweep/grid.py",
+            "slider_resonator/sweeping/grid.py",
             "import studies.paper.claim",
             "slider_resonator is not allowed to import studies",
             id="from what is installed to a study",

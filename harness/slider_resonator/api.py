@@ -21,8 +21,8 @@ from typing import Any
 
 from slider_resonator.checks.validate import Validation
 from slider_resonator.checks.validate import validate as validate_scenes
-from slider_resonator.choose import Choice
-from slider_resonator.choose import choose as choose_model
+from slider_resonator.choosing import Choice
+from slider_resonator.choosing import choose as choose_model
 from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
@@ -36,9 +36,9 @@ from slider_resonator.scenes.scene import read_scene as read_scene_file
 from slider_resonator.scenes.scene_files import files_of_scenes, find_scene
 from slider_resonator.steady.blocking_force import Blocking, find_blocking
 from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
-from slider_resonator.sweep.grid import Sweep, grid_from, read_grid
-from slider_resonator.sweep.local import available_cores
-from slider_resonator.sweep.sweeping import SweepResult, run_sweep
+from slider_resonator.sweeping.grid import Sweep, grid_from, read_grid
+from slider_resonator.sweeping.local import available_cores
+from slider_resonator.sweeping.sweeping import SweepResult, run_sweep
 
 __all__ = [
     "Blocking",

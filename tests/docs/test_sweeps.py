@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from slider_resonator.sweep.grid import read_grid
-from slider_resonator.sweep.picture import check_picture
+from slider_resonator.sweeping.grid import read_grid
+from slider_resonator.sweeping.picture import check_picture
 
 DOCS = Path(__file__).parents[2] / "docs"
 

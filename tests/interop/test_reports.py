@@ -32,9 +32,9 @@ from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.stress.campaign.page import write_campaigns
 from slider_resonator.stress.extremes.page import write_matrix_page
-from slider_resonator.sweep.grid import grid_from
-from slider_resonator.sweep.page import write_sweep_page
-from slider_resonator.sweep.sweeping import run_sweep
+from slider_resonator.sweeping.grid import grid_from
+from slider_resonator.sweeping.page import write_sweep_page
+from slider_resonator.sweeping.sweeping import run_sweep
 from slider_resonator.trade.page import write_trades
 from tests.harness.known_provenance import PROVENANCE
 from tests.harness.stress.campaign.test_page import CAMPAIGN

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from slider_resonator.choose.errors import ErrorEstimate
-from slider_resonator.choose.scales import NEAR_AN_INTEGER, Scales
+from slider_resonator.choosing.errors import ErrorEstimate
+from slider_resonator.choosing.scales import NEAR_AN_INTEGER, Scales
 from slider_resonator.scenes.scene import Scene
 
 MIN_BEATS = 2.0

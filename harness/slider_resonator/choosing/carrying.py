@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.choose.errors import ErrorEstimate, Estimates
-from slider_resonator.choose.stretch import Samples
-from slider_resonator.choose.windows import Window
+from slider_resonator.choosing.errors import ErrorEstimate, Estimates
+from slider_resonator.choosing.stretch import Samples
+from slider_resonator.choosing.windows import Window
 
 GAP_STEPS = 200
 """Steps in which u is integrated between two windows."""

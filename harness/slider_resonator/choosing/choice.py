@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
 
-from slider_resonator.choose.candidate import Candidate, Model
-from slider_resonator.choose.errors import ErrorEstimate
-from slider_resonator.choose.scales import Scales
+from slider_resonator.choosing.candidate import Candidate, Model
+from slider_resonator.choosing.errors import ErrorEstimate
+from slider_resonator.choosing.scales import Scales
 from slider_resonator.scenes.scene import Scene
 
 MARGIN = 0.99
@@ -78,7 +78,7 @@ class Choice:
     `averaging_order` is None but for averaged motion in an FMU that has a choice of orders. `step`
     (s) is None for a scene without a run. `error` is what is predicted and `allowed` what is
     needed, by need in its unit (m/s, m, s, N, Hz), None where there is no such thing. `cost` is in
-    seconds of CPU time by the model in `slider_resonator.choose.cost`. `probe` says what
+    seconds of CPU time by the model in `slider_resonator.choosing.cost`. `probe` says what
     was resolved to confirm it: "whole" scene, "windows" or "beginning", and `probe_drive_periods`
     how much. `inputs` is how inputs that are straight lines reach the FMU in the priced run, a key
     of `INPUTS`, None without any.

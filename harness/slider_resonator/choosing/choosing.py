@@ -7,7 +7,7 @@ from functools import partial
 from math import inf
 from pathlib import Path
 
-from slider_resonator.choose.candidate import (
+from slider_resonator.choosing.candidate import (
     COULOMB,
     LUGRE,
     START_TOLERANCE,
@@ -15,15 +15,15 @@ from slider_resonator.choose.candidate import (
     Model,
     models,
 )
-from slider_resonator.choose.choice import Choice, Evaluation, RuledOut
-from slider_resonator.choose.cost import run_cost, search_cost
-from slider_resonator.choose.coverage import FINEST_TOLERANCE
-from slider_resonator.choose.errors import Estimates
-from slider_resonator.choose.ladder import step_ladder
-from slider_resonator.choose.probe import Probe
-from slider_resonator.choose.scales import check_magnitudes
-from slider_resonator.choose.search import coarsest
-from slider_resonator.choose.steady_need import SteadyValue, find, steady_error
+from slider_resonator.choosing.choice import Choice, Evaluation, RuledOut
+from slider_resonator.choosing.cost import run_cost, search_cost
+from slider_resonator.choosing.coverage import FINEST_TOLERANCE
+from slider_resonator.choosing.errors import Estimates
+from slider_resonator.choosing.ladder import step_ladder
+from slider_resonator.choosing.probe import Probe
+from slider_resonator.choosing.scales import check_magnitudes
+from slider_resonator.choosing.search import coarsest
+from slider_resonator.choosing.steady_need import SteadyValue, find, steady_error
 from slider_resonator.errors import FmuError, SceneError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu

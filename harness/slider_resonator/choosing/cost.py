@@ -3,7 +3,7 @@
 The counts are communication steps, changes of the inputs, drive periods, and for averaged motion
 beats and relaxation times, with leaps the drive periods that are mapped. Their weights were fitted
 to runs of the native FMU in a host in C: the shortest of several CPU times, each in a new
-instance. Steps and changes are those of fmpy (`python -m tests.harness.choose.pricing`
+instance. Steps and changes are those of fmpy (`python -m tests.harness.choosing.pricing`
 compares with it). A model of cost decides between candidates; the seconds of another machine are
 another multiple of it.
 """
@@ -13,11 +13,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import log10
 
-from slider_resonator.choose.candidate import COULOMB, LUGRE, Candidate, Model
-from slider_resonator.choose.leap_work import LEAP_TOLERANCE, resolved_periods
-from slider_resonator.choose.plan import Plan
-from slider_resonator.choose.resolved_cost import FORGETS, period_cost, resolved_cost
-from slider_resonator.choose.scales import Scales
+from slider_resonator.choosing.candidate import COULOMB, LUGRE, Candidate, Model
+from slider_resonator.choosing.leap_work import LEAP_TOLERANCE, resolved_periods
+from slider_resonator.choosing.plan import Plan
+from slider_resonator.choosing.resolved_cost import FORGETS, period_cost, resolved_cost
+from slider_resonator.choosing.scales import Scales
 
 RUN = 40e-6
 """Seconds of a run besides its steps: the start of the FMU, the record, one state."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import cached_property
 from math import inf
 
-from slider_resonator.choose.candidate import Model
-from slider_resonator.choose.input_grid import vary
-from slider_resonator.choose.resolved_cost import period_cost
-from slider_resonator.choose.scales import Scales
-from slider_resonator.choose.windows import (
+from slider_resonator.choosing.candidate import Model
+from slider_resonator.choosing.input_grid import vary
+from slider_resonator.choosing.resolved_cost import period_cost
+from slider_resonator.choosing.scales import Scales
+from slider_resonator.choosing.windows import (
     WINDOW_PERIODS,
     WINDOWS,
     corner_periods,

@@ -10,8 +10,8 @@ import numpy as np
 
 from slider_resonator.checks.measures.deviation import peak
 from slider_resonator.checks.measures.frequency import dominant_frequency
-from slider_resonator.choose.candidate import COULOMB
-from slider_resonator.choose.stretch import Samples
+from slider_resonator.choosing.candidate import COULOMB
+from slider_resonator.choosing.stretch import Samples
 from slider_resonator.device.schedule import nearest
 
 ROUNDING = {0: 1e-12, 1: 1e-10}

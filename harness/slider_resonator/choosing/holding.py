@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from slider_resonator.choose.candidate import Model
-from slider_resonator.choose.errors import ErrorEstimate, Estimates
-from slider_resonator.choose.input_grid import inputs_as_they_vary, sampled_inputs
-from slider_resonator.choose.stretch import Stretch, follow
+from slider_resonator.choosing.candidate import Model
+from slider_resonator.choosing.errors import ErrorEstimate, Estimates
+from slider_resonator.choosing.input_grid import inputs_as_they_vary, sampled_inputs
+from slider_resonator.choosing.stretch import Stretch, follow
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene
 

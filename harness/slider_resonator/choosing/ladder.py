@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import ceil, floor, inf, log2
 
-from slider_resonator.choose.coverage import SIGNAL_NEEDS
-from slider_resonator.choose.probe import Probe
+from slider_resonator.choosing.coverage import SIGNAL_NEEDS
+from slider_resonator.choosing.probe import Probe
 from slider_resonator.device import schedule
 
 MAX_PERIODS = 10_000

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import ceil, inf, log
 
-from slider_resonator.choose.plan import Plan
-from slider_resonator.choose.scales import Scales, longest_memory
+from slider_resonator.choosing.plan import Plan
+from slider_resonator.choosing.scales import Scales, longest_memory
 
 SHORTEST_LEAP = 64.0
 """Drive periods of a communication step that is resolved as a whole."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.choose.scales import NEAR_AN_INTEGER
+from slider_resonator.choosing.scales import NEAR_AN_INTEGER
 from slider_resonator.device.schedule import Schedule
 
 SAME = 1e-9

@@ -10,25 +10,25 @@ from math import inf
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.choose.beat import lacking_beat, unseen_beat
-from slider_resonator.choose.candidate import START_TOLERANCE, Candidate, Model
-from slider_resonator.choose.carrying import Drift, carried, defect, over_the_scene
-from slider_resonator.choose.cost import AVERAGING_ORDERS
-from slider_resonator.choose.coverage import (
+from slider_resonator.choosing.beat import lacking_beat, unseen_beat
+from slider_resonator.choosing.candidate import START_TOLERANCE, Candidate, Model
+from slider_resonator.choosing.carrying import Drift, carried, defect, over_the_scene
+from slider_resonator.choosing.cost import AVERAGING_ORDERS
+from slider_resonator.choosing.coverage import (
     MAX_STEPS,
     SIGNAL_NEEDS,
     Coverage,
 )
-from slider_resonator.choose.errors import ErrorEstimate, Estimates, errors
-from slider_resonator.choose.holding import holding_errors, with_holding
-from slider_resonator.choose.input_grid import (
+from slider_resonator.choosing.errors import ErrorEstimate, Estimates, errors
+from slider_resonator.choosing.holding import holding_errors, with_holding
+from slider_resonator.choosing.input_grid import (
     sampled_inputs,
 )
-from slider_resonator.choose.plan import Plan, plan_of
-from slider_resonator.choose.runs import Runs
-from slider_resonator.choose.scales import scales_of
-from slider_resonator.choose.stretch import Samples, Stretch, checkpoints_between
-from slider_resonator.choose.windows import Windows, lay_windows
+from slider_resonator.choosing.plan import Plan, plan_of
+from slider_resonator.choosing.runs import Runs
+from slider_resonator.choosing.scales import scales_of
+from slider_resonator.choosing.stretch import Samples, Stretch, checkpoints_between
+from slider_resonator.choosing.windows import Windows, lay_windows
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.need_table import RUN_NEEDS, STEADY_NEEDS
 from slider_resonator.scenes.scene import Scene

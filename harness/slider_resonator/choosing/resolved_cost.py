@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf, log10
 
-from slider_resonator.choose.candidate import COULOMB, LUGRE, Model
-from slider_resonator.choose.plan import Plan
-from slider_resonator.choose.scales import BREAKS_LOOSE, NEAR_AN_INTEGER, Scales
+from slider_resonator.choosing.candidate import COULOMB, LUGRE, Model
+from slider_resonator.choosing.plan import Plan
+from slider_resonator.choosing.scales import BREAKS_LOOSE, NEAR_AN_INTEGER, Scales
 
 FORGETS = 6.0
 """Memories of the resonator, or relaxation times of the slow motion, until it repeats itself."""

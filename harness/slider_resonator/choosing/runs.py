@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.choose.candidate import Candidate, Model
-from slider_resonator.choose.coverage import FINEST_TOLERANCE, MAX_STEPS, Coverage
-from slider_resonator.choose.input_grid import (
+from slider_resonator.choosing.candidate import Candidate, Model
+from slider_resonator.choosing.coverage import FINEST_TOLERANCE, MAX_STEPS, Coverage
+from slider_resonator.choosing.input_grid import (
     InputGrid,
     inputs_as_they_vary,
     must_hold,
     sampled_inputs,
 )
-from slider_resonator.choose.scales import Scales
-from slider_resonator.choose.stretch import Samples, Stretch, follow
+from slider_resonator.choosing.scales import Scales
+from slider_resonator.choosing.stretch import Samples, Stretch, follow
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene
 

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 from itertools import pairwise
 from math import inf, pi, sqrt
 
-from slider_resonator.choose.candidate import LUGRE
+from slider_resonator.choosing.candidate import LUGRE
 from slider_resonator.device.device import Device
 from slider_resonator.device.signal import Signal
 from slider_resonator.errors import SceneError

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf
 
-from slider_resonator.choose.candidate import Candidate
-from slider_resonator.choose.errors import ROUNDING, ErrorEstimate
+from slider_resonator.choosing.candidate import Candidate
+from slider_resonator.choosing.errors import ROUNDING, ErrorEstimate
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.search_result import SearchResult

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.choose.input_grid import InputGrid
+from slider_resonator.choosing.input_grid import InputGrid
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run

@@ -15,10 +15,10 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.measures.deviation import peak
-from slider_resonator.choose.candidate import Model
-from slider_resonator.choose.input_grid import inputs_as_they_vary
-from slider_resonator.choose.scales import Scales, longest_memory
-from slider_resonator.choose.stretch import GOLDEN, Stretch, follow
+from slider_resonator.choosing.candidate import Model
+from slider_resonator.choosing.input_grid import inputs_as_they_vary
+from slider_resonator.choosing.scales import Scales, longest_memory
+from slider_resonator.choosing.stretch import GOLDEN, Stretch, follow
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record

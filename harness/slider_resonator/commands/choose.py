@@ -7,8 +7,8 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.choose import Choice, choose
-from slider_resonator.choose.choosing import TIME_LIMIT
+from slider_resonator.choosing import Choice, choose
+from slider_resonator.choosing.choosing import TIME_LIMIT
 from slider_resonator.commands.options import (
     SettingsCommand,
     check_left_to_choose,

@@ -42,7 +42,7 @@ from slider_resonator.scenes.scene import Scene, read_scene
 from slider_resonator.scenes.scene_files import find_scene
 
 if TYPE_CHECKING:
-    from slider_resonator.choose import Choice
+    from slider_resonator.choosing import Choice
 
 
 HOW_INPUTS = {
@@ -199,7 +199,7 @@ def _names(signals: str | None) -> tuple[str, ...] | None:
 
 def _choose(isolated: IsolatedFmu, scene: Scene, progress: Progress) -> Choice:
     # Imported here: it loads scipy.
-    from slider_resonator.choose.choosing import choose_with
+    from slider_resonator.choosing.choosing import choose_with
 
     scene.schedule()
     choice: Choice = isolated.run(partial(choose_with, scene=scene), progress)

@@ -21,12 +21,12 @@ from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
-from slider_resonator.sweep.grid import Sweep, read_grid
-from slider_resonator.sweep.kept_points import journal_path
-from slider_resonator.sweep.local import available_cores
-from slider_resonator.sweep.sweeping import SweepResult, run_sweep
-from slider_resonator.sweep.table import SUFFIXES
-from slider_resonator.sweep.worker import TIME_LIMIT
+from slider_resonator.sweeping.grid import Sweep, read_grid
+from slider_resonator.sweeping.kept_points import journal_path
+from slider_resonator.sweeping.local import available_cores
+from slider_resonator.sweeping.sweeping import SweepResult, run_sweep
+from slider_resonator.sweeping.table import SUFFIXES
+from slider_resonator.sweeping.worker import TIME_LIMIT
 
 
 @click.command("sweep")
@@ -119,11 +119,11 @@ def _check_drawable(sweep: Sweep, plot: Path | None, html: Path | None) -> None:
     """Raise HarnessError for a sweep of which there is no such picture or page."""
     # Imported here: drawing takes longer to load than many sweeps to run.
     if plot is not None:
-        from slider_resonator.sweep.picture import check_picture
+        from slider_resonator.sweeping.picture import check_picture
 
         check_picture(sweep, "--plot")
     if html is not None:
-        from slider_resonator.sweep.page import check_page
+        from slider_resonator.sweeping.page import check_page
 
         check_page(sweep, "--html")
 
@@ -136,11 +136,11 @@ def _draw(
     provenance: Provenance,
 ) -> None:
     if plot is not None:
-        from slider_resonator.sweep.picture import draw_sweep
+        from slider_resonator.sweeping.picture import draw_sweep
 
         draw_sweep(sweep, result.columns, plot)
     if html is not None:
-        from slider_resonator.sweep.page import write_sweep_page
+        from slider_resonator.sweeping.page import write_sweep_page
 
         write_sweep_page(html, sweep, result.columns, provenance)
 

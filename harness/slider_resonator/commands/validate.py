@@ -20,7 +20,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.scenes.scene_files import files_of_scenes
-from slider_resonator.sweep.local import available_cores
+from slider_resonator.sweeping.local import available_cores
 
 
 @click.command("validate")

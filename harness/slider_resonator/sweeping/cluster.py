@@ -14,8 +14,8 @@ from distributed import CancelledError, Client, KilledWorker, Worker, WorkerPlug
 
 from slider_resonator import __version__
 from slider_resonator.errors import FmuError, HarnessError
-from slider_resonator.sweep.measures import Task
-from slider_resonator.sweep.worker import TIME_LIMIT, ChunkRunner, Point, Rows, failed_row
+from slider_resonator.sweeping.measures import Task
+from slider_resonator.sweeping.worker import TIME_LIMIT, ChunkRunner, Point, Rows, failed_row
 
 CONNECT_SECONDS = 30
 

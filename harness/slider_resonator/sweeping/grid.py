@@ -14,7 +14,7 @@ from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.scenes.toml_file import read_toml
-from slider_resonator.sweep.axes import (
+from slider_resonator.sweeping.axes import (
     AxisError,
     check_count,
     finite_number,
@@ -23,7 +23,7 @@ from slider_resonator.sweep.axes import (
     random_points,
     whole_number,
 )
-from slider_resonator.sweep.measures import Run, Task, check_measure
+from slider_resonator.sweeping.measures import Run, Task, check_measure
 
 KEYS = ("title", "measures", "max_denominator", "fixed", "grid", "list", "random", "run")
 RUN_KEYS = ("drive_periods", "steps_per_period", "skip_periods")

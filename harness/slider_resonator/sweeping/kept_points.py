@@ -6,7 +6,7 @@ from pathlib import Path
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.journal import Journal
-from slider_resonator.sweep.worker import Row
+from slider_resonator.sweeping.worker import Row
 
 
 def journal_path(table: Path) -> Path:

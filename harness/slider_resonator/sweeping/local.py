@@ -9,8 +9,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from slider_resonator.errors import FmuError
-from slider_resonator.sweep.measures import Task
-from slider_resonator.sweep.worker import ChunkRunner, Point, Rows
+from slider_resonator.sweeping.measures import Task
+from slider_resonator.sweeping.worker import ChunkRunner, Point, Rows
 
 
 def available_cores() -> int:

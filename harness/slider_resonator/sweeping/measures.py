@@ -17,7 +17,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.steady_velocity import find_steady
-from slider_resonator.sweep.axes import AxisError
+from slider_resonator.sweeping.axes import AxisError
 
 Cell = float | str | None
 """An entry of the table; None where there is none."""

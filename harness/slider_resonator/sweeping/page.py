@@ -26,15 +26,15 @@ from slider_resonator.output.hover_plot import (
 from slider_resonator.output.html_page import escaped, rendered, write_page
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Row, Table, numbers, texts
-from slider_resonator.sweep.grid import Sweep
-from slider_resonator.sweep.picture import (
+from slider_resonator.sweeping.grid import Sweep
+from slider_resonator.sweeping.picture import (
     NO_ANSWER,
     check_picture,
     measure_label,
     split_into_lines,
     variable_label,
 )
-from slider_resonator.sweep.table import Columns
+from slider_resonator.sweeping.table import Columns
 
 MAX_POINTS = 20_000
 """Points of a page, some 200 bytes each for every measure."""

@@ -15,9 +15,9 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.plot_style import save, style
-from slider_resonator.sweep.grid import Sweep
-from slider_resonator.sweep.measures import unit
-from slider_resonator.sweep.table import Columns
+from slider_resonator.sweeping.grid import Sweep
+from slider_resonator.sweeping.measures import unit
+from slider_resonator.sweeping.table import Columns
 
 NO_ANSWER = "no answer"
 MAX_LINES = 6

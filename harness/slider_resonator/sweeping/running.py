@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from typing import Protocol
 
-from slider_resonator.sweep.measures import Task
-from slider_resonator.sweep.worker import Point, Row, Rows, failed_row
+from slider_resonator.sweeping.measures import Task
+from slider_resonator.sweeping.worker import Point, Row, Rows, failed_row
 
 CHUNK_SECONDS = 0.2
 """Work in a chunk: much longer than sending it takes; a killed worker loses no more than that."""

@@ -15,18 +15,18 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import Progress, no_progress
-from slider_resonator.sweep.grid import Sweep
-from slider_resonator.sweep.kept_points import open_journal, rows_of
-from slider_resonator.sweep.local import local_workers
-from slider_resonator.sweep.running import Workers, run_points
-from slider_resonator.sweep.table import (
+from slider_resonator.sweeping.grid import Sweep
+from slider_resonator.sweeping.kept_points import open_journal, rows_of
+from slider_resonator.sweeping.local import local_workers
+from slider_resonator.sweeping.running import Workers, run_points
+from slider_resonator.sweeping.table import (
     Columns,
     check_writer,
     holds_other_points,
     table_columns,
     write_table,
 )
-from slider_resonator.sweep.worker import TIME_LIMIT, Row
+from slider_resonator.sweeping.worker import TIME_LIMIT, Row
 
 
 @dataclass(frozen=True)
@@ -127,7 +127,7 @@ def _workers(
 ) -> AbstractContextManager[Workers]:
     if dask is None:
         return local_workers(sweep.task, fmu, count, time_limit)
-    from slider_resonator.sweep.cluster import dask_workers
+    from slider_resonator.sweeping.cluster import dask_workers
 
     return dask_workers(sweep.task, digest, fmu, dask, time_limit)
 

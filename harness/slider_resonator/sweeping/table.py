@@ -11,8 +11,8 @@ from typing import Any
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.targets import writable
-from slider_resonator.sweep.measures import Task
-from slider_resonator.sweep.worker import Row
+from slider_resonator.sweeping.measures import Task
+from slider_resonator.sweeping.worker import Row
 
 SUFFIXES = (".parquet", ".csv")
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
-from slider_resonator.sweep.measures import Cell, Task, measure
+from slider_resonator.sweeping.measures import Cell, Task, measure
 
 TIME_LIMIT = 120.0
 """Default time limit of a point, s."""

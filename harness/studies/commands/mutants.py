@@ -22,7 +22,7 @@ from slider_resonator.output.console import nothing_kept, noting_on_interrupt, o
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.targets import distinct
 from slider_resonator.scenes.scene_files import files_of_scenes
-from slider_resonator.sweep.local import available_cores
+from slider_resonator.sweeping.local import available_cores
 from studies.mutants.archive import read_python_fmu
 from studies.mutants.enumerate_fmu import fmu_mutants, sample
 from studies.mutants.listing import (

@@ -10,7 +10,7 @@ import numpy as np
 
 from slider_resonator.device.device import Device
 from slider_resonator.references.closed_forms import equivalent_force
-from tests.harness.choose.generated_scenes import Draw
+from tests.harness.choosing.generated_scenes import Draw
 
 COSTLY = 8.0
 """Cost of a drive period with LuGre friction, relative to Coulomb friction."""

@@ -11,8 +11,8 @@ import numpy as np
 from slider_resonator.device.device import Device
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.scenes.scene import Scene, scene_from
-from tests.harness.choose.generated_scenes import Draw, random_device
-from tests.harness.choose.hard_case import Case, constant, drive, lugre, strong
+from tests.harness.choosing.generated_scenes import Draw, random_device
+from tests.harness.choosing.hard_case import Case, constant, drive, lugre, strong
 
 MAX_CHECKPOINTS = 3000
 """Communication points of a scene in its own step."""

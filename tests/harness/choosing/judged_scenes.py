@@ -1,6 +1,6 @@
 """Choices for hard scenes: how many meet their needs, how many cost at most 1.5 of the cheapest.
 
-`python -m tests.harness.choose.judged_scenes dist/SliderResonator.fmu 10` judges ten scenes
+`python -m tests.harness.choosing.judged_scenes dist/SliderResonator.fmu 10` judges ten scenes
 of each kind.
 """
 
@@ -9,11 +9,11 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from slider_resonator.choose.choosing import choose_with
+from slider_resonator.choosing.choosing import choose_with
 from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
-from tests.harness.choose.hard_scenes import KINDS, hard_scene
-from tests.harness.choose.judging import described, judge
+from tests.harness.choosing.hard_scenes import KINDS, hard_scene
+from tests.harness.choosing.judging import described, judge
 
 
 def main(path: Path, count: int) -> None:

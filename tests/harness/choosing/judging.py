@@ -12,11 +12,11 @@ from math import inf
 import numpy as np
 
 from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
-from slider_resonator.choose.candidate import Candidate, Model
-from slider_resonator.choose.choice import Choice
-from slider_resonator.choose.choosing import candidates
-from slider_resonator.choose.cost import search_cost
-from slider_resonator.choose.scales import scales_of
+from slider_resonator.choosing.candidate import Candidate, Model
+from slider_resonator.choosing.choice import Choice
+from slider_resonator.choosing.choosing import candidates
+from slider_resonator.choosing.cost import search_cost
+from slider_resonator.choosing.scales import scales_of
 from slider_resonator.device.schedule import Schedule, communication_points, in_order
 from slider_resonator.device.signal import Signal
 from slider_resonator.errors import FmuError
@@ -191,7 +191,7 @@ class Judge:
 def judge(instance: Instance, scene: Scene, choice: Choice) -> Verdict:
     """Return the verdict on a choice.
 
-    Costs are those of the counts that `slider_resonator.choose.cost` weighs. Of the
+    Costs are those of the counts that `slider_resonator.choosing.cost` weighs. Of the
     candidates below two thirds of its cost, or of all where it says that none suffices, the finest
     of each model are run: a coarser one of the same model is not better.
     """

@@ -1,6 +1,6 @@
 """Measured over modelled cost of hard scenes, by model: whether the prices of `cost` still hold.
 
-`python -m tests.harness.choose.pricing dist/SliderResonator.fmu` prints the quantiles: near
+`python -m tests.harness.choosing.pricing dist/SliderResonator.fmu` prints the quantiles: near
 1 where they hold. CPU times of a busy machine scatter.
 """
 
@@ -17,10 +17,10 @@ from pathlib import Path
 
 import numpy as np
 
-from slider_resonator.choose.candidate import Candidate
-from slider_resonator.choose.choosing import candidates
-from slider_resonator.choose.cost import search_cost
-from slider_resonator.choose.scales import scales_of
+from slider_resonator.choosing.candidate import Candidate
+from slider_resonator.choosing.choosing import candidates
+from slider_resonator.choosing.cost import search_cost
+from slider_resonator.choosing.scales import scales_of
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance, instantiate
@@ -29,7 +29,7 @@ from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.steady_velocity import find_steady
-from tests.harness.choose.hard_scenes import KINDS, hard_scene
+from tests.harness.choosing.hard_scenes import KINDS, hard_scene
 
 OUTPUTS = ("position", "velocity", "mean_velocity", "reversals")
 REPEATS = 3

@@ -2,12 +2,12 @@ from __future__ import annotations
 
 import pytest
 
-from slider_resonator.choose.beat import unseen_beat
-from slider_resonator.choose.choosing import choose_with
-from slider_resonator.choose.errors import ErrorEstimate
-from slider_resonator.choose.scales import scales_of
+from slider_resonator.choosing.beat import unseen_beat
+from slider_resonator.choosing.choosing import choose_with
+from slider_resonator.choosing.errors import ErrorEstimate
+from slider_resonator.choosing.scales import scales_of
 from slider_resonator.fmu.instance import Instance
-from tests.harness.choose.hard_scenes import hard_scene
+from tests.harness.choosing.hard_scenes import hard_scene
 from tests.harness.scene_text import scene_of
 
 

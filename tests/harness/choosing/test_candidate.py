@@ -1,8 +1,8 @@
 from __future__ import annotations
 
-from slider_resonator.choose.candidate import COULOMB, LUGRE, Candidate, Model, models
-from slider_resonator.choose.cost import AVERAGED, AVERAGING_ORDERS
-from slider_resonator.choose.resolved_cost import RESOLVED
+from slider_resonator.choosing.candidate import COULOMB, LUGRE, Candidate, Model, models
+from slider_resonator.choosing.cost import AVERAGED, AVERAGING_ORDERS
+from slider_resonator.choosing.resolved_cost import RESOLVED
 
 
 def test_orders_of_averaging_are_models_of_their_own() -> None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from slider_resonator.choose import coverage
-from slider_resonator.choose.candidate import Candidate, Model
-from slider_resonator.choose.carrying import SAFETY
-from slider_resonator.choose.input_grid import inputs_as_they_vary
-from slider_resonator.choose.probe import Probe
-from slider_resonator.choose.stretch import Stretch, follow
+from slider_resonator.choosing import coverage
+from slider_resonator.choosing.candidate import Candidate, Model
+from slider_resonator.choosing.carrying import SAFETY
+from slider_resonator.choosing.input_grid import inputs_as_they_vary
+from slider_resonator.choosing.probe import Probe
+from slider_resonator.choosing.stretch import Stretch, follow
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene
 from tests.harness.scene_text import scene_of

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.choose import choose
-from slider_resonator.choose.choosing import candidates, choose_with
+from slider_resonator.choosing import choose
+from slider_resonator.choosing.choosing import candidates, choose_with
 from slider_resonator.errors import Refusal, SceneError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene

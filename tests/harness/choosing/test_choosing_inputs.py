@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from slider_resonator.choose import choose
-from slider_resonator.choose.choosing import choose_with
+from slider_resonator.choosing import choose
+from slider_resonator.choosing.choosing import choose_with
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from tests.harness.scene_text import scene_of

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import pytest
 
-from slider_resonator.choose.candidate import TOLERANCES, Candidate, Model
-from slider_resonator.choose.cost import run_cost, search_cost
-from slider_resonator.choose.plan import Plan
-from slider_resonator.choose.scales import scales_of
+from slider_resonator.choosing.candidate import TOLERANCES, Candidate, Model
+from slider_resonator.choosing.cost import run_cost, search_cost
+from slider_resonator.choosing.plan import Plan
+from slider_resonator.choosing.scales import scales_of
 from tests.harness.scene_text import scene_of
 
 

@@ -5,8 +5,8 @@ from math import inf
 import numpy as np
 import pytest
 
-from slider_resonator.choose.errors import errors
-from slider_resonator.choose.stretch import MAX_CHECKPOINTS, Samples, checkpoints_between
+from slider_resonator.choosing.errors import errors
+from slider_resonator.choosing.stretch import MAX_CHECKPOINTS, Samples, checkpoints_between
 
 TIMES = np.linspace(0.1, 1.0, 10)
 

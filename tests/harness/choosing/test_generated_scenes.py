@@ -10,11 +10,11 @@ import time
 import numpy as np
 import pytest
 
-from slider_resonator.choose.choosing import choose_with
+from slider_resonator.choosing.choosing import choose_with
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.resolved import located_events
-from tests.harness.choose.generated_scenes import COUNT, generated_scene
-from tests.harness.choose.judging import Judge, Verdict, described, judge
+from tests.harness.choosing.generated_scenes import COUNT, generated_scene
+from tests.harness.choosing.judging import Judge, Verdict, described, judge
 
 FIRST, CHUNK = 10, 25
 REFEREED = (46, 50)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from slider_resonator.choose.choosing import choose_with
+from slider_resonator.choosing.choosing import choose_with
 from slider_resonator.fmu.instance import Instance
-from tests.harness.choose.hard_scenes import KINDS, hard_scene
-from tests.harness.choose.judging import described, judge
+from tests.harness.choosing.hard_scenes import KINDS, hard_scene
+from tests.harness.choosing.judging import described, judge
 
 KNOWN_MISSES = (
     ("jump_near_the_end", 10),

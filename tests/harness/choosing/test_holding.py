@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from slider_resonator.choose.candidate import Model
-from slider_resonator.choose.holding import holding_errors
-from slider_resonator.choose.input_grid import inputs_as_they_vary, sampled_inputs
+from slider_resonator.choosing.candidate import Model
+from slider_resonator.choosing.holding import holding_errors
+from slider_resonator.choosing.input_grid import inputs_as_they_vary, sampled_inputs
 from slider_resonator.fmu.instance import Instance
 from tests.harness.scene_text import scene_of
 

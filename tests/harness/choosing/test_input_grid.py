@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from slider_resonator.choose.input_grid import (
+from slider_resonator.choosing.input_grid import (
     inputs_as_they_vary,
     sampled_inputs,
     vary,

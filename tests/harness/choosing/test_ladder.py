@@ -5,8 +5,8 @@ from math import log2, pi
 
 import pytest
 
-from slider_resonator.choose.ladder import BEAT_POINTS, FINEST, STEPS_PER_BEAT, step_ladder
-from slider_resonator.choose.probe import Probe
+from slider_resonator.choosing.ladder import BEAT_POINTS, FINEST, STEPS_PER_BEAT, step_ladder
+from slider_resonator.choosing.probe import Probe
 from slider_resonator.fmu.instance import Instance
 from tests.harness.scene_text import scene_of
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from slider_resonator.choose.leap_work import resolved_periods
-from slider_resonator.choose.plan import Plan
-from slider_resonator.choose.scales import Scales, scales_of
+from slider_resonator.choosing.leap_work import resolved_periods
+from slider_resonator.choosing.plan import Plan
+from slider_resonator.choosing.scales import Scales, scales_of
 from tests.harness.scene_text import scene_of
 
 TABLE_1 = scales_of(scene_of(""))

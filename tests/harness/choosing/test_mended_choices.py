@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import pytest
 
-from slider_resonator.choose.choosing import choose_with
+from slider_resonator.choosing.choosing import choose_with
 from slider_resonator.fmu.instance import Instance
-from tests.harness.choose.judging import described, judge
+from tests.harness.choosing.judging import described, judge
 from tests.harness.scene_text import scene_of
 
 ALTERNATING = ", ".join(f"[{0.18 * i:.2f}, {i % 2}.0]" for i in range(60))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from slider_resonator.choose.plan import Plan, plan_of
+from slider_resonator.choosing.plan import Plan, plan_of
 from tests.harness.scene_text import scene_of
 
 RUN = "[run]\nstop_time = 1.0\nstep_size = 0.1\n"

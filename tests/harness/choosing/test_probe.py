@@ -6,10 +6,10 @@ from math import inf
 
 import pytest
 
-from slider_resonator.choose.candidate import Candidate, Model
-from slider_resonator.choose.coverage import HEAD_PERIODS, SHORT
-from slider_resonator.choose.probe import CAUTION, Probe
-from slider_resonator.choose.resolved_cost import RESOLVED
+from slider_resonator.choosing.candidate import Candidate, Model
+from slider_resonator.choosing.coverage import HEAD_PERIODS, SHORT
+from slider_resonator.choosing.probe import CAUTION, Probe
+from slider_resonator.choosing.resolved_cost import RESOLVED
 from slider_resonator.fmu.instance import Instance
 from tests.harness.scene_text import scene_of
 

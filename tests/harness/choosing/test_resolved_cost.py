@@ -1,8 +1,8 @@
 from __future__ import annotations
 
-from slider_resonator.choose.candidate import Model
-from slider_resonator.choose.resolved_cost import period_cost
-from slider_resonator.choose.scales import scales_of
+from slider_resonator.choosing.candidate import Model
+from slider_resonator.choosing.resolved_cost import period_cost
+from slider_resonator.choosing.scales import scales_of
 from tests.harness.scene_text import scene_of
 
 

@@ -4,7 +4,7 @@ from math import inf, pi
 
 import pytest
 
-from slider_resonator.choose.scales import scales_of
+from slider_resonator.choosing.scales import scales_of
 from tests.harness.scene_text import scene_of
 
 

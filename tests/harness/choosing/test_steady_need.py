@@ -4,8 +4,8 @@ from math import inf
 
 import pytest
 
-from slider_resonator.choose.candidate import Candidate, Model
-from slider_resonator.choose.steady_need import SteadyValue, find, steady_error
+from slider_resonator.choosing.candidate import Candidate, Model
+from slider_resonator.choosing.steady_need import SteadyValue, find, steady_error
 from slider_resonator.fmu.instance import Instance
 
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from slider_resonator.choose.windows import (
+from slider_resonator.choosing.windows import (
     FIT_PERIODS,
     MAX_SPREAD,
     WINDOW_PERIODS,

@@ -13,10 +13,10 @@ import pytest
 from distributed import LocalCluster, Worker
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.sweep import cluster, sweeping
-from slider_resonator.sweep.grid import read_grid
-from slider_resonator.sweep.kept_points import journal_path
-from slider_resonator.sweep.sweeping import run_sweep
+from slider_resonator.sweeping import cluster, sweeping
+from slider_resonator.sweeping.grid import read_grid
+from slider_resonator.sweeping.kept_points import journal_path
+from slider_resonator.sweeping.sweeping import run_sweep
 
 
 @pytest.fixture

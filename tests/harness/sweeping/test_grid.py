@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.sweep.grid import Sweep, read_grid
+from slider_resonator.sweeping.grid import Sweep, read_grid
 
 
 def _read(tmp_path: Path, text: str) -> Sweep:

@@ -7,7 +7,7 @@ import pytest
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady.steady_velocity import find_steady
-from slider_resonator.sweep.measures import STATISTICS, Run, Task, measure, unit
+from slider_resonator.sweeping.measures import STATISTICS, Run, Task, measure, unit
 
 TURN = np.linspace(0.0, tau, 65)
 

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.sweep.grid import grid_from
-from slider_resonator.sweep.page import MAX_POINTS, check_page, write_sweep_page
-from slider_resonator.sweep.table import table_columns
-from slider_resonator.sweep.worker import Row
+from slider_resonator.sweeping.grid import grid_from
+from slider_resonator.sweeping.page import MAX_POINTS, check_page, write_sweep_page
+from slider_resonator.sweeping.table import table_columns
+from slider_resonator.sweeping.worker import Row
 from tests.harness.known_provenance import PROVENANCE
 from tests.html_pages import Page
 

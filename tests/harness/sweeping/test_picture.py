@@ -7,11 +7,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.sweep import picture
-from slider_resonator.sweep.grid import grid_from, read_grid
-from slider_resonator.sweep.picture import check_picture, draw_sweep
-from slider_resonator.sweep.table import table_columns
-from slider_resonator.sweep.worker import Row
+from slider_resonator.sweeping import picture
+from slider_resonator.sweeping.grid import grid_from, read_grid
+from slider_resonator.sweeping.picture import check_picture, draw_sweep
+from slider_resonator.sweeping.table import table_columns
+from slider_resonator.sweeping.worker import Row
 
 AXIS = "{ from = 0.0, to = 1.0, count = 8 }"
 

@@ -7,9 +7,9 @@ from concurrent.futures import Future
 
 import pytest
 
-from slider_resonator.sweep.measures import Run, Task
-from slider_resonator.sweep.running import run_points
-from slider_resonator.sweep.worker import Point, Row, Rows
+from slider_resonator.sweeping.measures import Run, Task
+from slider_resonator.sweeping.running import run_points
+from slider_resonator.sweeping.worker import Point, Row, Rows
 
 TASK = Task(("phase",), (), ("steady_velocity",), 20, Run(1, 1, 0))
 POINTS: list[Point] = [(number, (0.1 * number,)) for number in range(300)]

@@ -8,9 +8,9 @@ import pytest
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
-from slider_resonator.sweep import cluster, worker
-from slider_resonator.sweep.measures import Run, Task
-from slider_resonator.sweep.worker import ChunkRunner, measure_point
+from slider_resonator.sweeping import cluster, worker
+from slider_resonator.sweeping.measures import Run, Task
+from slider_resonator.sweeping.worker import ChunkRunner, measure_point
 from tests.harness.faulty_fmus import compiled
 
 TASK = Task(("friction_coefficient",), (), ("steady_velocity",), 20, Run(1, 1, 0))
