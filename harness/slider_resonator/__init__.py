@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from slider_resonator.api import (
         Blocking,
         Choice,
+        Device,
         HarnessError,
         OpenFmu,
         Record,
@@ -26,8 +27,10 @@ if TYPE_CHECKING:
         choose,
         fmu_path,
         open_fmu,
+        read_device,
         read_scene,
         sweep,
+        to_toml,
         validate,
     )
 
@@ -36,6 +39,7 @@ __version__ = "0.2.0"
 __all__ = [
     "Blocking",
     "Choice",
+    "Device",
     "HarnessError",
     "OpenFmu",
     "Record",
@@ -46,8 +50,10 @@ __all__ = [
     "choose",
     "fmu_path",
     "open_fmu",
+    "read_device",
     "read_scene",
     "sweep",
+    "to_toml",
     "validate",
 ]
 

@@ -6,10 +6,12 @@
         record = fmu.run({"run": {"stop_time": 4.0, "step_size": 0.01}}, phase=0.4, load=0.05)
         print(record.final("mean_velocity"), fmu.steady(phase=0.4, load=0.05).steady_velocity)
 
-Keywords are parameters and inputs of the FMU in SI units; all others keep their start value, the
-device of table 1. A scene is the name of one that is built in, a file, data of the same form, or
-the result of `read_scene`. Without an FMU the native one of this installation is used. Every error
-is a `HarnessError`, whose text is what the command would print.
+Keywords are parameters and inputs of the FMU, numbers in SI units or texts such as "20 kHz"; all
+others keep the value of the device, by default that of table 1. A device is a `Device`, a device
+file, or the name of an example of `slider-resonator device`. A scene is the name of one that is
+built in, a file, data of the same form, or the result of `read_scene`. Without an FMU the native
+one of this installation is used. Every error is a `HarnessError`, whose text is what the command
+would print.
 """
 
 from __future__ import annotations
@@ -24,13 +26,17 @@ from slider_resonator.checks.validate import validate as validate_scenes
 from slider_resonator.choosing import Choice
 from slider_resonator.choosing import choose as choose_model
 from slider_resonator.device.common_period import MAX_DENOMINATOR
+from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.device.units import si_value
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fmu.finished import fmu_path
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run as run_schedule
+from slider_resonator.scenes.device_file import read_device as read_device_file
+from slider_resonator.scenes.device_file import to_toml
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene import read_scene as read_scene_file
 from slider_resonator.scenes.scene_files import files_of_scenes, find_scene
@@ -43,6 +49,7 @@ from slider_resonator.sweeping.sweeping import SweepResult, run_sweep
 __all__ = [
     "Blocking",
     "Choice",
+    "Device",
     "HarnessError",
     "OpenFmu",
     "Record",
@@ -53,12 +60,17 @@ __all__ = [
     "choose",
     "fmu_path",
     "open_fmu",
+    "read_device",
     "read_scene",
     "sweep",
+    "to_toml",
     "validate",
 ]
 
 SceneLike = str | Path | Mapping[str, Any] | Scene
+DeviceLike = str | Path | Device
+Value = float | str
+"""A number in SI units, or a text with a unit."""
 
 
 class OpenFmu:
@@ -68,8 +80,11 @@ class OpenFmu:
     opened with, and raises HarnessError where the FMU refuses, crashes or exceeds that.
     """
 
-    def __init__(self, fmu: Path, time_limit: float) -> None:
+    def __init__(
+        self, fmu: Path, time_limit: float, device: Mapping[str, float] | None = None
+    ) -> None:
         self.path = fmu
+        self._device = dict(device or {})
         self._isolated = IsolatedFmu(fmu, time_limit)
 
     def __enter__(self) -> OpenFmu:
@@ -84,32 +99,52 @@ class OpenFmu:
         """Free the FMU and end its process."""
         self._isolated.close()
 
-    def run(self, scene: SceneLike, **values: float) -> Record:
-        """Run a scene and return inputs and outputs at all its communication points."""
-        read = read_scene(scene, **values)
+    def run(self, scene: SceneLike, **values: Value) -> Record:
+        """Run a scene and return inputs and outputs at all its communication points.
+
+        The device that the FMU was opened with replaces what the scene says of these parameters.
+        """
+        read = read_scene(scene, **{**self._device, **values})
         task = partial(run_schedule, parameters=read.parameters, schedule=read.schedule())
         record: Record = self._isolated.run(task)
         return record
 
-    def steady(self, *, max_denominator: int = MAX_DENOMINATOR, **values: float) -> SteadyMotion:
+    def steady(self, *, max_denominator: int = MAX_DENOMINATOR, **values: Value) -> SteadyMotion:
         """Find the steady motion by shooting; its `status` says why there is none."""
-        search = partial(find_steady, values=_checked(values), max_denominator=max_denominator)
+        checked = {**self._device, **_checked(values)}
+        search = partial(find_steady, values=checked, max_denominator=max_denominator)
         motion: SteadyMotion = self._isolated.run(search)
         return motion
 
-    def blocking(self, *, max_denominator: int = MAX_DENOMINATOR, **values: float) -> Blocking:
+    def blocking(self, *, max_denominator: int = MAX_DENOMINATOR, **values: Value) -> Blocking:
         """Find the load that stops the slider; its `status` says why there is none."""
-        search = partial(find_blocking, values=_checked(values), max_denominator=max_denominator)
+        checked = {**self._device, **_checked(values)}
+        search = partial(find_blocking, values=checked, max_denominator=max_denominator)
         blocking: Blocking = self._isolated.run(search)
         return blocking
 
 
-def open_fmu(fmu: str | Path | None = None, *, time_limit: float = TIME_LIMIT) -> OpenFmu:
-    """Open an FMU for a `with` block."""
-    return OpenFmu(_fmu(fmu), time_limit)
+def open_fmu(
+    fmu: str | Path | None = None,
+    *,
+    device: DeviceLike | None = None,
+    time_limit: float = TIME_LIMIT,
+) -> OpenFmu:
+    """Open an FMU for a `with` block; what it computes is for `device` unless values say else."""
+    return OpenFmu(_fmu(fmu), time_limit, {} if device is None else vars(read_device(device)))
 
 
-def read_scene(scene: SceneLike, **values: float) -> Scene:
+def read_device(device: DeviceLike) -> Device:
+    """Return a device: of a file, of an example by name, or as it is.
+
+    Raises SceneError with file, key, value and requirement.
+    """
+    if isinstance(device, Device):
+        return device
+    return Device.from_mapping(read_device_file(str(device)))
+
+
+def read_scene(scene: SceneLike, **values: Value) -> Scene:
     """Return a scene, its parameters and inputs replaced by `values`.
 
     Data without a name is called "scene". Raises SceneError with key, value and requirement.
@@ -140,7 +175,7 @@ def validate(
     return validate_scenes(paths, files, time_limit=time_limit, jobs=jobs or available_cores())
 
 
-def choose(scene: SceneLike, fmu: str | Path | None = None, **values: float) -> Choice:
+def choose(scene: SceneLike, fmu: str | Path | None = None, **values: Value) -> Choice:
     """Choose the cheapest fidelity, friction law, tolerance and step that meet a scene's needs."""
     return choose_model(read_scene(scene, **values), _fmu(fmu))
 
@@ -175,13 +210,15 @@ def _fmu(fmu: str | Path | None) -> Path:
     return fmu_path("native") if fmu is None else Path(fmu)
 
 
-def _checked(values: Mapping[str, float]) -> dict[str, float]:
+def _checked(values: Mapping[str, Value]) -> dict[str, float]:
     allowed = [*PARAMETERS, *INPUTS]
+    checked: dict[str, float] = {}
     for name, value in values.items():
         if name not in allowed:
             raise SceneError(unknown_name("parameter or input", name, allowed))
         try:
-            check_value(name, value)
+            checked[name] = si_value(name, value) if isinstance(value, str) else value
+            check_value(name, checked[name])
         except ValueError as error:
             raise SceneError(str(error)) from error
-    return dict(values)
+    return checked

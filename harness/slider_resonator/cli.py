@@ -32,6 +32,7 @@ COMMANDS: Mapping[str, str] = {
     "blocking": "Find the load that stops an FMU, without a long run.",
     "campaign": "Run random devices and schedules on FMUs.",
     "choose": "Choose the cheapest model that meets a scene's needs.",
+    "device": "Say what a device file means; devices to start from.",
     "extremes": "Run FMUs at the extremes of every parameter and input.",
     "run": "Run one scene and report results and cost.",
     "scenes": "List the built-in scenes; help to write your own.",

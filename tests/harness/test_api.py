@@ -90,8 +90,8 @@ def test_a_table_of_other_points_is_replaced_only_where_that_is_asked_for(
 def test_what_a_script_gets_wrong_is_named(native_fmu: Path) -> None:
     with sr.open_fmu(native_fmu) as fmu:
         record = fmu.run({"run": {"stop_time": 0.01, "step_size": 0.01}})
-        with pytest.raises(sr.HarnessError, match=r"phase = '0\.4': must be a number"):
-            fmu.steady(phase="0.4")  # type: ignore[arg-type]
+        with pytest.raises(sr.HarnessError, match=r"phase = '0\.4 kg': not in rad; must be"):
+            fmu.steady(phase="0.4 kg")
     for read in (record.__getitem__, record.final):
         with pytest.raises(sr.HarnessError, match="unknown output 'positon'; did you mean 'pos"):
             read("positon")

@@ -21,6 +21,7 @@ COMMANDS = (
     *("validate", "baseline", "mutants", "choose", "run", "steady", "blocking"),
     *("scenes", "sweep", "extremes", "trade", "closed-loop", "bench", "hosts", "paper", "build"),
     "campaign",
+    "device",
 )
 
 

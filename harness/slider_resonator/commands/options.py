@@ -12,10 +12,18 @@ from typing import Any, TypeVar
 import click
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.device.units import si_value
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fmu import finished
 from slider_resonator.output.targets import writable
+from slider_resonator.output.terminal import escaped
+from slider_resonator.scenes.device_file import (
+    device_content,
+    device_values,
+    find_device,
+    possible_slips,
+)
 from slider_resonator.scenes.scene_files import find_scene
 
 SET = "--set"
@@ -43,10 +51,7 @@ class Setting(click.ParamType[tuple[str, float]]):
         if name not in allowed:
             self.fail(unknown_name("parameter or input", name, allowed), param, ctx)
         try:
-            read = float(number)
-        except ValueError:
-            self.fail(f"{name} = {number!r}: must be a number", param, ctx)
-        try:
+            read = si_value(name, number)
             check_value(name, read)
         except ValueError as error:
             self.fail(str(error), param, ctx)
@@ -231,15 +236,41 @@ fmu_option = click.option(
     help="FMU to run.  [default: the native one in dist]",
 )
 
-set_option = click.option(
+_set_option = click.option(
     SET,
     "settings",
     type=Setting(),
     multiple=True,
     callback=_each_once,
-    help="Set a parameter or input, in SI units; more NAME=VALUE may follow. All others keep their "
-    "start value, the device of table 1. Repeatable.",
+    help="Set a parameter or input, in SI units or with a unit, as 'load=50 mN'; more NAME=VALUE "
+    "may follow. All others keep the value of the device. Repeatable.",
 )
+
+_device_option = click.option(
+    "--device",
+    metavar="NAME|FILE",
+    help="A device file, or an example of `slider-resonator device`.  [default: table 1]",
+)
+
+
+def set_option(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add --device and --set; `settings` has the values of both, where both set one, of --set."""
+
+    @wraps(command)
+    def with_device(device: str | None, settings: dict[str, float], **others: Any) -> Any:
+        parameters = {} if device is None else _device(device)
+        return command(settings={**parameters, **settings}, **others)
+
+    return _device_option(_set_option(with_device))
+
+
+def _device(name_or_file: str) -> dict[str, float]:
+    content = device_content(find_device(name_or_file))
+    values = device_values(content, name_or_file)
+    for slip in possible_slips(content["device"]):
+        click.echo(escaped(f"note: {name_or_file}: {slip}"), err=True)
+    return values
+
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
 

@@ -65,11 +65,11 @@ def test_an_example_on_several_lines_is_the_same_command(name: str) -> None:
 
 
 def test_commands_that_take_an_fmu_take_it_by_the_same_option() -> None:
-    assert having("--fmu") == set(EVERY) - {"baseline", "build", "closed-loop", "scenes"}
+    assert having("--fmu") == set(EVERY) - {"baseline", "build", "closed-loop", "device", "scenes"}
 
 
 def test_every_command_has_the_common_options_that_make_sense_for_it() -> None:
-    runs_nothing = {"baseline", "build", "baseline accept", "scenes"}
+    runs_nothing = {"baseline", "build", "baseline accept", "device", "scenes"}
     assert having("--time-limit") == set(EVERY) - runs_nothing
     assert having("--json") == set(EVERY) - {
         *("baseline", "build"),
@@ -79,7 +79,7 @@ def test_every_command_has_the_common_options_that_make_sense_for_it() -> None:
     assert having("--scene") == {
         *("baseline accept", "baseline check", "baseline record", "mutants", "validate")
     }
-    assert having("--set") == {"blocking", "choose", "run", "steady"}
+    assert having("--set") == having("--device") == {"blocking", "choose", "run", "steady"}
     own = {"--python-fmu", "--fmi3-fmu"}  # further FMUs of `hosts`
     looks_alike = re.compile("fmu|job|worker|limit|timeout|json")
     common = {"--fmu", "--jobs", "--time-limit", "--json", "--workers", "--limit"}

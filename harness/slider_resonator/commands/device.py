@@ -1,0 +1,101 @@
+"""`device`: examples of device files, and what such a file means."""
+
+from __future__ import annotations
+
+import click
+
+from slider_resonator.commands.options import json_option
+from slider_resonator.commands.results import print_json, print_table, print_text
+from slider_resonator.device.device import Device
+from slider_resonator.device.interface import VARIABLES
+from slider_resonator.device.units import with_unit
+from slider_resonator.output.table import Table, numbers, texts
+from slider_resonator.output.terminal import escaped
+from slider_resonator.scenes.device_file import (
+    device_content,
+    device_values,
+    example_devices,
+    find_device,
+    possible_slips,
+)
+from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
+
+
+@click.command("device")
+@click.argument("device", metavar="[NAME|FILE]", required=False)
+@click.option("--example", metavar="NAME", help="Print an example, to start a file of your own.")
+@json_option
+def device_command(device: str | None, example: str | None, as_json: bool) -> None:
+    """Say what a device file means, or list the devices to start from.
+
+    A device file has a table [device]: parameters of the FMU in SI units, or as text with a unit,
+    such as "20 kHz", "1 um" or "5 g". What it leaves out keeps the value of table 1. Other commands
+    take it with --device FILE.
+
+    \b
+    Examples:
+      slider-resonator device
+      slider-resonator device --example ultrasonic_slider > mine.toml
+      slider-resonator device mine.toml
+      slider-resonator steady --device mine.toml --set phase="30 deg"
+    """
+    if device is not None and example is not None:
+        raise click.UsageError(f"{device} and --example {example}: must be only one")
+    if example is not None:
+        text = find_device(example).read_text(encoding="utf-8", errors="replace")
+        click.echo(escaped(text), nl=False)
+    elif device is not None:
+        _explain(device, as_json)
+    else:
+        _list(as_json)
+
+
+def _list(as_json: bool) -> None:
+    titles = {name: device_content(path)["title"] for name, path in example_devices().items()}
+    if as_json:
+        print_json({"devices": [{"name": n, "title": title} for n, title in titles.items()]})
+        return
+    print_table(Table(texts("device", "what it is"), list(titles.items())))
+    print_text("`slider-resonator device --example NAME > mine.toml` starts a file of your own")
+
+
+def _explain(name_or_file: str, as_json: bool) -> None:
+    content = device_content(find_device(name_or_file))
+    values = device_values(content, name_or_file)
+    device = Device.from_mapping(values)
+    slips = possible_slips(content["device"])
+    rows = {
+        name: {
+            "value": value,
+            "unit": VARIABLES[name].unit,
+            "shown": with_unit(name, value),
+            "given": name in values,
+        }
+        for name, value in vars(device).items()
+    }
+    if as_json:
+        print_json({"device": rows, "possible_slips": slips})
+        return
+    columns = [*texts("parameter"), *numbers("value", "SI"), *texts("from", "meaning")]
+    cells = [
+        (
+            name,
+            row["shown"],
+            f"{row['value']:.8g}" + ("" if row["unit"] == "1" else f" {row['unit']}"),
+            "file" if row["given"] else "table 1",
+            PARAMETER_MEANINGS[name],
+        )
+        for name, row in rows.items()
+    ]
+    print_text(str(content.get("title", name_or_file)))
+    print_table(Table(columns, cells))
+    print_text("\n".join([*_derived(device), *(f"note: {slip}" for slip in slips)]))
+
+
+def _derived(device: Device) -> list[str]:
+    faces = f"{device.friction_faces} {'face' if device.friction_faces == 1 else 'faces'}"
+    friction = with_unit("load", device.mean_friction)
+    lines = [f"friction of {faces} at the mean normal load: {friction}"]
+    if device.normal_amplitude > device.normal_preload:
+        lines.append("the normal load's amplitude is above its mean: the contact lifts off")
+    return lines

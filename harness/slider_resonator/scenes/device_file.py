@@ -1,0 +1,148 @@
+"""Device files: a TOML table [device], values in SI units or as text with a unit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib import resources
+from math import pi
+from pathlib import Path
+from typing import Any
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.interface import PARAMETERS, VARIABLES
+from slider_resonator.device.units import si_value, with_unit
+from slider_resonator.device.values import check_value
+from slider_resonator.errors import SceneError, unknown_name
+from slider_resonator.scenes.toml_file import read_toml
+from slider_resonator.scenes.toml_text import toml_value
+
+_TEXTS = ("name", "title", "description")
+_MARKS: Mapping[str, tuple[str, ...]] = {
+    "grid": ("grid", "list", "random", "measures"),
+    "scene": ("run", "expect", "inputs", "tuning", "beside", "need", "sweep"),
+    "device": ("device",),
+}
+"""Keys by which a file is known as what it is, in the order in which they decide."""
+_USES = {
+    "grid": "`slider-resonator sweep {file}`",
+    "scene": "`slider-resonator run {file}` or `validate --scene {file}`",
+    "device": "`slider-resonator device {file}`, or `--device {file}` of other commands",
+}
+
+
+def refuse_other_kinds(content: Mapping[str, Any], source: str, expected: str) -> None:
+    """Raise SceneError if the content of a file is that of a scene, grid or device, not `expected`.
+
+    The message has the command that the file is for.
+    """
+    found = next((kind for kind, marks in _MARKS.items() if content.keys() & set(marks)), expected)
+    if found != expected:
+        use = _USES[found].format(file=source)
+        raise SceneError(f"{source}: is a {found} file; must be a {expected} file. Use it in {use}")
+
+
+def example_devices() -> dict[str, Path]:
+    """Return the files of the devices to start from, by name, table 1 first."""
+    folder = Path(str(resources.files("slider_resonator.scenes") / "devices"))
+    files = sorted(folder.glob("*.toml"), key=lambda path: (path.stem != "table_1", path.stem))
+    return {path.stem: path for path in files}
+
+
+def find_device(name_or_file: str) -> Path:
+    """Return the file of an example, or the file itself; SceneError names the nearest example."""
+    examples = example_devices()
+    if name_or_file in examples:
+        return examples[name_or_file]
+    path = Path(name_or_file)
+    if not path.suffix and len(path.parts) == 1 and not path.is_file():
+        raise SceneError(
+            f"{unknown_name('device', name_or_file, examples)}; or a device file, written by "
+            "`slider-resonator device --example table_1 > device.toml`"
+        )
+    return path
+
+
+def read_device(name_or_file: str) -> dict[str, float]:
+    """Read a device file: the parameters that it states, in SI units.
+
+    Raises SceneError with file, key, value and requirement.
+    """
+    path = find_device(name_or_file)
+    return device_values(device_content(path), str(path))
+
+
+def device_content(path: Path) -> dict[str, Any]:
+    """Return the parsed text of a device file; SceneError for a file of another kind."""
+    content = read_toml(path)
+    refuse_other_kinds(content, str(path), "device")
+    for key in content:
+        if key not in (*_TEXTS, "device"):
+            where = f"a parameter must be below [device]: {key} = {content[key]!r}"
+            known = key in PARAMETERS
+            raise SceneError(
+                f"{path}: {where if known else unknown_name('key', key, (*_TEXTS, 'device'))}"
+            )
+    if not isinstance(content.get("device"), dict):
+        raise SceneError(f"{path}: must have a table headed [device]")
+    return content
+
+
+def device_values(content: Mapping[str, Any], source: str) -> dict[str, float]:
+    """Return the parameters below [device] in SI units; SceneError with key, value, requirement."""
+    values: dict[str, float] = {}
+    for name, value in content.get("device", {}).items():
+        if name not in PARAMETERS:
+            raise SceneError(f"{source}: device: {unknown_name('parameter', name, PARAMETERS)}")
+        try:
+            number = si_value(name, value) if isinstance(value, str) else value
+            if isinstance(number, bool):
+                raise ValueError(f"{name} = {str(number).lower()}: must be a number")
+            check_value(name, number)
+        except ValueError as error:
+            raise SceneError(f"{source}: device.{error}") from error
+        values[name] = number
+    return values
+
+
+def possible_slips(table: Mapping[str, Any]) -> list[str]:
+    """Return a sentence for each plain number in rad/s of [device] that may be meant in Hz.
+
+    Meant are round numbers, and a frequency that is 2 pi times or a 2 pi-th of the other.
+    """
+    slips = []
+    frequencies = ("drive_frequency", "resonator_frequency")
+    given = {name: float(table[name]) for name in frequencies if _is_number(table.get(name))}
+    values = dict(zip(frequencies, (_frequency(table, name) for name in frequencies), strict=True))
+    ratio = values["drive_frequency"] / values["resonator_frequency"]
+    apart = any(abs(r / (2.0 * pi) - 1.0) < 0.03 for r in (ratio, 1.0 / ratio))
+    for name, value in given.items():
+        is_round = value != VARIABLES[name].start and float(f"{value:.2g}") == value
+        if value > 0.0 and (is_round or apart):
+            slips.append(
+                f"{name} = {value:g} is in rad/s, which is {with_unit(name, value)}; "
+                f'if {value:g} Hz is meant, write {name} = "{value:g} Hz"'
+            )
+    return slips
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _frequency(table: Mapping[str, Any], name: str) -> float:
+    value = table.get(name, VARIABLES[name].start)
+    return si_value(name, value) if isinstance(value, str) else float(value)
+
+
+def to_toml(device: Device, title: str = "") -> str:
+    """Return the text of a device file: what differs from table 1, and the number of faces."""
+    start = Device()
+    lines = [f"title = {toml_value(title)}", ""] if title else []
+    lines.append("[device]")
+    for name in PARAMETERS:
+        value = getattr(device, name)
+        if value != getattr(start, name) or name == "friction_faces":
+            unit = VARIABLES[name].unit
+            said = "" if unit == "1" else f"  # {unit}, {with_unit(name, value)}"
+            lines.append(f"{name} = {value!r}{said}")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,46 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import slider_resonator as sr
+from tests.harness.calling import call, refused
+
+
+def test_examples_are_listed_and_printed(tmp_path: Path) -> None:
+    assert "ultrasonic_slider" in call("device").stdout
+    mine = tmp_path / "mine.toml"
+    mine.write_text(call("device", "--example", "ultrasonic_slider").stdout, encoding="utf-8")
+    shown = call("device", mine).stdout
+    assert "20 kHz" in shown
+    assert "125663.71 rad/s" in shown
+    assert "friction of 1 face at the mean normal load: 750 mN" in shown
+
+
+def test_a_possible_slip_is_noted(tmp_path: Path, native_fmu: Path) -> None:
+    path = tmp_path / "slip.toml"
+    path.write_text("[device]\ndrive_frequency = 20000\n", encoding="utf-8")
+    said = json.loads(call("device", path, "--json").stdout)
+    assert said["possible_slips"]
+    assert said["device"]["drive_frequency"]["shown"] == "3.1831 kHz"
+    ran = call("steady", native_fmu, "--device", path)
+    assert 'write drive_frequency = "20000 Hz"' in ran.stderr
+
+
+def test_settings_replace_the_device(native_fmu: Path) -> None:
+    named = call(
+        "steady", native_fmu, "--device", "ultrasonic_slider", "--set", "load=50 mN", "--json"
+    )
+    with sr.open_fmu(native_fmu, device="ultrasonic_slider") as fmu:
+        expected = fmu.steady(load="50 mN").steady_velocity
+        assert expected is not None
+        other = fmu.steady(load=0.05, friction_coefficient=0.1).steady_velocity
+    assert json.loads(named.stdout)["steady_velocity"] == expected
+    assert other != pytest.approx(expected, rel=1e-3)
+
+
+def test_other_files_are_named_as_what_they_are() -> None:
+    assert "is a grid file" in refused("device", "docs/steady_velocity.toml")
+    assert "did you mean 'stick_slip'?" in refused("steady", "--device", "stick_slp")

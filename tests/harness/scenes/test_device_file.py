@@ -1,0 +1,87 @@
+from __future__ import annotations
+
+from math import pi
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.device.device import Device
+from slider_resonator.errors import SceneError
+from slider_resonator.scenes.device_file import (
+    device_content,
+    example_devices,
+    possible_slips,
+    read_device,
+    to_toml,
+)
+
+ROOT = Path(__file__).parents[3]
+
+
+def written(folder: Path, text: str) -> str:
+    path = folder / "mine.toml"
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+def test_texts_with_units_and_numbers_mix(tmp_path: Path) -> None:
+    read = read_device(
+        written(tmp_path, '[device]\ndrive_frequency = "20 kHz"\nslider_mass = 0.05\n')
+    )
+    assert read == pytest.approx({"drive_frequency": 2.0 * pi * 20e3, "slider_mass": 0.05})
+
+
+def test_example_of_table_1_is_the_start_device() -> None:
+    device = Device.from_mapping(read_device("table_1"))
+    assert vars(device) == pytest.approx(vars(Device()), rel=1e-15)
+
+
+@pytest.mark.parametrize("name", list(example_devices()))
+def test_examples_state_faces_and_where_numbers_come_from(name: str) -> None:
+    content = device_content(example_devices()[name])
+    assert content["device"]["friction_faces"] in (1, 2)
+    assert "Numbers: " in content["description"]
+    assert not possible_slips(content["device"])
+
+
+def test_what_is_written_is_read_back(tmp_path: Path) -> None:
+    device = Device(slider_mass=0.1 + 0.2, drive_frequency=1e5 / 3.0, friction_law=1)
+    path = written(tmp_path, to_toml(device, 'a "quoted" title'))
+    assert Device.from_mapping(read_device(path)) == device
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('[device]\nresonator_mass = "5 kHz"', "device.resonator_mass = '5 kHz': not in kg"),
+        ("[device]\nresonator_mas = 1", "did you mean 'resonator_mass'?"),
+        ("[device]\nslider_mass = -1", "device.slider_mass = -1: must be a finite number of at"),
+        ("[device]\nslider_mass = true", "device.slider_mass = true: must be a number"),
+        ("[device]\nfriction_faces = 3", "must be an integer from 1 to 2"),
+        ("slider_mass = 1", "a parameter must be below [device]"),
+        ("", "must have a table headed [device]"),
+        ("device = 3", "must have a table headed [device]"),
+        ("[device]\n[run]\nstop_time = 1.0", "is a scene file; must be a device file"),
+        ('measures = ["position"]', "is a grid file; must be a device file"),
+    ],
+)
+def test_bad_file_is_explained(tmp_path: Path, text: str, said: str) -> None:
+    path = written(tmp_path, text)
+    with pytest.raises(SceneError) as error:
+        read_device(path)
+    assert said in str(error.value)
+    assert path in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("table", "named"),
+    [
+        ({"drive_frequency": 20000.0}, ["drive_frequency"]),
+        ({"drive_frequency": "20 kHz"}, []),
+        ({"drive_frequency": "20 kHz", "resonator_frequency": 20013.0}, ["resonator_frequency"]),
+        ({"drive_frequency": 125663.7, "resonator_frequency": 125000.3}, []),
+        ({}, []),
+    ],
+)
+def test_numbers_that_may_be_hertz_are_named(table: dict[str, object], named: list[str]) -> None:
+    assert [slip.split()[0] for slip in possible_slips(table)] == named
