@@ -53,6 +53,8 @@ def main() -> None:
     for stream in range(3):  # the pipes of the program end with it
         os.dup2(nowhere, stream)
     report = _watch(program, control, wakeup, max_memory)
+    if "memory" not in report:  # it may have started many since they were counted
+        report |= _too_many(_descendants())
     _end_all(program)
     try:
         control.sendall(json.dumps(report).encode())
@@ -97,8 +99,8 @@ def _watch(program: int, control: socket.socket, wakeup: int, max_memory: int) -
         processes = [program]
         if began >= next_count:
             processes = _descendants()
-            if len(processes) > MAX_PROCESSES:
-                return {"processes": len(processes)}
+            if too_many := _too_many(processes):
+                return too_many
             took = time.monotonic() - began
             next_count = began + min(TREE_INTERVAL, took / MAX_TREE_SHARE)
         memory = _memory(program)
@@ -107,6 +109,11 @@ def _watch(program: int, control: socket.socket, wakeup: int, max_memory: int) -
             next_memory = time.monotonic() + TREE_INTERVAL
         if memory > max_memory:
             return {"memory": memory}
+
+
+def _too_many(processes: Sequence[int]) -> dict[str, int]:
+    """Return the number of processes where that is too large."""
+    return {"processes": len(processes)} if len(processes) > MAX_PROCESSES else {}
 
 
 def _reaped() -> list[tuple[int, int]]:
