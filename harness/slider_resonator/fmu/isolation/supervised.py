@@ -19,10 +19,8 @@ from slider_resonator.fmu.isolation.child_environment import FOLDER
 from slider_resonator.fmu.limits import max_memory
 
 SUPERVISOR = Path(__file__).with_name("supervisor.py")
-MAX_ENDING = 10.0
-"""Longest time (s) that ending a program may take."""
-MAX_ROUNDS = 100
-"""Largest number of times that processes are looked for which start others meanwhile."""
+MAX_ENDING = 90.0
+"""Longest time (s) that ending a program may take; the supervisor gives up before."""
 
 
 @dataclass(frozen=True)
@@ -127,7 +125,8 @@ class Supervised:
 def _kill_marked(folder: Path) -> None:
     """Kill all processes that have inherited `folder` as theirs in the environment, by /proc."""
     mark = os.fsencode(f"{FOLDER}={folder}")
-    for _ in range(MAX_ROUNDS):
+    deadline = time.monotonic() + MAX_ENDING
+    while time.monotonic() < deadline:
         found = []
         for environment in Path("/proc").glob("[0-9]*/environ"):
             with suppress(OSError):
