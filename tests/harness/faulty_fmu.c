@@ -61,7 +61,7 @@ static void fault(void)
         rest();
     }
     if (!strcmp(name, "fork_many")) {
-        for (int generation = 0; generation < 9; generation++)
+        for (int generation = 0; generation < 8; generation++)
             fork();
         rest();
     }

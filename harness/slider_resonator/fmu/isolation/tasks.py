@@ -1,8 +1,10 @@
-"""Many tasks on an isolated FMU, whose process is replaced after a crash or an exceeded limit."""
+"""Many tasks on an isolated FMU, whose processes are replaced after crashes or exceeded limits."""
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Generator, Sequence
+from concurrent.futures import Future, wait
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,14 +12,15 @@ from time import monotonic
 from typing import Any, Generic, TypeVar
 
 from slider_resonator.errors import FmuError, HarnessError
-from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, Task
-from slider_resonator.fmu.isolation.tasks_ahead import TasksAhead
+from slider_resonator.fmu.isolation.process import FmuDied, Task
+from slider_resonator.fmu.isolation.processes import LocalProcesses, Outcome, Processes
 
 MAX_CRASHES = 3
 """Crashes after which no more tasks are run."""
 ALONE = 2.0
-"""Time (s) in which one process must have failed in no task before others start; short runs end
-sooner."""
+"""Time (s) for which one process runs the tasks before others start; short runs end sooner."""
+QUEUED = 2
+"""Tasks submitted for each process where every task is run, so that it never waits."""
 
 Item = TypeVar("Item")
 
@@ -43,69 +46,61 @@ def run_tasks(
     meanwhile: Callable[[Item], None] = lambda item: None,
     max_crashes: int | None = MAX_CRASHES,
     jobs: int = 1,
+    processes: Processes | None = None,
 ) -> Generator[Finished[Item], None, None]:
     """Run a task for each item, and yield each outcome, in this order.
 
-    `meanwhile` is called for an item while the FMU works on it, or has. An FMU that shows no fault
-    gets up to `jobs` processes; the outcomes are those of one that runs the tasks in turn, for an
-    FMU in which each run is independent of those before. After a crash or an exceeded limit
-    the other items of that `name` are left out. All remaining items are left out after an exceeded
-    limit of time, memory or processes, after `max_crashes` crashes, and after crashes that took
-    `time_limit` (s) together; with None for `max_crashes` the run always goes on.
+    `meanwhile` is called for an item while the FMU works on it, or has. A run that takes longer
+    than `ALONE` gets up to `jobs` processes here, or `processes` elsewhere. The outcomes do not
+    depend on their number, for an FMU in which each run is independent of those before. After a
+    crash or an exceeded limit the other items of that `name` are left out. All remaining items are
+    left out after an exceeded limit of time, memory or processes, after `max_crashes` crashes, and
+    after crashes that took `time_limit` (s) together; with None for `max_crashes` the run always
+    goes on.
     """
-    process: IsolatedFmu | None = None
+    processes = processes or LocalProcesses(fmu, time_limit, jobs)
+    submitted: dict[int, Future[Outcome]] = {}
+    waiting = deque(range(len(tasks)))
     crashed: set[str] = set()
     crashes, wasted = 0, 0.0
-    ahead = TasksAhead(fmu, [task for _, task in tasks], time_limit, jobs - 1)
-    start = monotonic()
+    began = monotonic()
     try:
         for index, (item, task) in enumerate(tasks):
-            done = ahead.result(index)
             if name(item) in crashed:
+                if future := submitted.pop(index, None):
+                    future.cancel()
                 continue
-            if done is not None:
-                meanwhile(item)
-                yield Finished(item, done.value)
-                continue
-            if process is None:
-                try:
-                    process = IsolatedFmu(fmu, time_limit)
-                except FmuError as error:
-                    yield Finished(None, error=error)
-                    return
-            began = monotonic()
-            try:
-                process.submit(task)
-                meanwhile(item)
-                result = process.result()
-            except HarnessError as error:
-                ahead.stop()
-                process.kill()
-                process = None
-                if isinstance(error, FmuDied):
-                    crashed.add(name(item))
-                    crashes += 1
-                    wasted += time_limit if error.over_limit else monotonic() - began
-                yield Finished(item, error=error)
-            else:
-                if monotonic() - start >= ALONE:
-                    ahead.start()
-                yield Finished(item, result)
+            at_once = jobs if monotonic() - began >= ALONE else 1
+            if max_crashes is None:
+                at_once *= QUEUED
+            while waiting and len(submitted) < at_once:
+                following = waiting.popleft()
+                if name(tasks[following][0]) not in crashed:
+                    submitted[following] = processes.submit(tasks[following][1])
+            meanwhile(item)
+            outcome = processes.outcome(submitted.pop(index))
+            if not outcome.is_open and index > 0:  # it may run in fewer processes only
+                jobs = 1
+                wait(submitted.values())
+                outcome = processes.outcome(processes.submit(task))
+            if not outcome.is_open:
+                yield Finished(None, error=outcome.error)
+                return
+            if isinstance(outcome.error, FmuDied):
+                crashed.add(name(item))
+                crashes += 1
+                wasted += time_limit if outcome.error.over_limit else outcome.seconds
+            yield Finished(item, outcome.value, outcome.error)
             if max_crashes is not None and (crashes >= max_crashes or wasted >= time_limit):
                 rest = [name(other) for other, _ in tasks[index + 1 :]]
                 left_out = [one for one in dict.fromkeys(rest) if one not in crashed]
                 if left_out:
                     yield Finished(None, error=_gave_up(crashes, left_out))
                 return
-        if process is not None:
-            try:
-                process.close()
-            except FmuDied as error:
-                yield Finished(None, error=error)
+        if error := processes.close():
+            yield Finished(None, error=error)
     finally:
-        ahead.end()
-        if process is not None:
-            process.kill()
+        processes.end()
 
 
 def run_all_tasks(
@@ -114,15 +109,26 @@ def run_all_tasks(
     time_limit: float,
     *,
     name: Callable[[Item], str],
-    meanwhile: Callable[[Item], None],
+    meanwhile: Callable[[Item], None] = lambda item: None,
     outcomes: tuple[type[HarnessError], ...],
+    jobs: int = 1,
+    processes: Processes | None = None,
 ) -> Generator[tuple[Item, Any, HarnessError | None], None, None]:
     """Run a task for each item, however many crash, and yield item, result and error of each.
 
     Errors that are among the `outcomes` of a task are yielded, others raised: FmuError when the FMU
     cannot be run at all.
     """
-    finished = run_tasks(fmu, tasks, time_limit, name=name, meanwhile=meanwhile, max_crashes=None)
+    finished = run_tasks(
+        fmu,
+        tasks,
+        time_limit,
+        name=name,
+        meanwhile=meanwhile,
+        max_crashes=None,
+        jobs=jobs,
+        processes=processes,
+    )
     with closing(finished):
         for one in finished:
             if one.item is None:
