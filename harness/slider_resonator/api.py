@@ -80,11 +80,9 @@ class OpenFmu:
     opened with, and raises HarnessError where the FMU refuses, crashes or exceeds that.
     """
 
-    def __init__(
-        self, fmu: Path, time_limit: float, device: Mapping[str, float] | None = None
-    ) -> None:
+    def __init__(self, fmu: Path, time_limit: float, parameters: Mapping[str, float]) -> None:
         self.path = fmu
-        self._device = dict(device or {})
+        self._device = parameters
         self._isolated = IsolatedFmu(fmu, time_limit)
 
     def __enter__(self) -> OpenFmu:
@@ -131,7 +129,10 @@ def open_fmu(
     time_limit: float = TIME_LIMIT,
 ) -> OpenFmu:
     """Open an FMU for a `with` block; what it computes is for `device` unless values say else."""
-    return OpenFmu(_fmu(fmu), time_limit, {} if device is None else vars(read_device(device)))
+    parameters = vars(Device() if device is None else read_device(device))
+    start = vars(Device())
+    own = {name: value for name, value in parameters.items() if value != start[name]}
+    return OpenFmu(_fmu(fmu), time_limit, own)
 
 
 def read_device(device: DeviceLike) -> Device:

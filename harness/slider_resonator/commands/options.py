@@ -246,9 +246,21 @@ _set_option = click.option(
     "may follow. All others keep the value of the device. Repeatable.",
 )
 
+
+def _device(_: click.Context, __: click.Option, name_or_file: str | None) -> dict[str, float]:
+    if name_or_file is None:
+        return {}
+    content = device_content(find_device(name_or_file))
+    values = device_values(content, name_or_file)
+    for slip in possible_slips(content["device"]):
+        click.echo(escaped(f"note: {name_or_file}: {slip}"), err=True)
+    return values
+
+
 _device_option = click.option(
     "--device",
     metavar="NAME|FILE",
+    callback=_device,
     help="A device file, or an example of `slider-resonator device`.  [default: table 1]",
 )
 
@@ -257,19 +269,10 @@ def set_option(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add --device and --set; `settings` has the values of both, where both set one, of --set."""
 
     @wraps(command)
-    def with_device(device: str | None, settings: dict[str, float], **others: Any) -> Any:
-        parameters = {} if device is None else _device(device)
-        return command(settings={**parameters, **settings}, **others)
+    def with_device(device: dict[str, float], settings: dict[str, float], **others: Any) -> Any:
+        return command(settings={**device, **settings}, **others)
 
     return _device_option(_set_option(with_device))
-
-
-def _device(name_or_file: str) -> dict[str, float]:
-    content = device_content(find_device(name_or_file))
-    values = device_values(content, name_or_file)
-    for slip in possible_slips(content["device"]):
-        click.echo(escaped(f"note: {name_or_file}: {slip}"), err=True)
-    return values
 
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
