@@ -24,34 +24,26 @@ from slider_resonator.output.targets import distinct
 from slider_resonator.scenes.scene_files import files_of_scenes
 from slider_resonator.sweeping.local import available_cores
 from studies.mutants.archive import read_python_fmu
+from studies.mutants.changes import Change, hand_written_faults, harmless_variants
 from studies.mutants.enumerate_fmu import fmu_mutants, sample
+from studies.mutants.judging import TIME_LIMIT
 from studies.mutants.listing import (
+    change_as_plain,
+    changes_as_plain,
     mutant_as_plain,
-    print_mutants,
+    mutants_as_plain,
     print_run,
-    run_as_plain,
+    print_variants,
 )
 from studies.mutants.mutant import KINDS
-from studies.mutants.mutation_run import PROBES, TIME_LIMIT, run_mutants
-from studies.mutants.native.changes import (
-    Change,
-    hand_written_faults,
-    harmless_variants,
-)
-from studies.mutants.native.listing import (
-    change_as_plain,
-    native_run_as_plain,
-    print_changes,
-    print_native_run,
-)
-from studies.mutants.native.native_run import run_changes
 from studies.mutants.page import write_mutants
+from studies.mutants.runs import run_changes, run_mutants
 
 MIN_RATE = 0.95
 """Share of the mutants that change a result that must be rejected for a pass."""
 
 MIN_NATIVE_RATE = 0.97
-"""Share of the hand-written faults that a scene can see that must be rejected for a pass."""
+"""Share of the hand-written faults that must be rejected for a pass."""
 
 
 @click.command("mutants")
@@ -68,7 +60,13 @@ MIN_NATIVE_RATE = 0.97
     "--sample", "count", type=click.IntRange(min=1), help="Try a random sample of this size."
 )
 @click.option(
-    "--seed", type=int, default=0, show_default=True, help="Seed of the sample and the probes."
+    "--seed",
+    type=int,
+    default=0,
+    show_default=True,
+    envvar="MUTANTS_SEED",
+    show_envvar=True,
+    help="Seed of the sample.",
 )
 @click.option(
     "--file",
@@ -86,18 +84,10 @@ MIN_NATIVE_RATE = 0.97
     help=f"Only mutants of this kind. Repeatable. One of {', '.join(KINDS)}.",
 )
 @scenes_option("all built-in")
-@click.option(
-    "--probes",
-    type=click.IntRange(min=0),
-    default=PROBES,
-    show_default=True,
-    help="Random scenes that show whether a survivor changes a result.",
-)
 @jobs_option
 @time_limit_option(
     TIME_LIMIT,
-    "CPU time of a mutant in each scene, or point of a sweep, but at most 3 s and 20 times the "
-    "original's; a mutant that exceeds it is rejected.",
+    "Time of a mutant in each scene, or point of a sweep; a mutant that exceeds it is rejected.",
 )
 @click.option(
     "--journal",
@@ -119,7 +109,6 @@ def mutants_command(
     files: tuple[str, ...],
     kinds: tuple[str, ...],
     scenes: tuple[str, ...],
-    probes: int,
     jobs: int | None,
     time_limit: float,
     journal: Path | None,
@@ -129,26 +118,24 @@ def mutants_command(
     """Make faulty FMUs and count how many of them `validate` rejects.
 
     Each mutant is a copy of the Python FMU with one fault: a wrong operator, constant, sign,
-    condition, statement, event, input or unit, or a parameter off by 1 %. It runs on the scenes
-    that execute the changed statement, the cheapest first, in a process of its own, until a check
-    fails; a crash or a hang counts as rejected. What passes the cheapest runs on the others with
-    up to 511 other mutants in one FMU, and in ever smaller groups where that is rejected. What
-    passes all runs on random probes beside the original: it is equivalent if no result differs by
-    more than the scenes allow; otherwise it runs on all scenes once more, alone. Without FMU: the
-    Python one in dist.
+    condition, statement or unit. It runs on the scenes in a process of its own, those first that
+    rejected others of the same file, then the cheapest, until a check fails; a crash or a hang
+    counts as rejected. What passes all is equivalent if no result differs from the original's by
+    more than a hundredth of what its check allows; otherwise it survives. Without FMU: the Python
+    one in dist.
 
     With --native a C compiler of this machine builds copies of the native FMU from its sources,
     each with one fault written by hand, or with a harmless change that must pass.
 
     Exit code: 0 when at least 95 % of the mutants that change a result are rejected, with --native
-    97 % of the faults that a scene can see and no harmless variant; 1 when fewer are, 2 when there
+    97 % of the faults and no harmless variant; 1 when fewer are, 2 when there
     is nothing to try or the unchanged FMU is rejected.
 
     \b
     Examples:
       python -m harness mutants --list --file coulomb.py
       python -m harness mutants --sample 200 --seed 1 --html mutants.html
-      python -m harness mutants --kind event --kind input --kind parameter --kind unit
+      python -m harness mutants --kind sign --kind unit
       python -m harness mutants --file coulomb.py --json > mutants.json
       python -m harness mutants --native --file lugre.c
     """
@@ -180,7 +167,7 @@ def mutants_command(
         if as_json:
             print_json({"mutants": [mutant_as_plain(mutant) for mutant in chosen]})
         else:
-            print_mutants(output(), chosen)
+            print_variants(output(), chosen)
         return
     with noting_on_interrupt(lambda: _kept(journal)), progress_bar() as progress:
         run = run_mutants(
@@ -190,8 +177,6 @@ def mutants_command(
             files_of_scenes(scenes),
             made=len(made),
             jobs=jobs or available_cores(),
-            probes=probes,
-            seed=seed,
             time_limit=time_limit,
             journal=journal,
             progress=progress,
@@ -199,7 +184,7 @@ def mutants_command(
     if html is not None:
         write_mutants(html, run, provenance)
     if as_json:
-        print_json(run_as_plain(run), provenance)
+        print_json(mutants_as_plain(run), provenance)
     else:
         print_run(output(), run)
     context.exit(0 if run.rate is None or run.rate >= MIN_RATE else 1)
@@ -242,7 +227,7 @@ def _native(
         if as_json:
             print_json({"changes": [change_as_plain(change) for change in changes]})
         else:
-            print_changes(output(), changes)
+            print_variants(output(), changes)
         return 0
     provenance = provenance_of(path)
     with noting_on_interrupt(lambda: _kept(journal)), progress_bar() as progress:
@@ -256,8 +241,8 @@ def _native(
             progress=progress,
         )
     if as_json:
-        print_json(native_run_as_plain(run), provenance)
+        print_json(changes_as_plain(run), provenance)
     else:
-        print_native_run(output(), run)
+        print_run(output(), run)
     enough = run.rate is None or run.rate >= MIN_NATIVE_RATE
     return 0 if enough and not run.false_alarms else 1

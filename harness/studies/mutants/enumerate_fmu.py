@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from random import Random
 from typing import TypeVar
 
-from slider_resonator.errors import FmuError, HarnessError, unknown_name
+from slider_resonator.errors import HarnessError, unknown_name
 from studies.mutants.archive import DESCRIPTION, PythonFmu
 from studies.mutants.enumerate_source import source_mutants
-from studies.mutants.faults import fault_mutants, missing_names
 from studies.mutants.mutant import Mutant
 from studies.mutants.units import unit_mutants
 
@@ -19,12 +18,8 @@ Change = TypeVar("Change")
 def fmu_mutants(fmu: PythonFmu, files: Sequence[str] = ()) -> list[Mutant]:
     """Return the mutants of all files, or of some, in the order of files and lines.
 
-    The same FMU gives the same mutants in the same order. Raises HarnessError for an unknown file
-    and FmuError for a component that the faults do not fit.
+    The same FMU gives the same mutants in the same order. Raises HarnessError for an unknown file.
     """
-    missing = missing_names(fmu.modules)
-    if missing:
-        raise FmuError(f"the component lacks names that faults need: {', '.join(missing)}")
     known = [*fmu.modules, DESCRIPTION]
     for file in files:
         if file not in known:
@@ -36,8 +31,7 @@ def fmu_mutants(fmu: PythonFmu, files: Sequence[str] = ()) -> list[Mutant]:
         if file == DESCRIPTION:
             found += unit_mutants(fmu.text(DESCRIPTION))
             continue
-        path, text = fmu.path_of(file), fmu.modules[file]
-        found += source_mutants(file, path, text) + fault_mutants(file, path, text)
+        found += source_mutants(file, fmu.path_of(file), fmu.modules[file])
     return found
 
 

@@ -25,10 +25,8 @@ def source_mutants(file: str, path: str, text: str) -> list[Mutant]:
     for statement, inside in statements(ast.parse(text).body):
         for edit in _statement_edits(source, statement, inside):
             line, column = source.position(edit.begin)
-            where = None if inside is None else statement.lineno
             mutated = source.edited(edit)
-            change = edit.change
-            found.append(Mutant(file, path, line, column, edit.kind, change, where, text, mutated))
+            found.append(Mutant(file, path, line, column, edit.kind, edit.change, text, mutated))
     return sorted(found, key=lambda m: (m.line, m.column, m.change))
 
 

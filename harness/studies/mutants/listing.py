@@ -1,8 +1,8 @@
-"""A mutation run as text and as plain data for JSON."""
+"""Variants of an FMU and their verdicts as text and as plain data for JSON."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rich.console import Console
@@ -13,60 +13,59 @@ from slider_resonator.output.fitting_text import fitting, terminal_width
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Row, Style, Table, numbers, texts
 from slider_resonator.output.terminal import escaped, rendered
+from studies.mutants.changes import Change
 from studies.mutants.mutant import KINDS, Mutant
-from studies.mutants.verdict import STATUSES, SURVIVED, MutationRun
+from studies.mutants.verdict import STATUSES, MutationRun, Variant, Verdict
 
 MAX_REJECTIONS = 12
-"""Rows of the table of rejecting checks; all are in the JSON document."""
+"""Rows of the table of rejecting checks on a terminal; all are in the JSON document."""
 
 
-def print_run(console: Console, run: MutationRun) -> None:
-    """Print counts by kind and file, the most frequent rejections, the survivors and the rate."""
-    console.print(rendered(_kinds(run)))
-    console.print(rendered(tally("file", run)))
+def print_run(console: Console, run: MutationRun[Variant]) -> None:
+    """Print counts, the most frequent rejections, survivors, false alarms and the rate."""
+    if any(isinstance(verdict.variant, Mutant) for verdict in run.verdicts):
+        console.print(rendered(tally("kind", run.tally("kind"))))
+    console.print(rendered(tally("file", run.tally("file"))))
     if run.rejections():
         console.print(rendered(rejections(run, MAX_REJECTIONS)))
-    for verdict in run.having(SURVIVED):
-        heading = Text.assemble(("SURVIVED ", STYLES[Style.FAIL]), verdict.mutant.name)
-        reason = Text(escaped(f"     {verdict.reason}"))
-        console.print(heading, reason, Text(escaped(verdict.mutant.diff)), sep="\n")
+    for verdict in run.survivors:
+        _print_variant(console, "SURVIVED", verdict, verdict.reason)
+    for verdict in run.false_alarms:
+        why = f"{verdict.scene}: {verdict.quantity}: {verdict.reason}"
+        _print_variant(console, "FALSE ALARM", verdict, why)
     for status, meaning in STATUSES.items():
         _print_fitting(console, f"{status:12} {run.counts[status]:5}  {meaning}")
     _print_fitting(console, escaped(summary(run)))
 
 
-def _print_fitting(console: Console, text: str) -> None:
-    console.print(fitting(text, terminal_width()), markup=False, soft_wrap=True)
-
-
-def summary(run: MutationRun) -> str:
+def summary(run: MutationRun[Variant]) -> str:
     """Return the result in a sentence."""
     counts = run.counts
-    changing = counts["rejected"] + counts[SURVIVED]
+    changing = counts["rejected"] + counts["survived"]
     rate = "none changes a result" if run.rate is None else f"{run.rate:.2%}"
+    harmless = ""
+    if run.harmless:
+        harmless = f"; rejected {len(run.false_alarms)} of {len(run.harmless)} harmless variants"
     return (
-        f"{run.fmu}: rejected {counts['rejected']} of the {changing} mutants that change a result: "
-        f"{rate} ({len(run.verdicts)} tried of {run.made}, {number_of(run.probes, 'probe')}, "
-        f"{run.wall_time:.0f} s)"
+        f"{run.fmu}: rejected {counts['rejected']} of the {changing} faults that change a result: "
+        f"{rate} ({len(run.verdicts)} tried of {run.made}, {run.wall_time:.0f} s){harmless}"
     )
 
 
-def print_mutants(console: Console, mutants: list[Mutant]) -> None:
-    """Print each mutant with its diff."""
-    for mutant in mutants:
-        console.print(
-            Text(f"{mutant.name} [{mutant.kind}]", "bold"), escaped(mutant.diff), sep="\n"
-        )
-    console.print(f"{number_of(len(mutants), 'mutant')}")
+def print_variants(console: Console, variants: Sequence[Mutant] | Sequence[Change]) -> None:
+    """Print the name, the kind and the diff of each variant."""
+    for variant in variants:
+        heading = Text(f"{variant.name} [{variant.kind}]", "bold")
+        console.print(heading, Text(escaped(variant.diff)), sep="\n")
+    console.print(number_of(len(variants), "variant"))
 
 
-def run_as_plain(run: MutationRun) -> dict[str, Any]:
+def mutants_as_plain(run: MutationRun[Mutant]) -> dict[str, Any]:
     """Return a run without a verdict, which depends on the required rate."""
     return {
         "fmu": run.fmu,
         "made": run.made,
         "tried": len(run.verdicts),
-        "probes": run.probes,
         "rate": run.rate,
         "counts": run.counts,
         "kinds": run.tally("kind"),
@@ -74,9 +73,22 @@ def run_as_plain(run: MutationRun) -> dict[str, Any]:
         "rejections": dict(run.rejections()),
         "wall_time": run.wall_time,
         "mutants": [
-            mutant_as_plain(verdict.mutant)
-            | {name: getattr(verdict, name) for name in ("status", "scene", "quantity", "reason")}
+            mutant_as_plain(verdict.variant) | {"status": verdict.status} | _rejection(verdict)
             for verdict in run.verdicts
+        ],
+    }
+
+
+def changes_as_plain(run: MutationRun[Change]) -> dict[str, Any]:
+    """Return a run of changes of the C sources without a verdict."""
+    return {
+        "fmu": run.fmu,
+        "rate": run.rate,
+        "false_alarms": len(run.false_alarms),
+        "wall_time": run.wall_time,
+        "changes": [
+            change_as_plain(verdict.variant) | {"rejected": verdict.rejected} | _rejection(verdict)
+            for verdict in (*run.verdicts, *run.harmless)
         ],
     }
 
@@ -87,26 +99,41 @@ def mutant_as_plain(mutant: Mutant) -> dict[str, Any]:
     return {name: getattr(mutant, name) for name in names}
 
 
-def tally(key: str, run: MutationRun) -> Table:
+def change_as_plain(change: Change) -> dict[str, Any]:
+    """Return a change of the C sources, with its texts."""
+    names = ("name", "file", "old", "new", "meaning", "harmless")
+    return {name: getattr(change, name) for name in names}
+
+
+def tally(key: str, counts: Mapping[str, Mapping[str, int]]) -> Table:
     """Return the counts by status for each kind or file."""
-    rows = [_counts(name, counts) for name, counts in run.tally(key).items()]
-    return Table([*texts(key), *numbers(*STATUSES)], rows)
+    meaning: Mapping[str, str] = KINDS if key == "kind" else {}
+    rows: list[Row] = [
+        [name, *(str(by_status[status]) for status in STATUSES), meaning.get(name, "")]
+        for name, by_status in counts.items()
+    ]
+    return Table([*texts(key), *numbers(*STATUSES), *texts("what is changed")], rows)
 
 
-def _kinds(run: MutationRun) -> Table:
-    rows = [[*_counts(name, counts), KINDS[name]] for name, counts in run.tally("kind").items()]
-    return Table([*texts("kind"), *numbers(*STATUSES), *texts("what is changed")], rows)
-
-
-def _counts(name: str, counts: Mapping[str, int]) -> Row:
-    return [name, *(str(counts[status]) for status in STATUSES)]
-
-
-def rejections(run: MutationRun, max_rows: int | None = None) -> Table:
-    """Return what rejected mutants; beyond `max_rows` the others are counted together."""
+def rejections(run: MutationRun[Variant], max_rows: int | None = None) -> Table:
+    """Return what rejected variants; beyond `max_rows` the others are counted together."""
     found = run.rejections()
     shown, others = found[:max_rows], found[max_rows:] if max_rows else []
     rows = [(what, str(count)) for what, count in shown]
     if others:
         rows.append((f"{len(others)} others", str(sum(count for _, count in others))))
-    return Table([*texts("rejected first by"), *numbers("mutants")], rows)
+    return Table([*texts("rejected first by"), *numbers("variants")], rows)
+
+
+def _rejection(verdict: Verdict[Variant]) -> dict[str, str]:
+    return {name: getattr(verdict, name) for name in ("scene", "quantity", "reason")}
+
+
+def _print_variant(console: Console, word: str, verdict: Verdict[Variant], why: str) -> None:
+    heading = Text.assemble((f"{word} ", STYLES[Style.FAIL]), verdict.variant.name)
+    reason = Text(escaped(f"     {why}"))
+    console.print(heading, reason, Text(escaped(verdict.variant.diff)), sep="\n")
+
+
+def _print_fitting(console: Console, text: str) -> None:
+    console.print(fitting(text, terminal_width()), markup=False, soft_wrap=True)

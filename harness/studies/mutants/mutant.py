@@ -12,9 +12,6 @@ KINDS: Mapping[str, str] = {
     "sign": "minus dropped",
     "condition": "comparison, its boundary, and, or, not or a test changed",
     "removed": "statement removed",
-    "event": "event dropped, miscounted or late",
-    "input": "phase jump, delay or loss at input changes",
-    "parameter": "parameter or input off by 1 %",
     "unit": "unit mislabelled in the model description",
 }
 """Kinds of mutants and what they change."""
@@ -25,8 +22,7 @@ class Mutant:
     """One change to one file of an FMU.
 
     `path` is that of the file in the archive, `old` and `new` are its texts. `line` and `column`
-    (from 1) are those of the change, `change` describes it. The change has an effect only where the
-    statement that begins in line `statement` is executed; None stands for always.
+    (from 1) are those of the change, `change` describes it.
     """
 
     file: str
@@ -35,7 +31,6 @@ class Mutant:
     column: int
     kind: str
     change: str
-    statement: int | None
     old: str
     new: str
 

@@ -1,68 +1,35 @@
-"""Run an FMU over scenes up to the first check that rejects it."""
+"""Judge an FMU at scene points, as `validate` does, up to the first check that fails."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import threading
+from collections.abc import Sequence
 from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from slider_resonator.checks.compare import Check, Comparison, compare
-from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.checks.compare import Comparison, compare
 from slider_resonator.checks.measure_points import measure_points
-from slider_resonator.checks.measures.deviation import peak
 from slider_resonator.checks.measuring import Measurement, measure_all
-from slider_resonator.checks.tolerance import Tolerance
 from slider_resonator.checks.verdict import place, sentence
-from slider_resonator.errors import NotApplicable
+from slider_resonator.fmu.isolation.tasks import Finished
 from slider_resonator.scenes.scene import ScenePoint
 
-TRAJECTORY_OUTPUTS: Mapping[str, float | None] = {
-    "mean_velocity": None,
-    "stick_fraction": 1e-9,
-    "reversals": 0.0,
-    "last_event_time": 1e-9,
-    "steady_velocity": None,
-    "blocking_force": None,
-}
-"""Outputs that scenes check at one time only, with the allowed change in their unit; None stands
-for a share of the peak."""
-
-Outputs = Mapping[str, NDArray[np.float64]]
-"""Output to its values at the communication points, shape (n,)."""
-
-_ROUNDING = 1e-12
-"""Differences that are rounding, m/s or N."""
+NEGLIGIBLE = 0.01
+"""Change of a result, as a share of what its check allows, that counts as none."""
 
 
 @dataclass(frozen=True, eq=False)
-class ExpectedPoint(ScenePoint):
-    """A scene point with an expected value for each of its expectations.
+class BenchPoint(ScenePoint):
+    """A scene point with the expected value of each of its expectations.
 
-    Where there are `outputs`, they are expected as well: at each communication point, up to
-    `share` of an output's peak.
+    `original` are the measurements of the unchanged FMU, which took the CPU time `cost` (s).
     """
 
     expected: tuple[Any, ...] = ()
-    outputs: Outputs = field(default_factory=dict)
-    share: float = 0.0
-
-    @property
-    def name(self) -> str:
-        """The scene and the point of its sweep."""
-        return f"{self.scene.name}{place(self.at, ' at ')}"
-
-
-@dataclass(frozen=True)
-class Observed:
-    """The results of an FMU at a point: a measurement for each expectation, other outputs."""
-
-    measured: tuple[Measurement, ...]
-    outputs: Outputs
+    original: tuple[Measurement, ...] = ()
+    cost: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -77,57 +44,66 @@ class Rejection:
     reason: str
 
 
-def trial(fmu: Path, points: Sequence[ExpectedPoint], time_limit: float) -> Rejection | None:
+@dataclass(frozen=True)
+class Tried:
+    """The rejection of an FMU, if any, and whether it `differs` from the original before."""
+
+    rejection: Rejection | None
+    differs: bool = False
+
+
+def trial(
+    fmu: Path, points: Sequence[BenchPoint], time_limit: float, stopped: threading.Event
+) -> Tried:
     """Judge the points one after the other, in a process that may take `time_limit` (s) for each.
 
-    Where the FMU crashes, hangs or refuses, that is a rejection as well.
+    Where the FMU crashes, hangs or refuses, that is a rejection as well. Ends when `stopped` is
+    set, with a result that says nothing.
     """
-    measure = observe if any(point.outputs for point in points) else observe_expected
-    with closing(measure_points(fmu, points, measure, time_limit)) as finished:
+    differs = False
+    with closing(measure_points(fmu, points, measure_all, time_limit)) as finished:
         for one in finished:
-            point = one.item
-            if isinstance(one.error, NotApplicable):
-                continue
-            if one.error is not None or point is None:
-                return Rejection(point.name if point else "", "", str(one.error))
-            rejection = judge(point, one.result)
+            if stopped.is_set():
+                break
+            rejection = not_run(one)
+            if rejection is None and one.item is not None:
+                rejection = first_failure(one.item, one.result)
+                differs = differs or _differs(one.item, one.result)
             if rejection is not None:
-                return rejection
+                return Tried(rejection, differs)
+    return Tried(None, differs)
+
+
+def not_run(one: Finished[BenchPoint]) -> Rejection | None:
+    """Return why an FMU could not be run at a point, None where it could."""
+    if one.error is None:
+        return None
+    return Rejection(point_name(one.item) if one.item else "", "", str(one.error))
+
+
+def first_failure(point: BenchPoint, measured: Sequence[Measurement]) -> Rejection | None:
+    """Return the first check of an FMU's measurements at a point that fails."""
+    for expect, got, expected in zip(point.scene.expect, measured, point.expected, strict=True):
+        if got.applicable:
+            check = compare(Comparison.of(expect), got, expected, point)
+            if not check.passed:
+                return Rejection(point_name(point), check.quantity, sentence(check))
     return None
 
 
-def judge(point: ExpectedPoint, seen: Observed) -> Rejection | None:
-    """Return the first check of the results of an FMU at a point that fails."""
-    for check in _checks(point, seen):
-        if not check.passed:
-            return Rejection(point.name, check.quantity, sentence(check))
-    return None
+def point_name(point: ScenePoint) -> str:
+    """Return the name of the scene, and the point of its sweep."""
+    return f"{point.scene.name}{place(point.at, ' at ')}"
 
 
-def observe(fmu: FmuSide) -> Observed:
-    """Measure what the scene expects, and record the other outputs."""
-    whole = FmuSide(fmu.instance, fmu.scene, predictions=True)
-    return Observed(measure_all(whole), {name: whole.record[name] for name in TRAJECTORY_OUTPUTS})
-
-
-def observe_expected(fmu: FmuSide) -> Observed:
-    """Measure what the scene expects."""
-    return Observed(measure_all(fmu), {})
-
-
-def _checks(point: ExpectedPoint, seen: Observed) -> Iterator[Check]:
-    """Yield the checks of all values that exist in the FMU, or should."""
-    for expect, measured, expected in zip(
-        point.scene.expect, seen.measured, point.expected, strict=True
-    ):
-        if measured.applicable and (measured.value is not None or expected is not None):
-            yield compare(Comparison.of(expect), measured, expected, point)
-    for name, values in point.outputs.items():
-        allowed = TRAJECTORY_OUTPUTS[name]
-        if allowed is None:
-            allowed = point.share * peak(values) + _ROUNDING
-        difference = np.abs(seen.outputs[name] - values)
-        worst = int(np.argmax(np.where(np.isnan(difference), np.inf, difference)))
-        comparison = Comparison(name, "original", Tolerance(absolute=allowed), "as the original")
-        measured = Measurement(float(seen.outputs[name][worst]))
-        yield compare(comparison, measured, float(values[worst]), point)
+def _differs(point: BenchPoint, measured: Sequence[Measurement]) -> bool:
+    """Whether a measurement differs from the original's by more than is negligible."""
+    for expect, got, original in zip(point.scene.expect, measured, point.original, strict=True):
+        if got.value is None or original.value is None:
+            if got.value is not original.value:
+                return True
+            continue
+        comparison = replace(Comparison.of(expect), against="original")
+        if compare(comparison, got, original.value, point).severity > NEGLIGIBLE:
+            return True
+    return False

@@ -26,7 +26,7 @@ def unit_mutants(text: str) -> list[Mutant]:
         column = begin - text.rfind("\n", 0, begin)
         mutated = text[:begin] + new + text[end:]
         file = DESCRIPTION
-        found.append(Mutant(file, file, line, column, "unit", change, None, text, mutated))
+        found.append(Mutant(file, file, line, column, "unit", change, text, mutated))
     return sorted(found, key=lambda m: (m.line, m.column, m.change))
 
 

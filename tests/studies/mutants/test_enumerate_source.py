@@ -81,15 +81,6 @@ def test_every_mutant_compiles_and_differs() -> None:
         assert ast.dump(tree) != ast.dump(ast.parse(MODULE)), mutant.name
 
 
-def test_a_mutant_names_the_statement_that_must_be_executed() -> None:
-    found = {m.line: m.statement for m in source_mutants("m.py", "p/m.py", MODULE)}
-    assert found[7] is None, "a module is executed when it is loaded"
-    assert found[17] == 17
-    long = "def f(a):\n    return (a\n            + 1)\n"
-    (plus, one) = source_mutants("m.py", "p/m.py", long)
-    assert (plus.line, plus.statement, one.line, one.statement) == (3, 2, 3, 2)
-
-
 def test_the_diff_shows_the_change() -> None:
     mutant = next(m for m in source_mutants("m.py", "p/m.py", MODULE) if m.line == 23)
     assert "-                break\n+                pass\n" in mutant.diff

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.scenes.scene_files import find_scene
-from studies.mutants.native.changes import Change
-from studies.mutants.native.native_run import run_changes
+from studies.mutants.changes import Change
+from studies.mutants.runs import run_changes
 
 STEPS, VALUES, FUNCTIONS = "fmi/fmi3_steps.c", "fmi/fmi3_values.c", "fmi/fmi3_functions.c"
 FOUND = "if (now->event_age == 0.0 && found_at(search, &clock)) {"
@@ -94,4 +94,4 @@ def test_faults_of_event_mode_are_rejected(native_3_fmu: Path) -> None:
         Change(f"fault_{i}", *change, meaning) for i, (meaning, change) in enumerate(FAULTS.items())
     ]
     run = run_changes(native_3_fmu, changes, [find_scene("interface")], jobs=1, time_limit=30.0)
-    assert [verdict.change.meaning for verdict in run.survivors] == []
+    assert [verdict.variant.meaning for verdict in run.survivors] == []

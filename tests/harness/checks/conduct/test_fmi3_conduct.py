@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.scenes.scene_files import find_scene
-from studies.mutants.native.changes import Change
-from studies.mutants.native.native_run import run_changes
+from studies.mutants.changes import Change
+from studies.mutants.runs import run_changes
 
 FAULTS = {
     "a bad experiment is accepted": (
@@ -60,5 +60,5 @@ def test_faults_in_refusals_and_states_are_rejected(native_3_fmu: Path) -> None:
         for i, (meaning, (_, file, old, new)) in enumerate(FAULTS.items())
     ]
     run = run_changes(native_3_fmu, changes, [find_scene("interface")], jobs=1, time_limit=30.0)
-    found = {verdict.change.meaning: verdict.quantity for verdict in run.verdicts}
+    found = {verdict.variant.meaning: verdict.quantity for verdict in run.verdicts}
     assert found == {meaning: quantity for meaning, (quantity, *_) in FAULTS.items()}

@@ -6,7 +6,6 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
-from typing import Any
 
 from slider_resonator.errors import HarnessError
 
@@ -15,8 +14,7 @@ from slider_resonator.errors import HarnessError
 class Change:
     """One change of a C file: the text `old`, which occurs once in `file`, becomes `new`.
 
-    `meaning` is what physics a fault breaks or why a variant is harmless. `survives` is the reason
-    why no scene can see a fault, empty for all others.
+    `meaning` is what a fault breaks, or why a variant is harmless.
     """
 
     name: str
@@ -25,7 +23,18 @@ class Change:
     new: str
     meaning: str
     harmless: bool = False
-    survives: str = ""
+
+    @property
+    def kind(self) -> str:
+        """Either "fault" or "harmless"."""
+        return "harmless" if self.harmless else "fault"
+
+    @property
+    def diff(self) -> str:
+        """File and meaning, the lines that are replaced, then those in their place."""
+        old = [f"-{line}" for line in self.old.splitlines()]
+        new = [f"+{line}" for line in self.new.splitlines()]
+        return "\n".join([f"{self.file}: {self.meaning}", *old, *new])
 
     def applied(self, sources: Mapping[str, str]) -> str:
         """Return the changed text of the file; `sources` are texts by file name.
@@ -45,28 +54,18 @@ class Change:
 
 def hand_written_faults() -> list[Change]:
     """Return the faults, in the order of their file."""
-    return [_change(entry, "breaks") for entry in _entries("faults.toml", "fault")]
+    return _read("faults.toml", harmless=False)
 
 
 def harmless_variants() -> list[Change]:
     """Return the variants, in the order of their file."""
-    entries = _entries("variants.toml", "variant")
-    return [_change(entry, "why", harmless=True) for entry in entries]
+    return _read("variants.toml", harmless=True)
 
 
-def _entries(file: str, key: str) -> list[dict[str, Any]]:
-    path = resources.files(__package__) / file
-    entries: list[dict[str, Any]] = tomllib.loads(path.read_text(encoding="utf-8"))[key]
-    return entries
-
-
-def _change(entry: Mapping[str, str], meaning: str, *, harmless: bool = False) -> Change:
-    return Change(
-        entry["name"],
-        entry["file"],
-        entry["old"],
-        entry["new"],
-        entry[meaning],
-        harmless,
-        entry.get("survives", ""),
-    )
+def _read(name: str, *, harmless: bool) -> list[Change]:
+    text = (resources.files(__package__) / name).read_text(encoding="utf-8")
+    return [
+        Change(name, file, entry["old"], entry["new"], entry["what"], harmless)
+        for file, entries in tomllib.loads(text).items()
+        for name, entry in entries.items()
+    ]

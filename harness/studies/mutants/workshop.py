@@ -7,7 +7,7 @@ import re
 import shutil
 import subprocess
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
@@ -15,6 +15,7 @@ import fmpy
 
 from slider_resonator.errors import FmuError, HarnessError
 from studies.mutants.archive import DESCRIPTION
+from studies.mutants.changes import Change
 
 FLAGS = ("-std=c99", "-O1", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-w")
 COMPILERS = ("gcc", "clang", "cc")
@@ -34,6 +35,13 @@ class NativeSources:
     files: Mapping[str, str]
     description: bytes
     model: str
+
+    @property
+    def binary(self) -> str:
+        """The path of the library for this machine in the FMU."""
+        version_3 = _VERSION_3.search(self.description.decode("utf-8", "replace"))
+        platform = fmpy.platform_tuple if version_3 else fmpy.platform
+        return f"binaries/{platform}/{self.model}{fmpy.sharedLibraryExtension}"
 
     @property
     def units(self) -> list[str]:
@@ -81,7 +89,7 @@ def read_native_sources(path: Path) -> NativeSources:
 
 
 class Workshop:
-    """Compiled units of the unchanged sources in a folder, and libraries with one file changed.
+    """Compiled units of the unchanged sources in a folder, and FMUs with one file changed.
 
     Raises HarnessError when there is no C compiler or the sources do not compile.
     """
@@ -90,52 +98,32 @@ class Workshop:
         self._sources = sources
         self._folder = folder
         self._compiler = _compiler()
-        self._write(folder, sources.files)
-        self._compile(folder, sources.units)
+        self._compile(folder, sources.files, sources.units)
 
-    @property
-    def binary(self) -> str:
-        """The path of the library for this machine in the FMU."""
-        name = f"{self._sources.model}{fmpy.sharedLibraryExtension}"
-        version_3 = _VERSION_3.search(self._sources.description.decode("utf-8", "replace"))
-        return f"binaries/{fmpy.platform_tuple if version_3 else fmpy.platform}/{name}"
-
-    def library(self, name: str, changed: Mapping[str, str]) -> bytes:
-        """Return a library for this machine with some of the sources, by path, replaced.
-
-        Raises HarnessError when they do not compile.
-        """
-        place = self._folder / name
-        place.mkdir()
-        units = sorted({u for file in changed for u in self._sources.units_with(file)})
-        self._write(place, {**self._sources.files, **changed})
-        self._compile(place, units)
+    def write(self, change: Change, out: Path) -> None:
+        """Write an FMU for this machine with a change; HarnessError when it does not compile."""
+        place = self._folder / change.name
+        files = {**self._sources.files, change.file: change.applied(self._sources.files)}
+        units = self._sources.units_with(change.file)
+        self._compile(place, files, units)
         objects = [
-            (place if unit in units else self._folder) / f"{unit}.o" for unit in self._sources.units
+            f"{place if unit in units else self._folder}/{unit}.o" for unit in self._sources.units
         ]
         library = place / "library"
-        self._call(["-shared", "-o", str(library), *map(str, objects), "-lm"], place)
-        content = library.read_bytes()
-        shutil.rmtree(place)
-        return content
-
-    def fmu(self, out: Path) -> Path:
-        """Write an FMU for this machine of the unchanged sources."""
+        self._call(["-shared", "-o", str(library), *objects, "-lm"], place)
         with zipfile.ZipFile(out, "w") as archive:  # stored: it is unpacked again at once
             archive.writestr(DESCRIPTION, self._sources.description)
-            archive.writestr(self.binary, self.library("unchanged", {}))
-        return out
+            archive.write(library, self._sources.binary)
+        shutil.rmtree(place)
 
-    def _write(self, folder: Path, files: Mapping[str, str]) -> None:
+    def _compile(self, folder: Path, files: Mapping[str, str], units: Sequence[str]) -> None:
         for name, text in files.items():
-            (folder / name).parent.mkdir(exist_ok=True)
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_text(text, encoding="utf-8", newline="\n")
-
-    def _compile(self, folder: Path, units: list[str]) -> None:
         for unit in units:
             self._call([*FLAGS, "-c", unit, "-o", f"{unit}.o"], folder)
 
-    def _call(self, arguments: list[str], folder: Path) -> None:
+    def _call(self, arguments: Sequence[str], folder: Path) -> None:
         command = [self._compiler, *arguments]
         try:
             done = subprocess.run(

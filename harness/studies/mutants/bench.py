@@ -1,0 +1,73 @@
+"""The scene points at which variants of an FMU are judged, and what the unchanged one gives."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
+
+from slider_resonator.checks.expected_values import ExpectedValues
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.checks.measure_points import measure_points
+from slider_resonator.checks.measuring import Measurement, measure_all
+from slider_resonator.checks.validate import points_to_check
+from slider_resonator.errors import FmuError, SceneError
+from slider_resonator.output.progress import Progress, counted
+from slider_resonator.scenes.scene import read_scene
+from studies.mutants.trial import BenchPoint, Rejection, first_failure, not_run, point_name
+
+
+def bench_of(
+    fmu: Path, scene_files: Sequence[Path], *, jobs: int, time_limit: float, progress: Progress
+) -> list[BenchPoint]:
+    """Return all points of the scenes, after running the unchanged FMU in `jobs` processes.
+
+    Raises FmuError when it is rejected, since the rejection of a variant would prove nothing then,
+    and SceneError for a scene that cannot be read, referred to or expects nothing.
+    """
+    points = [
+        BenchPoint(point.scene, point.at)
+        for file in scene_files
+        for point in points_to_check(read_scene(file))
+    ]
+    bench: list[BenchPoint] = []
+    with ExpectedValues(points, jobs) as expected:
+        runs = measure_points(fmu, points, _timed, time_limit, expected.prepare, jobs)
+        with closing(runs) as finished:
+            for one in finished:
+                rejection = not_run(one)
+                if rejection is None and one.item is not None:
+                    measured, cost = one.result
+                    point = _completed(one.item, expected, measured, cost)
+                    rejection = first_failure(point, measured)
+                    bench.append(point)
+                    label = counted(f"{point_name(point)} unchanged", len(bench) - 1, len(points))
+                    progress(label, len(bench) / len(points))
+                if rejection is not None:
+                    raise _rejected_unchanged(fmu, rejection)
+    return bench
+
+
+def _timed(side: FmuSide) -> tuple[tuple[Measurement, ...], float]:
+    began = time.process_time()
+    return measure_all(side), time.process_time() - began
+
+
+def _completed(
+    point: BenchPoint, expected: ExpectedValues, measured: tuple[Measurement, ...], cost: float
+) -> BenchPoint:
+    values = expected.at(point)
+    for value in values:
+        if isinstance(value, SceneError):
+            raise value
+    return replace(point, expected=tuple(values), original=measured, cost=cost)
+
+
+def _rejected_unchanged(fmu: Path, rejection: Rejection) -> FmuError:
+    where = f"scene {rejection.scene}: " if rejection.scene else ""
+    what = f"{rejection.quantity}: " if rejection.quantity else ""
+    return FmuError(
+        f"{fmu.name} is rejected before anything is changed: {where}{what}{rejection.reason}"
+    )

@@ -1,1 +1,0 @@
-"""Faulty native FMUs: faults written by hand into the C sources, and harmless variants."""
