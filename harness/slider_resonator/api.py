@@ -31,6 +31,9 @@ from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.units import si_value
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
+from slider_resonator.fitting.fit import STARTS, Fit, isolated
+from slider_resonator.fitting.fit import fit as fit_parameters
+from slider_resonator.fitting.measurements import Measurements, read_measurements
 from slider_resonator.fmu.finished import fmu_path
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.record import Record
@@ -50,6 +53,7 @@ __all__ = [
     "Blocking",
     "Choice",
     "Device",
+    "Fit",
     "HarnessError",
     "OpenFmu",
     "Record",
@@ -58,6 +62,7 @@ __all__ = [
     "SweepResult",
     "Validation",
     "choose",
+    "fit",
     "fmu_path",
     "open_fmu",
     "read_device",
@@ -129,10 +134,7 @@ def open_fmu(
     time_limit: float = TIME_LIMIT,
 ) -> OpenFmu:
     """Open an FMU for a `with` block; what it computes is for `device` unless values say else."""
-    parameters = vars(Device() if device is None else read_device(device))
-    start = vars(Device())
-    own = {name: value for name, value in parameters.items() if value != start[name]}
-    return OpenFmu(_fmu(fmu), time_limit, own)
+    return OpenFmu(_fmu(fmu), time_limit, _differing(device))
 
 
 def read_device(device: DeviceLike) -> Device:
@@ -205,6 +207,46 @@ def sweep(
         restart=restart,
         overwrite=overwrite,
     )
+
+
+def fit(
+    data: str | Path | Measurements | Sequence[str | Path],
+    free: Sequence[str],
+    fmu: str | Path | None = None,
+    *,
+    device: DeviceLike | None = None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    starts: int = STARTS,
+    jobs: int | None = None,
+    time_limit: float = TIME_LIMIT,
+    **values: Value,
+) -> Fit:
+    """Estimate the parameters `free` of a device from measurements, with 95 % intervals.
+
+    `data` is a CSV file, as `slider-resonator fit --help` describes, several of these, or
+    `Measurements`. `values` are parameters and inputs that are not in the data. The result has
+    `parameters`, and the `device` to go on with.
+    """
+    if not isinstance(data, Measurements):
+        files = [data] if isinstance(data, str | Path) else data
+        data = sum((read_measurements(Path(one)) for one in files), Measurements())
+    checked = {**_differing(device), **_checked(values)}
+    return fit_parameters(
+        data,
+        free,
+        {name: value for name, value in checked.items() if name in PARAMETERS},
+        isolated(_fmu(fmu), jobs or available_cores(), time_limit),
+        inputs={name: value for name, value in checked.items() if name in INPUTS},
+        bounds=bounds,
+        starts=starts,
+    )
+
+
+def _differing(device: DeviceLike | None) -> dict[str, float]:
+    """Return the parameters of a device that differ from table 1."""
+    parameters = vars(Device() if device is None else read_device(device))
+    start = vars(Device())
+    return {name: value for name, value in parameters.items() if value != start[name]}
 
 
 def _fmu(fmu: str | Path | None) -> Path:

@@ -34,6 +34,7 @@ COMMANDS: Mapping[str, str] = {
     "choose": "Choose the cheapest model that meets a scene's needs.",
     "device": "Say what a device file means; devices to start from.",
     "extremes": "Run FMUs at the extremes of every parameter and input.",
+    "fit": "Estimate parameters of a device from measurements.",
     "run": "Run one scene and report results and cost.",
     "scenes": "List the built-in scenes; help to write your own.",
     "steady": "Find the steady velocity of an FMU, without a long run.",

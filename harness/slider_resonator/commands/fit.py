@@ -1,0 +1,219 @@
+"""`fit`: parameters of a device from measurements."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+import click
+
+from slider_resonator.commands.options import (
+    SettingsCommand,
+    default_fmu,
+    fmu_option,
+    jobs_option,
+    json_option,
+    set_option,
+    time_limit_option,
+)
+from slider_resonator.commands.results import print_json, print_table, print_text
+from slider_resonator.device.interface import PARAMETERS, VARIABLES
+from slider_resonator.device.units import si_value
+from slider_resonator.errors import unknown_name
+from slider_resonator.fitting.measurements import datasheet, read_measurements
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
+from slider_resonator.fmu.provenance import provenance_of
+from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.targets import make_folder
+from slider_resonator.output.terminal import one_line
+from slider_resonator.sweeping.local import available_cores
+
+
+class _Quantity(click.ParamType[float]):
+    """A number in SI units, or a text with a unit, of a variable."""
+
+    def __init__(self, variable: str) -> None:
+        self.variable = variable
+        self.name = VARIABLES[variable].unit
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
+        """Return the value in SI units."""
+        if isinstance(value, float):
+            return value
+        try:
+            number = si_value(self.variable, str(value))
+            if not isfinite(number):
+                raise ValueError(f"{self.variable} = {value}: must be finite")
+        except ValueError as error:
+            self.fail(str(error), param, ctx)
+        return number
+
+
+class _Loaded(click.ParamType[tuple[float, float]]):
+    """LOAD=VELOCITY."""
+
+    name = "LOAD=VELOCITY"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float]:
+        """Return load (N) and velocity (m/s)."""
+        if isinstance(value, tuple):
+            return value
+        load, separator, velocity = str(value).partition("=")
+        if not separator:
+            self.fail(f"{value!r} is not LOAD=VELOCITY, such as '50 mN=30 mm/s'", param, ctx)
+        sides = (_Quantity("load"), load), (_Quantity("steady_velocity"), velocity)
+        first, second = (kind.convert(text, param, ctx) for kind, text in sides)
+        return first, second
+
+
+class _Bounds(click.ParamType[tuple[str, tuple[float, float]]]):
+    """NAME=LOW:HIGH."""
+
+    name = "NAME=LOW:HIGH"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[str, tuple[float, float]]:
+        """Return the name and both bounds in SI units."""
+        if isinstance(value, tuple):
+            return value
+        match = re.fullmatch(r"(\w+)=([^:]+):([^:]+)", str(value).strip())
+        if match is None:
+            self.fail(
+                f"{value!r} is not NAME=LOW:HIGH, such as damping_ratio=0.001:0.2", param, ctx
+            )
+        name = match[1]
+        if name not in PARAMETERS:
+            self.fail(unknown_name("parameter", name, PARAMETERS), param, ctx)
+        kind = _Quantity(name)
+        return name, (kind.convert(match[2], param, ctx), kind.convert(match[3], param, ctx))
+
+
+@click.command("fit", cls=SettingsCommand)
+@click.argument("data", type=click.Path(path_type=Path), nargs=-1)
+@click.option(
+    "--free",
+    metavar="NAME,...",
+    required=True,
+    help="Parameters to estimate. Repeatable.",
+    multiple=True,
+)
+@click.option("--bounds", type=_Bounds(), multiple=True, help="Bounds of one. Repeatable.")
+@click.option("--velocity", type=_Quantity("steady_velocity"), help="Velocity without load.")
+@click.option("--blocking", type=_Quantity("blocking_force"), help="Load that stops the slider.")
+@click.option(
+    "--velocity-at",
+    "loaded",
+    type=_Loaded(),
+    multiple=True,
+    help="Velocity under a load, as '50 mN=30 mm/s'. Repeatable.",
+)
+@click.option(
+    "--starts",
+    type=click.IntRange(min=1),
+    default=5,
+    show_default=True,
+    help="Starts of the search: the device, and others beside it.",
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Folder for device.toml, fit.png, residuals.csv and fit.html.",
+)
+@set_option
+@fmu_option
+@jobs_option
+@time_limit_option(TIME_LIMIT, "For each start and each end of an interval.")
+@json_option
+def fit_command(
+    data: tuple[Path, ...],
+    free: Sequence[str],
+    bounds: Sequence[tuple[str, tuple[float, float]]],
+    velocity: float | None,
+    blocking: float | None,
+    loaded: Sequence[tuple[float, float]],
+    starts: int,
+    out: Path | None,
+    settings: dict[str, float],
+    fmu: Path | None,
+    jobs: int | None,
+    time_limit: float,
+    as_json: bool,
+) -> None:
+    """Estimate parameters of a device from measurements, with 95 % intervals.
+
+    DATA are CSV files. A table has a row for each steady measurement: columns that say what was set
+    (phase, load, frequency, amplitude, any parameter) and what was measured (steady_velocity,
+    blocking_force, or either). A run has a column time, those of inputs, and those of outputs that
+    were measured. A heading may have a unit in brackets, such as "phase [deg]"; a column
+    steady_velocity_std has standard deviations. Numbers of a datasheet are options. What is not
+    free keeps the value of the device. What the data leave open is named, and gets no digits.
+
+    Exit code: 0 when all free parameters are determined, 1 when some are left open, 2 when the fit
+    could not run.
+
+    \b
+    Examples:
+      slider-resonator fit measured.csv --device mine.toml --free friction_coefficient,damping_ratio
+      slider-resonator fit --velocity "47 mm/s" --blocking "220 mN" \\
+        --device ultrasonic_slider --free friction_coefficient,normal_amplitude
+      slider-resonator fit measured.csv --free friction_coefficient --out fitted
+    """
+    # Imported here: fitting and drawing take longer to load than other commands to run.
+    from slider_resonator.fitting.fit import fit, isolated
+    from slider_resonator.fitting.report import parameter_table, sentences, write_report
+
+    measurements = sum(
+        (read_measurements(path) for path in data), datasheet(velocity, blocking, loaded)
+    )
+    if not len(measurements.measured):
+        raise click.UsageError("no measurements: must be CSV files, --velocity or --blocking")
+    if out is not None:
+        make_folder(out)
+    path = default_fmu(fmu)
+    provenance = provenance_of(path)
+    with progress_bar() as progress:
+        found = fit(
+            measurements,
+            [name.strip() for names in free for name in names.split(",") if name.strip()],
+            {name: value for name, value in settings.items() if name in PARAMETERS},
+            isolated(path, jobs or available_cores(), time_limit, progress),
+            inputs={name: value for name, value in settings.items() if name not in PARAMETERS},
+            bounds=dict(bounds),
+            starts=starts,
+        )
+    title = f"Fit to {', '.join(one.name for one in data) or 'a datasheet'}"
+    written = [] if out is None else write_report(found, out, title, provenance)
+    if as_json:
+        print_json(_document(found, written), provenance)
+    else:
+        print_table(parameter_table(found))
+        lines = sentences(found)
+        if written:
+            lines.append(f"written: {one_line(', '.join(map(str, written)))}")
+        print_text("\n".join(lines))
+    click.get_current_context().exit(1 if found.open_directions else 0)
+
+
+def _document(found: Any, written: Sequence[Path]) -> dict[str, Any]:
+    return {
+        "parameters": found.parameters,
+        "device": found.device,
+        "open_directions": found.open_directions,
+        "correlation": found.correlation.tolist(),
+        "measured": found.measured.tolist(),
+        "predicted": found.predicted.tolist(),
+        "residuals": found.residuals.tolist(),
+        "scale": found.scale,
+        "starts": found.starts,
+        "starts_agreeing": found.starts_agreeing,
+        "evaluations": found.evaluations,
+        "written": [str(path) for path in written],
+    }

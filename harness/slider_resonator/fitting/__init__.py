@@ -1,0 +1,1 @@
+"""Parameters of a device from measurements: read, predict, estimate, report."""

@@ -1,0 +1,223 @@
+"""Least squares on an FMU, with intervals and the parameters that the data leave open.
+
+Positive parameters are estimated by their logarithm, so that steps and scales are relative. The
+terms are those of nonlinear regression: Seber and Wild, Nonlinear Regression (1989), 5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from slider_resonator.arrays import Array
+from slider_resonator.device.interface import VARIABLES
+from slider_resonator.errors import HarnessError
+from slider_resonator.fitting.measurements import Measurements
+from slider_resonator.fitting.prediction import predict
+from slider_resonator.fmu.instance import Instance
+
+NO_MOTION = 10.0
+"""Residual, in root mean squares of the quantity, of a point at which the FMU has no motion."""
+DIFFERENCE = 1e-4
+"""Step of central differences, in units of a parameter: error 1e-8, rounding of outputs 1e-7."""
+PROFILE_ACCURACY = 0.02
+"""Share to which the end of a profile interval meets its quantile."""
+MAX_PROFILE_STEPS = 6
+
+
+@dataclass(frozen=True)
+class Free:
+    """A parameter to be estimated between two bounds, in SI units."""
+
+    name: str
+    start: float
+    low: float
+    high: float
+
+    @property
+    def is_relative(self) -> bool:
+        """Whether the logarithm is estimated: of a parameter that cannot be negative."""
+        return self.low >= 0.0 and self.start > 0.0
+
+    def internal(self, value: float) -> float:
+        """Return the number that is estimated."""
+        if self.is_relative:
+            return float(np.log(max(value, 1e-300)))
+        return value / self._scale
+
+    def value(self, internal: float) -> float:
+        """Return the parameter, in SI units."""
+        value = float(np.exp(internal)) if self.is_relative else internal * self._scale
+        return min(max(value, self.low), self.high)
+
+    @property
+    def _scale(self) -> float:
+        return abs(self.start) or VARIABLES[self.name].nominal or 1.0
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is fitted: a device, its free parameters, and the measurements."""
+
+    parameters: Mapping[str, float]
+    free: tuple[Free, ...]
+    measurements: Measurements
+
+    def residuals(self, instance: Instance) -> Callable[[Array], Array]:
+        """Return the function from internal parameters (p,) to weighted residuals (n,)."""
+        measured, scales = self.measurements.measured, self.measurements.scales
+        spread = np.ones_like(scales)
+        if self.measurements.knows_deviations:  # no motion counts in terms of the measured values
+            spread = np.maximum(np.abs(measured), np.sqrt(np.mean(measured**2))) / scales
+
+        def at(internal: Array) -> Array:
+            values = {
+                one.name: one.value(number)
+                for one, number in zip(self.free, internal.tolist(), strict=True)
+            }
+            found = predict(instance, {**self.parameters, **values}, self.measurements)
+            weighted = (found - measured) / scales
+            return np.where(np.isfinite(weighted), weighted, NO_MOTION * spread)
+
+        return at
+
+    def without(self, index: int, value: float) -> Problem:
+        """Return the problem in which a free parameter is fixed to a value in SI units."""
+        fixed = {**self.parameters, self.free[index].name: value}
+        return Problem(fixed, (*self.free[:index], *self.free[index + 1 :]), self.measurements)
+
+
+@dataclass(frozen=True)
+class Minimum:
+    """The least squares from one start: internal parameters (p,), residuals (n,), slopes (n, p)."""
+
+    internal: Array
+    residuals: Array
+    jacobian: Array
+    evaluations: int
+
+    @property
+    def sum_of_squares(self) -> float:
+        """Weighted sum of squares."""
+        return float(self.residuals @ self.residuals)
+
+
+def minimise(instance: Instance, problem: Problem, start: Array) -> Minimum:
+    """Return the least squares from a start (p,), internal parameters.
+
+    Raises FmuError and Refusal as `Instance.start` does, also where a step leads to parameters that
+    the FMU refuses: their bounds must exclude them.
+    """
+    residuals = problem.residuals(instance)
+    low = np.array([one.internal(one.low) for one in problem.free])
+    high = np.array([one.internal(one.high) for one in problem.free])
+    inside = np.clip(start, low + 1e-9 * (high - low), high - 1e-9 * (high - low))
+    found = least_squares(
+        residuals,
+        inside,
+        partial(_slopes, residuals),
+        bounds=(low, high),
+        x_scale="jac",
+        xtol=1e-10,
+        ftol=1e-12,
+        gtol=1e-12,
+        max_nfev=60,
+    )
+    evaluations = int(found.nfev) + 2 * len(found.x) * int(found.njev or 0)
+    return Minimum(found.x, found.fun, np.asarray(found.jac), evaluations)
+
+
+def _slopes(residuals: Callable[[Array], Array], at: Array) -> Array:
+    """Return the slopes by central differences, (n, p)."""
+    steps = DIFFERENCE * np.eye(len(at))
+    columns = [(residuals(at + one) - residuals(at - one)) / (2.0 * DIFFERENCE) for one in steps]
+    return np.column_stack(columns)
+
+
+def profile_end(
+    instance: Instance, problem: Problem, best: Minimum, index: int, change: float, excess: float
+) -> float:
+    """Return the end of a profile interval of a parameter, in SI units.
+
+    It is where the least sum of squares over the other parameters is `excess` above that of `best`;
+    `change` is the end that the linear approximation gives, as a change of the internal parameter.
+    At a bound the interval ends.
+    """
+    one = problem.free[index]
+    covariance = np.linalg.pinv(best.jacobian.T @ best.jacobian)
+    along = covariance[:, index] / covariance[index, index]
+    others = np.delete(np.arange(len(best.internal)), index)
+    begin = float(best.internal[index])
+    inner, outer = 0.0, float("inf")
+    distance = abs(change)
+    for _ in range(MAX_PROFILE_STEPS):
+        internal = begin + np.copysign(distance, change)
+        value = one.value(internal)
+        rest = problem.without(index, value)
+        if len(others):
+            start = best.internal[others] + (internal - begin) * along[others]
+            found = minimise(instance, rest, start).sum_of_squares
+        else:
+            residuals = rest.residuals(instance)(np.empty(0))
+            found = float(residuals @ residuals)
+        reached = np.sqrt(max(found - best.sum_of_squares, 0.0) / excess)
+        if abs(reached - 1.0) < PROFILE_ACCURACY:
+            return value
+        if reached < 1.0:
+            inner = distance
+            if value in (one.low, one.high):
+                return value
+        else:
+            outer = distance
+        scaled = distance / max(reached, 0.2)
+        distance = scaled if inner < scaled < outer else 0.5 * (inner + min(outer, 3.0 * distance))
+    return one.value(begin + np.copysign(distance, change))
+
+
+@dataclass(frozen=True)
+class OpenDirection:
+    """A change of parameters that the data do not tell apart from none.
+
+    `factors` are changes of the internal parameters by name, the largest of size 1; `spread` is how
+    far along them the data allow, infinite where they say nothing.
+    """
+
+    factors: Mapping[str, float]
+    spread: float
+
+
+NOTHING = 1e-6
+"""Singular value, over the largest, below which differences of the outputs are rounding."""
+ALLOWED = 1.0
+"""Spread, a factor e of a positive parameter, from which a direction counts as open."""
+TAKES_PART = 0.1
+"""Share of a direction from which a parameter takes part in it."""
+
+
+def open_directions(problem: Problem, best: Minimum, scale: float) -> list[OpenDirection]:
+    """Return what the data leave open, from the singular values of the slopes.
+
+    `scale` is the standard deviation of a weighted residual, and 1 where deviations are known.
+    """
+    if not np.all(np.isfinite(best.jacobian)):
+        raise HarnessError("the outputs of the FMU are not finite beside the solution")
+    _, singular, directions = np.linalg.svd(best.jacobian, full_matrices=True)
+    sizes = np.zeros(len(problem.free))
+    sizes[: len(singular)] = singular
+    found = []
+    for size, direction in zip(sizes, directions, strict=True):
+        nothing = size <= NOTHING * max(sizes[0], 1e-300)
+        spread = float("inf") if nothing else scale / size
+        if spread > ALLOWED:
+            largest = direction[np.argmax(np.abs(direction))]
+            factors = {
+                one.name: float(part / largest)
+                for one, part in zip(problem.free, direction, strict=True)
+                if abs(part / largest) > TAKES_PART
+            }
+            found.append(OpenDirection(factors, spread))
+    return found

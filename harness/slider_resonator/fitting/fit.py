@@ -1,0 +1,262 @@
+"""Fit parameters of a device to measurements, on isolated FMUs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.special import ndtri, stdtrit
+
+from slider_resonator.arrays import Array
+from slider_resonator.device.device import Device
+from slider_resonator.device.interface import INTEGERS, PARAMETERS, VARIABLES
+from slider_resonator.device.values import check_value
+from slider_resonator.errors import FmuError, HarnessError, unknown_name
+from slider_resonator.fitting.estimation import (
+    Free,
+    Minimum,
+    OpenDirection,
+    Problem,
+    minimise,
+    open_directions,
+    profile_end,
+)
+from slider_resonator.fitting.measurements import Measurements
+from slider_resonator.fitting.prediction import predict
+from slider_resonator.fmu.isolation.process import TIME_LIMIT, Task
+from slider_resonator.fmu.isolation.tasks import run_tasks
+from slider_resonator.output.progress import Progress, counted, no_progress
+
+STARTS = 5
+REACH = 3.0
+"""Factor up to which other starts lie beside the first."""
+SEED = 1
+LEVEL = 0.95
+SAME = 1e-6
+"""Relative difference of sums of squares up to which two starts have found the same minimum."""
+WIDE = 1e4
+"""Factor beside the start to which a positive parameter without other bounds is confined."""
+
+
+@dataclass(frozen=True)
+class FittedParameter:
+    """An estimate in SI units with its standard deviation and 95 % profile interval.
+
+    They are None where the data have no numbers to spare for them, or leave the parameter open.
+    """
+
+    name: str
+    unit: str
+    start: float
+    value: float
+    deviation: float | None
+    low: float | None
+    high: float | None
+    is_open: bool
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The result of a fit.
+
+    `residuals` are predicted minus measured over the standard deviation, `scale` the standard
+    deviation of these as the fit shows it, 1 if all is as stated, None with as many parameters as
+    numbers. `correlation` is that of the estimates, (p, p). `starts_agreeing` of `starts` led to
+    the same minimum.
+    """
+
+    parameters: tuple[FittedParameter, ...]
+    device: Device
+    open_directions: tuple[OpenDirection, ...]
+    correlation: Array
+    measured: Array
+    predicted: Array
+    residuals: Array
+    scale: float | None
+    starts: int
+    starts_agreeing: int
+    evaluations: int
+    measurements: Measurements
+
+    def __repr__(self) -> str:
+        """Return the estimates on a line each."""
+        lines = []
+        for one in self.parameters:
+            interval = "open" if one.is_open else f"{one.value:.6g} {one.unit}"
+            if one.low is not None and one.high is not None:
+                interval += f", 95 % {one.low:.6g} to {one.high:.6g}"
+            lines.append(f"  {one.name}: {interval}")
+        return "\n".join([f"Fit of {len(self.measured)} numbers:", *lines])
+
+
+def free_parameters(
+    names: Sequence[str],
+    parameters: Mapping[str, float],
+    bounds: Mapping[str, tuple[float, float]],
+) -> tuple[Free, ...]:
+    """Return the parameters to estimate, from those of the device.
+
+    Raises HarnessError with name, value and requirement.
+    """
+    for name in [*names, *bounds]:
+        if name not in PARAMETERS:
+            raise HarnessError(unknown_name("parameter", name, PARAMETERS))
+        if name in INTEGERS:
+            raise HarnessError(
+                f"{name} is an integer; must be a parameter that varies continuously"
+            )
+    if not names or len(set(names)) < len(names):
+        raise HarnessError(f"free = {', '.join(names)!r}: must be different parameters")
+    found = []
+    for name in names:
+        variable = VARIABLES[name]
+        start = float(parameters.get(name, variable.start or 0.0))
+        low = -np.inf if variable.minimum is None else variable.minimum
+        high = np.inf if variable.maximum is None else variable.maximum
+        if low >= 0.0 and start > 0.0:
+            low, high = max(low, start / WIDE), min(high, start * WIDE)
+        low, high = bounds.get(name, (low, high))
+        for bound in (low, high):
+            if isfinite(bound):
+                try:
+                    check_value(name, bound)
+                except ValueError as error:
+                    raise HarnessError(f"bounds of {error}") from error
+        if not low < high:
+            raise HarnessError(f"bounds of {name} = {low:g} to {high:g}: must be ascending")
+        found.append(Free(name, min(max(start, low), high), float(low), float(high)))
+    return tuple(found)
+
+
+Runner = Callable[[str, Sequence[Task]], list[Any]]
+"""Runs tasks, of which the label says what they do, and returns their results."""
+
+
+def fit(
+    measurements: Measurements,
+    names: Sequence[str],
+    parameters: Mapping[str, float],
+    run: Runner,
+    *,
+    inputs: Mapping[str, float] | None = None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    starts: int = STARTS,
+) -> Fit:
+    """Estimate parameters of a device by weighted least squares from several starts.
+
+    `parameters` are those of the device that differ from table 1; their values are the first start.
+    `inputs` are those of steady measurements that do not say them. Each start, and each end of an
+    interval, is a task for `run`. Raises HarnessError for too few numbers, FmuError where the FMU
+    fails.
+    """
+    free = free_parameters(names, parameters, bounds or {})
+    measurements = measurements.under(inputs or {})
+    problem = Problem(parameters, free, measurements)
+    count = len(measurements.measured)
+    if count < len(free):
+        raise HarnessError(
+            f"{count} measured numbers for {len(free)} free parameters; must be at least as many"
+        )
+    tasks = [partial(minimise, problem=problem, start=one) for one in _starts(free, starts)]
+    minima: list[Minimum] = run("searching", tasks)
+    best = min(minima, key=lambda one: one.sum_of_squares)
+    bound = best.sum_of_squares * (1.0 + SAME) + 1e-16 * count
+    agreeing = sum(one.sum_of_squares <= bound for one in minima)
+    spare = count - len(free)
+    known = measurements.knows_deviations
+    scale = (best.sum_of_squares / spare) ** 0.5 if spare else None
+    unit = 1.0 if known else scale
+    directions = open_directions(problem, best, 0.0 if unit is None else unit)
+    left_open = {name for one in directions for name in one.factors}
+    covariance = np.linalg.pinv(best.jacobian.T @ best.jacobian)
+    deviations = np.sqrt(np.diag(covariance))
+    sides: list[tuple[int, float]] = []
+    if unit:
+        quantile = float(ndtri(0.5 + LEVEL / 2) if known else stdtrit(spare, 0.5 + LEVEL / 2))
+        indices = [i for i, one in enumerate(free) if one.name not in left_open]
+        sides = [(i, sign * quantile * unit * deviations[i]) for i in indices for sign in (-1, 1)]
+        excess = (quantile * unit) ** 2
+        ends = run(
+            "bounding",
+            [
+                partial(
+                    profile_end,
+                    problem=problem,
+                    best=best,
+                    index=index,
+                    change=change,
+                    excess=excess,
+                )
+                for index, change in sides
+            ],
+        )
+    else:
+        ends = []
+    intervals = {sides[k][0]: sorted((ends[k], ends[k + 1])) for k in range(0, len(sides), 2)}
+    fitted = []
+    for index, one in enumerate(free):
+        value = one.value(float(best.internal[index]))
+        low, high = intervals.get(index, (None, None))
+        slope = value if one.is_relative else one.value(1.0)
+        deviation = None if low is None or not unit else abs(slope) * unit * deviations[index]
+        is_open = one.name in left_open
+        unit_name = VARIABLES[one.name].unit
+        fitted.append(
+            FittedParameter(one.name, unit_name, one.start, value, deviation, low, high, is_open)
+        )
+    values = {**parameters, **{one.name: one.value for one in fitted}}
+    (predicted,) = run(
+        "comparing", [partial(predict, parameters=values, measurements=measurements)]
+    )
+    return Fit(
+        tuple(fitted),
+        Device.from_mapping(values),
+        tuple(directions),
+        covariance / np.outer(deviations, deviations).clip(min=1e-300),
+        measurements.measured,
+        predicted,
+        (predicted - measurements.measured)
+        / (measurements.scales * (1.0 if known else scale or 1.0)),
+        scale,
+        len(minima),
+        agreeing,
+        sum(one.evaluations for one in minima),
+        measurements,
+    )
+
+
+def _starts(free: Sequence[Free], count: int) -> list[Array]:
+    """Return internal starts: the device's own first, others up to a factor `REACH` beside it."""
+    first = np.array([one.internal(one.start) for one in free])
+    reach = np.array([np.log(REACH) if one.is_relative else REACH for one in free])
+    random = np.random.default_rng(SEED)
+    return [
+        first,
+        *(first + reach * random.uniform(-1.0, 1.0, len(free)) for _ in range(count - 1)),
+    ]
+
+
+def isolated(
+    fmu: Path, jobs: int = 1, time_limit: float = TIME_LIMIT, progress: Progress = no_progress
+) -> Runner:
+    """Return what runs tasks in processes of an FMU, each for up to `time_limit` (s)."""
+
+    def run(label: str, tasks: Sequence[Task]) -> list[Any]:
+        numbered = list(enumerate(tasks))
+        results = []
+        progress(counted(label, 0, len(tasks)), 0.0)
+        for one in run_tasks(fmu, numbered, time_limit, name=lambda i: f"{label} {i}", jobs=jobs):
+            if one.error is not None:
+                raise one.error
+            results.append(one.result)
+            progress(counted(label, len(results), len(tasks)), len(results) / len(tasks))
+        if len(results) < len(tasks):
+            raise FmuError(f"{fmu}: ended before all was fitted")
+        return results
+
+    return run

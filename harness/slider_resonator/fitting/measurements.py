@@ -1,0 +1,247 @@
+"""Measurements of a device: steady velocities and blocking forces, and runs over time."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from math import isfinite
+from pathlib import Path
+
+import numpy as np
+
+from slider_resonator.arrays import Array
+from slider_resonator.device.interface import INPUTS, PARAMETERS, TUNABLES, VARIABLES
+from slider_resonator.device.schedule import Schedule, in_order
+from slider_resonator.device.signal import steps
+from slider_resonator.device.units import si_value
+from slider_resonator.errors import HarnessError, unknown_name
+
+STEADY = ("steady_velocity", "blocking_force")
+"""What can be measured without a run, by the outputs of the FMU."""
+_ALIASES = {
+    "frequency": "drive_frequency",
+    "amplitude": "base_amplitude",
+    "velocity": "steady_velocity",
+    "mean_velocity": "steady_velocity",
+    "force": "blocking_force",
+}
+"""Other names of the columns of a table; those of a run are the outputs themselves."""
+_HEADING = re.compile(r"\s*(?P<name>\w+?)(?P<std>_std)?\s*(?:[\[(](?P<unit>[^\])]*)[\])])?\s*")
+MAX_ROWS = 100_000
+
+
+@dataclass(frozen=True)
+class Point:
+    """A steady `quantity` measured under `values`; both in SI units.
+
+    `deviation` is the standard deviation of the measurement, None where it is not known.
+    """
+
+    values: Mapping[str, float]
+    quantity: str
+    measured: float
+    deviation: float | None = None
+
+
+@dataclass(frozen=True)
+class Run:
+    """Outputs at the communication points of a schedule, each of shape (n,), NaN where unknown."""
+
+    source: str
+    schedule: Schedule
+    outputs: Mapping[str, Array]
+    deviations: Mapping[str, Array] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Measurements:
+    """All that is measured. Numbers come in the order of points, then runs, output by output."""
+
+    points: tuple[Point, ...] = ()
+    runs: tuple[Run, ...] = ()
+
+    @property
+    def measured(self) -> Array:
+        """What was measured, shape (n,), without what a run leaves out."""
+        runs = [column[np.isfinite(column)] for run in self.runs for column in run.outputs.values()]
+        return np.concatenate([[point.measured for point in self.points], *runs])
+
+    @property
+    def quantities(self) -> list[str]:
+        """The quantity of each number, length n."""
+        names = [point.quantity for point in self.points]
+        for run in self.runs:
+            for name, column in run.outputs.items():
+                names += [name] * int(np.isfinite(column).sum())
+        return names
+
+    @property
+    def knows_deviations(self) -> bool:
+        """Whether each number has its standard deviation."""
+        points = all(point.deviation is not None for point in self.points)
+        return points and all(run.outputs.keys() <= run.deviations.keys() for run in self.runs)
+
+    @property
+    def scales(self) -> Array:
+        """Standard deviations, shape (n,), or what stands for them up to a common factor.
+
+        Without any, the numbers of one quantity err alike, and by the same share of their root mean
+        square as those of another.
+        """
+        measured, quantities = self.measured, np.array(self.quantities)
+        scales = np.empty(len(measured))
+        for name in set(self.quantities):
+            own = quantities == name
+            scales[own] = np.sqrt(np.mean(measured[own] ** 2)) or 1.0
+        if self.knows_deviations:
+            known = [np.array([point.deviation or 0.0 for point in self.points])]
+            for run in self.runs:
+                known += [run.deviations[n][np.isfinite(c)] for n, c in run.outputs.items()]
+            scales = np.concatenate(known)
+        return scales
+
+    def under(self, inputs: Mapping[str, float]) -> Measurements:
+        """Return the same with inputs of the points that do not say them."""
+        points = (replace(point, values={**inputs, **point.values}) for point in self.points)
+        return Measurements(tuple(points), self.runs)
+
+    def __add__(self, other: Measurements) -> Measurements:
+        """Return both together."""
+        return Measurements(self.points + other.points, self.runs + other.runs)
+
+
+def read_measurements(path: Path) -> Measurements:
+    """Read a CSV file: a run if it has a column `time`, else a table of steady measurements.
+
+    A heading is a name, a name and a unit in brackets, such as `phase [deg]`, or a measured name
+    with `_std`, its standard deviation. Raises HarnessError with file, line, value and requirement.
+    """
+    columns = _columns(path)
+    return _run(path, columns) if "time" in columns else _table(path, columns)
+
+
+def _columns(path: Path) -> dict[str, Array]:
+    """Return the columns by name in SI units, empty cells as NaN."""
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            rows = [row for row in csv.reader(file) if any(cell.strip() for cell in row)]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise HarnessError(f"{path}: cannot be read as CSV: {reason}") from error
+    if len(rows) < 2 or len(rows) > MAX_ROWS:
+        raise HarnessError(f"{path}: {len(rows)} lines; must be a heading and up to {MAX_ROWS}")
+    is_run = any(heading.split("[")[0].split("(")[0].strip() == "time" for heading in rows[0])
+    columns: dict[str, Array] = {}
+    for index, heading in enumerate(rows[0]):
+        name, factor = _column(path, heading, is_run)
+        if name in columns:
+            raise HarnessError(f"{path}: two columns {name}; must be one")
+        cells = [row[index].strip() if index < len(row) else "" for row in rows[1:]]
+        columns[name] = factor * np.array(
+            [_number(path, line, heading, cell) for line, cell in enumerate(cells, start=2)]
+        )
+    return columns
+
+
+def _column(path: Path, heading: str, is_run: bool) -> tuple[str, float]:
+    """Return the name that a heading stands for, and the factor to SI units."""
+    match = _HEADING.fullmatch(heading)
+    outputs = [name for name, one in VARIABLES.items() if one.causality == "output"]
+    measured = outputs if is_run else [*STEADY]
+    allowed = [*INPUTS, *(TUNABLES if is_run else PARAMETERS), *measured]
+    name = match["name"] if match else heading.strip()
+    if not is_run:
+        name = _ALIASES.get(name, name)
+    if is_run and name == "time":
+        return name, 1.0
+    if match is None or name not in allowed or (match["std"] and name not in measured):
+        kind = "column of a run" if is_run else "column"
+        stated = name + ((match["std"] or "") if match else "")
+        raise HarnessError(f"{path}: {unknown_name(kind, stated, [*allowed, 'time'])}")
+    try:
+        factor = si_value(name, f"1 {match['unit']}") if match["unit"] else 1.0
+    except ValueError as error:
+        raise HarnessError(f"{path}: heading {heading!r}: {error}") from error
+    return name + (match["std"] or ""), factor
+
+
+def _number(path: Path, line: int, heading: str, text: str) -> float:
+    if not text:
+        return float("nan")
+    try:
+        number = float(text)
+    except ValueError:
+        number = float("inf")
+    if not isfinite(number):
+        raise HarnessError(
+            f"{path} line {line}: {heading.strip()} = {text!r}: must be a finite number, or empty"
+        )
+    return number
+
+
+def _table(path: Path, columns: Mapping[str, Array]) -> Measurements:
+    measured = [name for name in STEADY if name in columns]
+    if not measured:
+        raise HarnessError(f"{path}: measures nothing; must have a column {' or '.join(STEADY)}")
+    given = [n for n in columns if n.removesuffix("_std") not in STEADY]
+    points = []
+    for row in range(len(columns[measured[0]])):
+        values = {name: float(columns[name][row]) for name in given}
+        for name in [name for name, value in values.items() if not isfinite(value)]:
+            raise HarnessError(f"{path} row {row + 1}: {name} is empty; must be a number")
+        for name in measured:
+            value = float(columns[name][row])
+            if isfinite(value):
+                deviation = _deviation(path, columns, name, row)
+                points.append(Point(values, name, value, deviation))
+    return Measurements(points=tuple(points))
+
+
+def _deviation(path: Path, columns: Mapping[str, Array], name: str, row: int) -> float | None:
+    if f"{name}_std" not in columns:
+        return None
+    deviation = float(columns[f"{name}_std"][row])
+    if not deviation > 0.0:
+        raise HarnessError(f"{path} row {row + 1}: {name}_std = {deviation:g}: must be above 0")
+    return deviation
+
+
+def _run(path: Path, columns: Mapping[str, Array]) -> Measurements:
+    times = columns["time"] - columns["time"][0]
+    if not np.all(np.diff(times) > 0.0):
+        raise HarnessError(f"{path}: time must be in every row, and increase strictly")
+    settable = (*INPUTS, *TUNABLES)
+    signals = {}
+    for name in settable:
+        if name in columns:
+            if not np.all(np.isfinite(columns[name])):
+                raise HarnessError(f"{path}: {name} is empty in a row; must be a number")
+            signals[name] = steps(list(zip(times.tolist(), columns[name].tolist(), strict=True)))
+    inputs = {name: signal for name, signal in signals.items() if name in INPUTS}
+    tuning = {name: signal for name, signal in signals.items() if name in TUNABLES}
+    outputs = {n: c for n, c in columns.items() if n in VARIABLES and n not in settable}
+    if not outputs:
+        raise HarnessError(f"{path}: measures nothing; must have a column of an output")
+    deviations = {name: columns[f"{name}_std"] for name in outputs if f"{name}_std" in columns}
+    for name, column in deviations.items():
+        if not np.all(column[np.isfinite(outputs[name])] > 0.0):
+            raise HarnessError(f"{path}: {name}_std must be above 0 in every row")
+    schedule = Schedule(times, *in_order(inputs), tuning=tuning)
+    return Measurements(runs=(Run(str(path), schedule, outputs, deviations),))
+
+
+def datasheet(
+    velocity: float | None, blocking: float | None, loaded: Sequence[tuple[float, float]]
+) -> Measurements:
+    """Return the numbers of a datasheet: no-load velocity (m/s), blocking force (N), velocities.
+
+    `loaded` are pairs of load (N) and velocity (m/s).
+    """
+    points = [Point({"load": load}, STEADY[0], speed) for load, speed in loaded]
+    if velocity is not None:
+        points.insert(0, Point({"load": 0.0}, STEADY[0], velocity))
+    if blocking is not None:
+        points.append(Point({}, STEADY[1], blocking))
+    return Measurements(tuple(points))

@@ -1,0 +1,52 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import slider_resonator as sr
+from tests.harness.calling import call, refused
+
+
+@pytest.fixture(scope="module")
+def data(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("fit") / "data.csv"
+    with sr.open_fmu(native_fmu, device="ultrasonic_slider") as fmu:
+        rows = [
+            f"{phase},{1e3 * fmu.steady(phase=f'{phase} deg', damping_ratio=0.03).predicted:.6g}"
+            for phase in (-40, -10, 20, 50)
+        ]
+    path.write_text("\n".join(["phase [deg],velocity [mm/s]", *rows]) + "\n", encoding="utf-8")
+    return path
+
+
+def test_a_fit_writes_the_device_to_go_on_with(
+    data: Path, native_fmu: Path, tmp_path: Path
+) -> None:
+    device = ("--device", "ultrasonic_slider", "--fmu", native_fmu)
+    ran = call("fit", data, *device, "--free", "damping_ratio", "--starts", 1, "--out", tmp_path)
+    assert ran.exit_code == 0, ran.output
+    assert "1 face that rubs" in ran.stdout
+    assert sr.read_device(tmp_path / "device.toml").damping_ratio == pytest.approx(0.03, rel=1e-4)
+    assert {path.name for path in tmp_path.iterdir()} == {
+        *("device.toml", "fit.html", "fit.png", "residuals.csv")
+    }
+    assert "95 % from" in (tmp_path / "fit.html").read_text(encoding="utf-8")
+
+
+def test_what_is_left_open_is_exit_code_1(data: Path, native_fmu: Path) -> None:
+    free = "normal_preload,normal_amplitude,friction_coefficient"
+    ran = call("fit", data, "--fmu", native_fmu, "--free", free, "--starts", 1, "--json")
+    assert ran.exit_code == 1, ran.output
+    open_ones = [one["name"] for one in json.loads(ran.stdout)["parameters"] if one["is_open"]]
+    assert sorted(open_ones) == sorted(free.split(","))
+
+
+def test_what_cannot_be_fitted_is_said(data: Path, native_fmu: Path) -> None:
+    fmu = ("--fmu", native_fmu)
+    assert "no measurements" in refused("fit", *fmu, "--free", "slider_mass")
+    assert "did you mean" in refused("fit", data, *fmu, "--free", "slider_mas")
+    assert "LOAD=VELOCITY" in refused("fit", *fmu, "--free", "load", "--velocity-at", "3")
+    assert "not in m/s" in refused("fit", *fmu, "--free", "slider_mass", "--velocity", "3 N")
+    assert "NAME=LOW:HIGH" in refused("fit", data, "--free", "slider_mass", "--bounds", "3")

@@ -1,0 +1,166 @@
+"""Fits of measurements that the FMU itself has made, with and without noise."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+
+from slider_resonator.device.schedule import Schedule
+from slider_resonator.device.signal import constant
+from slider_resonator.errors import HarnessError
+from slider_resonator.fitting.fit import Fit, fit, free_parameters
+from slider_resonator.fitting.measurements import Measurements, Point, Run, datasheet
+from slider_resonator.fitting.prediction import predict
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.isolation.process import Task
+
+TRUE = {"friction_coefficient": 0.13, "damping_ratio": 0.08, "normal_amplitude": 0.7}
+POINTS = tuple(
+    Point({"phase": 0.3 * i, "load": 0.01 * (i % 3)}, "steady_velocity", 0.0) for i in range(10)
+)
+
+
+def fitted(
+    instance: Instance, measurements: Measurements, free: Sequence[str], **known: Any
+) -> Fit:
+    """Fit in this process."""
+
+    def run(_: str, tasks: Sequence[Task]) -> list[Any]:
+        return [task(instance) for task in tasks]
+
+    return fit(measurements, free, known.pop("parameters", {}), run, **known)
+
+
+def measured(
+    instance: Instance,
+    true: Mapping[str, float],
+    points: Sequence[Point],
+    noise: float = 0.0,
+    seed: int = 0,
+) -> Measurements:
+    """Let the FMU measure, with normal errors of `noise` times the root mean square."""
+    values = predict(instance, true, Measurements(tuple(points)))
+    size = noise * float(np.sqrt(np.mean(values**2)))
+    errors = size * np.random.default_rng(seed).normal(size=len(values))
+    return Measurements(
+        tuple(
+            Point(point.values, point.quantity, float(value + error))
+            for point, value, error in zip(points, values, errors, strict=True)
+        )
+    )
+
+
+def test_exact_data_give_the_parameters_back(instance: Instance) -> None:
+    found = fitted(instance, measured(instance, TRUE, POINTS), list(TRUE))
+    for one in found.parameters:
+        assert one.value == pytest.approx(TRUE[one.name], rel=1e-7)
+    assert found.starts_agreeing >= 2
+    assert not found.open_directions
+
+
+def test_a_datasheet_is_solved_without_intervals(instance: Instance) -> None:
+    quantities = ({"load": 0.0}, "steady_velocity"), ({}, "blocking_force")
+    points = [Point(values, quantity, 0.0) for values, quantity in quantities]
+    true = {"friction_coefficient": 0.2, "normal_amplitude": 0.6}
+    numbers = predict(instance, true, Measurements(tuple(points)))
+    found = fitted(instance, datasheet(*numbers.tolist(), []), list(true))
+    assert [one.value for one in found.parameters] == pytest.approx(list(true.values()), rel=1e-7)
+    assert [one.low for one in found.parameters] == [None, None]
+
+
+def test_a_run_is_fitted_over_time(instance: Instance) -> None:
+    schedule = Schedule(np.linspace(0.0, 0.2, 41), phase=constant(0.4))
+    empty = Run("run.csv", schedule, {"velocity": np.zeros(41), "position": np.zeros(41)})
+    true = {"friction_coefficient": 0.17, "slider_mass": 1.3}
+    velocity, position = np.split(predict(instance, true, Measurements(runs=(empty,))), 2)
+    velocity[5] = np.nan
+    run = Run("run.csv", schedule, {"velocity": velocity, "position": position})
+    found = fitted(instance, Measurements(runs=(run,)), list(true), starts=1)
+    assert [one.value for one in found.parameters] == pytest.approx(list(true.values()), rel=1e-6)
+
+
+def test_what_the_data_leave_open_is_named(instance: Instance) -> None:
+    """Friction is coefficient times normal load: all three cannot be told from velocities."""
+    data = measured(instance, TRUE, POINTS, 0.01)
+    free = ["friction_coefficient", "normal_preload", "normal_amplitude", "damping_ratio"]
+    found = fitted(instance, data, free, starts=1)
+    (direction,) = found.open_directions
+    assert direction.spread == float("inf")
+    assert direction.factors == pytest.approx(
+        {name: direction.factors[name] for name in free[:3]}, rel=1e-12
+    )
+    coefficient, preload, amplitude = (direction.factors[name] for name in free[:3])
+    assert preload == pytest.approx(-coefficient, rel=1e-4), "the friction force is unchanged"
+    assert amplitude == pytest.approx(-coefficient, rel=1e-4)
+    assert {one.name for one in found.parameters if one.is_open} == set(free[:3])
+    (damping,) = (one for one in found.parameters if one.name == "damping_ratio")
+    assert damping.low is not None
+    assert damping.low < 0.08 < (damping.high or 0.0)
+
+
+def test_known_deviations_are_used(instance: Instance) -> None:
+    data = measured(instance, TRUE, POINTS, 0.01, seed=2)
+    widths = []
+    for deviation in (1e-3, 2e-3):
+        points = (Point(p.values, p.quantity, p.measured, deviation) for p in data.points)
+        found = fitted(instance, Measurements(tuple(points)), ["damping_ratio"], starts=1)
+        (one,) = found.parameters
+        assert one.low is not None
+        assert one.high is not None
+        widths.append(one.high - one.low)
+    assert widths[1] / widths[0] == pytest.approx(2.0, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("free", "bounds", "said"),
+    [
+        (["friction_coeff"], {}, "did you mean 'friction_coefficient'?"),
+        (["friction_faces"], {}, "friction_faces is an integer"),
+        (["slider_mass", "slider_mass"], {}, "must be different parameters"),
+        ([], {}, "must be different parameters"),
+        (["slider_mass"], {"slider_mass": (2.0, 1.0)}, "must be ascending"),
+        (["slider_mass"], {"slider_mass": (-1.0, 1.0)}, "slider_mass = -1.0: must be a finite"),
+    ],
+)
+def test_what_cannot_be_free_is_refused(
+    free: list[str], bounds: dict[str, tuple[float, float]], said: str
+) -> None:
+    with pytest.raises(HarnessError) as error:
+        free_parameters(free, {}, bounds)
+    assert said in str(error.value)
+
+
+def test_fewer_numbers_than_parameters_are_refused(instance: Instance) -> None:
+    with pytest.raises(HarnessError, match="1 measured numbers for 2 free parameters"):
+        fitted(instance, datasheet(0.1, None, []), ["slider_mass", "damping_ratio"])
+
+
+@pytest.mark.nightly
+def test_intervals_cover_the_truth_in_90_to_99_of_100(instance: Instance) -> None:
+    """Random devices and truths, 20 velocities with 1 % noise, three free parameters each."""
+    covered = {name: 0 for name in TRUE}
+    judged = dict(covered)
+    for seed in range(100):
+        random = np.random.default_rng(seed)
+        true = {name: value * random.uniform(0.7, 1.4) for name, value in TRUE.items()}
+        device = {"slider_mass": random.uniform(0.5, 2.0), "friction_law": int(seed % 4 == 0)}
+        points = [
+            Point(
+                {"phase": random.uniform(-1.5, 1.5), "load": random.uniform(-0.03, 0.03)},
+                "steady_velocity",
+                0.0,
+            )
+            for _ in range(20)
+        ]
+        data = measured(instance, {**device, **true}, points, 0.01, seed)
+        found = fitted(instance, data, list(true), parameters=device, starts=2)
+        for one in found.parameters:
+            if one.low is not None and one.high is not None:
+                judged[one.name] += 1
+                covered[one.name] += one.low <= true[one.name] <= one.high
+    for name, count in covered.items():
+        assert judged[name] >= 95, "few devices leave a parameter open"
+        assert 0.90 <= count / judged[name] <= 0.99, name
