@@ -162,8 +162,7 @@ def fit_command(
     \b
     Examples:
       slider-resonator fit measured.csv --device mine.toml --free friction_coefficient,damping_ratio
-      slider-resonator fit --velocity "47 mm/s" --blocking "220 mN" \\
-        --device ultrasonic_slider --free friction_coefficient,normal_amplitude
+      slider-resonator fit --velocity "47 mm/s" --blocking "0.2 N" --free slider_mass,damping_ratio
       slider-resonator fit measured.csv --free friction_coefficient --out fitted
     """
     # Imported here: fitting and drawing take longer to load than other commands to run.

@@ -7,6 +7,12 @@ import pytest
 
 import slider_resonator as sr
 from tests.harness.calling import call, refused
+from tests.harness.public_json import assert_public_keys
+
+
+def test_json_has_its_public_keys() -> None:
+    assert_public_keys("device", call("device", "--json").stdout)
+    assert_public_keys("device NAME", call("device", "lugre_steel", "--json").stdout)
 
 
 def test_examples_are_listed_and_printed(tmp_path: Path) -> None:

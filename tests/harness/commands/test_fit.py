@@ -7,6 +7,7 @@ import pytest
 
 import slider_resonator as sr
 from tests.harness.calling import call, refused
+from tests.harness.public_json import assert_public_keys
 
 
 @pytest.fixture(scope="module")
@@ -39,6 +40,7 @@ def test_what_is_left_open_is_exit_code_1(data: Path, native_fmu: Path) -> None:
     free = "normal_preload,normal_amplitude,friction_coefficient"
     ran = call("fit", data, "--fmu", native_fmu, "--free", free, "--starts", 1, "--json")
     assert ran.exit_code == 1, ran.output
+    assert_public_keys("fit", ran.stdout)
     open_ones = [one["name"] for one in json.loads(ran.stdout)["parameters"] if one["is_open"]]
     assert sorted(open_ones) == sorted(free.split(","))
 

@@ -75,11 +75,12 @@ def test_every_command_has_the_common_options_that_make_sense_for_it() -> None:
         *("baseline", "build"),
         *("baseline accept", "baseline record"),  # whose results are files
     }
-    assert having("--jobs") == {"mutants", "sweep", "validate"}
+    assert having("--jobs") == {"fit", "mutants", "sweep", "validate"}
     assert having("--scene") == {
         *("baseline accept", "baseline check", "baseline record", "mutants", "validate")
     }
-    assert having("--set") == having("--device") == {"blocking", "choose", "run", "steady"}
+    assert having("--set") == {"blocking", "choose", "fit", "run", "steady"}
+    assert having("--device") == having("--set")
     own = {"--python-fmu", "--fmi3-fmu"}  # further FMUs of `hosts`
     looks_alike = re.compile("fmu|job|worker|limit|timeout|json")
     common = {"--fmu", "--jobs", "--time-limit", "--json", "--workers", "--limit"}

@@ -62,11 +62,11 @@ def test_exact_data_give_the_parameters_back(instance: Instance) -> None:
 
 
 def test_a_datasheet_is_solved_without_intervals(instance: Instance) -> None:
-    quantities = ({"load": 0.0}, "steady_velocity"), ({}, "blocking_force")
-    points = [Point(values, quantity, 0.0) for values, quantity in quantities]
+    points = [Point({"load": 0.0}, "steady_velocity", 0.0), Point({}, "blocking_force", 0.0)]
     true = {"friction_coefficient": 0.2, "normal_amplitude": 0.6}
     numbers = predict(instance, true, Measurements(tuple(points)))
-    found = fitted(instance, datasheet(*numbers.tolist(), []), list(true))
+    velocity, force = numbers.tolist()
+    found = fitted(instance, datasheet(velocity, force, []), list(true))
     assert [one.value for one in found.parameters] == pytest.approx(list(true.values()), rel=1e-7)
     assert [one.low for one in found.parameters] == [None, None]
 

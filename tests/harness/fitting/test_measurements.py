@@ -27,7 +27,8 @@ def test_a_table_has_units_other_names_and_gaps(tmp_path: Path) -> None:
     first, second = data.points
     assert first.values["phase"] == pytest.approx(pi / 6)
     assert first.values["drive_frequency"] == pytest.approx(2 * pi * 20e3)
-    assert (first.quantity, first.measured) == ("steady_velocity", pytest.approx(0.047))
+    assert first.quantity == "steady_velocity"
+    assert first.measured == pytest.approx(0.047)
     assert first.deviation == pytest.approx(5e-4)
     assert (second.quantity, second.measured, second.deviation) == ("blocking_force", 0.2, None)
     assert not data.knows_deviations
