@@ -151,7 +151,8 @@ def _report(error: BaseException) -> str:
     elif isinstance(error, HarnessError):
         message = f"error: {error}"
     elif isinstance(error, OSError):
-        message = f"error: {error.filename or 'standard output'}: {error.strerror}"
+        reason = error.strerror or str(error) or type(error).__name__
+        message = f"error: {error.filename or 'standard output'}: {reason}"
     else:
         click.echo(escaped("".join(traceback.format_exception(error))), err=True, nl=False)
         return f"internal error: {error!r}"

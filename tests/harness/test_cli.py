@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator import cli
 from studies import COMMANDS as STUDIES
 from tests.harness import faulty_fmus
 from tests.harness.calling import call
@@ -271,3 +272,18 @@ def test_closed_streams_do_no_harm(closed: str, tmp_path: Path) -> None:
     assert done.returncode == 2
     assert "Traceback" not in done.stderr
     assert "no such file" in out.read_text()
+
+
+@pytest.mark.parametrize(
+    ("error", "words"),
+    [
+        (OSError("the pipe is gone"), "error: standard output: the pipe is gone"),
+        (OSError(28, "No space left", "a.csv"), "error: a.csv: No space left"),
+        (OSError(), "error: standard output: OSError"),
+    ],
+)
+def test_an_error_of_the_system_is_named(
+    error: OSError, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    cli._report(error)
+    assert capsys.readouterr().err == f"{words}\n"
