@@ -3,32 +3,34 @@
 from __future__ import annotations
 
 import json
-import os
+import sqlite3
 import zlib
-from collections.abc import Iterable, Mapping
-from contextlib import suppress
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 from slider_resonator.errors import HarnessError
 
-try:
-    import fcntl
-except ImportError:  # Windows: two writers of one file are then not noticed
-    fcntl = None  # type: ignore[assignment]
-
-FORMAT = 3
+MAGIC = b"SQLite format 3\0"
+APPLICATION = 0x736C7264
+"""Marks an SQLite file as a journal of this package."""
+_ENCODER = json.JSONEncoder(separators=(",", ":"))
+TABLES = (
+    "CREATE TABLE work (kind TEXT, digest TEXT)",
+    "CREATE TABLE entries (number INTEGER PRIMARY KEY, checksum INTEGER, entry TEXT)",
+)
 
 
 class Journal:
-    """One line of JSON for each entry, after a line that says of which work it is.
+    """An SQLite file of entries, which JSON can write, and of the work that they belong to.
 
     `work` says what is kept, such as "sweep"; `digest` must be another for other work of this kind;
-    `remedy` is for messages. Each line begins with a checksum. A line that was cut off by the end
-    of its writer is dropped, and so are those whose numbers are in `damaged`: what they held is to
-    be done again. `entries` are those found in the file, by line. With `restart` all that it holds
-    is discarded. Raises HarnessError for the journal of other work, for a file that is none, and
-    while another process writes it. Use it in a `with` block.
+    `remedy` is for messages. `entries` are those found in the file, by number from 1. One whose
+    checksum is wrong is dropped and its number is in `damaged`: what it held is to be done again.
+    With `restart` all that it holds is discarded. Raises HarnessError for the journal of other
+    work, for a file that is none, which stays as it is, and while another process writes it. Use it
+    in a `with` block.
     """
 
     def __init__(
@@ -38,25 +40,35 @@ class Journal:
         self.entries: dict[int, Any] = {}
         self.damaged: list[int] = []
         self._work, self._remedy = work, remedy
-        try:
-            self._file: BinaryIO = path.open("a+b")
+        with self._explained():
+            is_new = self._is_new()
+            self._file = sqlite3.connect(path, timeout=0.0, isolation_level=None)
             try:
-                self._lock()
-                if restart:
-                    self._file.truncate(0)
-                self._read({"format": FORMAT, work: digest})
+                # Entries need to survive the end of this process, not that of the machine.
+                self._file.execute("PRAGMA synchronous = OFF")
+                self._file.execute("PRAGMA locking_mode = EXCLUSIVE")
+                self._file.execute("BEGIN EXCLUSIVE")
+                if not is_new:
+                    self._check(digest, restart=restart)
+                if is_new or restart:
+                    self._create(digest)
+                self._file.execute("COMMIT")
             except BaseException:
                 self._file.close()
                 raise
-        except OSError as error:
-            raise HarnessError(f"{path}: cannot be written: {error.strerror}") from error
 
     def add(self, entries: Iterable[object]) -> None:
-        """Keep entries, which JSON can write; they survive the end of this process."""
-        self._write(map(_line, entries))
+        """Keep entries; they survive the end of this process."""
+        texts = [_ENCODER.encode(entry) for entry in entries]
+        rows = [(zlib.crc32(text.encode()), text) for text in texts]
+        with self._explained():
+            self._file.execute("BEGIN")
+            self._file.executemany("INSERT INTO entries (checksum, entry) VALUES (?, ?)", rows)
+            self._file.execute("COMMIT")
 
     def remove(self) -> None:
         """Remove the file: what is made from it has been written."""
+        self._file.close()
         self.path.unlink(missing_ok=True)
 
     def __enter__(self) -> Journal:
@@ -65,70 +77,63 @@ class Journal:
 
     def __exit__(self, *error: object) -> None:
         """Close the file."""
-        with suppress(OSError):  # of a full disk, which `add` has reported
-            self._file.close()
+        self._file.close()
 
-    def _lock(self) -> None:
-        if fcntl is None:
+    def _is_new(self) -> bool:
+        """Whether there is no file, or an empty one; HarnessError for a file of another format."""
+        if not self.path.exists():
+            return True
+        with self.path.open("rb") as file:
+            start = file.read(len(MAGIC))
+        if start not in (b"", MAGIC):
+            raise self._is_none()
+        return not start
+
+    def _check(self, digest: str, *, restart: bool) -> None:
+        """Read the entries; HarnessError unless they belong to this work."""
+        (application,) = self._file.execute("PRAGMA application_id").fetchone()
+        if application != APPLICATION:
+            raise self._is_none()
+        ((work, of),) = self._file.execute("SELECT kind, digest FROM work")
+        if work != self._work:
+            raise self._is_none()
+        if restart:
             return
-        try:
-            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            raise HarnessError(f"{self.path}: another {self._work} is writing it") from error
-
-    def _read(self, header: Mapping[str, object]) -> None:
-        """Read the entries; drop a line that was cut off at the end, and those that are damaged."""
-        self._file.seek(0)
-        lines = self._file.read().splitlines(keepends=True)
-        for number, line in enumerate(lines, start=1):
-            if not line.endswith(b"\n"):
-                continue
-            entry = _entry(line)
-            if number == 1:
-                self._check(entry, header)
-            elif entry is None:
-                self.damaged.append(number)
-            else:
-                self.entries[number] = entry
-        if self.damaged or not lines or not lines[-1].endswith(b"\n"):
-            self._file.truncate(0)
-            self._write(map(_line, [header, *self.entries.values()]))
-        self._file.seek(0, os.SEEK_END)
-
-    def _check(self, found: object, header: Mapping[str, object]) -> None:
-        if not isinstance(found, dict) or self._work not in found:
-            raise HarnessError(
-                f"{self.path} line 1: is no journal of a {self._work}, or damaged; {self._remedy}"
-            )
-        if found != header:
+        if of != digest:
             raise HarnessError(
                 f"{self.path}: is of another {self._work}, another FMU or another version; "
                 f"{self._remedy}"
             )
+        for number, checksum, text in self._file.execute("SELECT * FROM entries ORDER BY number"):
+            if isinstance(text, str) and zlib.crc32(text.encode()) == checksum:
+                self.entries[number] = json.loads(text)
+            else:
+                self.damaged.append(number)
+        self._file.executemany("DELETE FROM entries WHERE number = ?", [(n,) for n in self.damaged])
 
-    def _write(self, lines: Iterable[str]) -> None:
+    def _create(self, digest: str) -> None:
+        self._file.execute("DROP TABLE IF EXISTS work")
+        self._file.execute("DROP TABLE IF EXISTS entries")
+        for table in TABLES:
+            self._file.execute(table)
+        self._file.execute(f"PRAGMA application_id = {APPLICATION}")
+        self._file.execute("INSERT INTO work VALUES (?, ?)", (self._work, digest))
+
+    def _is_none(self) -> HarnessError:
+        return HarnessError(
+            f"{self.path}: is no journal of a {self._work}, or damaged; move the file away"
+        )
+
+    @contextmanager
+    def _explained(self) -> Iterator[None]:
+        """Turn errors of the file into a HarnessError that names it."""
         try:
-            self._file.write("".join(lines).encode())
-            self._file.flush()
+            yield
         except OSError as error:
             raise HarnessError(f"{self.path}: cannot be written: {error.strerror}") from error
-
-
-def _line(entry: object) -> str:
-    text = json.dumps(entry, separators=(",", ":"))
-    return f"{_checksum(text.encode())} {text}\n"
-
-
-def _entry(line: bytes) -> Any:
-    """Return the content of a line, None for one that is damaged."""
-    checksum, _, text = line.rstrip(b"\n").partition(b" ")
-    if checksum != _checksum(text).encode():
-        return None
-    try:
-        return json.loads(text)
-    except ValueError:
-        return None
-
-
-def _checksum(text: bytes) -> str:
-    return f"{zlib.crc32(text):08x}"
+        except sqlite3.OperationalError as error:
+            if error.sqlite_errorcode in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
+                raise HarnessError(f"{self.path}: another {self._work} is writing it") from error
+            raise HarnessError(f"{self.path}: cannot be written: {error}") from error
+        except (sqlite3.Error, ValueError) as error:
+            raise self._is_none() from error
