@@ -36,6 +36,7 @@ from slider_resonator.fitting.fit import fit as fit_parameters
 from slider_resonator.fitting.measurements import Measurements, read_measurements
 from slider_resonator.fmu.finished import fmu_path
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
+from slider_resonator.fmu.isolation.processes import available_cores
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run as run_schedule
 from slider_resonator.scenes.device_file import read_device as read_device_file
@@ -46,7 +47,6 @@ from slider_resonator.scenes.scene_files import files_of_scenes, find_scene
 from slider_resonator.steady.blocking_force import Blocking, find_blocking
 from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
 from slider_resonator.sweeping.grid import Sweep, grid_from, read_grid
-from slider_resonator.sweeping.local import available_cores
 from slider_resonator.sweeping.sweeping import SweepResult, run_sweep
 
 __all__ = [

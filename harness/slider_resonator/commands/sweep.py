@@ -16,6 +16,8 @@ from slider_resonator.commands.options import (
     time_limit_option,
 )
 from slider_resonator.commands.results import print_result, print_text
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
+from slider_resonator.fmu.isolation.processes import available_cores
 from slider_resonator.fmu.provenance import Provenance, provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of
@@ -23,10 +25,8 @@ from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
 from slider_resonator.sweeping.grid import Sweep, read_grid
 from slider_resonator.sweeping.kept_points import journal_path
-from slider_resonator.sweeping.local import available_cores
 from slider_resonator.sweeping.sweeping import SweepResult, run_sweep
 from slider_resonator.sweeping.table import SUFFIXES
-from slider_resonator.sweeping.worker import TIME_LIMIT
 
 
 @click.command("sweep")
@@ -103,9 +103,9 @@ def sweep_command(
             progress=progress,
         )
     _draw(sweep, result, plot, html, provenance)
-    for line in result.damaged:
+    for number in result.damaged:
         print_text(
-            f"{journal_path(out)} line {line}: damaged; its point was computed again", err=True
+            f"{journal_path(out)} entry {number}: damaged; its point was computed again", err=True
         )
     facts = {"points": result.points, "found": result.found, "failed": result.failed}
     facts["unanswered"] = result.unanswered

@@ -109,12 +109,17 @@ class Instance:
         self._initialised = False
         self._settable: dict[tuple[str, ...], _Plan] = {}
         self._readable: dict[tuple[str, ...], _Plan] = {}
+        self._blocks: dict[tuple[str, ...], Block] = {}
         self._inputs = self.block(list(INPUTS))
         self._rates: Derivatives | None = None
 
     def block(self, names: Sequence[str]) -> Block:
         """Return a block of Real variables of the FMU; FmuError for an unknown name."""
-        return Block(self.slave, [self._variable(name).valueReference for name in names])
+        key = tuple(names)
+        if key not in self._blocks:
+            references = [self._variable(name).valueReference for name in names]
+            self._blocks[key] = Block(self.slave, references)
+        return self._blocks[key]
 
     def start(
         self,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from concurrent.futures import CancelledError as FutureCancelled
 from concurrent.futures import Future
 from contextlib import contextmanager, suppress
@@ -13,14 +13,15 @@ from typing import Any
 from distributed import CancelledError, Client, KilledWorker, Worker, WorkerPlugin
 
 from slider_resonator import __version__
-from slider_resonator.errors import FmuError, HarnessError
-from slider_resonator.sweeping.measures import Task
-from slider_resonator.sweeping.worker import TIME_LIMIT, ChunkRunner, Point, Rows, failed_row
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.isolation.process import TIME_LIMIT, FmuDied, Task
+from slider_resonator.fmu.isolation.processes import Outcome, Runner
+from slider_resonator.sweeping.running import Workers
 
 CONNECT_SECONDS = 30
 
-_runners: dict[str, ChunkRunner] = {}
-"""Digest of an FMU to its runner, on a worker."""
+_runners: dict[str, Runner] = {}
+"""Digest of an FMU to what runs its tasks, on a worker."""
 
 
 class FmuPlugin(WorkerPlugin):
@@ -49,66 +50,56 @@ class FmuPlugin(WorkerPlugin):
         folder = tempfile.mkdtemp(prefix="fmu-", dir=worker.local_directory)
         fmu = Path(folder) / self.file_name
         fmu.write_bytes(self.content)
-        _runners[self.digest] = ChunkRunner(fmu, self.time_limit)
+        _runners[self.digest] = Runner(fmu, self.time_limit)
 
     def teardown(self, worker: Worker) -> None:
         """End the FMU's processes on the worker."""
         if self.digest in _runners:
-            _runners[self.digest].end()
+            _runners[self.digest].stop()
+            _runners.pop(self.digest).end()
 
 
-def run_chunk(task: Task, digest: str, points: Sequence[Point]) -> Rows:
-    """Return the rows of the points, on a worker; raises as `ChunkRunner.run` does."""
+def run_task(digest: str, task: Task) -> Outcome:
+    """Run a task of a sweep, on a worker."""
     if digest not in _runners:
-        missing = "this worker has not been given the FMU"
-        return [failed_row(task, number, missing) for number, _ in points], 0.0
-    return _runners[digest].run(task, points)
+        return Outcome(error=HarnessError("this worker has not been given the FMU"))
+    return _runners[digest].run(task)
 
 
-class DaskWorkers:
-    """The workers of a cluster, which itself recomputes the chunks of a dead worker."""
+class DaskProcesses:
+    """The workers of a cluster, which itself runs the tasks of a dead worker again."""
 
-    losses: tuple[type[BaseException], ...] = (
-        KilledWorker,
-        CancelledError,
-        FutureCancelled,
-        FmuError,
-    )
-    attempts = 1  # the cluster has tried several by then
-
-    def __init__(self, client: Client, address: str, task: Task, digest: str) -> None:
-        self.client = client
-        self.address = address
-        self.task = task
-        self.digest = digest
+    def __init__(self, client: Client, address: str, digest: str) -> None:
+        self._client = client
+        self._address = address
+        self._digest = digest
         self._executor: Any = client.get_executor(pure=False)  # type: ignore[no-untyped-call]
 
-    @property
-    def count(self) -> int:
-        """How many threads the workers have at present."""
-        with _naming_loss(self.address):
-            threads: dict[str, int] = self.client.nthreads()  # type: ignore[no-untyped-call]
-        return max(1, sum(threads.values()))
-
-    def submit(self, points: Sequence[Point]) -> Future[Rows]:
-        """Begin to compute a chunk."""
-        with _naming_loss(self.address):
-            future: Future[Rows] = self._executor.submit(run_chunk, self.task, self.digest, points)
+    def submit(self, task: Task) -> Future[Outcome]:
+        """Begin to run a task, or queue it."""
+        with _naming_loss(self._address):
+            future: Future[Outcome] = self._executor.submit(run_task, self._digest, task)
             return future
 
-    def replace_lost(self) -> None:
-        """Check that the cluster is still there: it replaces its workers itself."""
-        if self.client.status != "running":
-            raise HarnessError(
-                f"--dask {self.address}: the scheduler is lost; the same command continues the "
-                "sweep"
-            )
+    def outcome(self, future: Future[Outcome]) -> Outcome:
+        """Wait for the outcome of a task; HarnessError where the scheduler is lost."""
+        try:
+            return future.result()
+        except (KilledWorker, CancelledError, FutureCancelled):
+            if self._client.status != "running":
+                raise _lost(self._address) from None
+            return Outcome(error=FmuDied("the worker process died at this point"))
+
+    def close(self) -> None:
+        """Leave the processes to the end of the sweep."""
+
+    def end(self) -> None:
+        """Take back what has not begun."""
+        self._executor.shutdown(wait=False)
 
 
 @contextmanager
-def dask_workers(
-    task: Task, digest: str, fmu: Path, address: str, time_limit: float
-) -> Iterator[DaskWorkers]:
+def dask_workers(digest: str, fmu: Path, address: str, time_limit: float) -> Iterator[Workers]:
     """Yield the workers of the scheduler at `address`; HarnessError where none answers."""
     try:
         client = Client(  # type: ignore[no-untyped-call]
@@ -120,8 +111,14 @@ def dask_workers(
         plugin = FmuPlugin(digest, fmu.name, fmu.read_bytes(), time_limit)
         with _naming_loss(address):
             client.register_plugin(plugin)
+            threads: dict[str, int] = client.nthreads()  # type: ignore[no-untyped-call]
         try:
-            yield DaskWorkers(client, address, task, digest)
+            yield Workers(
+                fmu,
+                time_limit,
+                max(1, sum(threads.values())),
+                lambda: DaskProcesses(client, address, digest),
+            )
         finally:
             if client.status == "running":
                 with suppress(OSError):
@@ -134,6 +131,10 @@ def _naming_loss(address: str) -> Iterator[None]:
     try:
         yield
     except OSError as error:  # also that of a closed connection and of a timeout
-        raise HarnessError(
-            f"--dask {address}: the scheduler is lost; the same command continues the sweep"
-        ) from error
+        raise _lost(address) from error
+
+
+def _lost(address: str) -> HarnessError:
+    return HarnessError(
+        f"--dask {address}: the scheduler is lost; the same command continues the sweep"
+    )

@@ -23,13 +23,13 @@ def open_journal(table: Path, digest: str, *, restart: bool = False) -> Journal:
 def rows_of(journal: Journal) -> dict[int, Row]:
     """Return the rows by number of the point; HarnessError for an entry that is none."""
     rows: dict[int, Row] = {}
-    for line, entry in journal.entries.items():
+    for number, entry in journal.entries.items():
         match entry:
             case [int(point), list(cells), None | str() as failure]:
                 rows[point] = (point, cells, failure)
             case _:
                 raise HarnessError(
-                    f"{journal.path} line {line}: is no point of a sweep; must be number, results "
-                    "and error; --restart discards the file"
+                    f"{journal.path} entry {number}: is no point of a sweep; must be number, "
+                    "results and error; --restart discards the file"
                 )
     return rows

@@ -1,10 +1,11 @@
-"""The measures of a sweep at a point: shooting results, and statistics of a run."""
+"""The measures of a sweep at a point: steady motion, and statistics of a run."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import tau
+from types import MappingProxyType
 
 import numpy as np
 
@@ -22,8 +23,10 @@ from slider_resonator.sweeping.axes import AxisError
 Cell = float | str | None
 """An entry of the table; None where there is none."""
 
-SHOOTING: Mapping[str, str] = {"steady_velocity": "m/s", "blocking_force": "N"}
-"""Measures found by shooting, with units; each has a status beside its value."""
+SEARCHED: Mapping[str, str] = {"steady_velocity": "m/s", "blocking_force": "N"}
+"""Measures that are predicted and proved, or searched, with units; each has a status, too."""
+STATUS: Mapping[str, str] = {"steady_velocity": "steady", "blocking_force": "blocked"}
+"""The status of those that are proved."""
 
 
 def _mean(values: Array) -> float:
@@ -61,13 +64,17 @@ class Task:
     max_denominator: int
     run: Run
 
+    def values(self, point: tuple[float, ...]) -> dict[str, float]:
+        """Return the parameters and inputs of a point by name."""
+        return {**dict(self.fixed), **dict(zip(self.names, point, strict=True))}
+
     @property
     def columns(self) -> tuple[tuple[str, type], ...]:
         """Name and type of the table's columns."""
         results: list[tuple[str, type]] = []
         for measure in self.measures:
             results.append((measure, float))
-            if measure in SHOOTING:
+            if measure in SEARCHED:
                 results.append((f"{measure}_status", str))
         varied = ((name, int if name in INTEGERS else float) for name in self.names)
         return (("point", int), *varied, *results, ("error", str))
@@ -82,26 +89,34 @@ def check_measure(name: object) -> None:
         raise AxisError(f"measure {name!r}: {unknown_name('output', output, OUTPUTS)}")
     if dot and statistic not in STATISTICS:
         raise AxisError(f"measure {name!r}: {unknown_name('statistic', statistic, STATISTICS)}")
-    if not dot and name not in SHOOTING:
-        raise AxisError(unknown_name("measure", name, [*SHOOTING, "OUTPUT.STATISTIC"]))
+    if not dot and name not in SEARCHED:
+        raise AxisError(unknown_name("measure", name, [*SEARCHED, "OUTPUT.STATISTIC"]))
 
 
 def unit(measure: str) -> str:
     """Return the unit of a measure."""
-    return SHOOTING.get(measure) or OUTPUTS[measure.partition(".")[0]]
+    return SEARCHED.get(measure) or OUTPUTS[measure.partition(".")[0]]
 
 
-def measure(instance: Instance, task: Task, point: tuple[float, ...]) -> list[Cell]:
+def measure(
+    instance: Instance,
+    task: Task,
+    point: tuple[float, ...],
+    proved: Mapping[str, float] = MappingProxyType({}),
+) -> list[Cell]:
     """Return the cells of the measures at a point, in the order of the columns.
 
-    Depends on nothing but its arguments: not on the points before, so that neither the order of
-    the points nor the worker shows in the result. Raises what the FMU and the search raise.
+    What is `proved` is not searched. Depends on nothing but its arguments: not on the points
+    before, so that neither the order of the points nor the worker shows in the result. Raises what
+    the FMU and the search raise.
     """
-    values = {**dict(task.fixed), **dict(zip(task.names, point, strict=True))}
+    values = task.values(point)
     statistics = _statistics(instance, task, values)
     cells: list[Cell] = []
     for name in task.measures:
-        if name in SHOOTING:
+        if name in proved:
+            cells += [proved[name], STATUS[name]]
+        elif name in SEARCHED:
             find = find_steady if name == "steady_velocity" else find_blocking
             found = find(instance, values, max_denominator=task.max_denominator)
             cells += [getattr(found, name), found.status]
@@ -112,7 +127,7 @@ def measure(instance: Instance, task: Task, point: tuple[float, ...]) -> list[Ce
 
 def _statistics(instance: Instance, task: Task, values: Mapping[str, float]) -> Mapping[str, float]:
     """Return the statistics among the measures, all from one run."""
-    chosen = [name for name in task.measures if name not in SHOOTING]
+    chosen = [name for name in task.measures if name not in SEARCHED]
     if not chosen:
         return {}
     outputs = list(dict.fromkeys(name.partition(".")[0] for name in chosen))

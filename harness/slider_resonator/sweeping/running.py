@@ -1,87 +1,119 @@
-"""Hands the points of a sweep to workers, and keeps what they return."""
+"""Hands the points of a sweep to processes of the FMU, and keeps what they return."""
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, wait
-from typing import Protocol
+from collections.abc import Callable, Generator, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any, TypeVar
 
-from slider_resonator.sweeping.measures import Task
-from slider_resonator.sweeping.worker import Point, Row, Rows, failed_row
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.isolation.process import FmuDied
+from slider_resonator.fmu.isolation.process import Task as FmuTask
+from slider_resonator.fmu.isolation.processes import Processes
+from slider_resonator.fmu.isolation.tasks import run_all_tasks
+from slider_resonator.sweeping.measures import SEARCHED, Task
+from slider_resonator.sweeping.worker import (
+    Point,
+    Proved,
+    Row,
+    failed_row,
+    measure_point,
+    prove_points,
+    proved_row,
+)
 
-CHUNK_SECONDS = 0.2
-"""Work in a chunk: much longer than sending it takes; a killed worker loses no more than that."""
-LARGEST_CHUNK = 200
-CHUNKS_EACH = 2
-"""Chunks queued for each worker, so that it never waits."""
+BATCH = 200
+"""Points whose predictions are proved in one task."""
+ATTEMPTS = 3
+"""Processes that may die at a point before it counts as the cause."""
 
+Item = TypeVar("Item")
 
-class Workers(Protocol):
-    """Processes, here or elsewhere, that compute chunks."""
-
-    losses: tuple[type[BaseException], ...]
-    """The errors that the result of a chunk raises when its worker died."""
-    attempts: int
-    """Workers that may die at a point before it counts as the cause."""
-
-    @property
-    def count(self) -> int:
-        """How many chunks are computed at once."""
-
-    def submit(self, points: Sequence[Point]) -> Future[Rows]:
-        """Begin to compute a chunk."""
-
-    def replace_lost(self) -> None:
-        """Replace workers after a loss; HarnessError where that is impossible."""
+Keep = Callable[[Sequence[Row]], None]
+"""Called with rows as they come, in any order."""
 
 
-def run_points(
-    workers: Workers, task: Task, points: Sequence[Point], keep: Callable[[Sequence[Row]], None]
-) -> None:
-    """Compute all points, calling `keep` with rows as they come, in any order.
+@dataclass(frozen=True)
+class Workers:
+    """Processes of an FMU for a sweep: `jobs` of them, by `processes` where they are elsewhere.
 
-    After a worker has died, the points that it may have been computing are computed one at a time,
-    so that a point that kills every worker is identified and has an error as its row.
+    `time_limit` (s) is that of a point.
     """
-    waiting, suspects = deque(points), deque[Point]()
-    pending: dict[Future[Rows], list[Point]] = {}
-    deaths: dict[int, int] = {}
-    seconds = CHUNK_SECONDS  # estimate of the time of a point
 
-    def submit(chunk: list[Point]) -> None:
-        try:
-            pending[workers.submit(chunk)] = chunk
-        except workers.losses:
-            suspects.extend(chunk)
+    fmu: Path
+    time_limit: float
+    jobs: int
+    processes: Callable[[], Processes | None] = lambda: None
 
-    lost = False
-    while waiting or suspects or pending:
-        if suspects and not pending:
-            if lost:
-                workers.replace_lost()
-                lost = False
-            submit([suspects.popleft()])
-        while waiting and not suspects and len(pending) < CHUNKS_EACH * workers.count:
-            size = max(1, min(LARGEST_CHUNK, int(CHUNK_SECONDS / seconds)))
-            submit([waiting.popleft() for _ in range(min(size, len(waiting)))])
-        if not pending:
-            lost = True  # not even a chunk could be handed over
-            continue
-        for future in wait(pending, return_when=FIRST_COMPLETED).done:
-            chunk = pending.pop(future)
-            try:
-                rows, duration = future.result()
-            except workers.losses:
-                lost = True
-                alone = len(chunk) == 1 and not pending
-                if alone:
-                    number = chunk[0][0]
-                    deaths[number] = deaths.get(number, 0) + 1
-                    if deaths[number] >= workers.attempts:
-                        keep([failed_row(task, number, "the worker process died at this point")])
-                        continue
-                suspects.extend(chunk)
+    def outcomes(
+        self, tasks: Sequence[tuple[Item, FmuTask]]
+    ) -> Generator[tuple[Item, Any, HarnessError | None], None, None]:
+        """Run a task for each item, and yield item, result and error of each."""
+        return run_all_tasks(
+            self.fmu,
+            tasks,
+            self.time_limit,
+            name=lambda item: str(id(item)),  # each has a name of its own
+            outcomes=(HarnessError,),
+            jobs=self.jobs,
+            processes=self.processes(),
+        )
+
+
+def run_points(workers: Workers, task: Task, points: Sequence[Point], keep: Keep) -> None:
+    """Compute all points.
+
+    What the FMU predicts is proved in batches; what remains is measured point by point. A point
+    that exceeds a limit, or at which processes keep dying, has an error as its row. Raises FmuError
+    when the FMU cannot be used.
+    """
+    left: list[tuple[Point, Proved]] = [(point, {}) for point in points]
+    if any(name in SEARCHED for name in task.measures):
+        left = _prove(workers, task, points, keep)
+    for attempt in range(ATTEMPTS):
+        left = _measure(workers, task, left, keep, is_last=attempt == ATTEMPTS - 1)
+
+
+def _prove(
+    workers: Workers, task: Task, points: Sequence[Point], keep: Keep
+) -> list[tuple[Point, Proved]]:
+    """Keep the points of which all is proved, and return the others with what is."""
+    batches = [tuple(points[first : first + BATCH]) for first in range(0, len(points), BATCH)]
+    tasks = [(batch, partial(prove_points, task=task, points=batch)) for batch in batches]
+    left: list[tuple[Point, Proved]] = []
+    with closing(workers.outcomes(tasks)) as outcomes:
+        for batch, found, error in outcomes:
+            proved = found if error is None else [{}] * len(batch)
+            rows: list[Row] = []
+            for point, known in zip(batch, proved, strict=True):
+                row = proved_row(task, point, known)
+                if row is None:
+                    left.append((point, known))
+                else:
+                    rows.append(row)
+            keep(rows)
+    return left
+
+
+def _measure(
+    workers: Workers,
+    task: Task,
+    points: Sequence[tuple[Point, Proved]],
+    keep: Keep,
+    *,
+    is_last: bool,
+) -> list[tuple[Point, Proved]]:
+    """Keep the row of each point, and return those at which a process died, unless `is_last`."""
+    measure = partial(measure_point, task=task)
+    tasks = [(one, partial(measure, point=one[0], proved=one[1])) for one in points]
+    died: list[tuple[Point, Proved]] = []
+    with closing(workers.outcomes(tasks)) as outcomes:
+        for one, row, error in outcomes:
+            if isinstance(error, FmuDied) and not error.over_limit and not is_last:
+                died.append(one)
             else:
-                keep(rows)
-                seconds = max(duration / len(rows), 1e-6)
+                keep([row if error is None else failed_row(task, one[0][0], str(error))])
+    return died

@@ -4,29 +4,29 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
 from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.sweeping.grid import Sweep
 from slider_resonator.sweeping.kept_points import open_journal, rows_of
-from slider_resonator.sweeping.local import local_workers
 from slider_resonator.sweeping.running import Workers, run_points
 from slider_resonator.sweeping.table import (
     Columns,
+    check_replaceable,
     check_writer,
-    holds_other_points,
     table_columns,
     write_table,
 )
-from slider_resonator.sweeping.worker import TIME_LIMIT, Row
+from slider_resonator.sweeping.worker import Row
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class SweepResult:
     """A finished sweep: `found` points were finished before it began, `failed` have an error.
 
     `unanswered` have no error, but a measure that does not exist there, such as a steady velocity.
-    `damaged` are the lines of the journal that were dropped, and their points computed again.
+    `damaged` are the entries of the journal that were dropped, and their points computed again.
     """
 
     points: int
@@ -62,17 +62,14 @@ def run_sweep(
 
     `workers` is the number of processes here, unless `dask` is the address of a scheduler. A point
     that takes longer than `time_limit` (s) fails. Raises HarnessError where the sweep cannot be run
-    or, without `overwrite`, `out` is the table of other points; finished points stay in the
-    journal.
+    or, without `overwrite`, `out` is the table of other points or measures; finished points stay in
+    the journal.
     """
     check_writer(out)
     if dask is not None and find_spec("distributed") is None:
         raise HarnessError("--dask needs dask.distributed: pip install 'slider-resonator[cluster]'")
-    if not overwrite and holds_other_points(out, sweep.task, sweep.points):
-        raise HarnessError(
-            f"{out}: is not a table of this grid's points; must be a new file, or --overwrite to "
-            "replace it"
-        )
+    if not overwrite:
+        check_replaceable(out, sweep.task, sweep.points)
     with open_fmu(fmu):
         pass  # the file is checked once, not at every point
     fmu_digest = hashlib.sha256(fmu.read_bytes()).hexdigest()
@@ -95,7 +92,7 @@ def run_sweep(
             count = min(workers, len(left))
             with (
                 noting_on_interrupt(note),
-                _workers(sweep, fmu_digest, fmu, count, dask, time_limit) as at_work,
+                _workers(fmu_digest, fmu, count, dask, time_limit) as at_work,
             ):
                 run_points(at_work, sweep.task, left, keep)
         columns = table_columns(sweep.task, sweep.points, rows)
@@ -122,14 +119,17 @@ def _unanswered(sweep: Sweep, columns: Columns) -> int:
     )
 
 
+@contextmanager
 def _workers(
-    sweep: Sweep, digest: str, fmu: Path, count: int, dask: str | None, time_limit: float
-) -> AbstractContextManager[Workers]:
+    digest: str, fmu: Path, count: int, dask: str | None, time_limit: float
+) -> Iterator[Workers]:
     if dask is None:
-        return local_workers(sweep.task, fmu, count, time_limit)
+        yield Workers(fmu.resolve(), time_limit, count)
+        return
     from slider_resonator.sweeping.cluster import dask_workers
 
-    return dask_workers(sweep.task, digest, fmu, dask, time_limit)
+    with dask_workers(digest, fmu, dask, time_limit) as elsewhere:
+        yield elsewhere
 
 
 def _digest(sweep: Sweep, fmu_digest: str) -> str:

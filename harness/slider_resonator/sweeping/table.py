@@ -44,31 +44,37 @@ def table_columns(
     return dict(zip(names, map(list, zip(*lines, strict=True)), strict=True))
 
 
-def holds_other_points(path: Path, task: Task, points: Sequence[tuple[float, ...]]) -> bool:
-    """Whether a file is there that is not a table of these points."""
+def check_replaceable(path: Path, task: Task, points: Sequence[tuple[float, ...]]) -> None:
+    """Raise HarnessError for a file that is no table of these points, or has other measures."""
     if not path.exists():
-        return False
-    names = ["point", *task.names]
+        return
+    remedy = "must be a new file, or --overwrite to replace it"
     try:
-        found = (
-            _read_csv(path, names) if path.suffix.lower() == ".csv" else _read_parquet(path, names)
-        )
+        columns = _read_csv(path) if path.suffix.lower() == ".csv" else _read_parquet(path)
+        found = [[float(value) for value in columns[name]] for name in ("point", *task.names)]
     except (OSError, ValueError, KeyError, csv.Error):
-        return True
-    return found != [(float(number), *point) for number, point in enumerate(points)]
+        found = []
+    if not found or list(zip(*found, strict=True)) != [
+        (float(number), *point) for number, point in enumerate(points)
+    ]:
+        raise HarnessError(f"{path}: is not a table of this grid's points; {remedy}")
+    lost = [name for name in columns if name not in dict(task.columns)]
+    if lost:
+        raise HarnessError(
+            f"{path}: has columns that this grid does not measure: {', '.join(lost)}; {remedy}"
+        )
 
 
-def _read_csv(path: Path, names: Sequence[str]) -> list[tuple[float, ...]]:
+def _read_csv(path: Path) -> Columns:
     with path.open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file, strict=True))
-    return [tuple(float(row[name]) for name in names) for row in rows]
+        names, *rows = csv.reader(file, strict=True)
+    return {name: [row[index] for row in rows] for index, name in enumerate(names)}
 
 
-def _read_parquet(path: Path, names: Sequence[str]) -> list[tuple[float, ...]]:
+def _read_parquet(path: Path) -> Columns:
     from pyarrow import parquet
 
-    columns = parquet.read_table(path, columns=list(names)).to_pydict()
-    return [tuple(map(float, row)) for row in zip(*(columns[name] for name in names), strict=True)]
+    return dict(parquet.read_table(path).to_pydict())
 
 
 def write_table(path: Path, task: Task, columns: Columns) -> None:

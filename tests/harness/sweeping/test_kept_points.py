@@ -37,6 +37,6 @@ def test_a_line_that_is_no_point_is_named(tmp_path: Path) -> None:
         journal.add([*ROWS, {"point": 3}])
     with (
         open_journal(tmp_path / "b.csv", "a") as journal,
-        pytest.raises(HarnessError, match=r"journal line 5: is no point of a sweep"),
+        pytest.raises(HarnessError, match=r"journal entry 4: is no point of a sweep"),
     ):
         rows_of(journal)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import random
-import re
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -24,6 +25,18 @@ from slider_resonator.sweeping.sweeping import run_sweep
 
 DEADLINE = 120.0
 """Seconds after which a sweep of seconds counts as hanging."""
+
+
+def kept_points(out: Path) -> int:
+    """Return how many points the journal of a table holds, also while a sweep writes it."""
+    path = journal_path(out)
+    if not path.exists():
+        return 0
+    with closing(sqlite3.connect(f"{path.as_uri()}?immutable=1", uri=True)) as file:
+        try:
+            return int(file.execute("SELECT count(*) FROM entries").fetchone()[0])
+        except sqlite3.DatabaseError:  # it is being written
+            return 0
 
 
 def test_one_and_two_workers_write_the_same_table(
@@ -57,9 +70,9 @@ def test_finished_points_are_found_and_not_computed_again(
     with pytest.raises(Interrupted):
         run_sweep(sweep, native_fmu, out, workers=2, progress=interrupt)
     assert not out.exists()
-    lines = journal_path(out).read_bytes().count(b"\n") - 1
-    assert lines >= 0.3 * len(sweep.points)
-    assert run_sweep(sweep, native_fmu, out, workers=2).found == lines
+    kept = kept_points(out)
+    assert kept >= 0.3 * len(sweep.points)
+    assert run_sweep(sweep, native_fmu, out, workers=2).found == kept
     run_sweep(sweep, native_fmu, tmp_path / "b.csv", workers=1)
     assert out.read_bytes() == (tmp_path / "b.csv").read_bytes()
 
@@ -92,8 +105,7 @@ def _start(grid: Path, fmu: Path, out: Path) -> subprocess.Popen[bytes]:
 def _wait_for_points(process: subprocess.Popen[bytes], out: Path, points: int) -> None:
     until = time.monotonic() + DEADLINE
     while process.poll() is None and time.monotonic() < until:
-        path = journal_path(out)
-        if path.exists() and path.read_bytes().count(b"\n") > points:
+        if kept_points(out) > points:
             return
         time.sleep(0.01)
 
@@ -129,7 +141,7 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
 
 
 @pytest.mark.parametrize(
-    "kills", [pytest.param(3, marks=pytest.mark.slow), pytest.param(12, marks=pytest.mark.nightly)]
+    "kills", [pytest.param(3, marks=pytest.mark.slow), pytest.param(6, marks=pytest.mark.nightly)]
 )
 def test_a_sweep_killed_at_random_is_resumed_to_the_same_file(
     long_grid: Path, undisturbed: Path, native_fmu: Path, tmp_path: Path, kills: int
@@ -142,12 +154,9 @@ def test_a_sweep_killed_at_random_is_resumed_to_the_same_file(
         _wait_for_points(process, out, chosen)
         assert process.poll() is None, f"seed {seed}: the sweep has come to its end before the kill"
         _kill(process)
-        before, kept = kept, journal_path(out).read_bytes().count(b"\n") - 1
+        before, kept = kept, kept_points(out)
         print(f"seed {seed}: killed after {kept} points")
         assert kept >= before, "what was finished stays"
-    *lines, _cut_off = journal_path(out).read_bytes().split(b"\n")
-    points = [line.partition(b",")[0] for line in lines[1:]]
-    assert len(set(points)) == len(points), "no point is computed twice"
     assert _start(long_grid, native_fmu, out).wait(DEADLINE) == 0
     assert out.read_bytes() == undisturbed.read_bytes()
     assert not journal_path(out).exists()
@@ -166,7 +175,7 @@ def test_a_killed_worker_is_replaced(
 
 
 @pytest.mark.slow
-def test_velocities_are_those_of_the_command_steady(
+def test_velocities_are_those_of_the_command_steady_up_to_rounding(
     wide_grid: Path, native_fmu: Path, tmp_path: Path
 ) -> None:
     result = run_sweep(read_grid(wide_grid), native_fmu, tmp_path / "a.csv", workers=2)
@@ -175,7 +184,9 @@ def test_velocities_are_those_of_the_command_steady(
             names = ("frequency_ratio", "phase")
             values = {name: result.columns[name][index] for name in names}
             alone = find_steady(instance, values)
-            assert result.columns["steady_velocity"][index] == alone.steady_velocity, values
+            found = result.columns["steady_velocity"][index]
+            assert found == pytest.approx(alone.steady_velocity, abs=1e-11), values
+            assert result.columns["steady_velocity_status"][index] == alone.status
 
 
 def test_the_table_of_another_grid_is_replaced_only_when_asked(
@@ -199,6 +210,20 @@ def test_the_table_of_another_grid_is_replaced_only_when_asked(
     assert run_sweep(read_grid(other), native_fmu, out, workers=1, overwrite=True).points == 2
 
 
+def test_columns_of_a_table_are_dropped_only_when_asked(native_fmu: Path, tmp_path: Path) -> None:
+    grid, out = tmp_path / "grid.toml", tmp_path / "a.csv"
+    points = "[grid]\nphase = [0.1]\n"
+    grid.write_text(f'measures = ["steady_velocity", "blocking_force"]\n{points}')
+    run_sweep(read_grid(grid), native_fmu, out, workers=1)
+    table = out.read_bytes()
+    grid.write_text(points)
+    with pytest.raises(HarnessError, match=r"does not measure: blocking_force, .*--overwrite"):
+        run_sweep(read_grid(grid), native_fmu, out, workers=1)
+    assert out.read_bytes() == table
+    run_sweep(read_grid(grid), native_fmu, out, workers=1, overwrite=True)
+    assert b"blocking_force" not in out.read_bytes()
+
+
 def test_points_without_an_answer_are_counted(native_fmu: Path, tmp_path: Path) -> None:
     """No load below the friction of contact stops a slider that the vibration does not drive."""
     away = tmp_path / "away.toml"
@@ -207,7 +232,7 @@ def test_points_without_an_answer_are_counted(native_fmu: Path, tmp_path: Path) 
     assert (result.points, result.failed, result.unanswered) == (2, 0, 1)
 
 
-def test_a_damaged_line_costs_its_point_only(grid: Path, native_fmu: Path, tmp_path: Path) -> None:
+def test_a_damaged_entry_costs_its_point_only(grid: Path, native_fmu: Path, tmp_path: Path) -> None:
     sweep, out = read_grid(grid), tmp_path / "a.csv"
     run_sweep(sweep, native_fmu, out, workers=1)
     table = out.read_bytes()
@@ -220,10 +245,10 @@ def test_a_damaged_line_costs_its_point_only(grid: Path, native_fmu: Path, tmp_p
         run_sweep(sweep, native_fmu, out, workers=1, progress=interrupt)
     (note,) = caught.value.__notes__
     assert f"of {len(sweep.points)} points are kept in {journal_path(out)}" in note
-    content = journal_path(out).read_bytes().splitlines(keepends=True)
-    content[2] = re.sub(rb"\d(?=\D*$)", lambda digit: b"%d" % (9 - int(digit[0])), content[2])
-    journal_path(out).write_bytes(b"".join(content))
+    kept = kept_points(out)
+    with closing(sqlite3.connect(journal_path(out))) as file, file:
+        file.execute("UPDATE entries SET entry = '[0,[7.0],null]' WHERE number = 2")
     result = run_sweep(sweep, native_fmu, out, workers=1)
-    assert result.damaged == [3]
-    assert result.found == len(content) - 2
+    assert result.damaged == [2]
+    assert result.found == kept - 1
     assert out.read_bytes() == table

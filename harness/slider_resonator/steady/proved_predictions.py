@@ -1,0 +1,209 @@
+"""Steady velocities and blocking forces that an FMU predicts, proved by its own motion.
+
+An FMU with `averaging_order` 2 finds the periodic motion itself. To prove what it says, some common
+periods are run from the vibration without friction on, at the mean velocity in question. Near a
+periodic motion the map of a period is linear: its matrix follows from the changes over successive
+periods (dynamic mode decomposition), and the limit of the sequence from the matrix. The mean
+velocity of the limit must be the one that was predicted, and the motion must be stable.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import isfinite, nan, tau
+from typing import Literal
+
+import numpy as np
+
+from slider_resonator.arrays import Array
+from slider_resonator.device.common_period import common_period
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.steady.shooting import NEUTRAL
+
+Quantity = Literal["steady_velocity", "blocking_force"]
+
+QUANTITIES: tuple[Quantity, ...] = ("steady_velocity", "blocking_force")
+
+PERIODS = 5
+"""Common periods of a run: four changes of the state, of three entries and the travel."""
+PROVEN = 1e-8
+"""Largest error of the mean velocity, in units of the amplitude of the vibration."""
+NEAR = 1e-3
+"""Largest distance from the limit, in units of the vibration: the map is linear to its square."""
+RESTARTS = 4
+"""Further runs, each from the limit of the one before."""
+RANK = 1e-9
+"""Smallest over largest change that counts."""
+
+DEVICE = (
+    *("slider_mass", "resonator_mass", "resonator_frequency", "damping_ratio", "drive_frequency"),
+    *("base_amplitude", "tangential_force", "frequency_ratio"),
+    *("friction_law", "fidelity", "averaging_order"),
+)
+PREDICTIONS = ("steady_velocity", "blocking_force", "prediction_valid")
+STATE = ("velocity", "resonator_displacement", "resonator_velocity")
+INITIAL = tuple(f"initial_{name}" for name in STATE)
+READ = (*STATE, "position", "stick_fraction")
+
+
+@dataclass(frozen=True)
+class _Candidate:
+    """A prediction of the point `index` and the motion that belongs to it.
+
+    `start` and `scale` are those of the entries of `STATE`, `period` (s) is the common period,
+    `velocity` (m/s) the mean velocity that the motion must have.
+    """
+
+    index: int
+    prediction: float
+    values: Mapping[str, float]
+    velocity: float
+    period: float
+    start: tuple[float, ...]
+    scale: tuple[float, ...]
+
+
+def proved_predictions(
+    instance: Instance,
+    quantity: Quantity,
+    points: Sequence[Mapping[str, float]],
+    max_denominator: int,
+) -> list[float | None]:
+    """Return what the FMU predicts at each point, None where that could not be proved.
+
+    `points` are parameters and inputs by name. Only Coulomb friction of the full device is proved:
+    the outputs show its whole state.
+    """
+    proved: list[float | None] = [None] * len(points)
+    if any(name not in instance.fmu.variables for name in (*PREDICTIONS, "averaging_order")):
+        return proved
+    instance.start({})
+    defaults = instance.read(DEVICE)
+    left = [
+        candidate
+        for index, point in enumerate(points)
+        if (candidate := _candidate(instance, quantity, index, point, defaults, max_denominator))
+    ]
+    matrices: Array | None = None
+    for _ in range(1 + RESTARTS):
+        runs = np.array([_run(instance, one) for one in left]).reshape(-1, PERIODS + 1, 5)
+        seen = _seen(left, runs)
+        good = np.isfinite(runs).all(axis=(1, 2)) & (runs[:, -1, 4] < 1.0)
+        if matrices is None:
+            matrices = _matrices(np.where(good[:, None, None], seen, 0.0))
+            good &= np.abs(np.linalg.eigvals(matrices)).max(axis=1) < 1.0 - NEUTRAL
+        left = [one for one, is_good in zip(left, good, strict=True) if is_good]
+        seen, matrices = seen[good], matrices[good]
+        rest = _rest(matrices, seen)
+        limits = seen[:, -1] + rest
+        aim = np.array([one.velocity / one.scale[0] for one in left])
+        is_proved = (np.abs(limits[:, 3] - aim) <= PROVEN) & (np.abs(rest).max(axis=1) <= NEAR)
+        further = []
+        for one, limit, is_done in zip(left, limits, is_proved, strict=True):
+            if is_done:
+                proved[one.index] = one.prediction
+            else:
+                further.append(replace(one, start=tuple((limit[:3] * one.scale).tolist())))
+        left, matrices = further, matrices[~is_proved]
+    return proved
+
+
+def _candidate(
+    instance: Instance,
+    quantity: Quantity,
+    index: int,
+    values: Mapping[str, float],
+    defaults: Mapping[str, float],
+    max_denominator: int,
+) -> _Candidate | None:
+    """Return the motion that a prediction belongs to, None where it cannot be proved."""
+    device = {**defaults, **values}
+    count = common_period(device["frequency_ratio"], max_denominator)
+    is_full = device["fidelity"] == 2 and device["averaging_order"] == 2
+    guessed = "load" if quantity == "blocking_force" else "initial_velocity"
+    if not is_full or device["friction_law"] != 0 or count is None or guessed in values:
+        return None
+    try:
+        instance.start(values)
+        with instance.explained():
+            velocity, force, valid = instance.block(PREDICTIONS).read()
+    except HarnessError:
+        instance.recreate()
+        return None
+    displacement, swing = _vibration(device)
+    drive = device["drive_frequency"]
+    size = (abs(swing), abs(displacement), abs(displacement) * drive)
+    if valid != 1.0 or 0.0 in size or not all(map(isfinite, (velocity, force, *size))):
+        return None
+    prediction = velocity if quantity == "steady_velocity" else force
+    if quantity == "blocking_force":
+        values, velocity = {**values, "load": force}, 0.0
+    return _Candidate(
+        index,
+        prediction,
+        values,
+        velocity,
+        count * tau / drive,
+        (velocity + swing.imag, displacement.imag, drive * displacement.real),
+        size,
+    )
+
+
+def _vibration(device: Mapping[str, float]) -> tuple[complex, complex]:
+    """Return the complex amplitudes of resonator displacement (m) and slider velocity (m/s).
+
+    Those of the steady vibration without friction, whose drive is the imaginary part of
+    exp(i theta), from (26)-(27); 0 for an undamped resonator at its resonance.
+    """
+    drive, mass = device["drive_frequency"], device["slider_mass"]
+    natural, share = device["resonator_frequency"], device["resonator_mass"] / mass
+    spring = natural**2 + 2j * device["damping_ratio"] * natural * drive
+    stiffness = spring * (1.0 + share) - drive**2
+    if stiffness == 0.0:
+        return 0j, 0j
+    push = device["tangential_force"] / mass
+    displacement = (device["base_amplitude"] * drive**2 - push) / stiffness
+    return displacement, (share * spring * displacement + push) / (1j * drive)
+
+
+def _run(instance: Instance, one: _Candidate) -> list[list[float]]:
+    """Return state, position and stick fraction after 0, 1, ... common periods, nan on an error."""
+    initial = dict(zip(INITIAL, one.start, strict=True))
+    try:
+        instance.start({**one.values, **initial})
+        block = instance.block(READ)
+        with instance.explained():
+            rows = [block.read()]
+            for period in range(PERIODS):
+                instance.step_to((period + 1) * one.period)
+                rows.append(block.read())
+    except HarnessError:
+        instance.recreate()
+        return [[nan] * 5] * (PERIODS + 1)
+    return rows
+
+
+def _seen(candidates: Sequence[_Candidate], runs: Array) -> Array:
+    """Return state and mean velocity of successive common periods (n, PERIODS, 4), over scales.
+
+    `runs` (n, PERIODS + 1, 5) are those of `_run`.
+    """
+    scale = np.array([one.scale for one in candidates]).reshape(-1, 1, 3)
+    travel = np.diff(runs[:, :, 3:4], axis=1)
+    period = np.array([one.period for one in candidates]).reshape(-1, 1, 1)
+    return np.concatenate([runs[:, :-1, :3] / scale, travel / period / scale[:, :, :1]], axis=2)
+
+
+def _matrices(seen: Array) -> Array:
+    """Return the matrices (n, 4, 4) of the map of a period, from what is `seen` (n, PERIODS, 4)."""
+    changes = np.swapaxes(np.diff(seen, axis=1), 1, 2)
+    inverse = np.linalg.pinv(changes[:, :, :-1], rcond=RANK)
+    return np.asarray(changes[:, :, 1:] @ inverse, dtype=np.float64)
+
+
+def _rest(matrices: Array, seen: Array) -> Array:
+    """Return what is missing to the limits (n, 4) after runs (n, PERIODS, 4)."""
+    changes = matrices @ (seen[:, -1] - seen[:, -2])[:, :, None]
+    return np.asarray(np.linalg.solve(np.eye(4) - matrices, changes)[:, :, 0], dtype=np.float64)

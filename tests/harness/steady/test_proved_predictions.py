@@ -1,0 +1,91 @@
+"""Predictions that are proved are those of shooting; what the FMU gets wrong is not proved."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping
+from dataclasses import replace
+
+import pytest
+
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.steady import proved_predictions as module
+from slider_resonator.steady.blocking_force import find_blocking
+from slider_resonator.steady.proved_predictions import proved_predictions
+from slider_resonator.steady.steady_velocity import find_steady
+
+
+def devices(count: int) -> list[dict[str, float]]:
+    """Return devices with all kinds of resonators and friction, and some with a load."""
+    draw = random.Random(7)
+    return [
+        {
+            "frequency_ratio": draw.choice([1.0, 2.0, 3.0, 0.5, 1.5, 4.0 / 3.0]),
+            "phase": draw.uniform(-3.0, 3.0),
+            "friction_coefficient": 10.0 ** draw.uniform(-2.5, 0.5),
+            "normal_amplitude": draw.uniform(0.0, 1.6),
+            "damping_ratio": 10.0 ** draw.uniform(-2.0, 0.0),
+            "resonator_frequency": 3500.0 * 10.0 ** draw.uniform(-0.3, 0.3),
+            "tangential_force": draw.uniform(0.0, 50.0),
+        }
+        for _ in range(count)
+    ]
+
+
+def test_velocities_are_those_of_shooting(instance: Instance) -> None:
+    points = [{**one, "load": 0.01 * (n % 3)} for n, one in enumerate(devices(12))]
+    proved = proved_predictions(instance, "steady_velocity", points, 20)
+    assert sum(value is not None for value in proved) >= 8
+    for values, value in zip(points, proved, strict=True):
+        if value is not None:
+            found = find_steady(instance, values)
+            assert found.status == "steady", values
+            assert value == pytest.approx(found.steady_velocity, abs=1e-10), values
+
+
+def test_forces_are_those_of_shooting(instance: Instance) -> None:
+    points = devices(12)
+    proved = proved_predictions(instance, "blocking_force", points, 20)
+    assert sum(value is not None for value in proved) >= 8
+    for values, value in zip(points, proved, strict=True):
+        if value is not None:
+            found = find_blocking(instance, values)
+            assert found.status == "blocked", values
+            assert value == pytest.approx(found.blocking_force, abs=1e-10), values
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"averaging_order": 1},
+        {"fidelity": 0},
+        {"fidelity": 1},
+        {"friction_law": 1},
+        {"frequency_ratio": 1.37},
+        {"load": 1.0},
+        {"base_amplitude": 1e-9, "normal_amplitude": 0.1},
+        {"initial_velocity": 0.5},
+        {"friction_coefficient": -1.0},
+    ],
+)
+def test_what_is_not_exact_stuck_or_refused_is_left_to_shooting(
+    instance: Instance, values: Mapping[str, float]
+) -> None:
+    refused, sound = proved_predictions(instance, "steady_velocity", [values, {}], 20)
+    assert refused is None
+    assert sound == pytest.approx(0.126666997, abs=1e-9), "design 2.7"
+
+
+@pytest.mark.parametrize("error", [1e-5, 1e-4, 0.01])
+def test_a_wrong_prediction_is_not_proved(
+    instance: Instance, monkeypatch: pytest.MonkeyPatch, error: float
+) -> None:
+    """As much as v_q times `error`, which is some 0.26 m/s."""
+    read = module._candidate
+
+    def wrong(*arguments: object) -> module._Candidate | None:
+        one = read(*arguments)  # type: ignore[arg-type]
+        return one and replace(one, velocity=one.velocity + error * one.scale[0])
+
+    monkeypatch.setattr(module, "_candidate", wrong)
+    assert proved_predictions(instance, "steady_velocity", [{}, {"phase": 0.4}], 20) == [None] * 2
