@@ -25,11 +25,11 @@ from slider_resonator.device.units import si_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.fitting.measurements import datasheet, read_measurements
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
+from slider_resonator.fmu.isolation.processes import available_cores
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line
-from slider_resonator.sweeping.local import available_cores
 
 
 class _Quantity(click.ParamType[float]):
