@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path, PurePosixPath
+from typing import Any
 
 import click
 
@@ -21,12 +24,11 @@ from slider_resonator.fmu.isolation.processes import available_cores
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import nothing_kept, noting_on_interrupt, output
 from slider_resonator.output.progress_bar import progress_bar
-from slider_resonator.output.targets import distinct
 from slider_resonator.scenes.scene_files import files_of_scenes
 from studies.mutants.archive import read_python_fmu
+from studies.mutants.bench import TIME_LIMIT, Judging
 from studies.mutants.changes import Change, hand_written_faults, harmless_variants
 from studies.mutants.enumerate_fmu import fmu_mutants, sample
-from studies.mutants.judging import TIME_LIMIT
 from studies.mutants.listing import (
     change_as_plain,
     changes_as_plain,
@@ -36,8 +38,8 @@ from studies.mutants.listing import (
     print_variants,
 )
 from studies.mutants.mutant import KINDS
-from studies.mutants.page import write_mutants
 from studies.mutants.runs import run_changes, run_mutants
+from studies.mutants.verdict import MutationRun
 
 MIN_RATE = 0.95
 """Share of the mutants that change a result that must be rejected for a pass."""
@@ -94,9 +96,6 @@ MIN_NATIVE_RATE = 0.97
     type=Target([]),
     help="Keep the verdicts in this file; a run that is stopped goes on from there.",
 )
-@click.option(
-    "--html", type=Target([".html"]), help="One page with all mutants that were not rejected."
-)
 @json_option
 @click.pass_context
 def mutants_command(
@@ -112,7 +111,6 @@ def mutants_command(
     jobs: int | None,
     time_limit: float,
     journal: Path | None,
-    html: Path | None,
     as_json: bool,
 ) -> None:
     """Make faulty FMUs and count how many of them `validate` rejects.
@@ -134,60 +132,45 @@ def mutants_command(
     \b
     Examples:
       python -m harness mutants --list --file coulomb.py
-      python -m harness mutants --sample 200 --seed 1 --html mutants.html
+      python -m harness mutants --sample 200 --seed 1 --journal verdicts
       python -m harness mutants --kind sign --kind unit
       python -m harness mutants --file coulomb.py --json > mutants.json
       python -m harness mutants --native --file lugre.c
     """
+    if native and kinds:
+        raise click.UsageError("--native refused: must be without --kind")
+    path = fmu or finished_path(FMUS["native" if native else "python"], COMMANDS_LOOK_IN)
+    judge: Callable[[Judging], MutationRun[Any]]
     if native:
-        if kinds or html is not None:
-            raise click.UsageError("--native refused: must be without --kind and --html")
-        context.exit(
-            _native(
-                fmu or finished_path(FMUS["native"], COMMANDS_LOOK_IN),
-                _chosen_changes(files, count, seed),
-                scenes,
-                only_list=only_list,
-                jobs=jobs or available_cores(),
-                time_limit=time_limit,
-                journal=journal,
-                as_json=as_json,
-            )
-        )
-    path = fmu or finished_path(FMUS["python"], COMMANDS_LOOK_IN)
-    distinct({"--html": html}, {f"the FMU {path}": path})
-    provenance = provenance_of(path)
-    original = read_python_fmu(path)
-    made = [m for m in fmu_mutants(original, files) if not kinds or m.kind in kinds]
-    chosen = made if count is None else sample(made, count, seed)
-    if not chosen:
-        asked = ", ".join([*files, *kinds])
-        raise HarnessError(f"{path}: nothing to change: no mutant is of {asked}")
+        changes = sample(_changes(files), count, seed)
+        listed = {"changes": [change_as_plain(change) for change in changes]}
+        judge, min_rate = partial(run_changes, path, changes), MIN_NATIVE_RATE
+    else:
+        original = read_python_fmu(path)
+        made = [m for m in fmu_mutants(original, files) if not kinds or m.kind in kinds]
+        if not made:
+            asked = ", ".join([*files, *kinds])
+            raise HarnessError(f"{path}: nothing to change: no mutant is of {asked}")
+        mutants = sample(made, count, seed)
+        listed = {"mutants": [mutant_as_plain(mutant) for mutant in mutants]}
+        judge, min_rate = partial(run_mutants, path, original, mutants, len(made)), MIN_RATE
+    if only_list and as_json:
+        print_json(listed)
+    elif only_list:
+        print_variants(output(), changes if native else mutants)
     if only_list:
-        if as_json:
-            print_json({"mutants": [mutant_as_plain(mutant) for mutant in chosen]})
-        else:
-            print_variants(output(), chosen)
         return
+    provenance = provenance_of(path)
     with noting_on_interrupt(lambda: _kept(journal)), progress_bar() as progress:
-        run = run_mutants(
-            path,
-            original,
-            chosen,
-            files_of_scenes(scenes),
-            made=len(made),
-            jobs=jobs or available_cores(),
-            time_limit=time_limit,
-            journal=journal,
-            progress=progress,
-        )
-    if html is not None:
-        write_mutants(html, run, provenance)
+        cores = jobs or available_cores()
+        judging = Judging(files_of_scenes(scenes), cores, time_limit, journal, progress)
+        run: MutationRun[Any] = judge(judging)
     if as_json:
-        print_json(mutants_as_plain(run), provenance)
+        print_json(changes_as_plain(run) if native else mutants_as_plain(run), provenance)
     else:
         print_run(output(), run)
-    context.exit(0 if run.rate is None or run.rate >= MIN_RATE else 1)
+    enough = run.rate is None or run.rate >= min_rate
+    context.exit(0 if enough and not run.false_alarms else 1)
 
 
 def _kept(journal: Path | None) -> str:
@@ -197,52 +180,11 @@ def _kept(journal: Path | None) -> str:
     return f"the verdicts so far are kept in {journal}; the same command goes on from there"
 
 
-def _chosen_changes(files: tuple[str, ...], count: int | None, seed: int) -> list[Change]:
-    """Return the changes of some files, with or without folder, or a sample of them.
-
-    HarnessError for an unknown file.
-    """
+def _changes(files: tuple[str, ...]) -> list[Change]:
+    """Return the changes of some files, with or without folder; HarnessError for an unknown one."""
     made = [*hand_written_faults(), *harmless_variants()]
     known = sorted({PurePosixPath(change.file).name for change in made})
     for file in files:
         if not any(PurePosixPath(change.file).match(file) for change in made):
             raise HarnessError(unknown_name("C file with changes", file, known))
-    chosen = [c for c in made if not files or any(PurePosixPath(c.file).match(f) for f in files)]
-    return chosen if count is None else sample(chosen, count, seed)
-
-
-def _native(
-    path: Path,
-    changes: list[Change],
-    scenes: tuple[str, ...],
-    *,
-    only_list: bool,
-    jobs: int,
-    time_limit: float,
-    journal: Path | None,
-    as_json: bool,
-) -> int:
-    """List or run changes of the native FMU and return the exit code."""
-    if only_list:
-        if as_json:
-            print_json({"changes": [change_as_plain(change) for change in changes]})
-        else:
-            print_variants(output(), changes)
-        return 0
-    provenance = provenance_of(path)
-    with noting_on_interrupt(lambda: _kept(journal)), progress_bar() as progress:
-        run = run_changes(
-            path,
-            changes,
-            files_of_scenes(scenes),
-            jobs=jobs,
-            time_limit=time_limit,
-            journal=journal,
-            progress=progress,
-        )
-    if as_json:
-        print_json(changes_as_plain(run), provenance)
-    else:
-        print_run(output(), run)
-    enough = run.rate is None or run.rate >= MIN_NATIVE_RATE
-    return 0 if enough and not run.false_alarms else 1
+    return [c for c in made if not files or any(PurePosixPath(c.file).match(f) for f in files)]

@@ -45,18 +45,23 @@ class PythonFmu:
         return str(PurePosixPath(path).parent) == self.package and path.endswith(".py")
 
 
+def files_in(path: Path) -> dict[str, bytes]:
+    """Return the files in an FMU by path; FmuError when it is none."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return {name: archive.read(name) for name in archive.namelist()}
+    except FileNotFoundError:
+        raise FmuError(f"{path}: no such file") from None
+    except (OSError, zipfile.BadZipFile) as error:
+        raise FmuError(f"{path}: not an FMU: {error}") from error
+
+
 def read_python_fmu(path: Path) -> PythonFmu:
     """Read an FMU that pythonfmu has packaged with one package of Python modules.
 
     Raises FmuError when it is none.
     """
-    try:
-        with zipfile.ZipFile(path) as archive:
-            files = {name: archive.read(name) for name in archive.namelist()}
-    except FileNotFoundError:
-        raise FmuError(f"{path}: no such file") from None
-    except (OSError, zipfile.BadZipFile) as error:
-        raise FmuError(f"{path}: not an FMU: {error}") from error
+    files = files_in(path)
     homes = {PurePosixPath(name).parent for name in files if name.endswith("/__init__.py")}
     packages = [str(home) for home in homes if home.name != _TOOL]
     if len(packages) != 1 or DESCRIPTION not in files:

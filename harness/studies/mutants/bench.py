@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from contextlib import closing
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from slider_resonator.checks.expected_values import ExpectedValues
@@ -14,27 +14,43 @@ from slider_resonator.checks.measure_points import measure_points
 from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.validate import points_to_check
 from slider_resonator.errors import FmuError, SceneError
-from slider_resonator.output.progress import Progress, counted
+from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.scenes.scene import read_scene
 from studies.mutants.trial import BenchPoint, Rejection, first_failure, not_run, point_name
 
+TIME_LIMIT = 30.0
+"""Seconds for a variant and a scene or point of a sweep; the slowest built-in one takes a few."""
 
-def bench_of(
-    fmu: Path, scene_files: Sequence[Path], *, jobs: int, time_limit: float, progress: Progress
-) -> list[BenchPoint]:
-    """Return all points of the scenes, after running the unchanged FMU in `jobs` processes.
+
+@dataclass(frozen=True)
+class Judging:
+    """The scenes to judge by, in `jobs` processes that may take `time_limit` (s) for each point.
+
+    `journal` is the file that keeps verdicts.
+    """
+
+    scene_files: Sequence[Path]
+    jobs: int = 1
+    time_limit: float = TIME_LIMIT
+    journal: Path | None = None
+    progress: Progress = no_progress
+
+
+def bench_of(fmu: Path, judging: Judging) -> list[BenchPoint]:
+    """Return all points of the scenes, after running the unchanged FMU there.
 
     Raises FmuError when it is rejected, since the rejection of a variant would prove nothing then,
     and SceneError for a scene that cannot be read, referred to or expects nothing.
     """
     points = [
         BenchPoint(point.scene, point.at)
-        for file in scene_files
+        for file in judging.scene_files
         for point in points_to_check(read_scene(file))
     ]
     bench: list[BenchPoint] = []
+    limit, jobs = judging.time_limit, judging.jobs
     with ExpectedValues(points, jobs) as expected:
-        runs = measure_points(fmu, points, _timed, time_limit, expected.prepare, jobs)
+        runs = measure_points(fmu, points, _timed, limit, expected.prepare, jobs)
         with closing(runs) as finished:
             for one in finished:
                 rejection = not_run(one)
@@ -44,7 +60,7 @@ def bench_of(
                     rejection = first_failure(point, measured)
                     bench.append(point)
                     label = counted(f"{point_name(point)} unchanged", len(bench) - 1, len(points))
-                    progress(label, len(bench) / len(points))
+                    judging.progress(label, len(bench) / len(points))
                 if rejection is not None:
                     raise _rejected_unchanged(fmu, rejection)
     return bench

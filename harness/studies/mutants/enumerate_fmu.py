@@ -35,9 +35,9 @@ def fmu_mutants(fmu: PythonFmu, files: Sequence[str] = ()) -> list[Mutant]:
     return found
 
 
-def sample(mutants: Sequence[Change], count: int, seed: int) -> list[Change]:
-    """Return `count` of the mutants in their order, the same ones for the same seed."""
-    if count >= len(mutants):
+def sample(mutants: Sequence[Change], count: int | None, seed: int) -> list[Change]:
+    """Return `count` of the mutants, or all, in their order, the same ones for the same seed."""
+    if count is None or count >= len(mutants):
         return list(mutants)
     chosen = Random(seed).sample(range(len(mutants)), count)
     return [mutants[index] for index in sorted(chosen)]

@@ -13,39 +13,32 @@ from dataclasses import astuple
 from pathlib import Path
 
 from slider_resonator.output.journal import Journal
-from slider_resonator.output.progress import Progress, counted
+from slider_resonator.output.progress import counted
 from slider_resonator.output.temporary import temporary_folder
-from studies.mutants.bench import bench_of
+from studies.mutants.bench import Judging, bench_of
 from studies.mutants.trial import BenchPoint, point_name, trial
 from studies.mutants.verdict import EQUIVALENT, REJECTED, STATUSES, SURVIVED, Variant, Verdict
-
-TIME_LIMIT = 30.0
-"""Seconds for a variant and a scene or point of a sweep; the slowest built-in one takes a few."""
 
 
 def judge_variants(
     original: Path,
     variants: Sequence[Variant],
     write: Callable[[Variant, Path], None],
-    scene_files: Sequence[Path],
-    *,
-    jobs: int,
-    time_limit: float,
-    journal: Path | None,
-    progress: Progress,
+    judging: Judging,
 ) -> tuple[Verdict[Variant], ...]:
     """Return the verdict on each variant of the FMU `original`; `write` makes its file.
 
     Scenes that have rejected variants of the same file come first, then the cheapest. Verdicts that
-    `journal` holds from an earlier run are taken from there. Raises HarnessError as `Journal` does,
-    otherwise as `bench_of` and `write` do.
+    the journal holds from an earlier run are taken from there. Raises HarnessError as `Journal`
+    does, otherwise as `bench_of` and `write` do.
     """
     rejecting: Counter[tuple[str, str]] = Counter()
     stopped = threading.Event()
     with ExitStack() as resources:
         folder = resources.enter_context(temporary_folder())
-        bench = bench_of(original, scene_files, jobs=jobs, time_limit=time_limit, progress=progress)
-        kept_in = resources.enter_context(_journal(journal or folder / "kept", original, bench))
+        bench = bench_of(original, judging)
+        journal = _journal(judging.journal or folder / "kept", original, bench)
+        kept_in = resources.enter_context(journal)
         kept = {mark: parts for mark, *parts in kept_in.entries.values()}
 
         def judged(variant: Variant) -> Verdict[Variant]:
@@ -54,7 +47,7 @@ def judge_variants(
             first = sorted(bench, key=lambda p: (-rejecting[variant.file, point_name(p)], p.cost))
             fmu = folder / f"{_mark(variant)}.fmu"
             write(variant, fmu)
-            tried = trial(fmu, first, time_limit, stopped)
+            tried = trial(fmu, first, judging.time_limit, stopped)
             fmu.unlink()
             if tried.rejection is None:
                 status = SURVIVED if tried.differs else EQUIVALENT
@@ -63,7 +56,7 @@ def judge_variants(
             return Verdict(variant, REJECTED, *astuple(tried.rejection))
 
         verdicts: dict[str, Verdict[Variant]] = {}
-        with ThreadPoolExecutor(jobs) as pool:
+        with ThreadPoolExecutor(judging.jobs) as pool:
             try:
                 for future in as_completed([pool.submit(judged, one) for one in variants]):
                     one = future.result()
@@ -73,7 +66,7 @@ def judge_variants(
                         kept_in.add([[mark, one.status, one.scene, one.quantity, one.reason]])
                     done, total = len(verdicts), len(variants)
                     label = f"{one.status}: {one.variant.name}"
-                    progress(counted(label, done - 1, total), done / total)
+                    judging.progress(counted(label, done - 1, total), done / total)
             finally:
                 stopped.set()
                 pool.shutdown(cancel_futures=True)

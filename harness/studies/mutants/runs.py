@@ -7,53 +7,30 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.output.temporary import temporary_folder
 from studies.mutants.archive import PythonFmu
+from studies.mutants.bench import Judging
 from studies.mutants.changes import Change
-from studies.mutants.judging import TIME_LIMIT, judge_variants
+from studies.mutants.judging import judge_variants
 from studies.mutants.mutant import Mutant
 from studies.mutants.verdict import EQUIVALENT, SURVIVED, MutationRun
 from studies.mutants.workshop import Workshop, read_native_sources
 
 
 def run_mutants(
-    path: Path,
-    fmu: PythonFmu,
-    mutants: Sequence[Mutant],
-    scene_files: Sequence[Path],
-    *,
-    made: int,
-    jobs: int,
-    time_limit: float = TIME_LIMIT,
-    journal: Path | None = None,
-    progress: Progress = no_progress,
+    path: Path, fmu: PythonFmu, mutants: Sequence[Mutant], made: int, judging: Judging
 ) -> MutationRun[Mutant]:
     """Judge mutants, a sample of `made` ones, of the FMU at `path`; errors as `judge_variants`."""
     began = time.perf_counter()
-    verdicts = judge_variants(
-        path,
-        mutants,
-        lambda mutant, out: fmu.write(out, {mutant.path: mutant.new}),
-        scene_files,
-        jobs=jobs,
-        time_limit=time_limit,
-        journal=journal,
-        progress=progress,
-    )
+
+    def write(mutant: Mutant, out: Path) -> None:
+        fmu.write(out, {mutant.path: mutant.new})
+
+    verdicts = judge_variants(path, mutants, write, judging)
     return MutationRun(str(path), made, verdicts, time.perf_counter() - began)
 
 
-def run_changes(
-    path: Path,
-    changes: Sequence[Change],
-    scene_files: Sequence[Path],
-    *,
-    jobs: int,
-    time_limit: float = TIME_LIMIT,
-    journal: Path | None = None,
-    progress: Progress = no_progress,
-) -> MutationRun[Change]:
+def run_changes(path: Path, changes: Sequence[Change], judging: Judging) -> MutationRun[Change]:
     """Judge changes of the C sources in the FMU at `path`. A fault without any effect survives.
 
     Raises HarnessError when a change does not fit the sources or there is no compiler, FmuError for
@@ -64,21 +41,12 @@ def run_changes(
     for change in changes:
         change.applied(sources.files)
     with temporary_folder() as folder:
-        verdicts = judge_variants(
-            path,
-            changes,
-            Workshop(sources, folder).write,
-            scene_files,
-            jobs=jobs,
-            time_limit=time_limit,
-            journal=journal,
-            progress=progress,
-        )
-    faults = [
+        verdicts = judge_variants(path, changes, Workshop(sources, folder).write, judging)
+    faults = tuple(
         replace(verdict, status=SURVIVED) if verdict.status == EQUIVALENT else verdict
         for verdict in verdicts
         if not verdict.variant.harmless
-    ]
+    )
     harmless = tuple(verdict for verdict in verdicts if verdict.variant.harmless)
     wall_time = time.perf_counter() - began
-    return MutationRun(str(path), len(faults), tuple(faults), wall_time, harmless)
+    return MutationRun(str(path), len(faults), faults, wall_time, harmless)

@@ -10,18 +10,16 @@ from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.scenes.scene_files import find_scene
 from studies.mutants import judging
 from studies.mutants.archive import read_python_fmu
+from studies.mutants.bench import Judging
 from studies.mutants.changes import Change, hand_written_faults, harmless_variants
 from studies.mutants.enumerate_fmu import fmu_mutants
 from studies.mutants.enumerate_source import source_mutants
 from studies.mutants.listing import print_run, summary
 from studies.mutants.mutant import Mutant
-from studies.mutants.page import write_mutants
 from studies.mutants.runs import run_changes, run_mutants
 from studies.mutants.verdict import EQUIVALENT, REJECTED, SURVIVED, MutationRun, Verdict
 from studies.mutants.workshop import read_native_sources
 from tests.harness import faulty_fmus
-from tests.harness.known_provenance import PROVENANCE
-from tests.html_pages import Page
 
 MUTANTS = source_mutants("a.py", "p/a.py", "def f(a, b):\n    return a < b * 2.0 + 1\n")
 SEEN = (REJECTED, "stuck", "velocity", "off")
@@ -46,7 +44,7 @@ def test_mutants_are_judged_once_and_kept(
 
     def run_kept() -> MutationRun[Mutant]:
         tried, journal = [wrong, unseen], tmp_path / "verdicts"
-        return run_mutants(python_fmu, fmu, tried, [scene], made=9, jobs=2, journal=journal)
+        return run_mutants(python_fmu, fmu, tried, 9, Judging([scene], 2, journal=journal))
 
     run = run_kept()
     assert [verdict.status for verdict in run.verdicts] == [REJECTED, EQUIVALENT]
@@ -60,19 +58,11 @@ def test_faults_are_rejected_and_variants_accepted(native_fmu: Path) -> None:
     names = ("mean_before_first_period", "first_bristle_sign", "split_merges_mirror", "longer_arcs")
     changes = [c for c in (*hand_written_faults(), *harmless_variants()) if c.name in names]
     scenes = ("less_than_a_period", "lugre_less_than_a_period", "averaged_less_than_a_period")
-    run = run_changes(native_fmu, changes, [find_scene(scene) for scene in scenes], jobs=1)
+    run = run_changes(native_fmu, changes, Judging([find_scene(scene) for scene in scenes]))
     assert [verdict.variant.name for verdict in run.survivors] == ["split_merges_mirror"]
     assert run.false_alarms == []
     assert run.rate == pytest.approx(2.0 / 3.0)
     assert all(verdict.quantity for verdict in run.verdicts if verdict.rejected)
-
-
-def test_a_unit_includes_headers_of_headers(native_fmu: Path) -> None:
-    sources = read_native_sources(native_fmu)
-    assert "component/outputs.c" in sources.units_with("device/moment.h")
-    assert "component/outputs.c" in sources.units_with("device/stops.h"), "by way of moment.h"
-    assert sources.units_with("device/stick.c") == ["device/stick.c"]
-    assert sources.model == "SliderResonator"
 
 
 def test_fmus_without_sources_and_changes_that_do_not_fit_are_refused(
@@ -84,7 +74,7 @@ def test_fmus_without_sources_and_changes_that_do_not_fit_are_refused(
         read_native_sources(Path("no.fmu"))
     stale = Change("stale", "device/stick.c", "no such text", "", "m")
     with pytest.raises(HarnessError, match=r"stale: 'no such text' occurs 0 times in device/sti"):
-        run_changes(native_fmu, [stale], [], jobs=1)
+        run_changes(native_fmu, [stale], Judging([]))
 
 
 def test_the_rate_counts_only_what_changes_a_result(run: MutationRun[Mutant]) -> None:
@@ -105,14 +95,3 @@ def test_survivors_and_false_alarms_are_printed_with_reasons() -> None:
     assert "SURVIVED seen\n     passes\na.c: breaks it\n-x\n+y" in printed
     assert "FALSE ALARM fine\n     scene: position: off" in printed
     assert "rejected 1 of 1 harmless variants" in printed
-
-
-def test_the_page_shows_each_survivor_with_its_diff(
-    run: MutationRun[Mutant], tmp_path: Path
-) -> None:
-    write_mutants(tmp_path / "page.html", run, PROVENANCE)
-    page = (tmp_path / "page.html").read_text()
-    (survivor,) = run.survivors
-    assert f"<details open><summary>{survivor.variant.name}".replace("> b", "&gt; b") in page
-    assert page.count("<details") == 2, "rejected ones are counted, not listed"
-    assert Page(page).loaded == ["data:,"], "the page needs nothing beside it"

@@ -7,9 +7,8 @@ from threading import Event
 import pytest
 
 from slider_resonator.errors import FmuError
-from slider_resonator.output.progress import no_progress
 from studies.mutants.archive import PythonFmu, read_python_fmu
-from studies.mutants.bench import bench_of
+from studies.mutants.bench import Judging, bench_of
 from studies.mutants.trial import BenchPoint, Tried, trial
 from tests.harness import faulty_fmus
 
@@ -20,7 +19,7 @@ FORCE = "drive = force"
 @pytest.fixture(scope="module")
 def bench(python_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> list[BenchPoint]:
     scene = faulty_fmus.scene(tmp_path_factory.mktemp("scene"))
-    return bench_of(python_fmu, [scene], jobs=1, time_limit=60.0, progress=no_progress)
+    return bench_of(python_fmu, Judging([scene], time_limit=60.0))
 
 
 @pytest.fixture
@@ -84,4 +83,4 @@ def test_an_fmu_that_is_rejected_unchanged_is_refused(python_fmu: Path, tmp_path
     fmu.write(faulty, {fmu.path_of("device.py"): module})
     scene = faulty_fmus.scene(tmp_path)
     with pytest.raises(FmuError, match=r"rejected before anything is changed: scene short: pos"):
-        bench_of(faulty, [scene], jobs=1, time_limit=60.0, progress=no_progress)
+        bench_of(faulty, Judging([scene], time_limit=60.0))

@@ -19,17 +19,12 @@ DESCRIPTION = """<fmiModelDescription>
 """
 
 
-def test_every_unit_is_mislabelled_in_each_way() -> None:
-    found = {m.change: m for m in unit_mutants(DESCRIPTION)}
-    lines = {change: m.diff.splitlines()[-2].strip("+ ") for change, m in found.items()}
-    assert lines == {
-        "unit 1 gets factor 1000": '<BaseUnit factor="1000.0" />',
-        "unit N gets factor 1000": '<BaseUnit kg="1" rad="1" s="-2" factor="1000.0" />',
-        "unit N: kg^1 becomes ^2": '<BaseUnit kg="2" rad="1" s="-2" />',
-        "unit N: s^-2 becomes ^-1": '<BaseUnit kg="1" rad="1" s="-1" />',
-        "display unit mN: factor is 1 % too large": '<DisplayUnit name="mN" factor="1010.0" />',
-        "unit of load becomes 1": '<Real unit="1" start="0.0" />',
-        "unit of load is left out": '<Real start="0.0" />',
-    }
-    assert found["unit of load becomes 1"].line == 12
-    assert [m.line for m in found.values()] == sorted(m.line for m in found.values())
+def test_every_unit_is_mislabelled() -> None:
+    found = unit_mutants(DESCRIPTION)
+    assert [m.diff.splitlines()[-2].strip("+ ") for m in found] == [
+        '<BaseUnit kg="2" rad="1" s="-2" />',
+        '<BaseUnit kg="1" rad="1" s="-1" />',
+        '<DisplayUnit name="mN" factor="1010.0" />',
+        '<Real unit="1" start="0.0" />',
+    ]
+    assert found[-1].line == 12

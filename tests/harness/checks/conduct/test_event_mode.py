@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.scenes.scene_files import find_scene
+from studies.mutants.bench import Judging
 from studies.mutants.changes import Change
 from studies.mutants.runs import run_changes
 
@@ -93,5 +94,5 @@ def test_faults_of_event_mode_are_rejected(native_3_fmu: Path) -> None:
     changes = [
         Change(f"fault_{i}", *change, meaning) for i, (meaning, change) in enumerate(FAULTS.items())
     ]
-    run = run_changes(native_3_fmu, changes, [find_scene("interface")], jobs=1, time_limit=30.0)
+    run = run_changes(native_3_fmu, changes, Judging([find_scene("interface")]))
     assert [verdict.variant.meaning for verdict in run.survivors] == []

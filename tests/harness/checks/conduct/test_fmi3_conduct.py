@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.scenes.scene_files import find_scene
+from studies.mutants.bench import Judging
 from studies.mutants.changes import Change
 from studies.mutants.runs import run_changes
 
@@ -59,6 +60,6 @@ def test_faults_in_refusals_and_states_are_rejected(native_3_fmu: Path) -> None:
         Change(f"fault_{i}", file, old, new, meaning)
         for i, (meaning, (_, file, old, new)) in enumerate(FAULTS.items())
     ]
-    run = run_changes(native_3_fmu, changes, [find_scene("interface")], jobs=1, time_limit=30.0)
+    run = run_changes(native_3_fmu, changes, Judging([find_scene("interface")]))
     found = {verdict.variant.meaning: verdict.quantity for verdict in run.verdicts}
     assert found == {meaning: quantity for meaning, (quantity, *_) in FAULTS.items()}
