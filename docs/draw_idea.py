@@ -8,6 +8,7 @@ from __future__ import annotations
 import sys
 from math import pi
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -74,7 +75,11 @@ def _draw_friction(axes: Axes, time: Array, shown: dict[str, Array]) -> None:
     axes.axhline(0.0, color="0.5", lw=0.8)
     heavy = np.mean(shown["normal_force"][shown["velocity"] < 0])
     light = np.mean(shown["normal_force"][shown["velocity"] > 0])
-    middle = {"ha": "center", "va": "bottom", "transform": axes.get_xaxis_transform()}
+    middle: dict[str, Any] = {
+        "ha": "center",
+        "va": "bottom",
+        "transform": axes.get_xaxis_transform(),
+    }
     axes.text(time[shown["velocity"] > 0].mean(), 0.72, f"normal load\n{light:.2f} N", **middle)
     back = time[: int(np.argmax(shown["velocity"] > 0))]
     axes.text(back.mean(), 0.25, f"normal load\n{heavy:.2f} N", **middle)
