@@ -6,9 +6,9 @@ How a step flows: `slave` (pythonfmu) calls `component`, which asks the `motion`
 the present inputs to advance a `moment`. There are three motions.
 
 - Resolved: `events` loops over legs. A friction law (`coulomb`, `lugre`) says how a leg begins and
-  what succeeds it; `sliding` has its closed forms, on the coefficients of `device` and `split` or,
-  where these do not split, the responses of `oscillator`; `first_zero` finds where it ends;
-  `contact` says when the contact lifts.
+  what succeeds it. `sliding` has its closed forms, on `device` and `oscillator`; where these lose
+  digits, and while bristles bend, `series` follows it. `first_zero` finds where it ends; `contact`
+  says when the contact lifts.
 - Averaged to first order: `slow_motion`, under `mean_friction` and a `vibrating_load`.
 - Leaping over periods: `leap`, on the `period_map` of resolved motion.
 

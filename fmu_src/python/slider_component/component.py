@@ -9,7 +9,7 @@ from typing import Any
 
 from . import refusal_texts
 from .constants import MAX_TURNS, PYTHON_SLOWDOWN, STOP_TIME_SLACK, TIME_SLACK
-from .device import Device, System, hold
+from .device import Device, System
 from .leap import Leaping
 from .moment import Moment
 from .motion import Resolved
@@ -225,8 +225,8 @@ def motion_of(device: Device, inputs: Inputs) -> Motion:
     if device.friction_law == 1 and device.friction_coefficient == 0.0:
         raise Refusal(refusal_texts.lugre_without_friction(device.friction_coefficient))
     if device.fidelity == 0 and device.averaging_order == 2:
-        return Leaping(hold(replace(device, fidelity=2), inputs))
-    system = hold(device, inputs)
+        return Leaping(System(replace(device, fidelity=2), inputs))
+    system = System(device, inputs)
     return Resolved(system) if device.fidelity > 0 else Averaged(system, inputs.frequency_ratio)
 
 
@@ -264,5 +264,5 @@ def _coefficients(system: System) -> tuple[float, ...]:
         *(system.total_mass, system.mass_fraction, system.normal_frequency),
         *(system.slip.decay, system.slip.stiffness, system.stick.decay, system.stick.stiffness),
         *(part for number in complex_ones for part in (number.real, number.imag)),
-        *(system.relative_drive, system.base_acceleration, system.spring, system.damper),
+        *(system.base_acceleration, system.spring, system.damper),
     )

@@ -6,12 +6,13 @@ release, and the lift-off and touchdown of the contact.
 
 from __future__ import annotations
 
-from math import cos, inf, sin
+from math import cos, sin
 
 from .contact import BACKWARD, FORWARD, LIFTED, STICK, direction_of
 from .device import System
 from .moment import Moment
-from .sliding import End, Motion, Stick, slide
+from .series import Series
+from .sliding import Motion, Rest, Slide
 
 BALANCED = 1e-12
 """Relative difference of the forces on a slider up to which they count as balanced."""
@@ -34,24 +35,35 @@ class Coulomb:
             return _needed_force(system, now)
         return mode * system.friction_limit(now.psi)
 
-    def begin(self, system: System, now: Moment) -> tuple[Motion, int, float]:
-        """The motion on from `now`, its direction, and how long it holds [s].
+    def begin(self, system: System, now: Moment) -> Motion:
+        """The motion on from `now`."""
+        if now.mode != STICK:
+            return slide(system, now, 0 if now.mode == LIFTED else now.mode)
+        split = system.rest_split is not None
+        return Rest(system, now) if split else Series(system, now, 0, rests=True)
 
-        The direction is 0 where it does not matter.
+    def succeed(
+        self, system: System, now: Moment, travelled: float, zero_of: int | None, switches: bool
+    ) -> None:
+        """Change from the end of a leg to the next contact mode.
+
+        After a displacement `travelled` [m]; `zero_of` is the index of the watched signal whose
+        zero ends the leg, or None; it `switches` where the contact lifts or touches down.
         """
-        if now.mode == STICK:
-            return Stick(system, now), 0, inf
-        direction = 0 if now.mode == LIFTED else now.mode
-        return slide(system, now, direction), direction, inf
-
-    def succeed(self, system: System, now: Moment, end: End) -> None:
-        """Change from the end of a leg to the next contact mode."""
-        if end.zero_of is not None and end.rests:
-            now.enter(FORWARD if end.zero_of == 0 else BACKWARD)
-        elif end.zero_of is not None:
+        if zero_of is not None and now.mode == STICK:
+            now.enter(FORWARD if zero_of == 0 else BACKWARD)
+        elif zero_of is not None:
             now.enter(_mode_in_contact(system, now))
-        elif end.switches:
+        elif switches:
             now.enter(_mode_in_contact(system, now) if now.mode == LIFTED else LIFTED)
+
+
+def slide(system: System, now: Moment, direction: int) -> Motion:
+    """Sliding in `direction` under full friction, or flight in contact mode LIFTED.
+
+    The velocity is watched in `direction`, unless that is 0.
+    """
+    return (Series if system.slide_split is None else Slide)(system, now, direction)
 
 
 def _needed_force(system: System, now: Moment) -> float:

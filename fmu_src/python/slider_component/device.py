@@ -18,9 +18,8 @@ from math import asin, cos, hypot, inf, pi, sin, tau
 
 from . import refusal_texts
 from .contact import Window
-from .oscillator import Oscillator
+from .oscillator import SLOW, Oscillator
 from .parameters import Inputs, Parameters
-from .split import Split, split_of
 from .values import Refusal
 
 EPSILON = 2.0**-52
@@ -134,46 +133,83 @@ def steady_swing(amplitude: complex, theta: float, frequency: float) -> tuple[fl
     return real * sine + imag * cosine, frequency * (real * cosine - imag * sine)
 
 
-@dataclass(frozen=True, slots=True)
+Term = tuple[complex, float, complex, complex]
+"""Rate z [1/s] of an exponential, |z|^2, velocity v_z of the slider, displacement y_z of the
+resonator."""
+
+
 class System:
     """A device under held inputs (SI units; complex numbers are amplitudes of e).
 
-    At fidelity 1 the resonator acts by its steady force only: `slider_mass` is the total mass,
-    `mass_fraction`, `spring` and `damper` are 0, and `resonator_amplitude` is the steady
-    displacement of the resonator [m], which is None at fidelity 2. `holding_drive` is the part of
-    the force on a held slider that follows the drive directly [N], `drive` the force of the drive
-    on the pair per total mass [m/s^2]. `split` holds the amplitudes of sliding and flight as a sum
-    of exponentials, None where they do not split. `arc` [s] is the longest leg: after it a motion
-    begins anew from its state. Neither depends on `phase` and `load`.
+    The full device (`is_full`) follows its resonator. At fidelity 1 this acts by its steady force
+    only: `slider_mass` is the total mass, `mass_fraction`, `spring` and `damper` are 0, and
+    `resonator_amplitude` is its steady displacement [m]. `holding_drive` is the part of the force
+    on a held slider that follows the drive directly [N], `drive` the force of the drive on the pair
+    per total mass [m/s^2]. `slide_split` are the forced terms of sliding per unit exp(i theta) and,
+    for s = 1, per unit exp(i chi), `rest_split` the displacement of the resonator at rest; both are
+    None where they do not split off. `compliance` is the displacement by a constant force [m/N].
+    The contact lifts at times, or always, in the `window` of chi, which it enters and leaves where
+    it `switches`. `fastest` [rad/s] is the highest frequency, `arc` [s] the longest leg: after it a
+    motion begins anew from its state. Neither depends on `phase` and `load`.
     """
 
-    device: Device
-    phase: float
-    load: float
-    slider_mass: float
-    total_mass: float
-    mass_fraction: float
-    drive_frequency: float
-    normal_frequency: float
-    friction_preload: float
-    friction_amplitude: float
-    window: Window
-    slip: Oscillator
-    stick: Oscillator
-    drive: complex
-    relative_drive: float
-    base_acceleration: float
-    holding_drive: complex
-    spring: float
-    damper: float
-    resonator_amplitude: complex | None
-    split: Split | None
-    fastest: float
+    def __init__(self, device: Device, inputs: Inputs) -> None:
+        """Raises Refusal at fidelity 1 where the steady force of the resonator is unbounded."""
+        w, m, wn = device.drive_frequency, device.resonator_mass, device.resonator_frequency
+        faces_mu = device.friction_faces * device.friction_coefficient
+        self.device, self.inputs = device, inputs
+        self.phase, self.load = inputs.phase, inputs.load
+        self.drive_frequency, self.normal_frequency = w, inputs.frequency_ratio * w
+        self.friction_preload = faces_mu * device.normal_preload
+        self.friction_amplitude = faces_mu * device.normal_amplitude
+        self.window = flight_window(device)
+        self.switches = device.lifts and self.normal_frequency != 0.0
+        self.total_mass, self.base_acceleration = device.total_mass, device.base_amplitude * w * w
+        self.slip, self.stick = device.slip_oscillator, device.stick_oscillator
+        self.is_full = device.fidelity == 2
+        self.fastest = max(w, abs(self.normal_frequency))
+        self.resonator_amplitude = 0j
+        if self.is_full:
+            self.slider_mass, self.mass_fraction = device.slider_mass, device.mass_fraction
+            self.spring, self.damper = m * wn * wn, 2.0 * device.damping_ratio * m * wn
+            self.holding_drive = complex(device.tangential_force)
+            force = m * self.base_acceleration + self.holding_drive
+            swinging = [o.frequency for o in (self.slip, self.stick) if o.is_oscillatory]
+            self.fastest = max([self.fastest, *swinging])
+        else:
+            self.slider_mass, self.mass_fraction = device.total_mass, 0.0
+            self.spring = self.damper = 0.0
+            force = self.holding_drive = equivalent_force(device)
+            self.resonator_amplitude = steady_resonator(device)
+        self.drive, self.arc = force / device.total_mass, LONGEST_ARC / self.fastest
+        self.slide_split, self.rest_split = self._slide_split(), self._rest_split()
+        free = self.slip.stiffness * self.slider_mass
+        self.compliance = 1.0 / free if self.is_full and self.slide_split else 0.0
 
-    @property
-    def arc(self) -> float:
-        """The longest leg [s]."""
-        return LONGEST_ARC / self.fastest
+    def _slide_split(self) -> tuple[Term, Term] | None:
+        w, q, slip = self.drive_frequency, self.normal_frequency, self.slip
+        if 0.0 < abs(q) < SLOW * w or (self.is_full and not slip.splits(w, q)):
+            return None
+        swing = swing_by_friction = 0j
+        if self.is_full:
+            base = self.base_acceleration - self.device.tangential_force / self.slider_mass
+            swing = base * slip.transfer(w)
+            swing_by_friction = self.friction_amplitude / self.slider_mass * slip.transfer(q)
+        pushed = self.drive + self.mass_fraction * w * w * swing
+        by_friction = self.mass_fraction * q * q * swing_by_friction
+        by_friction -= self.friction_amplitude / self.total_mass
+        slowed = -by_friction / q if q else 0j
+        return (
+            (complex(0.0, w), w * w, -pushed / w, -1j * swing),
+            (complex(0.0, q), q * q, slowed, -1j * swing_by_friction),
+        )
+
+    def _rest_split(self) -> complex | None:
+        if not self.is_full:
+            return 0j
+        if not self.stick.splits(self.drive_frequency):
+            return None
+        return -1j * self.base_acceleration * self.stick.transfer(self.drive_frequency)
 
     def friction_limit(self, psi: float) -> float:
         """Friction force [N] of all faces at normal phase `psi` [rad] when sliding, 0 in flight."""
@@ -186,64 +222,9 @@ class System:
 
     def resonator(self, displacement: float, rate: float, theta: float) -> tuple[float, float]:
         """Displacement [m] and velocity [m/s] of the resonator: its own or the steady ones."""
-        if self.resonator_amplitude is None:
+        if self.is_full:
             return displacement, rate
         return steady_swing(self.resonator_amplitude, theta, self.drive_frequency)
-
-
-def hold(device: Device, inputs: Inputs) -> System:
-    """Prepare the motion of `device` while `inputs` are held.
-
-    Raises Refusal at fidelity 1 where the steady force of the resonator is unbounded.
-    """
-    w, full = device.drive_frequency, device.fidelity == 2
-    q, m, wn = inputs.frequency_ratio * w, device.resonator_mass, device.resonator_frequency
-    faces_mu = device.friction_faces * device.friction_coefficient
-    base = device.base_amplitude * w * w
-    force = complex(m * base + device.tangential_force) if full else equivalent_force(device)
-    drive = force / device.total_mass
-    slip, stick = device.slip_oscillator, device.stick_oscillator
-    fastest = max(w, abs(q))
-    if full:
-        swinging = [o.frequency for o in (slip, stick) if o.is_oscillatory]
-        fastest = max([fastest, *swinging])
-    slider_mass, fraction = device.slider_mass, device.mass_fraction
-    relative = base - device.tangential_force / slider_mass
-    if not full:
-        slider_mass, fraction = device.total_mass, 0.0
-    amplitude = faces_mu * device.normal_amplitude
-    return System(
-        device=device,
-        phase=inputs.phase,
-        load=inputs.load,
-        slider_mass=slider_mass,
-        total_mass=device.total_mass,
-        mass_fraction=fraction,
-        drive_frequency=w,
-        normal_frequency=q,
-        friction_preload=faces_mu * device.normal_preload,
-        friction_amplitude=amplitude,
-        window=flight_window(device),
-        slip=slip,
-        stick=stick,
-        drive=drive,
-        relative_drive=relative,
-        base_acceleration=base,
-        holding_drive=complex(device.tangential_force) if full else force,
-        spring=m * wn * wn if full else 0.0,
-        damper=2.0 * device.damping_ratio * m * wn if full else 0.0,
-        resonator_amplitude=None if full else steady_resonator(device),
-        split=split_of(
-            slip if full else None,
-            (w, q),
-            fraction,
-            drive,
-            relative,
-            (amplitude / slider_mass, amplitude / device.total_mass),
-            1.0 / slider_mass,
-        ),
-        fastest=fastest,
-    )
 
 
 def flight_window(device: Device) -> Window:

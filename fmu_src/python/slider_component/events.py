@@ -7,7 +7,7 @@ down, and is succeeded by another contact mode. There is no step size.
 
 from __future__ import annotations
 
-from math import tau
+from math import inf, tau
 
 from .budget import Budget
 from .clock import Clock
@@ -18,7 +18,6 @@ from .device import EPSILON, LONGEST_ARC, System
 from .first_zero import first_zero
 from .lugre import LuGre
 from .moment import Moment
-from .sliding import End, Stick
 
 MAX_LEGS = 20_000
 """Largest number of legs accepted in a turn of the fastest oscillation: several times as many as
@@ -27,6 +26,10 @@ presliding on the hardest bristles takes."""
 SAME = 1e-6
 """Share of the longest arc within which a release and a lift-off may be the same event."""
 
+
+MOVES = 64.0
+"""Travel beyond which a slider has surely moved, in rounding errors of its velocity times the time
+in which the fastest oscillation advances by a radian: more than a leg can add up."""
 
 FrictionLaw = Coulomb | LuGre
 
@@ -79,11 +82,13 @@ def advance(
 
 def _leg(law: FrictionLaw, system: System, now: Moment, longest: float) -> float:
     """Advance `now` by one leg of up to `longest` [s], and return its time [s]."""
-    chi, lifted = now.psi + system.phase, now.mode == LIFTED
-    switching = system.window.time_to_switch(chi, system.normal_frequency, lifted)
-    motion, direction, reach = law.begin(system, now)
-    rests = isinstance(motion, Stick)
-    t, zero_of = min(longest, switching, reach), None
+    switching = inf
+    if system.switches:
+        chi, lifted = now.psi + system.phase, now.mode == LIFTED
+        switching = system.window.time_to_switch(chi, system.normal_frequency, lifted)
+    motion = law.begin(system, now)
+    rests, direction = motion.rests, motion.direction
+    t, zero_of = min(longest, switching, motion.reach), None
     watches = motion.watches(t) if t > 0.0 else ()
     for index, watch in enumerate(watches):
         zero = first_zero(watch, t)
@@ -92,16 +97,17 @@ def _leg(law: FrictionLaw, system: System, now: Moment, longest: float) -> float
     near_switch = rests and zero_of is not None and switching - t < SAME * system.arc
     if near_switch and _lifts_first(system, now.psi + system.normal_frequency * t):
         t, zero_of = switching, None
-    turns = direction not in (0, now.sliding) and watches and watches[0].exceeds_noise(t)
-    now.velocity, now.displacement, now.rate = motion.at(t)
+    now.velocity, now.displacement, now.rate, travelled = motion.at(t)
     if zero_of is not None and not rests:
         now.velocity = 0.0
-    if turns:
-        now.turn(direction)
-    travelled = now.pass_time(t, system.drive_frequency, rests, motion.travel)
+    if direction not in (0, now.sliding) and watches:
+        signal, noise, fastest, *_ = watches[0]
+        # Most travel is far more than rounding; where it is not, the velocity in the middle tells.
+        if direction * travelled * fastest > MOVES * noise or signal(0.5 * t)[0] > noise:
+            now.turn(direction)
+    now.pass_time(t, system.drive_frequency, rests, travelled, motion.at)
     now.psi = (now.psi + system.normal_frequency * t) % tau
-    switches = zero_of is None and t == switching
-    law.succeed(system, now, End(travelled, rests, zero_of, switches))
+    law.succeed(system, now, travelled, zero_of, switches=zero_of is None and t == switching)
     return t
 
 

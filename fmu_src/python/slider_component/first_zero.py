@@ -32,10 +32,6 @@ class Watch(NamedTuple):
     horizon: float = inf
     expected: float = 0.0
 
-    def exceeds_noise(self, t: float) -> bool:
-        """Whether the signal exceeds its noise in the middle of a motion of `t` [s]."""
-        return self.signal(0.5 * t)[0] > self.noise
-
 
 SHORTEST = 1e-7
 """Shortest step of the search, as an angle [rad] of the highest frequency. Two zeros closer than
@@ -67,35 +63,30 @@ def first_zero(watch: Watch, limit: float) -> float | None:
     The signal is non-negative at 0, up to its noise.
     """
     signal, noise, fastest, horizon, expected = watch
-    zero, steepness = None, 0.0
+    zero, steepness = inf, 0.0
     if 0.0 < expected < limit:
-        zero, steepness = _zero_near(signal, expected, limit, RESOLUTION / fastest)
+        zero, steepness = _zero_near(watch, limit)
     t = before = 0.0
     shortest, short_steps = SHORTEST / fastest, 0
     for _ in range(MAX_EVALUATIONS):
         value, slope, bound = signal(t)
-        if value < -noise and t > before:
-            # Only a step of the shortest length can get here.
-            return _refined(signal, before, t, noise, fastest)
-        square = slope * slope
+        margin = 2.2 * (value + noise)
+        if value <= noise:
+            if value < -noise and t > before:
+                # Only a step of the shortest length can get here.
+                return _refined(watch, before, t, noise)
+            value, margin = noise, 16.0 * noise
+        root = sqrt(slope * slope + 2.0 * bound * value)
         if slope < 0.0:
-            margin = 2.2 * (value + noise) if value > noise else 16.0 * noise
-            if square > bound * margin:
-                root = _refined(signal, t, inf, 0.0, fastest)
-                return root if root < limit else None
-            value = max(value, noise)
-            step = 2.0 * value / (sqrt(square + 2.0 * bound * value) - slope)
+            if slope * slope > bound * margin:
+                found = _refined(watch, t, inf, 0.0)
+                return found if found < limit else None
+            step = 2.0 * value / (root - slope)
         else:
-            value = max(value, noise)
-            reach = sqrt(square + 2.0 * bound * value)
-            step = (slope + reach) / bound if bound > 0.0 else horizon
+            step = (slope + root) / bound if bound > 0.0 else horizon
         # The parabola from the zero backwards must cover the rest of the way, beyond rounding.
-        if (
-            zero is not None
-            and 0.0 < zero - t < horizon
-            and bound * (zero - t) < SURE * (bound * step - 2.0 * steepness)
-            and steepness * steepness > 16.0 * noise * bound
-        ):
+        rest = zero - t
+        if 0.0 < rest < horizon and bound * rest < SURE * (slope + root - 2.0 * steepness):
             return zero
         if step * fastest < SHORT:
             short_steps += 1
@@ -108,15 +99,14 @@ def first_zero(watch: Watch, limit: float) -> float | None:
     return None
 
 
-def _zero_near(
-    signal: Signal, t: float, limit: float, resolution: float
-) -> tuple[float | None, float]:
-    """The downward zero near `t`, if Newton's method finds one in a few steps, and the slope there.
+def _zero_near(watch: Watch, limit: float) -> tuple[float, float]:
+    """The downward zero near the expected one, by Newton's method in a few steps, and the slope.
 
-    None beyond `limit`, where the bound of the signal may not hold.
+    Infinite if none is found, or beyond `limit`, where the bound of the signal may not hold.
     """
+    t = watch.expected
     for _ in range(MAX_EXPECTING_STEPS):
-        value, slope, bound = signal(t)
+        value, slope, bound = watch.signal(t)
         if not slope < 0.0:
             break
         step = -value / slope
@@ -124,34 +114,30 @@ def _zero_near(
         if not 0.0 < t < limit:
             break
         # The next step would be below the resolution.
-        if bound * step * step <= -slope * resolution:
-            return t, slope
-    return None, 0.0
+        if bound * step * step * watch.fastest <= -slope * RESOLUTION:
+            return (t, slope) if slope * slope > 16.0 * watch.noise * bound else (inf, slope)
+    return inf, 0.0
 
 
-def _refined(signal: Signal, low: float, high: float, noise: float, fastest: float) -> float:
+def _refined(watch: Watch, low: float, high: float, noise: float) -> float:
     """Where the signal falls through -noise after `low` [s], by Newton's method.
 
     It stays within the bracket that ends at `high`, where the signal is below that, if that is
     finite: otherwise Newton's method is known to converge.
     """
-    resolution = RESOLUTION / fastest
+    resolution = RESOLUTION / watch.fastest
     t = low
     for _ in range(MAX_REFINEMENTS):
-        value, slope, bound = signal(t)
+        value, slope, bound = watch.signal(t)
         value += noise
-        if value > 0.0:
-            low = max(low, t)
-        else:
-            high = min(high, t)
+        low, high = (max(low, t), high) if value > 0.0 else (low, min(high, t))
         following = t - value / slope if slope < 0.0 else inf
         if not low <= following <= high:
             if high == inf:
                 break
             following = 0.5 * (low + high)
-        step = following - t
+        step, t = following - t, following
         # The next step would be below the resolution.
         if bound * step * step <= -slope * resolution or abs(step) <= resolution:
-            return following
-        t = following
+            break
     return t

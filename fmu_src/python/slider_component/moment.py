@@ -8,6 +8,10 @@ from math import floor, inf, tau
 
 from .contact import STICK
 
+Place = tuple[float, float, float, float]
+"""Velocity of the slider [m/s], displacement [m] and rate [m/s] of the resonator, and how far the
+slider has moved [m]."""
+
 MARK_TOLERANCE = 1e-7
 """Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps
 of whole periods complete their last period in spite of rounding."""
@@ -66,13 +70,19 @@ class Moment:
         self.sliding, self.event_age = direction, 0.0
 
     def pass_time(
-        self, t: float, frequency: float, sticks: bool, travel_at: Callable[[float], float]
-    ) -> float:
-        """Advance position, drive phase and means over a motion of `t` [s]; return its travel [m].
+        self,
+        t: float,
+        frequency: float,
+        sticks: bool,
+        travelled: float,
+        place_at: Callable[[float], Place],
+    ) -> None:
+        """Advance position, drive phase and means over a motion of `t` [s] that has `travelled`.
 
-        `travel_at` gives its displacement [m] after a time [s]; `frequency` [rad/s] is the drive's.
+        The last number that `place_at` gives is the displacement [m] after a time [s]; `frequency`
+        [rad/s] is the drive's.
         """
-        travelled, end = travel_at(t), self.theta + frequency * t
+        end = self.theta + frequency * t
         self.position += travelled
         self.event_age += t
         ended = 0 if end + MARK_TOLERANCE < tau else floor((end + MARK_TOLERANCE) / tau)
@@ -81,23 +91,22 @@ class Moment:
             self.elapsed += t
             self.sticking += t if sticks else 0.0
             self.theta = end
-            return travelled
+            return
         last = (tau * ended - self.theta) / frequency
-        travel_last = travel_at(last)
+        travel_last = place_at(last)[-1]
         if ended == 1:
             length = self.elapsed + last
             self.mean_velocity = (self.travel + travel_last) / length
             fraction = (self.sticking + (last if sticks else 0.0)) / length
         else:
             length = tau / frequency
-            self.mean_velocity = (travel_last - travel_at(last - length)) / length
+            self.mean_velocity = (travel_last - place_at(last - length)[-1]) / length
             fraction = 1.0 if sticks else 0.0
         rest = t - last
         self.travel, self.elapsed = travelled - travel_last, rest
         self.sticking = rest if sticks else 0.0
         self.complete, self.stick_fraction = True, min(max(fraction, 0.0), 1.0)
         self.theta = end - tau * ended
-        return travelled
 
     def present_mean_velocity(self) -> float:
         """Mean of the last whole period, or since the start, or the velocity at the start [m/s]."""

@@ -22,7 +22,7 @@ class Resolved:
         """
         device, system = self.system.device, self.system
         velocity, rate = device.initial_velocity, device.initial_resonator_velocity
-        if system.resonator_amplitude is not None:
+        if not system.is_full:
             _, steady = steady_swing(system.resonator_amplitude, 0.0, system.drive_frequency)
             velocity += device.mass_fraction * (rate - steady)
         now = Moment(velocity, device.initial_resonator_displacement, rate, device.initial_position)

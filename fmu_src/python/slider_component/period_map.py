@@ -45,7 +45,7 @@ class PeriodMap:
         """Raises NoMapError without vibration, or where transients do not decay."""
         device, w = system.device, system.drive_frequency
         tight = replace(device, tolerance=min(device.tolerance, MAP_TOLERANCE))
-        self.system, self.vibration = replace(system, device=tight), fast
+        self.system, self.vibration = System(tight, system.inputs), fast
         self.turns, self.drift = _turns_to_repeat_best(system, max_turns)
         self.period, self.section = tau * self.turns / w, (fast.lag + pi) % tau
         self.speed = fast.velocity
@@ -62,7 +62,7 @@ class PeriodMap:
             self.scale = (swing, swing * w, mu)
             self.kept = exp(-device.bristle_stiffness * path / mu)
             self.decay = max(self.decay, self.kept)
-        (a, b), (c, d) = system.slip.free(self.period)
+        (a, b), (c, d) = system.slip.free_map(self.period)
         self._matrix = (a - 1.0, b, c, d - 1.0)
         self._determinant = (a - 1.0) * (d - 1.0) - b * c
         if not (self.decay < 1.0 and self._determinant != 0.0):
@@ -71,7 +71,7 @@ class PeriodMap:
     def under_load(self, load: float) -> PeriodMap:
         """The same under another load [N]."""
         other = copy(self)
-        other.system = replace(self.system, load=load)
+        other.system = System(self.system.device, replace(self.system.inputs, load=load))
         return other
 
     def slow_velocity(self, now: Moment) -> float:

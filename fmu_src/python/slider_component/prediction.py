@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import copysign, cos, pi, tau
 
-from .device import EPSILON, Device, equivalent_force, held_amplitude, hold, vibration
+from .device import EPSILON, Device, System, equivalent_force, held_amplitude, vibration
 from .mean_friction import mean_friction
 from .parameters import Inputs
 from .period_map import NoMapError, PeriodMap
@@ -59,7 +59,7 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
     if device.averaging_order == 1 or not first.valid or turns == 0:
         return replace(first, valid=first.valid and (device.averaging_order == 1 or turns > 0))
     try:
-        system = hold(replace(device, fidelity=2), inputs)
+        system = System(replace(device, fidelity=2), inputs)
         period_map = PeriodMap(system, vibration(device), turns)
         psi = (normal_lead + inputs.frequency_ratio * period_map.section) % tau
         steady = PeriodicMotion(period_map, psi, blocked=False)

@@ -8,411 +8,211 @@ During initialization both phases are zero, so neither a rate nor `tangential_fo
 its amplitude times sin(0)) acts on a force directly. The other dependencies follow from the
 equations: the stick condition needs the force of the resonator's spring and damper, `fidelity` 1
 replaces those by the steady resonator force (34), and LuGre friction depends on its bristle.
+
+Each row is: kind, name, unit (display unit), then what is not its default; an indented description,
+and the inputs and parameters that an output depends on. Words in capitals are groups of those.
 """
 
 from __future__ import annotations
 
-from functools import partial
+import re
+from collections.abc import Iterator
 
-from .variable import Variable
+from .variable import Causality, Variability, Variable
 
-_input = partial(Variable, type="Real", causality="input", variability="continuous")
-_fixed = partial(Variable, type="Real", causality="parameter", variability="fixed")
-_tunable = partial(Variable, type="Real", causality="parameter", variability="tunable")
-_choice = partial(Variable, type="Integer", causality="parameter", variability="fixed")
-_output = partial(Variable, type="Real", causality="output", variability="continuous")
-_count = partial(Variable, type="Real", causality="output", variability="discrete")
+KINDS: dict[str, tuple[Causality, Variability]] = {
+    "input": ("input", "continuous"),
+    "fixed": ("parameter", "fixed"),
+    "tunable": ("parameter", "tunable"),
+    "choice": ("parameter", "fixed"),
+    "output": ("output", "continuous"),
+    "count": ("output", "discrete"),
+}
+"""A choice is an Integer, all others are Real."""
 
-_INPUTS = ("phase", "load", "frequency_ratio")
-_CHOICES = ("friction_law", "fidelity", "averaging_order")
-_NORMAL_FORCE = ("phase", "normal_preload", "normal_amplitude")
+DEPENDENCIES = ("depends on", "initially on")
+"""At a communication point, and during initialization."""
 
-_MASSES_AND_SPRING = ("slider_mass", "resonator_mass", "resonator_frequency", "damping_ratio")
-# The parameters of the resonator's steady motion (32) and of its force on the slider (33).
-_STEADY_RESONATOR = (
-    *_MASSES_AND_SPRING,
-    "base_amplitude",
-    "drive_frequency",
-    "tangential_force",
-)
-_FRICTION = (
-    *_NORMAL_FORCE,
-    *_CHOICES,
-    *_STEADY_RESONATOR,
-    "load",
-    # At the boundary of a flight its sign is the direction of the normal phase.
-    "frequency_ratio",
-    "friction_coefficient",
-    "friction_faces",
-    "bristle_stiffness",
-    "bristle_damping",
-    "initial_velocity",
-    "initial_resonator_displacement",
-    "initial_resonator_velocity",
-    "initial_bristle_deflection",
-)
-_AVERAGED_THEORY = (
-    *_NORMAL_FORCE,
-    *_STEADY_RESONATOR,
-    "frequency_ratio",
-    "friction_coefficient",
-    "friction_faces",
-    "friction_law",
-    "averaging_order",
-    "bristle_stiffness",
-    "bristle_damping",
-    "tolerance",
-)
+GROUPS = """
+INPUTS
+    phase load frequency_ratio
+CHOICES
+    friction_law fidelity averaging_order
+NORMAL_FORCE
+    phase normal_preload normal_amplitude
+MASSES_AND_SPRING
+    slider_mass resonator_mass resonator_frequency damping_ratio
+STEADY_RESONATOR
+    MASSES_AND_SPRING base_amplitude drive_frequency tangential_force
+FRICTION
+    NORMAL_FORCE CHOICES STEADY_RESONATOR load frequency_ratio friction_coefficient friction_faces
+    bristle_stiffness bristle_damping initial_velocity initial_resonator_displacement
+    initial_resonator_velocity initial_bristle_deflection
+AVERAGED_THEORY
+    NORMAL_FORCE STEADY_RESONATOR frequency_ratio friction_coefficient friction_faces friction_law
+    averaging_order bristle_stiffness bristle_damping tolerance
+WHICH_MOTION
+    fidelity AVERAGED_THEORY
+"""
+"""Among them the parameters of the resonator's steady motion (32) and force (33). At the boundary
+of a flight the sign of `frequency_ratio` is the direction of the normal phase. At fidelity 1 and 0
+velocities follow from the momentum, less that of the steady vibration."""
 
-# What selects the model of the motion: `averaging_order` matters at fidelity 0 only.
-_WHICH_MOTION = ("fidelity", *_AVERAGED_THEORY)
+TABLE = """
+input phase rad (deg), start 0, nominal 1
+    Phase of the normal load variation relative to its own drive (phi_1 in eq. 26)
+input load N (mN), start 0, nominal 0.1
+    External tangential load on the slider; positive opposes motion in +X
+input frequency_ratio 1, start 1
+    Frequency of the normal load variation over the drive frequency; a change alters a rate, never
+    a phase
+fixed slider_mass kg (g), start 1, from 1e-12
+    Mass M of the slider without its resonator
+fixed resonator_mass kg (g), start 0.1, from 0
+    Mass m of the resonator; 0 leaves a rigid slider (fig. 1)
+fixed resonator_frequency rad/s (Hz), start 3500, from 1e-6
+    Natural angular frequency of the resonator on a held slider, (k/m)^(1/2)
+fixed damping_ratio 1, start 0.05, from 0
+    Damping ratio of the resonator on a held slider, c/(2 (k m)^(1/2))
+tunable normal_preload N, start 1, from 0
+    Constant part N_0 of the normal load
+tunable normal_amplitude N, start 1, from 0
+    Amplitude Delta N of the normal load variation; above normal_preload the contact lifts
+tunable base_amplitude m (um), start 1e-4, from 0
+    Amplitude A of the base excitation of the resonator
+tunable drive_frequency rad/s (Hz), start 3500, from 1e-6
+    Angular frequency w of the tangential drive
+tunable tangential_force N, start 0, nominal 1
+    Amplitude of a direct tangential drive force on the slider (fig. 1)
+tunable friction_coefficient 1, start 0.1, from 0
+    Coulomb coefficient mu of each face
+choice friction_faces, start 2, from 1, to 2
+    Number of faces that rub: 2 in fig. 6, 1 in fig. 1
+choice friction_law, start 0, from 0, to 1
+    0: Coulomb, 1: LuGre
+fixed bristle_stiffness 1/m, start 1e5, from 0
+    LuGre bristle stiffness per unit normal load, sigma_0 (eq. 8)
+fixed bristle_damping s/m, start 10, from 0
+    LuGre bristle damping per unit normal load, sigma_1 (eq. 8)
+choice fidelity, start 2, from 0, to 2
+    Number of resolved degrees of freedom: 0 slow motion, by averaging_order, 1 slider under the
+    steady resonator force (eq. 34), 2 full device (eqs 26-27)
+choice averaging_order, start 2, from 1, to 2
+    1: averages over the vibration without friction, 2: resolved motion that leaps over periods;
+    for motion at fidelity 0 and for the predictions at all fidelities
+fixed tolerance 1, start 1e-8, from 1e-14, to 0.01
+    Error of LuGre friction, relative to the velocities of slider and resonator, each by itself;
+    error that leaps over periods may make in the slow velocity, over the fast velocity. Resolved
+    Coulomb friction needs none
+fixed initial_position m (mm), start 0, nominal 1e-3
+    Slider position at the start
+fixed initial_velocity m/s (mm/s), start 0, nominal 0.1
+    Slider velocity at the start; at fidelity 0 and 1 it fixes, with initial_resonator_velocity,
+    the momentum of slider and resonator
+fixed initial_resonator_displacement m (um), start 0, nominal 1e-3
+    Resonator displacement relative to the slider at the start
+fixed initial_resonator_velocity m/s (mm/s), start 0, nominal 1
+    Resonator velocity relative to the slider at the start
+fixed initial_bristle_deflection m (um), start 0, nominal 1e-6
+    LuGre bristle deflection z at the start
+output position m (mm), nominal 1e-3
+    Slider position X
+    initially on: initial_position
+output velocity m/s (mm/s), nominal 0.1
+    Slider velocity X'
+    initially on: fidelity STEADY_RESONATOR initial_velocity initial_resonator_velocity
+output mean_velocity m/s (mm/s), nominal 0.1
+    Exact mean velocity over the last whole drive period (since the start before the first period
+    is complete); by averages of first order the slow velocity
+    initially on: WHICH_MOTION initial_velocity initial_resonator_velocity
+output resonator_displacement m (um), nominal 1e-3
+    Resonator displacement Y relative to the slider
+    initially on: WHICH_MOTION initial_resonator_displacement
+output resonator_velocity m/s (mm/s), nominal 1
+    Resonator velocity Y' relative to the slider
+    initially on: WHICH_MOTION initial_resonator_velocity
+output normal_force N, nominal 1
+    Normal load N of each face; 0 while the contact is lifted
+    depends on: phase
+    initially on: NORMAL_FORCE
+output friction_force N (mN), nominal 0.1
+    Friction force F of all faces on the slider; positive opposes motion in +X
+    depends on: INPUTS
+    initially on: FRICTION
+count contact_mode 1, from -1, to 2
+    -1: slips backwards, 0: sticks, 1: slips forwards, 2: lifted
+    depends on: INPUTS
+    initially on: FRICTION
+count reversals 1, from 0
+    Number of times that sliding began in the direction opposite to the sliding before
+output stick_fraction 1 (%), from 0, to 1, nominal 1
+    Fraction of the last whole drive period spent sticking
+    initially on: FRICTION
+count last_event_time s (ms)
+    Time of the last reversal, stick, release, lift-off or touchdown; at first the start time
+output steady_velocity m/s (mm/s), nominal 0.1
+    Steady velocity for the present inputs: that of the periodic motion of the full device, or by
+    averages of first order (eq. 20); the highest where friction and load balance over a range of
+    velocities
+    depends on: INPUTS
+    initially on: AVERAGED_THEORY load
+output blocking_force N (mN), nominal 0.1
+    Load that stops the slider, for the present inputs: that of the periodic motion of the full
+    device, or by averages of first order (eq. 22)
+    depends on: phase frequency_ratio
+    initially on: AVERAGED_THEORY
+count prediction_valid 1, from 0, to 1
+    1: steady_velocity and blocking_force apply; 0: the load exceeds the mean friction of sliding,
+    no steady vibration overcomes this friction, or (averaging_order 2) no periodic motion of the
+    full device was found
+    depends on: INPUTS
+    initially on: AVERAGED_THEORY load
+output slow_motion_error m/s (mm/s), from 0
+    Estimated error of the slow velocity at fidelity 0, measured along leaps by averaging_order 2;
+    0 at fidelity 1 and 2
+    depends on: INPUTS
+    initially on: WHICH_MOTION load
+"""
 
-VARIABLES: tuple[Variable, ...] = (
-    _input(
-        "phase",
-        "Phase of the normal load variation relative to its own drive (phi_1 in eq. 26)",
-        start=0.0,
-        unit="rad",
-        display_unit="deg",
-        nominal=1.0,
-    ),
-    _input(
-        "load",
-        "External tangential load on the slider; positive opposes motion in +X",
-        start=0.0,
-        unit="N",
-        display_unit="mN",
-        nominal=0.1,
-    ),
-    _input(
-        "frequency_ratio",
-        "Frequency of the normal load variation over the drive frequency; a change alters a rate, "
-        "never a phase",
-        start=1.0,
-        unit="1",
-        nominal=1.0,
-    ),
-    _fixed(
-        "slider_mass",
-        "Mass M of the slider without its resonator",
-        start=1.0,
-        unit="kg",
-        display_unit="g",
-        minimum=1e-12,
-        nominal=1.0,
-    ),
-    _fixed(
-        "resonator_mass",
-        "Mass m of the resonator; 0 leaves a rigid slider (fig. 1)",
-        start=0.1,
-        unit="kg",
-        display_unit="g",
-        minimum=0.0,
-        nominal=0.1,
-    ),
-    _fixed(
-        "resonator_frequency",
-        "Natural angular frequency of the resonator on a held slider, (k/m)^(1/2)",
-        start=3500.0,
-        unit="rad/s",
-        display_unit="Hz",
-        minimum=1e-6,
-        nominal=3500.0,
-    ),
-    _fixed(
-        "damping_ratio",
-        "Damping ratio of the resonator on a held slider, c/(2 (k m)^(1/2))",
-        start=0.05,
-        unit="1",
-        minimum=0.0,
-        nominal=0.05,
-    ),
-    _tunable(
-        "normal_preload",
-        "Constant part N_0 of the normal load",
-        start=1.0,
-        unit="N",
-        minimum=0.0,
-        nominal=1.0,
-    ),
-    _tunable(
-        "normal_amplitude",
-        "Amplitude Delta N of the normal load variation; above normal_preload the contact lifts",
-        start=1.0,
-        unit="N",
-        minimum=0.0,
-        nominal=1.0,
-    ),
-    _tunable(
-        "base_amplitude",
-        "Amplitude A of the base excitation of the resonator",
-        start=1e-4,
-        unit="m",
-        display_unit="um",
-        minimum=0.0,
-        nominal=1e-4,
-    ),
-    _tunable(
-        "drive_frequency",
-        "Angular frequency w of the tangential drive",
-        start=3500.0,
-        unit="rad/s",
-        display_unit="Hz",
-        minimum=1e-6,
-        nominal=3500.0,
-    ),
-    _tunable(
-        "tangential_force",
-        "Amplitude of a direct tangential drive force on the slider (fig. 1)",
-        start=0.0,
-        unit="N",
-        nominal=1.0,
-    ),
-    _tunable(
-        "friction_coefficient",
-        "Coulomb coefficient mu of each face",
-        start=0.1,
-        unit="1",
-        minimum=0.0,
-        nominal=0.1,
-    ),
-    _choice(
-        "friction_faces",
-        "Number of faces that rub: 2 in fig. 6, 1 in fig. 1",
-        start=2,
-        minimum=1,
-        maximum=2,
-    ),
-    _choice(
-        "friction_law",
-        "0: Coulomb, 1: LuGre",
-        start=0,
-        minimum=0,
-        maximum=1,
-    ),
-    _fixed(
-        "bristle_stiffness",
-        "LuGre bristle stiffness per unit normal load, sigma_0 (eq. 8)",
-        start=1e5,
-        unit="1/m",
-        minimum=0.0,
-        nominal=1e5,
-    ),
-    _fixed(
-        "bristle_damping",
-        "LuGre bristle damping per unit normal load, sigma_1 (eq. 8)",
-        start=10.0,
-        unit="s/m",
-        minimum=0.0,
-        nominal=10.0,
-    ),
-    _choice(
-        "fidelity",
-        "Number of resolved degrees of freedom: 0 slow motion, by averaging_order, 1 slider under "
-        "the steady resonator force (eq. 34), 2 full device (eqs 26-27)",
-        start=2,
-        minimum=0,
-        maximum=2,
-    ),
-    _choice(
-        "averaging_order",
-        "1: averages over the vibration without friction, 2: resolved motion that leaps over "
-        "periods; for motion at fidelity 0 and for the predictions at all fidelities",
-        start=2,
-        minimum=1,
-        maximum=2,
-    ),
-    _fixed(
-        "tolerance",
-        "Error of LuGre friction, relative to the velocities of slider and resonator, each by "
-        "itself; error that leaps over periods may make in the slow velocity, over the fast "
-        "velocity. Resolved Coulomb friction needs none",
-        start=1e-8,
-        unit="1",
-        minimum=1e-14,
-        maximum=1e-2,
-        nominal=1e-8,
-    ),
-    _fixed(
-        "initial_position",
-        "Slider position at the start",
-        start=0.0,
-        unit="m",
-        display_unit="mm",
-        nominal=1e-3,
-    ),
-    _fixed(
-        "initial_velocity",
-        "Slider velocity at the start; at fidelity 0 and 1 it fixes, with "
-        "initial_resonator_velocity, the momentum of slider and resonator",
-        start=0.0,
-        unit="m/s",
-        display_unit="mm/s",
-        nominal=0.1,
-    ),
-    _fixed(
-        "initial_resonator_displacement",
-        "Resonator displacement relative to the slider at the start",
-        start=0.0,
-        unit="m",
-        display_unit="um",
-        nominal=1e-3,
-    ),
-    _fixed(
-        "initial_resonator_velocity",
-        "Resonator velocity relative to the slider at the start",
-        start=0.0,
-        unit="m/s",
-        display_unit="mm/s",
-        nominal=1.0,
-    ),
-    _fixed(
-        "initial_bristle_deflection",
-        "LuGre bristle deflection z at the start",
-        start=0.0,
-        unit="m",
-        display_unit="um",
-        nominal=1e-6,
-    ),
-    _output(
-        "position",
-        "Slider position X",
-        unit="m",
-        display_unit="mm",
-        nominal=1e-3,
-        depends_initially_on=("initial_position",),
-    ),
-    _output(
-        "velocity",
-        "Slider velocity X'",
-        unit="m/s",
-        display_unit="mm/s",
-        nominal=0.1,
-        # At fidelity 1 it follows from the momentum, less that of the steady vibration.
-        depends_initially_on=(
-            "fidelity",
-            *_STEADY_RESONATOR,
-            "initial_velocity",
-            "initial_resonator_velocity",
-        ),
-    ),
-    _output(
-        "mean_velocity",
-        "Exact mean velocity over the last whole drive period (since the start before the first "
-        "period is complete); by averages of first order the slow velocity",
-        unit="m/s",
-        display_unit="mm/s",
-        nominal=0.1,
-        # By first order it is the momentum of the pair over the mass, without the vibration.
-        depends_initially_on=(*_WHICH_MOTION, "initial_velocity", "initial_resonator_velocity"),
-    ),
-    _output(
-        "resonator_displacement",
-        "Resonator displacement Y relative to the slider",
-        unit="m",
-        display_unit="um",
-        nominal=1e-3,
-        depends_initially_on=(*_WHICH_MOTION, "initial_resonator_displacement"),
-    ),
-    _output(
-        "resonator_velocity",
-        "Resonator velocity Y' relative to the slider",
-        unit="m/s",
-        display_unit="mm/s",
-        nominal=1.0,
-        depends_initially_on=(*_WHICH_MOTION, "initial_resonator_velocity"),
-    ),
-    _output(
-        "normal_force",
-        "Normal load N of each face; 0 while the contact is lifted",
-        unit="N",
-        nominal=1.0,
-        depends_on=("phase",),
-        depends_initially_on=_NORMAL_FORCE,
-    ),
-    _output(
-        "friction_force",
-        "Friction force F of all faces on the slider; positive opposes motion in +X",
-        unit="N",
-        display_unit="mN",
-        nominal=0.1,
-        depends_on=_INPUTS,
-        depends_initially_on=_FRICTION,
-    ),
-    _count(
-        "contact_mode",
-        "-1: slips backwards, 0: sticks, 1: slips forwards, 2: lifted",
-        unit="1",
-        minimum=-1.0,
-        maximum=2.0,
-        depends_on=_INPUTS,
-        depends_initially_on=_FRICTION,
-    ),
-    _count(
-        "reversals",
-        "Number of times that sliding began in the direction opposite to the sliding before",
-        unit="1",
-        minimum=0.0,
-    ),
-    _output(
-        "stick_fraction",
-        "Fraction of the last whole drive period spent sticking",
-        unit="1",
-        display_unit="%",
-        minimum=0.0,
-        maximum=1.0,
-        nominal=1.0,
-        # 0 or 1, by the contact mode, before the first step.
-        depends_initially_on=_FRICTION,
-    ),
-    _count(
-        "last_event_time",
-        "Time of the last reversal, stick, release, lift-off or touchdown; at first the start time",
-        unit="s",
-        display_unit="ms",
-    ),
-    _output(
-        "steady_velocity",
-        "Steady velocity for the present inputs: that of the periodic motion of the full device, "
-        "or by averages of first order (eq. 20); the highest where friction and load balance over "
-        "a range of velocities",
-        unit="m/s",
-        display_unit="mm/s",
-        nominal=0.1,
-        depends_on=_INPUTS,
-        depends_initially_on=(*_AVERAGED_THEORY, "load"),
-    ),
-    _output(
-        "blocking_force",
-        "Load that stops the slider, for the present inputs: that of the periodic motion of the "
-        "full device, or by averages of first order (eq. 22)",
-        unit="N",
-        display_unit="mN",
-        nominal=0.1,
-        depends_on=("phase", "frequency_ratio"),
-        depends_initially_on=_AVERAGED_THEORY,
-    ),
-    _count(
-        "prediction_valid",
-        "1: steady_velocity and blocking_force apply; 0: the load exceeds the mean friction of "
-        "sliding, no steady vibration overcomes this friction, or (averaging_order 2) no periodic "
-        "motion of the full device was found",
-        unit="1",
-        minimum=0.0,
-        maximum=1.0,
-        depends_on=_INPUTS,
-        depends_initially_on=(*_AVERAGED_THEORY, "load"),
-    ),
-    _output(
-        "slow_motion_error",
-        "Estimated error of the slow velocity at fidelity 0, measured along leaps by "
-        "averaging_order 2; 0 at fidelity 1 and 2",
-        unit="m/s",
-        display_unit="mm/s",
-        minimum=0.0,
-        depends_on=_INPUTS,
-        depends_initially_on=(*_WHICH_MOTION, "load"),
-    ),
-)
+
+def _entries(text: str) -> Iterator[tuple[str, list[str]]]:
+    """The heads of entries, and the indented lines below each."""
+    for entry in re.split(r"\n(?=\S)", text.strip()):
+        head, *lines = entry.splitlines()
+        yield head, [line.strip() for line in lines]
+
+
+_GROUPS = {name: " ".join(lines).split() for name, lines in _entries(GROUPS)}
+
+
+def _names(words: list[str]) -> tuple[str, ...]:
+    """The names of variables in a list, with those of groups in their place."""
+    return tuple(n for w in words for n in (_names(_GROUPS[w]) if w in _GROUPS else (w,)))
+
+
+def _variable(head: str, lines: list[str]) -> Variable:
+    first, *settings = head.split(", ")
+    kind, name, *units = first.split()
+    number = int if kind == "choice" else float
+    given: dict[str, float] = {k: number(v) for k, v in (text.split() for text in settings)}
+    depends = dict(line.split(": ") for line in lines if line.startswith(DEPENDENCIES))
+    on_inputs, initially = (_names(depends.get(key, "").split()) for key in DEPENDENCIES)
+    return Variable(
+        name,
+        " ".join(line for line in lines if not line.startswith(DEPENDENCIES)),
+        "Integer" if kind == "choice" else "Real",
+        *KINDS[kind],
+        start=given.get("start"),
+        unit=units[0] if units else None,
+        display_unit=units[1].strip("()") if len(units) > 1 else None,
+        minimum=given.get("from"),
+        maximum=given.get("to"),
+        nominal=given.get("nominal", None if kind == "choice" else given.get("start")),
+        depends_on=on_inputs,
+        depends_initially_on=initially,
+    )
+
+
+VARIABLES: tuple[Variable, ...] = tuple(_variable(*entry) for entry in _entries(TABLE))
 
 VALUE_REFERENCE: dict[str, int] = {v.name: i for i, v in enumerate(VARIABLES)}

@@ -10,11 +10,12 @@ import pytest
 from fmu_src.python.slider_component import events
 from fmu_src.python.slider_component.component import motion_of
 from fmu_src.python.slider_component.contact import BACKWARD, FORWARD, LIFTED, STICK
-from fmu_src.python.slider_component.device import Device, hold
+from fmu_src.python.slider_component.device import Device, System
 from fmu_src.python.slider_component.first_zero import Watch, first_zero
 from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.parameters import Inputs
-from fmu_src.python.slider_component.sliding import RegularSlide, SplitSlide
+from fmu_src.python.slider_component.series import Series
+from fmu_src.python.slider_component.sliding import Motion, Rest, Slide
 from tests.fmu_src.python.motions import BLOCK, PERIOD, TABLE_1, after
 
 
@@ -63,19 +64,27 @@ def test_flight_has_no_friction() -> None:
 
 
 @pytest.mark.parametrize("ratio", [1.0, 3.0, 1.37, -1.0, 0.0])
-@pytest.mark.parametrize("sign", [1, -1, 0])
-@pytest.mark.parametrize("damping", [0.025, 0.05, 0.6])
-def test_both_closed_forms_agree(ratio: float, sign: int, damping: float) -> None:
-    device = replace(TABLE_1, damping_ratio=damping)
-    system = hold(device, Inputs(phase=0.3, load=0.02, frequency_ratio=ratio))
-    assert system.split is not None, "this device is split"
-    now = Moment(0.1 * sign, 2e-4, -1.1, 0.0, theta=1.0, psi=1.7)
-    fast, slow = (form(system, sign, now, sign) for form in (SplitSlide, RegularSlide))
-    for t in (1e-7, 3e-4, 2e-3):
-        assert fast.travel(t) == pytest.approx(slow.travel(t), abs=1e-17)
+@pytest.mark.parametrize("mode", [FORWARD, BACKWARD, LIFTED, STICK])
+@pytest.mark.parametrize("damping", [0.025, 0.6, 2.0])
+def test_exponentials_and_series_agree(ratio: float, mode: int, damping: float) -> None:
+    device = replace(TABLE_1, damping_ratio=damping, tangential_force=3.0)
+    system = System(device, Inputs(phase=0.3, load=0.02, frequency_ratio=ratio))
+    velocity = 0.1 * mode if mode != LIFTED else 0.1
+    now = Moment(velocity, 2e-4, -1.1, 0.0, theta=1.0, psi=1.7, mode=mode)
+    if mode == STICK:
+        motions: tuple[Motion, ...] = (Rest(system, now), Series(system, now, 0, rests=True))
+    else:
+        direction = 0 if mode == LIFTED else mode
+        motions = (Slide(system, now, direction), Series(system, now, direction))
+    fast, slow = motions
+    assert slow.reach > 1e-5
+    for t in (1e-7, 0.5 * slow.reach, slow.reach):
         assert fast.at(t) == pytest.approx(slow.at(t), rel=1e-12, abs=1e-14)
         for a, b in zip(fast.watches(t), slow.watches(t), strict=True):
-            assert a.signal(t)[:2] == pytest.approx(b.signal(t)[:2], rel=1e-11, abs=1e-13)
+            value, slope, bound = a.signal(t)
+            assert (value, slope) == pytest.approx(b.signal(t)[:2], rel=1e-11, abs=1e-9)
+            before = a.signal(0.9 * t)[1]
+            assert abs(slope - before) <= 1.001 * a.signal(0.9 * t)[2] * 0.1 * t + 1e-9 * bound
 
 
 def test_a_change_of_ratio_or_frequency_makes_no_jump() -> None:

@@ -142,12 +142,6 @@ def test_a_zero_where_it_is_expected_costs_few_evaluations() -> None:
     assert len(calls) <= 3
 
 
-@pytest.mark.parametrize(("height", "expected"), [(1e-3, True), (1e-20, False)])
-def test_a_motion_within_rounding_does_not_exceed_it(height: float, expected: bool) -> None:
-    signal = sine_sum(0.0, [(height, 1.0, 0.0)])
-    assert watch(signal).exceeds_noise(math.pi) is expected
-
-
 @pytest.mark.parametrize("expected", [0.97, 0.98, 0.99])
 def test_a_zero_expected_beyond_the_limit_does_not_hide_the_first(expected: float) -> None:
     """The bound of the curvature holds up to the limit; beyond it the signal falls steeply."""

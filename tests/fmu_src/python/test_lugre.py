@@ -14,6 +14,7 @@ from fmu_src.python.slider_component import lugre
 from fmu_src.python.slider_component.component import motion_of
 from fmu_src.python.slider_component.device import Device
 from fmu_src.python.slider_component.parameters import Inputs
+from fmu_src.python.slider_component.series import Series
 from tests.fmu_src.python import motions
 from tests.fmu_src.python.motions import PERIOD, after, begin
 
@@ -81,12 +82,12 @@ def test_stiffness_costs_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     """Series per run, a count that is the same on any machine."""
     made = []
 
-    class Counted(lugre.BristleSeries):
+    class Counted(Series):
         def __init__(self, *args: Any) -> None:
             made.append(1)
             super().__init__(*args)
 
-    monkeypatch.setattr(lugre, "BristleSeries", Counted)
+    monkeypatch.setattr(lugre, "Series", Counted)
 
     def series(stiffness: float) -> int:
         made.clear()

@@ -1,0 +1,190 @@
+"""Motion in one contact mode as Taylor series in time: what exponentials cannot follow.
+
+That is sliding while a LuGre bristle bends, and all motion where steady responses do not split off:
+near resonance without damping, near critical damping, on soft resonators, under slow normal loads.
+"""
+
+from __future__ import annotations
+
+from cmath import rect
+from math import inf
+from operator import mul, truediv
+from typing import NamedTuple
+
+from .contact import LIFTED
+from .device import EPSILON, System, velocity_scale
+from .first_zero import Watch
+from .moment import Moment, Place
+
+ORDER = 22
+"""Order of the series: close to the cheapest one at any tolerance."""
+
+_COUNT = range(1, ORDER + 2)
+"""1 + the index of each coefficient."""
+
+_STEPS = tuple(1.0 / count for count in range(1, ORDER + 1))
+"""By which integration multiplies each coefficient."""
+
+MUCH_SMALLER = 0.1
+"""Share of the scale of velocities below which a velocity is measured by itself: its series is cut
+shorter to keep the tolerance relative to it."""
+
+FIRST_TERMS = 5
+"""Terms of a series by which its velocity is measured."""
+
+NEGLIGIBLE_MOTION = 1e-200
+"""Motion [m/s] below which a series is not cut shorter."""
+
+MAX_SHRINKS = 10
+"""How often a series is cut shorter."""
+
+ROUNDING = 2.0 * EPSILON
+"""Tolerance of a series of Coulomb friction."""
+
+
+class Bristle(NamedTuple):
+    """A bristle that bends, as a motion needs it.
+
+    Its `friction` sigma_0 z at the start, and mu, sigma_0 and sigma_1 of LuGre friction.
+    """
+
+    friction: float
+    coefficient: float
+    stiffness: float
+    damping: float
+
+
+class Series:
+    """Motion from `now` on in `direction`, or at rest or in flight by the contact mode.
+
+    With a `bristle` that bends; without one friction is Coulomb's. At its `reach` [s] the last
+    terms are `tolerance` times the scale of velocities or, if that is much less, times the velocity
+    itself.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        now: Moment,
+        direction: int,
+        bristle: Bristle | None = None,
+        tolerance: float = ROUNDING,
+        rests: bool = False,
+    ) -> None:
+        w, q, mass = system.drive_frequency, system.normal_frequency, system.slider_mass
+        sign, bending = 0 if now.mode == LIFTED else direction, None
+        if bristle is not None:
+            bending = _Bending(bristle, direction)
+        spring, damper, load = system.spring, system.damper, system.load
+        stiffness, damping = system.stick.stiffness, 2.0 * system.stick.decay
+        drive = -1j * rect(1.0, now.theta)
+        normal = -1j * system.friction_amplitude * rect(1.0, now.psi + system.phase)
+        v, y, u = [now.velocity], [now.displacement], [now.rate]
+        limit, needed = [system.friction_preload + normal.real], []
+        for k, step in enumerate(_STEPS):
+            pull = (system.holding_drive * drive).real + damper * u[k] + spring * y[k] - load
+            needed.append(pull)
+            friction = sign * limit[k] if bending is None else bending.friction(v, limit, step)
+            acceleration = 0.0 if rests else (pull - friction) / mass
+            v.append(acceleration * step)
+            swing = 0.0
+            if system.is_full:
+                swing = system.base_acceleration * drive.real - damping * u[k] - stiffness * y[k]
+                swing -= acceleration
+            y.append(u[k] * step if system.is_full else 0.0)
+            u.append(swing * step)
+            load = 0.0
+            drive *= complex(0.0, w * step)
+            normal *= complex(0.0, q * step)
+            limit.append(normal.real)
+        self._velocity, self._displacement, self._rate = v, y, u
+        self._position = [0.0, *map(truediv, v, _COUNT)]
+        scale = velocity_scale(system, now.velocity, now.displacement, now.rate)
+        self.reach = min(
+            _reach(v, tolerance, scale), _reach(u, tolerance, scale / (system.mass_fraction or 1.0))
+        )
+        self.direction, self.rests, self._limit, self._needed = direction, rests, limit, needed
+        if rests:
+            scale *= tolerance * system.total_mass * w
+            self.reach = min(self.reach, *(_reach_of_last(c, scale) for c in (limit, needed)))
+
+    def departs(self) -> bool:
+        """Whether the motion begins in its direction, or stays at rest."""
+        first = next((c for c in self._velocity if c != 0.0), 0.0)
+        return self.direction * first >= 0.0
+
+    def watches(self, horizon: float) -> tuple[Watch, ...]:
+        """See Motion."""
+        if self.rests:
+            pairs = list(zip(self._limit, self._needed, strict=False))
+            sizes = [abs(limit) + abs(needed) for limit, needed in pairs]
+            spare = [limit - needed for limit, needed in pairs], [sum(pair) for pair in pairs]
+            return tuple(_watch(side, sizes, horizon) for side in spare)
+        if self.direction == 0:
+            return ()
+        watched = [self.direction * c for c in self._velocity]
+        return (_watch(watched, list(map(abs, watched)), horizon),)
+
+    def at(self, t: float) -> Place:
+        """See Motion."""
+        series = self._velocity, self._displacement, self._rate, self._position
+        velocity, displacement, rate, travelled = (_value(c, t) for c in series)
+        return velocity, displacement, rate, travelled
+
+
+class _Bending:
+    """Series of the friction of a bristle that bends, in the equations of `lugre`."""
+
+    def __init__(self, bristle: Bristle, sign: int) -> None:
+        mu = bristle.coefficient
+        self._share, self._bend = bristle.friction / mu, (mu - sign * bristle.friction) / mu
+        self._drag, self._rate = bristle.damping / mu, -sign * bristle.stiffness / mu
+        self._sign, self._lost = sign, 0.0
+        self._decay, self._bent = [1.0], list[float]()
+
+    def friction(self, velocity: list[float], limit: list[float], step: float) -> float:
+        """The next coefficient of the friction force [N], from those of velocity and limit."""
+        product = sum(map(mul, velocity, reversed(self._decay)))
+        self._bent.append(self._drag * product + self._sign * self._lost)
+        faded = self._rate * product * step
+        self._decay.append(faded)
+        self._lost = -faded
+        bent: float = sum(map(mul, limit, reversed(self._bent)))
+        return self._share * limit[-1] + self._bend * bent
+
+
+def _watch(coefficients: list[float], sizes: list[float], horizon: float) -> Watch:
+    """A series as a signal up to `horizon` [s]; its rounding errors grow with `sizes`."""
+    slope = list(map(mul, coefficients[1:], _COUNT))
+    bound = _value([abs(c) * count for c, count in zip(slope[1:], _COUNT, strict=False)], horizon)
+
+    def signal(t: float) -> tuple[float, float, float]:
+        return _value(coefficients, t), _value(slope, t), bound
+
+    return Watch(signal, 4.0 * EPSILON * _value(sizes, horizon), 1.0 / horizon)
+
+
+def _value(coefficients: list[float], t: float) -> float:
+    total = 0.0
+    for c in reversed(coefficients):
+        total = total * t + c
+    return total
+
+
+def _reach(coefficients: list[float], tolerance: float, scale: float) -> float:
+    """How far the series of a velocity holds [s]; see Series."""
+    reach = _reach_of_last(coefficients, tolerance * scale)
+    for _ in range(MAX_SHRINKS):
+        size = _value(list(map(abs, coefficients[:FIRST_TERMS])), reach)
+        if not NEGLIGIBLE_MOTION < size < MUCH_SMALLER * scale:
+            break
+        scale = size
+        reach = _reach_of_last(coefficients, tolerance * scale)
+    return reach
+
+
+def _reach_of_last(coefficients: list[float], tolerance: float) -> float:
+    """Where the last two terms of a series are `tolerance` [s]."""
+    last = len(coefficients) - 1
+    sizes = [(k, abs(coefficients[k])) for k in (last - 1, last)]
+    return min([(tolerance / size) ** (1.0 / k) for k, size in sizes if size > 0.0], default=inf)
