@@ -54,7 +54,7 @@ def test_sources_keep_their_layers(copy: Path) -> None:
             id="from the ground to the roof",
         ),
         pytest.param(
-            "slider_resonator/choosing/cost.py",
+            "slider_resonator/choosing/probe.py",
             "import slider_resonator.sweeping.grid",
             "slider_resonator.choosing is not allowed to import",
             id="between rooms of a layer",

@@ -13,6 +13,8 @@ from slider_resonator.scenes.scene import Scene
 
 MARGIN = 0.99
 """Largest share of an allowed error that an estimate may take."""
+SAME_COST = 1.03
+"""Quotient of two costs that counts as a tie: measured times scatter."""
 
 INPUTS = {
     "interpolated": "inputs go on as straight lines between",
@@ -24,7 +26,7 @@ INPUTS = {
 
 @dataclass(frozen=True)
 class Evaluation:
-    """A candidate with its estimated errors, its cost, and the part of the scene it was run for."""
+    """A candidate with its errors, its cost (s), and what the errors are against."""
 
     candidate: Candidate
     estimates: Mapping[str, ErrorEstimate]
@@ -56,6 +58,20 @@ class Evaluation:
         return error / allowed if allowed > 0.0 else inf if error > 0.0 else 0.0
 
 
+def cheapest(evaluations: Sequence[Evaluation]) -> Evaluation:
+    """Return the cheapest, and of a tie the one whose errors are the smallest of the allowed ones.
+
+    Where these are the same it is resolved motion before others, and the largest tolerance.
+    """
+    most = SAME_COST * min(one.cost for one in evaluations)
+    tied = [one for one in evaluations if one.cost <= most]
+
+    def rank(one: Evaluation) -> tuple[float, int, float]:
+        return one.excess, -one.candidate.model.fidelity, -one.candidate.tolerance
+
+    return min(tied, key=rank)
+
+
 @dataclass(frozen=True)
 class RuledOut:
     """A model that is not the answer, and why."""
@@ -76,12 +92,12 @@ class Choice:
     """The cheapest candidate that meets every need, or the nearest where `meets` is False.
 
     `averaging_order` is None but for averaged motion in an FMU that has a choice of orders. `step`
-    (s) is None for a scene without a run. `error` is what is predicted and `allowed` what is
-    needed, by need in its unit (m/s, m, s, N, Hz), None where there is no such thing. `cost` is in
-    seconds of CPU time by the model in `slider_resonator.choosing.cost`. `probe` says what
-    was resolved to confirm it: "whole" scene, "windows" or "beginning", and `probe_drive_periods`
-    how much. `inputs` is how inputs that are straight lines reach the FMU in the priced run, a key
-    of `INPUTS`, None without any.
+    (s) is None for a scene without a run. `error` is what was measured and `allowed` what is
+    needed, by need in its unit (m/s, m, s, N, Hz), None where there is no such thing. `cost` is the
+    measured CPU time (s) of a run, with the host's. `probe` says what the errors are against:
+    resolved motion over the "whole" scene or its "beginning", "leaps" over the whole, or "steady
+    motion"; and `probe_drive_periods` how much was resolved. `inputs` is how inputs that are
+    straight lines reach the FMU, a key of `INPUTS`, None without any.
     """
 
     fidelity: int
@@ -121,7 +137,7 @@ class Choice:
             f"{'chosen' if self.meets else 'nearest':<9}{self.model.name}",
             f"step     {self._step}",
             f"why      {self.reason}",
-            f"cost     {self.cost:.3g} s of CPU time, by counts of steps and periods",
+            f"cost     {self.cost:.3g} s of CPU time, measured",
             f"probe    {self.probe_drive_periods:.0f} drive periods resolved ({self.probe})",
         ]
 

@@ -1,7 +1,9 @@
-"""Choose the cheapest model for a scene: by error estimates, confirmed by a short resolved run."""
+"""Choose the cheapest model for a scene: by the errors and the cost of its runs."""
 
 from __future__ import annotations
 
+import time
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from math import inf
@@ -15,12 +17,10 @@ from slider_resonator.choosing.candidate import (
     Model,
     models,
 )
-from slider_resonator.choosing.choice import Choice, Evaluation, RuledOut
-from slider_resonator.choosing.cost import run_cost, search_cost
-from slider_resonator.choosing.coverage import FINEST_TOLERANCE
+from slider_resonator.choosing.choice import Choice, Evaluation, RuledOut, cheapest
 from slider_resonator.choosing.errors import Estimates
-from slider_resonator.choosing.ladder import step_ladder
 from slider_resonator.choosing.probe import Probe
+from slider_resonator.choosing.reference import FINEST_TOLERANCE, MAX_PERIODS
 from slider_resonator.choosing.scales import check_magnitudes
 from slider_resonator.choosing.search import coarsest
 from slider_resonator.choosing.steady_need import SteadyValue, find, steady_error
@@ -30,16 +30,19 @@ from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.scenes.scene import Scene
 
-HOPELESS = 1000.0
-"""Ratio of predicted to allowed averaging error above which no probe is needed."""
 FIRST_TOLERANCE = 1e-6
-"""Tolerance at which communication steps are judged and the search for a tolerance starts."""
-DOUBTFUL = (0.1, 10.0)
-"""Errors over allowed ones, from windows, that the whole scene must confirm."""
+"""Tolerance at which the search for a tolerance starts."""
+TIGHTER = {0: 2, 1: 0, 2: 0}
+"""By fidelity, tolerances below the largest one that serves which may cost less: leaps differ."""
 ROUNDING = 1e-9
 """Share of a step that is rounding."""
-MIN_PERIODS = 30
-"""Drive periods of a search by shooting that few searches fall below."""
+DEARER = 5.0
+"""Cost of resolved motion by its beginning, over that of another model, beyond which all of it is
+not run: the beginning, in which the resonator rings, can cost some times more than the rest."""
+NEAR = 2.0
+"""Cost over the smallest one up to which candidates are timed again."""
+ROUNDS, ENOUGH = 25, 0.4
+"""Times that they are run in turn, at most, and CPU time (s) after which no other turn begins."""
 TIME_LIMIT = 600.0
 """Default time limit of a choice, s."""
 
@@ -63,25 +66,20 @@ def choose(
 
 
 def choose_with(instance: Instance, scene: Scene, progress: Progress = no_progress) -> Choice:
-    """Choose as `choose` does, in an existing instance."""
+    """Choose as `choose` does, in an existing instance, which is created anew for each run."""
     progress("resolved run", 0.0)
     return _Choosing(instance, scene).answer(progress)
 
 
-def candidates(instance: Instance, scene: Scene) -> tuple[tuple[Candidate, float], ...]:
-    """Return all that `choose_with` chooses from, with the cost, the cheapest first.
-
-    The cost (s) of a search by shooting is not in it. Raises SceneError for a scene without needs.
-    """
+def candidates(instance: Instance, scene: Scene) -> list[Candidate]:
+    """Return all that `choose_with` chooses from; SceneError for a scene without needs."""
     choosing = _Choosing(instance, scene)
-    found = [
+    return [
         Candidate(model, tolerance, step)
         for model in choosing.models()
         for tolerance in model.tolerances
-        for step in choosing.ladder
+        for step in choosing.steps(model)
     ]
-    costs = ((candidate, choosing.cost(candidate, 0)) for candidate in found)
-    return tuple(sorted(costs, key=lambda pair: pair[1]))
 
 
 class _Choosing:
@@ -96,111 +94,70 @@ class _Choosing:
         check_magnitudes(scene)
         self.instance = instance
         self.needs = scene.need.needs
+        self.free = scene.need.friction_law == "free"
+        self.law = scene.device.friction_law
         self.probe = Probe(instance, scene)
         self.scene = self.probe.scene
-        self.scales = self.probe.scales
-        self.ladder: tuple[float | None, ...] = (None,)
-        if self.probe.run_needs:
-            self.ladder = step_ladder(self.probe)
-        self.law = scene.device.friction_law
         self.periods = 0
+        self.finest = Candidate(self.probe.reference_model, FINEST_TOLERANCE, None)
         self._evaluations: dict[Candidate, Evaluation] = {}
         self._steady: dict[tuple[str, Candidate], SteadyValue] = {}
 
     def answer(self, progress: Progress) -> Choice:
-        """Try the models from the cheapest on."""
+        """Try the models, the simplest first, and time those that serve in turn."""
         if impossible := self._impossible():
-            self._evaluate(Candidate(self.probe.reference_model, START_TOLERANCE, self.ladder[0]))
-            return self._choice(None, [_ruled_out(model, impossible) for model in self.models()])
-        if self.ladder[0] is not None:
-            self.probe.resolve(self.ladder[0])
-        ruled_out: list[RuledOut] = []
-        best: Evaluation | None = None
-        by_cost = sorted(self.models(), key=self._min_cost)
-        for index, model in enumerate(by_cost):
-            progress(counted(model.name, index, len(by_cost)), index / len(by_cost))
-            why = self._excluded(model)
-            if why is None and best is not None and self._min_cost(model) >= best.cost:
-                why = f"costs at least {self._min_cost(model):.3g} s, the chosen {best.cost:.3g} s"
-            found: Evaluation | None = None
-            if why is None:
-                found, why = self._cheapest_of(model)
-            if found is None:
-                ruled_out.append(_ruled_out(model, why))
-            elif best is None:
-                best = found
-            else:
-                best, other = sorted((best, found), key=lambda one: one.cost)
-                ruled_out.append(_more_expensive(other, best))
-        return self._choice(best, ruled_out)
+            start = Candidate(self.probe.reference_model, START_TOLERANCE, self.probe.ladder[0])
+            self._evaluate(start)
+            return self._choice(None, dict.fromkeys(self.models(), impossible))
+        if self.probe.run_needs:
+            self.probe.resolve()
+        ruled_out: dict[Model, str] = {}
+        good: list[Evaluation] = []
+        every = self.models()
+        for index, model in enumerate(every):
+            progress(counted(model.name, index, len(every)), index / len(every))
+            try:
+                good += self._suitable(model, min((one.cost for one in good), default=inf))
+            except _RuledOutError as error:
+                ruled_out[model] = str(error)
+        if not good:
+            return self._choice(None, ruled_out)
+        good = self._timed_again(good)
+        best = cheapest(good)
+        for one in sorted(good, key=lambda one: -one.cost):
+            why = f"meets the needs too, at {one.cost:.3g} s instead of {best.cost:.3g} s"
+            ruled_out[one.candidate.model] = why
+        return self._choice(best, {model: ruled_out[model] for model in every})
 
     def _impossible(self) -> str:
         """Return why the resolved device itself lacks a needed quantity, empty if it does not."""
         if self.probe.no_beat:
             return f"beat: {self.probe.no_beat}"
-        finest = Candidate(self.probe.reference_model, FINEST_TOLERANCE, None)
         for name in self.probe.steady_needs:
-            found = self._find(name, finest)
+            found = self._find(name, self.finest)
             if found.value is None:
                 return f"{name}: {found.reason}"
         return ""
 
     def models(self) -> list[Model]:
         """Return the models that the scene allows."""
-        free = self.scene.need is not None and self.scene.need.friction_law == "free"
-        laws = (COULOMB, LUGRE) if free and self.law == LUGRE else (self.law,)
+        laws = (COULOMB, LUGRE) if self.free and self.law == LUGRE else (self.law,)
         return models(laws, self.probe.averaging_orders)
 
-    def _excluded(self, model: Model) -> str | None:
-        """Return the reason against a model that needs no probe, None where it needs one."""
-        if model.fidelity > 0:
-            return None
-        if "event_times" in self.needs:
-            return "averaged motion has no events"
-        if model.averaging_order == 2:
-            if self.scales.has_slow_motion or not self.scene.stop_time:
-                return None  # predictions need no slow motion
-            return "no motion is slow against the resonator: there is nothing to leap over"
-        error = self.scales.averaging_error or 0.0
-        for name in ("mean_velocity", "velocity") if self.law == COULOMB else ():
-            need = self.needs.get(name)
-            if need and need.rel is None and error > HOPELESS * (need.abs or inf):
-                return f"{name}: {self._law_of(model)}, must be at most {need.abs:.2g} m/s"
-        return None
+    def steps(self, model: Model) -> tuple[float | None, ...]:
+        """Return the communication steps (s) to choose from, descending."""
+        longest = MAX_PERIODS * self.probe.scales.period * (1.0 + ROUNDING)
+        fit = [step for step in self.probe.ladder if step is None or step <= longest]
+        return tuple(fit) if model.fidelity > 0 else self.probe.ladder
 
-    def _law_of(self, model: Model) -> str:
-        """Return the error estimates of a model by theory, empty without any."""
-        scales = self.scales
-        if model.friction_law != self.law and scales.kappa:
-            share = scales.bristle_share
-            return f"the bristle bends for a share of about {share:.1g} of the time"
-        if model.averaging_order == 2:
-            return ""
-        if model.fidelity == 0 and scales.averaging_error is not None:
-            return f"averaging errs by the order of {scales.averaging_error:.1g} m/s"
-        if model.fidelity == 1:
-            return (
-                f"the resonator starts from rest and remembers {scales.memory:.2g} drive periods, "
-                f"r_m is {scales.mass_ratio:.2g}"
-            )
-        return ""
+    def _suitable(self, model: Model, best: float) -> list[Evaluation]:
+        """Return the candidates of a model that serve: few tolerances at the largest step.
 
-    def _min_cost(self, model: Model) -> float:
-        return self.cost(Candidate(model, model.tolerances[0], self.ladder[0]), MIN_PERIODS)
-
-    def cost(self, candidate: Candidate, periods: int) -> float:
-        """Return the cost of the run and of searches over that number of drive periods."""
-        cost = 0.0
-        if candidate.step is not None:
-            cost += run_cost(candidate, self.scales, self.probe.plan(candidate.step))
-        if self.probe.steady_needs:
-            cost += search_cost(candidate.model, candidate.tolerance, periods, self.scales)
-        return cost
-
-    def _cheapest_of(self, model: Model) -> tuple[Evaluation | None, str]:
-        """Return the cheapest candidate of a model that meets all needs, or why none does."""
-        tolerances = model.tolerances
-        first = tolerances.index(FIRST_TOLERANCE) if FIRST_TOLERANCE in tolerances else 0
+        Raises _RuledOutError where none does, or where they cost much more than `best` (s).
+        """
+        if model.fidelity == 0 and "event_times" in self.needs:
+            raise _RuledOutError("averaged motion has no events")
+        tolerances, steps = model.tolerances, self.steps(model)
         refused = ""
 
         def excess(tolerance: float, step: float | None) -> float:
@@ -211,30 +168,48 @@ class _Choosing:
                 refused = str(error)
                 return inf
 
-        tight = tolerances[-1]
-        own = self._own_step() if self.probe.varying else 0
-        at = coarsest(lambda i: excess(tight, self.ladder[i]), len(self.ladder), 2.0, fine=own)
+        self._check_cost(model, best)
+        tight, own = tolerances[-1], self._own_step(steps) if self.probe.varying else 0
+        at = coarsest(lambda i: excess(tight, steps[i]), len(steps), 2.0, fine=own)
         if at is None:
-            return None, self._why_not(model, refused)
-        if self.probe.covers == "whole":  # errors that change sign may vanish at a coarser step
-            at = next(i for i in range(at + 1) if excess(tight, self.ladder[i]) <= 1.0)
-        step = self.ladder[at]
+            raise _RuledOutError(self._why_not(model, refused))
+        # Errors that change sign may vanish at a larger step.
+        step = next(steps[i] for i in range(at + 1) if excess(tight, steps[i]) <= 1.0)
+        first = tolerances.index(FIRST_TOLERANCE) if FIRST_TOLERANCE in tolerances else 0
         index = coarsest(lambda i: excess(tolerances[i], step), len(tolerances), 10.0, first)
         if index is None:
-            return None, self._why_not(model, refused)
-        rest = tolerances[index:] if self.probe.steady_needs else tolerances[index : index + 1]
-        found = [Candidate(model, one, step) for one in rest if excess(one, step) <= 1.0]
-        return min(map(self._evaluate, found), key=lambda one: one.cost), ""
+            raise _RuledOutError(self._why_not(model, refused))
+        found = [self._evaluate(Candidate(model, tolerances[index], step))]
+        for tolerance in tolerances[index + 1 : index + 1 + TIGHTER[model.fidelity]]:
+            if excess(tolerance, step) >= found[-1].excess:
+                break  # nothing is leapt over
+            found.append(self._evaluate(Candidate(model, tolerance, step)))
+        return found
 
-    def _own_step(self) -> int:
+    def _check_cost(self, model: Model, best: float) -> None:
+        """Raise _RuledOutError for resolved motion that costs much more than `best` (s)."""
+        if model.fidelity == 0 or best == inf:
+            return
+        cost = sum(self._find(name, self.finest).seconds for name in self.probe.steady_needs)
+        if self.probe.run_needs:
+            start = Candidate(model, model.tolerances[0], self.steps(model)[0])
+            try:
+                cost += self.probe.head_cost(start)
+            except FmuError:
+                return
+        if cost > DEARER * best:
+            raise _RuledOutError(f"costs about {cost:.3g} s, another one {best:.3g} s")
+
+    def _own_step(self, steps: Sequence[float | None]) -> int:
         """Return the index of the scene's own step, 0 without one."""
         own = (self.scene.step_size or 0.0) * (1.0 + ROUNDING)
-        return next((i for i, step in enumerate(self.ladder) if step and step <= own), 0)
+        return next((i for i, step in enumerate(steps) if step and step <= own), 0)
 
     def _why_not(self, model: Model, refused: str) -> str:
         if all(candidate.model != model for candidate in self._evaluations):
             return refused
-        return "; ".join(filter(None, (self._nearest(model).why, self._law_of(model))))
+        why = self._nearest(model).why
+        return "; ".join(filter(None, (why, self.probe.scales.error_of(model, self.law))))
 
     def _nearest(self, model: Model | None = None) -> Evaluation:
         """Return the evaluation nearest to the needs, of all or a model; the finest of equals."""
@@ -244,28 +219,19 @@ class _Choosing:
     def _evaluate(self, candidate: Candidate) -> Evaluation:
         if candidate not in self._evaluations:
             estimates: Estimates = {}
-            periods = 0
+            cost = 0.0
             if self.probe.run_needs:
-                estimates |= self.probe.run_errors(candidate)
+                measured = self.probe.measure(candidate)
+                estimates |= measured.errors
+                cost += measured.seconds
             for name in self.probe.steady_needs:
                 found = self._find(name, candidate)
-                finest = Candidate(self.probe.reference_model, FINEST_TOLERANCE, None)
-                estimates[name] = steady_error(found, self._find(name, finest), self.law)
-                periods += found.periods
-            cost = self.cost(candidate, periods)
+                estimates[name] = steady_error(found, self._find(name, self.finest), self.law)
+                cost += found.seconds
+            allowed = {name: self.needs[name].at(e.magnitude) for name, e in estimates.items()}
             covers = self.probe.covers if self.probe.run_needs else "steady motion"
-            evaluation = self._evaluated(candidate, estimates, cost, covers)
-            if self.probe.can_be_confirmed and DOUBTFUL[0] < evaluation.excess < DOUBTFUL[1]:
-                estimates |= self.probe.confirmed_errors(candidate)
-                evaluation = self._evaluated(candidate, estimates, cost, "whole")
-            self._evaluations[candidate] = evaluation
+            self._evaluations[candidate] = Evaluation(candidate, estimates, allowed, cost, covers)
         return self._evaluations[candidate]
-
-    def _evaluated(
-        self, candidate: Candidate, estimates: Estimates, cost: float, covers: str
-    ) -> Evaluation:
-        allowed = {name: self.needs[name].at(estimates[name].magnitude) for name in estimates}
-        return Evaluation(candidate, dict(estimates), allowed, cost, covers)
 
     def _find(self, name: str, candidate: Candidate) -> SteadyValue:
         key = name, replace(candidate, step=None)
@@ -274,7 +240,26 @@ class _Choosing:
             self.periods += self._steady[key].periods
         return self._steady[key]
 
-    def _choice(self, best: Evaluation | None, ruled_out: list[RuledOut]) -> Choice:
+    def _timed_again(self, good: Sequence[Evaluation]) -> list[Evaluation]:
+        """Return candidates with the smallest of several costs, measured in turn."""
+        costs = {one.candidate: one.cost for one in good}
+        began = time.process_time()
+        for _ in range(ROUNDS):
+            near = [one for one, cost in costs.items() if cost <= NEAR * min(costs.values())]
+            if len(near) == 1 or time.process_time() - began > ENOUGH:
+                break
+            for candidate in near:
+                costs[candidate] = min(self._cost(candidate), costs[candidate])
+        return [replace(one, cost=costs[one.candidate]) for one in good]
+
+    def _cost(self, candidate: Candidate) -> float:
+        """Measure the cost (s) of a candidate anew."""
+        names, values = self.probe.steady_needs, self.scene.values
+        found = [find(self.instance, values, name, candidate) for name in names]
+        run = self.probe.cost(candidate) if self.probe.run_needs else 0.0
+        return run + sum(one.seconds for one in found)
+
+    def _choice(self, best: Evaluation | None, ruled_out: Mapping[Model, str]) -> Choice:
         evaluation = best or self._nearest()
         model = evaluation.candidate.model
         none = f"none suffices: {evaluation.why}"
@@ -288,19 +273,18 @@ class _Choosing:
             error={name: estimate.error for name, estimate in evaluation.estimates.items()},
             allowed=evaluation.allowed,
             cost=evaluation.cost,
-            ruled_out=tuple(ruled_out),
+            ruled_out=tuple(
+                RuledOut(other.fidelity, other.friction_law, why, other.averaging_order)
+                for other, why in ruled_out.items()
+                if best is None or other != model
+            ),
             reason="the cheapest that meets every need" if best else none,
             probe=evaluation.probe,
             probe_drive_periods=self.probe.drive_periods + self.periods,
-            scales=self.scales,
+            scales=self.probe.scales,
             inputs=self.probe.inputs,
         )
 
 
-def _more_expensive(evaluation: Evaluation, best: Evaluation) -> RuledOut:
-    why = f"meets the needs too, at {evaluation.cost:.3g} s instead of {best.cost:.3g} s"
-    return _ruled_out(evaluation.candidate.model, why)
-
-
-def _ruled_out(model: Model, why: str) -> RuledOut:
-    return RuledOut(model.fidelity, model.friction_law, why, model.averaging_order)
+class _RuledOutError(Exception):
+    """Why a model is not the answer."""

@@ -8,11 +8,11 @@ from math import inf
 
 import numpy as np
 
+from slider_resonator.arrays import Array
 from slider_resonator.checks.measures.deviation import peak
 from slider_resonator.checks.measures.frequency import dominant_frequency
-from slider_resonator.choosing.candidate import COULOMB
-from slider_resonator.choosing.stretch import Samples
 from slider_resonator.device.schedule import nearest
+from slider_resonator.fmu.record import Record
 
 ROUNDING = {0: 1e-12, 1: 1e-10}
 """Error of the resolved run itself, by friction law, as a share of the magnitude."""
@@ -36,55 +36,58 @@ Estimates = dict[str, ErrorEstimate]
 """Errors by need."""
 
 
-def errors(
-    names: Iterable[str], samples: Samples, reference: Samples, period: float, law: int = COULOMB
-) -> Estimates:
-    """Return the error of each needed quantity of a run, as `Quantity` of that name defines it.
+@dataclass(frozen=True)
+class Compared:
+    """A run and its reference, with the times (s) at which both are read.
 
-    Signals are compared at their checkpoints, numbers at the end. `period` (s) is the drive's,
-    `law` the friction law of the reference.
+    Signals are compared at `points` (n,), numbers at the last of them, and a beat is read at
+    `grid` (m,), which is equidistant. `period` (s) is the drive's.
     """
-    measures = {
-        "mean_velocity": lambda: _difference(samples, reference, "mean_velocity", slice(-1, None)),
-        "position": lambda: _difference(samples, reference, "position", slice(None)),
-        "velocity": lambda: _difference(samples, reference, "velocity", slice(None)),
-        "event_times": lambda: _events(samples, reference, period),
-        "beat": lambda: _beat(samples, reference),
-    }
-    found = {name: measures[name]() for name in names}
-    floors = {name: ROUNDING[law] * estimate.magnitude for name, estimate in found.items()}
-    if "event_times" in floors:
-        floors["event_times"] = EVENT_ROUNDING * period
-    return {
-        name: ErrorEstimate(max(estimate.error, floors[name]), estimate.magnitude, estimate.reason)
-        for name, estimate in found.items()
-    }
+
+    record: Record
+    reference: Record
+    points: Array
+    grid: Array
+    period: float
+
+    def errors(self, names: Iterable[str], law: int) -> Estimates:
+        """Return the error of each needed quantity, as the table [need] defines it.
+
+        `law` is the friction law of the reference.
+        """
+        return {name: self._error(name, ROUNDING[law]) for name in names}
+
+    def _error(self, name: str, rounding: float) -> ErrorEstimate:
+        if name == "event_times":
+            return self._events()
+        if name == "beat":
+            return self._beat(rounding)
+        signal = name.removesuffix("_throughout")
+        points = self.points[-1:] if name == "mean_velocity" else self.points
+        found, true = (_at(points, r, signal) for r in (self.record, self.reference))
+        return ErrorEstimate(max(peak(found - true), rounding * peak(true)), peak(true))
+
+    def _events(self) -> ErrorEstimate:
+        """Return the largest distance of an event from the nearest one of the reference."""
+        found, true = (record.final("reversals") for record in (self.record, self.reference))
+        if found != true:
+            return ErrorEstimate(inf, self.period, f"{found:.0f} reversals instead of {true:.0f}")
+        shown = np.unique(_at(self.points, self.record, "last_event_time"))
+        events = np.unique(self.reference["last_event_time"])
+        apart = peak(shown - events[nearest(events, shown)])
+        return ErrorEstimate(max(apart, EVENT_ROUNDING * self.period), self.period)
+
+    def _beat(self, rounding: float) -> ErrorEstimate:
+        later = self.grid[len(self.grid) // 2 :]
+        try:
+            found, true = (
+                dominant_frequency(later, _at(later, record, "mean_velocity"))
+                for record in (self.record, self.reference)
+            )
+        except ValueError as error:
+            return ErrorEstimate(inf, 0.0, str(error))
+        return ErrorEstimate(max(abs(found - true), rounding * true), true)
 
 
-def _difference(samples: Samples, reference: Samples, name: str, part: slice) -> ErrorEstimate:
-    there = reference[name][part]
-    return ErrorEstimate(peak(samples[name][part] - there), peak(there))
-
-
-def _events(samples: Samples, reference: Samples, period: float) -> ErrorEstimate:
-    """Return the largest distance of an event from the nearest one of the reference."""
-    if samples["reversals"][-1] != reference["reversals"][-1]:
-        counts = (
-            f"{samples['reversals'][-1]:.0f} reversals instead of {reference['reversals'][-1]:.0f}"
-        )
-        return ErrorEstimate(inf, period, counts)
-    shown, true = np.unique(samples["last_event_time"]), np.unique(reference["last_event_time"])
-    return ErrorEstimate(peak(shown - true[nearest(true, shown)]), period)
-
-
-def _beat(samples: Samples, reference: Samples) -> ErrorEstimate:
-    try:
-        true, found = _beat_frequency(reference), _beat_frequency(samples)
-    except ValueError as error:
-        return ErrorEstimate(inf, 0.0, str(error))
-    return ErrorEstimate(abs(found - true), true)
-
-
-def _beat_frequency(samples: Samples) -> float:
-    half = len(samples.grid_times) // 2
-    return dominant_frequency(samples.grid_times[half:], samples.grid_velocity[half:])
+def _at(points: Array, record: Record, name: str) -> Array:
+    return record[name][nearest(record.times, points)]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from itertools import pairwise
-from math import inf, pi, sqrt
+from math import inf, pi
 
-from slider_resonator.choosing.candidate import LUGRE
+from slider_resonator.choosing.candidate import Model
 from slider_resonator.device.device import Device
 from slider_resonator.device.signal import Signal
 from slider_resonator.errors import SceneError
@@ -15,8 +15,6 @@ from slider_resonator.scenes.scene import Scene
 
 LONG_MEMORY = 100.0
 """Drive periods beyond which memory does not indicate the distance from resonance."""
-BREAKS_LOOSE = 0.3
-"""Friction over vibration below which the slider slides nearly all the time."""
 NEAR_AN_INTEGER = 0.1
 """Distance of the frequency ratio from an integer within which the phase turns slowly."""
 
@@ -33,10 +31,6 @@ class Scales:
     starting frequency ratio from an integer, `beat` (Hz) the difference frequency where that is
     small, else 0. `saturation` is the greatest load over the mean friction. `input_rate` is the
     largest change of an input in a drive period, in rad, mean frictions, or drive frequencies.
-    `lifts` says whether the contact ever lifts off. `bristle_turns` are the oscillations of the
-    slider on its bristle in a drive period, 0 where the vibration breaks the contact loose.
-    `ratio` is the starting frequency ratio, `damping` the damping ratio of the resonator beside a
-    slider that slides.
     """
 
     period: float
@@ -50,19 +44,6 @@ class Scales:
     beat: float
     saturation: float
     input_rate: float
-    lifts: bool
-    bristle_turns: float
-    ratio: float
-    damping: float
-
-    @property
-    def has_slow_motion(self) -> bool:
-        """Whether the slow motion is slower than the resonator forgets, and slow in a period.
-
-        Else averages of second order leap over nothing.
-        """
-        decay = 1.0 / self.memory if self.memory else inf
-        return self.slowness is not None and 0.0 < 4.0 * self.slowness < min(1.0, decay)
 
     @property
     def bristle_share(self) -> float:
@@ -83,11 +64,18 @@ class Scales:
         disturbed = 1.0 + self.mass_ratio * pi * min(self.memory, LONG_MEMORY)
         return self.slowness * self.fast_velocity * disturbed
 
-
-def longest_memory(scales: Scales, law: int) -> float:
-    """Return the drive periods that the resonator remembers, or a bristle of LuGre friction."""
-    bristle = 0.25 / scales.kappa if law == LUGRE and scales.kappa else 0.0
-    return max(scales.memory, bristle)
+    def error_of(self, model: Model, law: int) -> str:
+        """Return what theory says of the error of a model, for people; `law` is the device's."""
+        if model.friction_law != law and self.kappa:
+            return f"the bristle bends for a share of about {self.bristle_share:.1g} of the time"
+        if model.fidelity == 1:
+            return (
+                f"the resonator starts from rest and remembers {self.memory:.2g} drive periods, "
+                f"r_m is {self.mass_ratio:.2g}"
+            )
+        if model.fidelity == 0 and model.averaging_order != 2 and self.averaging_error is not None:
+            return f"averaging errs by the order of {self.averaging_error:.1g} m/s"
+        return ""
 
 
 MAX_MAGNITUDE = 1e50
@@ -138,19 +126,7 @@ def scales_of(scene: Scene) -> Scales:
         beat=detuning / period if detuning < NEAR_AN_INTEGER else 0.0,
         saturation=load / friction if friction > 0.0 else inf if load else 0.0,
         input_rate=_input_rate(scene, period, friction),
-        lifts=_highest(scene, "normal_amplitude") > _lowest(scene, "normal_preload"),
-        bristle_turns=_bristle_turns(device, slowness),
-        ratio=ratio,
-        damping=device.damping_ratio / sqrt(1.0 - device.mass_ratio),
     )
-
-
-def _highest(scene: Scene, name: str) -> float:
-    return max(scene.tuning[name].values if name in scene.tuning else [getattr(scene.device, name)])
-
-
-def _lowest(scene: Scene, name: str) -> float:
-    return min(scene.tuning[name].values if name in scene.tuning else [getattr(scene.device, name)])
 
 
 def _fast_velocity(device: Device) -> float | None:
@@ -158,13 +134,6 @@ def _fast_velocity(device: Device) -> float | None:
         return equivalent_force(device).velocity_amplitude or None
     except ValueError:  # no friction, or an undamped resonator at resonance
         return None
-
-
-def _bristle_turns(device: Device, slowness: float | None) -> float:
-    if slowness is not None and slowness < BREAKS_LOOSE:
-        return 0.0
-    stiffness = device.friction_faces * device.normal_preload * device.bristle_stiffness
-    return sqrt(stiffness / device.total_mass) / device.drive_frequency
 
 
 def _input_rate(scene: Scene, period: float, friction: float) -> float:

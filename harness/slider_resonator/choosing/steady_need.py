@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf
 
 from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.errors import ROUNDING, ErrorEstimate
+from slider_resonator.choosing.timed_run import WARM_UP
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.search_result import SearchResult
@@ -21,11 +23,15 @@ SOLVED = 1e-10
 
 @dataclass(frozen=True)
 class SteadyValue:
-    """A steady quantity (m/s or N), None with the reason, and the drive periods that it took."""
+    """A steady quantity (m/s or N), None with the reason.
+
+    `periods` are the drive periods that the search took, `seconds` (s) its CPU time.
+    """
 
     value: float | None
     reason: str
     periods: int
+    seconds: float
 
 
 def find(
@@ -33,20 +39,26 @@ def find(
 ) -> SteadyValue:
     """Return a steady quantity as a candidate gives it: at fidelity 0 the FMU's own output.
 
-    `values` are the parameters and inputs of the scene. Raises FmuError where the FMU refuses.
+    `values` are the parameters and inputs of the scene. The instance is created anew, as an old one
+    may keep predictions. Raises FmuError where the FMU refuses.
     """
     given = {**values, **candidate.parameters}
+    instance.recreate()
+    instance.start({**given, **WARM_UP})
+    began = time.process_time()
     if candidate.model.fidelity == 0:
         instance.start(given)
         with instance.explained():
-            return SteadyValue(instance.value(name), "", 0)
+            found = instance.value(name)
+        return SteadyValue(found, "", 0, time.process_time() - began)
     search: SearchResult
     if name == "steady_velocity":
         search = find_steady(instance, given)
     else:
         search = find_blocking(instance, {k: v for k, v in given.items() if k != "load"})
+    seconds = time.process_time() - began
     value: float | None = getattr(search, name) if search.status in EXISTS[name] else None
-    return SteadyValue(value, f"{search.status}: {search.reason}", search.periods)
+    return SteadyValue(value, f"{search.status}: {search.reason}", search.periods, seconds)
 
 
 def steady_error(found: SteadyValue, reference: SteadyValue, law: int) -> ErrorEstimate:

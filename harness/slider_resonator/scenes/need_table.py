@@ -10,7 +10,10 @@ from slider_resonator.scenes.key_table import KeyTable, Positive, key
 
 STEADY_NEEDS = ("steady_velocity", "blocking_force")
 """Needs in the steady motion under constant inputs."""
-RUN_NEEDS = ("mean_velocity", "position", "velocity", "event_times", "beat")
+RUN_NEEDS = (
+    *("mean_velocity", "mean_velocity_throughout", "position", "velocity"),
+    *("event_times", "beat"),
+)
 """Needs that are measured in a run."""
 
 
@@ -60,6 +63,11 @@ class NeedTable(KeyTable):
 
     mean_velocity: AllowedTable | None = key(
         "mean velocity over the last drive period of the run", {"rel": 0.02}, unit="m/s"
+    )
+    mean_velocity_throughout: AllowedTable | None = key(
+        "mean velocity over the last drive period at each communication point",
+        {"abs": 1e-3},
+        unit="m/s",
     )
     position: AllowedTable | None = key(
         "position at each communication point", {"abs": 2e-3}, unit="m"

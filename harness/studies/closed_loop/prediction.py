@@ -82,7 +82,7 @@ def _probed(instance: Instance, scene: Scene) -> tuple[float, float]:
     has_orders = "averaging_order" in instance.fmu.variables
     model = Model(0, device.friction_law, device.averaging_order if has_orders else None)
     candidate = Candidate(model, START_TOLERANCE, scene.step_size)
-    found = Probe(instance, scene).run_errors(candidate)["mean_velocity"]
+    found = Probe(instance, scene).measure(candidate).errors["mean_velocity"]
     return found.error, scene.need.needs["mean_velocity"].at(found.magnitude)
 
 

@@ -1,10 +1,11 @@
-"""Judge a choice by full runs: whether it meets the needs, and the cheapest choice that does.
+"""Judge a choice by full runs: whether it meets the needs, and what the cheapest that does costs.
 
-Nothing of the chooser's own probe is used here but the list of candidates and their costs.
+Nothing of the chooser is used here but the list of candidates and the way a run is timed.
 """
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf
@@ -12,50 +13,53 @@ from math import inf
 import numpy as np
 
 from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
-from slider_resonator.choosing.candidate import Candidate, Model
+from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.choice import Choice
 from slider_resonator.choosing.choosing import candidates
-from slider_resonator.choosing.cost import search_cost
-from slider_resonator.choosing.scales import scales_of
-from slider_resonator.device.schedule import Schedule, communication_points, in_order
+from slider_resonator.choosing.timed_run import timed_run
+from slider_resonator.device.schedule import Schedule, communication_points, in_order, nearest
 from slider_resonator.device.signal import Signal
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
-from slider_resonator.fmu.run import run
 from slider_resonator.scenes.need_table import STEADY_NEEDS
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.steady.blocking_force import find_blocking
-from slider_resonator.steady.search_result import SearchResult
 from slider_resonator.steady.steady_velocity import find_steady
 
-WITHIN = 1.5
-"""Largest allowed cost of a choice, relative to the cheapest candidate."""
-STEPS_TRIED = 2
-SHOWN = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
+LARGER_STEPS = 4.0
+"""Steps of candidates besides the chosen one, over that: smaller ones cost more."""
+REPEATS = 5
 FINE_STEPS = 8
 MAX_POINTS = 25_000
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """Errors over allowed errors of the choice, and the cheapest candidate that meets the needs."""
+    """Errors over allowed ones of a choice, its cost (s), and the cheapest candidate that serves.
+
+    `cheapest` is None where no candidate serves.
+    """
 
     choice: Choice
-    excess: Mapping[str, float]
-    cheaper: Candidate | None
-    cheaper_cost: float
+    excess: float
+    cost: float
+    cheapest: Candidate | None
+    lowest: float
 
     @property
     def met(self) -> bool:
         """Whether the choice meets every need, or reports rightly that none can."""
-        if not self.choice.meets:
-            return self.cheaper is None
-        return max(self.excess.values()) <= 1.0
+        return self.excess <= 1.0 if self.choice.meets else self.cheapest is None
 
-    @property
-    def cheap(self) -> bool:
-        return self.cheaper is None
+    def described(self, name: str) -> str:
+        """Return the verdict in words."""
+        choice = self.choice
+        return (
+            f"{name}: {choice.model.name}, step {choice.step}, tolerance {choice.tolerance:g}, "
+            f"{choice.reason}; error over allowed {self.excess:.3g}; cost {self.cost:.3g} s, "
+            f"cheapest {self.cheapest} at {self.lowest:.3g} s"
+        )
 
 
 class Judge:
@@ -68,63 +72,53 @@ class Judge:
         self.needs = scene.need.needs
         self.reference = {"fidelity": 2.0, "friction_law": float(scene.device.friction_law)}
         self.reference |= {"tolerance": 1e-13}
-        self._found: dict[tuple[object, ...], float | None] = {}
-        self._periods: dict[tuple[object, ...], int] = {}
-        self._records: dict[Candidate, Record] = {}
         self._true_records: dict[float, Record] = {}
+        self._true_values: dict[str, float | None] = {}
 
-    def excess(self, candidate: Candidate) -> dict[str, float]:
-        """Return errors over allowed errors of a candidate by need."""
+    def tried(self, candidate: Candidate) -> tuple[float, float]:
+        """Return the largest error over the allowed one of a candidate, and its cost (s)."""
+        excess, cost, record = 0.0, 0.0, None
         try:
-            return {name: self._excess(name, candidate) for name in self.needs}
+            if candidate.step is not None:
+                record, cost = self._run(candidate)
+            for name, need in self.needs.items():
+                if name in STEADY_NEEDS:
+                    found, seconds = self._steady(name, candidate.parameters)
+                    cost += seconds
+                    error, size = self._steady_error(name, found)
+                else:
+                    assert record is not None
+                    assert candidate.step is not None
+                    true = self.reference_record(candidate.step)
+                    error, size = self._error(name, record, true, candidate.step)
+                excess = max(excess, _over(error, need.at(size)))
         except (FmuError, NoOscillation):
-            return {name: inf for name in self.needs}
+            return inf, cost
+        return excess, cost
 
-    def _excess(self, name: str, candidate: Candidate) -> float:
-        if name in STEADY_NEEDS:
-            both = (self.reference, candidate.parameters)
-            resolved, found = (self._steady(name, parameters) for parameters in both)
-            if resolved is None or found is None:
-                return inf
-            return _over(abs(found - resolved), self.needs[name].at(resolved))
+    def _run(self, candidate: Candidate) -> tuple[Record, float]:
         assert candidate.step is not None
-        record, true = self._record(candidate), self.reference_record(candidate.step)
-        error, size = self._error(name, record, true, candidate.step)
-        return _over(error, self.needs[name].at(size))
+        own = self.scene.with_step(candidate.step).schedule()
+        return timed_run(self.instance, {**self.scene.parameters, **candidate.parameters}, own)
 
     def _error(self, name: str, record: Record, true: Record, step: float) -> tuple[float, float]:
         period = 2.0 * np.pi / self.scene.device.drive_frequency
         if name == "mean_velocity":
             return abs(record.final(name) - true.final(name)), abs(true.final(name))
         if name == "beat":
-            ratio = self.scene.signals["frequency_ratio"].at(0.0)
-            beats = abs(ratio - round(ratio)) / period * 0.5 * float(record.times[-1])
-            if not (0.0 < abs(ratio - round(ratio)) < 0.1 and beats >= 2.0):
-                return inf, 0.0
             found, resolved = (_beat(r, step) for r in (record, true))
-            turns = resolved * period / abs(ratio - round(ratio))
-            if not (0.8 <= turns <= 1.2 or 1.8 <= turns <= 2.2 or 2.8 <= turns <= 3.2):
-                return inf, 0.0
             return abs(found - resolved), resolved
         checkpoints = self.scene.schedule().times
-        at, there = (np.searchsorted(r.times, checkpoints) for r in (record, true))
-        assert np.array_equal(record.times[at], true.times[there]), "at the checkpoints"
+        at, there = (nearest(r.times, checkpoints) for r in (record, true))
         if name == "event_times":
             if record.final("reversals") != true.final("reversals"):
                 return inf, period
-            events = true["last_event_time"]
+            events = np.unique(true["last_event_time"])
             shown = record["last_event_time"][at]
-            return float(np.abs(shown[:, None] - np.unique(events)).min(axis=1).max()), period
-        difference = record[name][at] - true[name][there]
-        return float(np.abs(difference).max()), float(np.abs(true[name][there]).max())
-
-    def _record(self, candidate: Candidate) -> Record:
-        if candidate not in self._records:
-            assert candidate.step is not None
-            own = self.scene.with_step(candidate.step).schedule()
-            values = {**self.scene.parameters, **candidate.parameters}
-            self._records[candidate] = run(self.instance, values, own, outputs=SHOWN)
-        return self._records[candidate]
+            return float(np.abs(shown[:, None] - events).min(axis=1).max()), period
+        signal = name.removesuffix("_throughout")
+        difference = record[signal][at] - true[signal][there]
+        return float(np.abs(difference).max()), float(np.abs(true[signal][there]).max())
 
     def reference_record(self, step: float) -> Record:
         """Return the resolved run with inputs as they vary, at the points of a run too.
@@ -138,7 +132,9 @@ class Judge:
             held = tuning if passes_on else {**inputs, **tuning}
             corners = [t for s in (*inputs.values(), *tuning.values()) for t in s.times]
             points = [time for time in corners if 0.0 < time < stop]
-            times = np.unique(np.concatenate([own.times, self.scene.schedule().times, points]))
+            pieces = np.arange(0.0, stop, 10_000.0 * self.scene.drive_period)
+            parts = [own.times, self.scene.schedule().times, np.array(points), pieces]
+            times = np.unique(np.concatenate(parts))
             if not all(signal.hold for signal in held.values()):
                 fine = max(step / FINE_STEPS, stop / MAX_POINTS)
                 fine = step / max(2, round(step / fine))
@@ -153,72 +149,50 @@ class Judge:
                 tuning |= {name: s for name, s in means.items() if name in tuning}
             values = {**self.scene.parameters, **self.reference}
             samples = Schedule(times, *in_order(inputs), tuning=tuning, interpolates=passes_on)
-            self._true_records[step] = run(self.instance, values, samples, outputs=SHOWN)
+            self._true_records[step] = timed_run(self.instance, values, samples)[0]
         return self._true_records[step]
 
-    def search_cost(self, candidate: Candidate) -> float:
-        """Return the cost (s) of finding the steady needs with a candidate."""
-        names = [name for name in self.needs if name in STEADY_NEEDS]
-        for name in names:
-            self._steady(name, candidate.parameters)
-        periods = sum(self._periods[name, *candidate.parameters.values()] for name in names)
-        if not names:
-            return 0.0
-        scales = scales_of(self.scene)
-        return search_cost(candidate.model, candidate.tolerance, periods, scales)
+    def _steady_error(self, name: str, found: float | None) -> tuple[float, float]:
+        if name not in self._true_values:
+            self._true_values[name] = self._steady(name, self.reference)[0]
+        true = self._true_values[name]
+        return (inf, 0.0) if found is None or true is None else (abs(found - true), abs(true))
 
-    def _steady(self, name: str, parameters: Mapping[str, float]) -> float | None:
-        key = name, *parameters.values()
-        if key not in self._found:
-            self._found[key], self._periods[key] = self._search(name, parameters)
-        return self._found[key]
-
-    def _search(self, name: str, parameters: Mapping[str, float]) -> tuple[float | None, int]:
+    def _steady(self, name: str, parameters: Mapping[str, float]) -> tuple[float | None, float]:
+        """Return a steady quantity, and the CPU time (s) that it takes a new instance."""
         values = {**self.scene.values, **parameters}
+        self.instance.recreate()
+        began = time.process_time()
         if parameters["fidelity"] == 0:
             self.instance.start(values)
-            return self.instance.value(name), 0
-        search: SearchResult
-        if name == "steady_velocity":
-            search = find_steady(self.instance, values)
+            found: float | None = self.instance.value(name)
+        elif name == "steady_velocity":
+            found = find_steady(self.instance, values).steady_velocity
         else:
-            del values["load"]
-            search = find_blocking(self.instance, values)
-        settled = {"steady_velocity": ("steady", "stuck"), "blocking_force": ("blocked",)}[name]
-        return getattr(search, name) if search.status in settled else None, search.periods
+            found = find_blocking(self.instance, values | {"load": 0.0}).blocking_force
+        return found, time.process_time() - began
 
 
 def judge(instance: Instance, scene: Scene, choice: Choice) -> Verdict:
-    """Return the verdict on a choice.
-
-    Costs are those of the counts that `slider_resonator.choosing.cost` weighs. Of the
-    candidates below two thirds of its cost, or of all where it says that none suffices, the finest
-    of each model are run: a coarser one of the same model is not better.
-    """
+    """Return the verdict on a choice, by runs of candidates in its step and larger ones."""
     reference = Judge(instance, scene)
-    excess = reference.excess(Candidate(choice.model, choice.tolerance, choice.step))
-    bound = choice.cost / WITHIN if choice.meets else inf
-    finest: dict[Model, dict[float | None, tuple[Candidate, float]]] = {}
-    for candidate, cost in candidates(instance, scene):
-        cost += reference.search_cost(candidate)
-        if cost < bound:
-            finest.setdefault(candidate.model, {})[candidate.step] = candidate, cost
-    for steps in finest.values():
-        for step in sorted(steps, key=lambda step: step or 0.0)[:STEPS_TRIED]:
-            candidate, cost = steps[step]
-            if max(reference.excess(candidate).values()) <= 1.0:
-                return Verdict(choice, excess, candidate, cost)
-    return Verdict(choice, excess, None, inf)
-
-
-def described(verdict: Verdict, name: str) -> str:
-    """Return a verdict in words."""
-    choice = verdict.choice
-    return (
-        f"{name}: {choice.model.name}, step {choice.step}, tolerance {choice.tolerance:g}, "
-        f"{choice.reason}; errors over allowed {dict(verdict.excess)}; cost {choice.cost:.3g} s, "
-        f"cheaper {verdict.cheaper} at {verdict.cheaper_cost:.3g} s"
-    )
+    chosen = Candidate(choice.model, choice.tolerance, choice.step)
+    excess, cost = reference.tried(chosen)
+    largest = LARGER_STEPS * (choice.step or 0.0)
+    costs = {chosen: cost} if excess <= 1.0 else {}
+    for candidate in candidates(instance, scene):
+        if candidate != chosen and (choice.step or 0.0) <= (candidate.step or 0.0) <= largest:
+            other, seconds = reference.tried(candidate)
+            if other <= 1.0:
+                costs[candidate] = seconds
+    near = [each for each in costs if costs[each] < 2.0 * min(costs.values())]
+    for _ in range(REPEATS):
+        for each in {chosen, *near}:
+            costs[each] = min(costs.get(each, inf), reference.tried(each)[1])
+    if excess > 1.0:
+        del costs[chosen]
+    best = min(costs, key=lambda each: costs[each]) if costs else None
+    return Verdict(choice, excess, costs.get(chosen, cost), best, costs[best] if best else inf)
 
 
 def _over(error: float, allowed: float) -> float:
@@ -230,5 +204,4 @@ def _beat(record: Record, step: float) -> float:
     grid = step * np.arange(int(record.times[-1] / step * (1.0 + 1e-9)) + 1)
     grid = grid[grid <= record.times[-1]]
     later = grid[len(grid) // 2 :]
-    at = np.searchsorted(record.times, later)
-    return dominant_frequency(later, record["mean_velocity"][at])
+    return dominant_frequency(later, record["mean_velocity"][nearest(record.times, later)])

@@ -1,8 +1,6 @@
 from __future__ import annotations
 
 from slider_resonator.choosing.candidate import COULOMB, LUGRE, Candidate, Model, models
-from slider_resonator.choosing.cost import AVERAGED, AVERAGING_ORDERS
-from slider_resonator.choosing.resolved_cost import RESOLVED
 
 
 def test_orders_of_averaging_are_models_of_their_own() -> None:
@@ -23,12 +21,3 @@ def test_leaps_have_a_tolerance_and_other_averages_none() -> None:
     found = {(m.friction_law, m.averaging_order): len(m.tolerances) for m in models((0, 1), (1, 2))}
     assert found[LUGRE, 2] == found[COULOMB, 2] == found[LUGRE, None] > 1
     assert found[COULOMB, 1] == found[COULOMB, None] == found[LUGRE, 1] == 1
-
-
-def test_every_model_has_a_price() -> None:
-    for model in models((COULOMB, LUGRE), AVERAGING_ORDERS):
-        if model.fidelity:
-            assert (model.fidelity, model.friction_law) in RESOLVED
-        else:
-            keys = {(model.friction_law, lifts) for lifts in (False, True)}
-            assert keys <= set(AVERAGED)

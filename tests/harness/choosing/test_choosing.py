@@ -7,7 +7,11 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.choosing import choose
+from slider_resonator.choosing.candidate import Candidate, Model
+from slider_resonator.choosing.choice import Evaluation, cheapest
 from slider_resonator.choosing.choosing import candidates, choose_with
+from slider_resonator.choosing.errors import ErrorEstimate
+from slider_resonator.choosing.probe import Probe
 from slider_resonator.errors import Refusal, SceneError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene
@@ -56,15 +60,17 @@ def test_a_long_run_takes_second_order_where_first_does_not_do(instance: Instanc
     assert orders == [1, 2]
 
 
-def test_there_is_nothing_to_leap_over_without_damping(instance: Instance) -> None:
+def test_where_nothing_is_leapt_over_resolved_motion_is_chosen(instance: Instance) -> None:
+    """Both are one motion at one cost, and times scatter: either may come out first by a little."""
     scene = scene_of(
         "[device]\ndamping_ratio = 0.0\nresonator_frequency = 3000.0\n"
-        "[run]\ndrive_periods = 50\nsteps_per_period = 1\n"
-        "[need]\nmean_velocity = { rel = 1e-3 }\n"
+        "[run]\ndrive_periods = 2000\nsteps_per_period = 0.1\n"
+        "[need]\nposition = { rel = 1e-9 }\n"
     )
     choice = choose_with(instance, scene)
-    why = {m.averaging_order: m.why for m in choice.ruled_out if m.fidelity == 0}
-    assert "nothing to leap over" in why[2]
+    assert (choice.fidelity, choice.averaging_order) in {(2, None), (0, 2)}
+    why = " ".join(m.why for m in choice.ruled_out)
+    assert "meets the needs too" in why
 
 
 def lugre(need: str, stiffness: float = 1e5, periods: int = 200) -> Scene:
@@ -98,7 +104,7 @@ def test_a_free_law_is_coulombs_where_the_bristle_is_stiff(
 
 def test_a_law_that_is_given_is_kept(instance: Instance) -> None:
     scene = lugre("position = { rel = 1e-4 }", 1e10, 100)
-    assert {candidate.model.friction_law for candidate, _ in candidates(instance, scene)} == {1}
+    assert {candidate.model.friction_law for candidate in candidates(instance, scene)} == {1}
     assert choose_with(instance, scene).friction_law == 1
 
 
@@ -116,21 +122,7 @@ def test_an_output_of_the_theory_costs_less_than_a_search(instance: Instance, ne
     choice = choose_with(instance, scene)
     assert (choice.meets, choice.fidelity) == (True, 0)
     searches = [why.why for why in choice.ruled_out if why.fidelity > 0]
-    assert all("costs at least" in why for why in searches)
-    assert choice.cost < 1e-4, "seconds, no table"
-
-
-def test_errors_near_the_allowed_ones_are_confirmed_by_the_whole_scene(
-    instance: Instance,
-) -> None:
-    run = "[run]\ndrive_periods = 60000\nsteps_per_period = 0.001\n"
-    probes = {}
-    for allowed in (1e-2, 8e-5):
-        need = f"[need]\nmean_velocity = {{ abs = {allowed} }}\n"
-        choice = choose_with(instance, scene_of(f"{run}{need}"))
-        assert (choice.meets, choice.fidelity) == (True, 0)
-        probes[allowed] = choice.probe
-    assert probes == {1e-2: "windows", 8e-5: "whole"}
+    assert all("costs about" in why for why in searches)
 
 
 @pytest.mark.parametrize(
@@ -173,12 +165,45 @@ def test_a_beat_is_read_from_averaged_motion(instance: Instance) -> None:
 
 def test_a_long_scene_is_not_resolved_as_a_whole(instance: Instance) -> None:
     """Half an hour: a million drive periods, of which some thousand are enough."""
+    late = "[inputs]\nload = { steps = [[0, 0], [1799.9, 0.1]] }\n"
     run = "[run]\nstop_time = 1800.0\nsteps_per_period = 0.001\n"
-    scene = scene_of(f"{run}[need]\nmean_velocity = {{ rel = 0.01 }}\n")
-    choice = choose_with(instance, scene)
-    assert (choice.meets, choice.fidelity, choice.probe) == (True, 0, "windows")
-    assert choice.probe_drive_periods < 10_000
-    assert choice.error["mean_velocity"] == pytest.approx(6.4e-5, rel=0.3)
+    need = "[need]\nmean_velocity = { rel = 0.01 }\n"
+    steady, jump = (choose_with(instance, scene_of(f"{text}{run}{need}")) for text in ("", late))
+    for choice in (steady, jump):
+        assert (choice.meets, choice.fidelity, choice.probe) == (True, 0, "leaps")
+        assert choice.probe_drive_periods < 10_000
+    assert steady.error["mean_velocity"] == pytest.approx(6.4e-5, rel=0.3)
+    assert jump.allowed["mean_velocity"] < 0.99 * steady.allowed["mean_velocity"]
+
+
+def test_equal_costs_go_to_the_smaller_error() -> None:
+    def evaluation(model: Model, error: float, cost: float) -> Evaluation:
+        candidate = Candidate(model, 1e-8, 1.0)
+        return Evaluation(
+            candidate, {"position": ErrorEstimate(error, 1.0)}, {"position": 1.0}, cost, ""
+        )
+
+    rough, fine, dear = (
+        evaluation(Model(0, 0, 1), 0.5, 1.0),
+        evaluation(Model(0, 0, 2), 0.1, 1.02),
+        evaluation(Model(2, 0), 0.0, 1.04),
+    )
+    assert cheapest([rough, fine, dear]) is fine
+    assert cheapest([rough, dear]) is rough
+    same = evaluation(Model(2, 0), 0.1, 1.01)
+    assert cheapest([rough, fine, same]) is same, "resolved motion before others"
+
+
+def test_the_mean_velocity_can_be_needed_throughout(instance: Instance) -> None:
+    """Averaged motion from rest is farther off in the transient than at the end."""
+    need = "mean_velocity = { abs = 1e-2 }\nmean_velocity_throughout = { abs = 1e-2 }"
+    scene = table_1(need, periods=8000.0, steps=0.01)
+    averaged = Candidate(Model(0, 0, 1), 1e-8, scene.step_size)
+    errors = Probe(instance, scene).measure(averaged).errors
+    end, throughout = (errors[f"mean_velocity{part}"].error for part in ("", "_throughout"))
+    assert throughout > 1.1 * end
+    between = f"mean_velocity_throughout = {{ abs = {0.5 * (end + throughout)} }}"
+    assert choose_with(instance, table_1(between, 8000.0, 0.01)).averaging_order != 1
 
 
 @pytest.mark.parametrize(

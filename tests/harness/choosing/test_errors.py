@@ -5,65 +5,62 @@ from math import inf
 import numpy as np
 import pytest
 
-from slider_resonator.choosing.errors import errors
-from slider_resonator.choosing.stretch import MAX_CHECKPOINTS, Samples, checkpoints_between
+from slider_resonator.arrays import Array
+from slider_resonator.choosing.errors import Compared, ErrorEstimate
+from slider_resonator.fmu.record import Record
 
-TIMES = np.linspace(0.1, 1.0, 10)
+POINTS = np.linspace(0.1, 1.0, 10)
+GRID = np.linspace(0.0, 1.0, 201)
+TIMES = np.union1d(POINTS, GRID)
+NAMES = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
 
 
-def samples(pitch: float = 1.0, **signals: float | np.ndarray) -> Samples:
-    zero = np.zeros(TIMES.size)
-    names = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
-    grid = np.linspace(0.0, 1.0, 200)
-    beat = np.sin(2.0 * np.pi * 20.0 * grid * pitch)
-    return Samples(TIMES, {name: zero + signals.get(name, 0.0) for name in names}, grid, beat)
+def record(**signals: float | Array) -> Record:
+    outputs = {name: np.zeros(TIMES.size) + signals.get(name, 0.0) for name in NAMES}
+    return Record(TIMES, np.zeros((TIMES.size, 3)), outputs, 0.0, 0.0, 0.0)
+
+
+def error(name: str, found: Record, reference: Record, law: int = 0) -> ErrorEstimate:
+    return Compared(found, reference, POINTS, GRID, 0.01).errors([name], law)[name]
 
 
 def test_signals_are_judged_everywhere_and_numbers_at_the_end() -> None:
     bump = np.where(TIMES < 0.35, 0.3, 0.0)
-    reference = samples(position=TIMES, mean_velocity=2.0)
-    other = samples(position=TIMES + bump, mean_velocity=2.0 + bump)
-    found = errors(["position", "mean_velocity"], other, reference, 0.01)
-    assert found["position"].error == pytest.approx(0.3)
-    assert found["position"].magnitude == 1.0
-    assert found["mean_velocity"].error < 1e-11
-    assert found["mean_velocity"].magnitude == 2.0
-
-
-def test_events_are_the_nearest_true_ones_even_across_a_look() -> None:
-    events = np.array([0.05, 0.15, 0.25, 0.25, 0.45, 0.45, 0.65, 0.75, 0.75, 0.95])
-    late = np.roll(events, 1) + 1e-4
-    late[0] = 0.05
-    reference, other = samples(last_event_time=events), samples(last_event_time=late)
-    assert errors(["event_times"], other, reference, 0.01)["event_times"].error == pytest.approx(
-        1e-4
+    reference = record(position=TIMES, mean_velocity=2.0)
+    other = record(position=TIMES + bump, mean_velocity=2.0 + bump)
+    position, velocity, throughout = (
+        error(name, other, reference)
+        for name in ("position", "mean_velocity", "mean_velocity_throughout")
     )
-    missed = errors(["event_times"], samples(last_event_time=events, reversals=1), reference, 0.01)
-    assert missed["event_times"].error == inf
-    assert missed["event_times"].reason == "1 reversals instead of 0"
+    assert position.error == pytest.approx(0.3)
+    assert throughout.error == pytest.approx(0.3)
+    assert position.magnitude == 1.0
+    assert velocity.error < 1e-11
+    assert velocity.magnitude == throughout.magnitude == 2.0
+
+
+def test_events_are_the_nearest_true_ones() -> None:
+    """Also where the one that a run shows is not yet, or no longer, the last of the reference."""
+    events = 0.1 * np.floor(10.0 * TIMES) + 0.05
+    late = np.maximum(0.1 * np.floor(10.0 * TIMES - 1.0), 0.0) + 0.05 + 1e-4
+    reference = record(last_event_time=events)
+    near = error("event_times", record(last_event_time=late), reference)
+    assert near.error == pytest.approx(1e-4)
+    far = error("event_times", record(last_event_time=events + 0.03), reference)
+    assert far.error == pytest.approx(0.03)
+    missed = error("event_times", record(last_event_time=events, reversals=1), reference)
+    assert missed.error == inf
+    assert missed.reason == "1 reversals instead of 0"
 
 
 def test_beats_are_frequencies() -> None:
-    found = errors(["beat"], samples(pitch=1.01), samples(), 0.01)["beat"]
-    assert found.error == pytest.approx(0.2, rel=1e-3)
-    assert found.magnitude == pytest.approx(20.0, rel=1e-3)
+    true, found = (record(mean_velocity=np.sin(2.0 * np.pi * f * TIMES)) for f in (20.0, 20.2))
+    estimate = error("beat", found, true)
+    assert estimate.error == pytest.approx(0.2, rel=1e-3)
+    assert estimate.magnitude == pytest.approx(20.0, rel=1e-3)
 
 
 def test_nothing_is_known_better_than_to_rounding() -> None:
-    same = samples(position=TIMES)
+    same = record(position=TIMES)
     for law, floor in ((0, 1e-12), (1, 1e-10)):
-        assert errors(["position"], same, same, 0.01, law)["position"].error == floor
-
-
-def test_looks_show_all_phases() -> None:
-    points = np.arange(100_000) / 16.0
-    checkpoints = checkpoints_between(points, 0.0, points[-1])
-    assert MAX_CHECKPOINTS - 1 <= checkpoints.size <= MAX_CHECKPOINTS + 1
-    assert np.isin(checkpoints, points).all()
-    counts = np.bincount((16.0 * checkpoints).astype(int) % 16, minlength=16)
-    assert np.min(counts) > 0.5 * np.mean(counts)
-
-
-def test_signals_are_compared_at_the_start_too() -> None:
-    points = np.arange(10.0)
-    assert np.array_equal(checkpoints_between(points, 0.0, 9.0), points)
+        assert error("position", same, same, law).error == floor

@@ -5,7 +5,7 @@ from math import log2, pi
 
 import pytest
 
-from slider_resonator.choosing.ladder import BEAT_POINTS, FINEST, STEPS_PER_BEAT, step_ladder
+from slider_resonator.choosing.ladder import BEAT_POINTS, FINEST, STEPS_PER_BEAT
 from slider_resonator.choosing.probe import Probe
 from slider_resonator.fmu.instance import Instance
 from tests.harness.scene_text import scene_of
@@ -15,7 +15,8 @@ RAMP = "[inputs]\nload = { ramp = [[0, 0], [0.1, 0.1]] }\n"
 
 
 def ladder(instance: Instance, text: str) -> tuple[float, ...]:
-    return step_ladder(Probe(instance, scene_of(text)))
+    steps = Probe(instance, scene_of(text)).ladder
+    return tuple(step for step in steps if step is not None)
 
 
 @pytest.mark.parametrize(
@@ -58,3 +59,12 @@ def test_inputs_that_go_on_as_straight_lines_leave_the_longest_step(instance: In
     run = "[run]\nstop_time = 0.1\nstep_size = 0.003\ninterpolate = true\n[need]\n"
     assert ladder(instance, f"{RAMP}{run}mean_velocity = {{ rel = 0.1 }}\n") == (0.1,)
     assert ladder(instance, f"{RAMP}{run}position = {{ rel = 0.1 }}\n") == (0.003,)
+
+
+def test_a_number_at_the_end_of_a_long_scene_is_tried_in_one_step_and_halves(
+    instance: Instance,
+) -> None:
+    """An FMU bounds the work of a step."""
+    run = "[run]\ndrive_periods = 70000\nsteps_per_period = 1\n[need]\n"
+    steps = ladder(instance, f"{run}mean_velocity = {{ rel = 0.1 }}\n")
+    assert [round(step / PERIOD) for step in steps] == [70_000, 35_000, 17_500, 8750]

@@ -1,4 +1,4 @@
-"""The part of a scene that is resolved to confirm a choice."""
+"""What the errors of a candidate are measured against, and its cost."""
 
 from __future__ import annotations
 
@@ -6,63 +6,94 @@ from math import inf
 
 import pytest
 
+from slider_resonator.choosing import probe as probes
+from slider_resonator.choosing import reference
 from slider_resonator.choosing.candidate import Candidate, Model
-from slider_resonator.choosing.coverage import HEAD_PERIODS, SHORT
 from slider_resonator.choosing.probe import CAUTION, Probe
-from slider_resonator.choosing.resolved_cost import RESOLVED
 from slider_resonator.fmu.instance import Instance
 from tests.harness.scene_text import scene_of
 
-PERIOD = RESOLVED[2, 0].sliding
-"""Cost (s) of a drive period of table 1."""
-RUN = "[run]\ndrive_periods = {}\nsteps_per_period = 0.1\n[need]\n{} = {{ rel = 0.1 }}\n"
+RUN = "[run]\ndrive_periods = {}\nsteps_per_period = 0.01\n[need]\n{} = {{ rel = {} }}\n"
+RESOLVED = Candidate(Model(2, 0), 1e-8, None)
+AVERAGED = Candidate(Model(0, 0, 1), 1e-8, None)
 
 
+@pytest.fixture
+def long_is_expensive(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a resolved run of a few milliseconds count as a long one."""
+    monkeypatch.setattr(reference, "SHORT", 1e-4)
+
+
+@pytest.mark.usefixtures("long_is_expensive")
 @pytest.mark.parametrize(
-    ("periods", "inputs", "device", "covers"),
+    ("scene", "covers"),
     [
-        (0.9 * SHORT / PERIOD, "", "", "whole"),
-        (1.1 * SHORT / PERIOD, "", "", "windows"),
-        (1e6, "load = { ramp = [[0, 0], [100, 0.1]] }", "", "windows"),
-        (20_000, "frequency_ratio = 1.01", "", "whole"),
-        (1e6, "frequency_ratio = 1.01", "", "beginning"),
-        (20_000, "", "damping_ratio = 1e-3", "whole"),
-        (1e6, "", "damping_ratio = 1e-3", "beginning"),
-        (1e6, "", "base_amplitude = 1e-7", "beginning"),
-        (20_000, "", "friction_law = 1\ndamping_ratio = 1e-3", "whole"),
-        (2e5, "", "friction_law = 1\ndamping_ratio = 1e-3", "beginning"),
-        (350, "", "friction_law = 1\nbristle_stiffness = 1e20\nbase_amplitude = 1e-8", "whole"),
+        (RUN.format(20_000, "mean_velocity", 0.1), "leaps"),
+        (RUN.format(20_000, "mean_velocity", 1e-11), "whole"),
+        (RUN.format(20_000, "event_times", 0.1), "whole"),
+        (f"[device]\nbase_amplitude = 1e-8\n{RUN.format(20_000, 'mean_velocity', 0.1)}", "whole"),
     ],
 )
-def test_a_scene_is_resolved_in_windows_where_averaged_motion_connects_them(
-    instance: Instance, periods: float, inputs: str, device: str, covers: str
+def test_leaps_replace_a_resolved_run_where_they_serve(
+    instance: Instance, scene: str, covers: str
 ) -> None:
-    """Not beats that are faster than the windows lie, a long memory, nor friction that sticks."""
-    text = f"[inputs]\n{inputs}\n[device]\n{device}\n{RUN.format(periods, 'mean_velocity')}"
-    probe = Probe(instance, scene_of(text))
+    """Not for needs near their own error, nor for events or friction that sticks."""
+    probe = Probe(instance, scene_of(scene))
+    probe.resolve()
     assert probe.covers == covers
-    if covers == "whole":
-        assert probe.probed_duration == probe.duration
-    else:
-        assert probe.probed_duration <= HEAD_PERIODS * probe.scales.period * (1.0 + 1e-12)
+    assert (probe.drive_periods < 1000.0) == (covers == "leaps")
 
 
-def test_partial_probe_confirms_only_the_resolved_model(
-    instance: Instance,
+def test_leaps_and_the_resolved_run_say_the_same_of_a_candidate(
+    instance: Instance, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    text = f"[inputs]\nfrequency_ratio = 1.01\n{RUN.format(1e6, 'position')}"
+    load = "[inputs]\nload = { steps = [[0, 0], [30, 0.06]] }\n"
+    text = load + RUN.format(20_000, "position", 1e-3)
+    errors = []
+    for short in (1e-4, 100.0):
+        monkeypatch.setattr(reference, "SHORT", short)
+        probe = Probe(instance, scene_of(text))
+        errors.append(probe.measure(Candidate(AVERAGED.model, 1e-8, probe.scene.step_size)))
+    by_leaps, resolved = (measured.errors["position"] for measured in errors)
+    assert by_leaps.error == pytest.approx(resolved.error, rel=1e-3)
+    assert by_leaps.magnitude == pytest.approx(resolved.magnitude, rel=1e-6)
+
+
+def test_a_scene_that_cannot_be_resolved_as_a_whole_confirms_the_resolved_model_only(
+    instance: Instance, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(probes, "LONGEST", 1e-3)
+    text = f"[inputs]\nfrequency_ratio = 1.01\n{RUN.format(1e5, 'position', 0.1)}"
     probe = Probe(instance, scene_of(text))
     step = probe.scene.step_size
-    averaged = probe.run_errors(Candidate(Model(0, 0, 1), 1e-8, step))["position"]
-    resolved = probe.run_errors(Candidate(Model(2, 0), 1e-8, step))["position"]
-    assert averaged.error == inf
-    assert "too long" in averaged.reason
-    grown = CAUTION * 1e6 / HEAD_PERIODS
-    assert resolved.error == pytest.approx(grown * 1e-12 * resolved.magnitude)
+    averaged = probe.measure(Candidate(AVERAGED.model, 1e-8, step))
+    resolved = probe.measure(Candidate(RESOLVED.model, 1e-8, step))
+    assert probe.covers == "beginning"
+    assert averaged.errors["position"].error == inf
+    assert "too long" in averaged.errors["position"].reason
+    grown = CAUTION * 1e-12 * resolved.errors["position"].magnitude
+    assert resolved.errors["position"].error > 5.0 * grown
+    assert resolved.seconds > 0.01
+
+
+def test_steps_that_make_no_difference_are_put_together(
+    instance: Instance, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = RUN.format(4000, "position", 0.1).replace("0.01", "1")
+    found = []
+    for steps in (probes.MAX_STEPS, 100):
+        monkeypatch.setattr(probes, "MAX_STEPS", steps)
+        monkeypatch.setattr(probes, "TIMED_STEPS", steps)
+        probe = Probe(instance, scene_of(text))
+        found.append(probe.measure(Candidate(AVERAGED.model, 1e-8, probe.scene.step_size)))
+    one, joined = (measured.errors["position"].error for measured in found)
+    assert joined == pytest.approx(one, rel=0.1)
+    assert found[1].seconds > 0.3 * found[0].seconds, "all steps cost"
 
 
 def test_the_resolved_periods_are_counted(instance: Instance) -> None:
-    probe = Probe(instance, scene_of(RUN.format(500, "mean_velocity")))
-    for fidelity in (0, 1, 2):
-        probe.run_errors(Candidate(Model(fidelity, 0), 1e-8, probe.duration))
-    assert probe.drive_periods == pytest.approx(3 * 500.0)
+    probe = Probe(instance, scene_of(RUN.format(500, "mean_velocity", 0.1)))
+    for model in (AVERAGED.model, Model(1, 0), RESOLVED.model):
+        probe.measure(Candidate(model, 1e-8, probe.duration))
+    head = reference.HEAD_PERIODS
+    assert probe.drive_periods == pytest.approx(3 * 500.0 + head)

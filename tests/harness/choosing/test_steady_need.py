@@ -37,9 +37,9 @@ def test_a_device_that_does_not_settle_has_no_value_and_a_reason(instance: Insta
 
 def test_the_error_of_a_value_is_at_least_that_of_the_search() -> None:
     reference, near, none = (
-        SteadyValue(2.0, "", 9),
-        SteadyValue(2.5, "", 0),
-        SteadyValue(None, "stuck: why", 0),
+        SteadyValue(2.0, "", 9, 0.1),
+        SteadyValue(2.5, "", 0, 0.1),
+        SteadyValue(None, "stuck: why", 0, 0.1),
     )
     assert steady_error(near, reference, 0).error == 0.5
     assert steady_error(reference, reference, 0).error == pytest.approx(2e-10)

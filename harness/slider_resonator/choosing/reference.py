@@ -1,0 +1,125 @@
+"""The run that candidates are compared with: resolved, or by leaps where these prove to serve."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from slider_resonator.arrays import Array
+from slider_resonator.choosing.candidate import Candidate, Model
+from slider_resonator.choosing.errors import Compared, Estimates
+from slider_resonator.choosing.exact_inputs import exact_schedule, must_hold
+from slider_resonator.choosing.timed_run import timed_run
+from slider_resonator.errors import FmuError
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.record import Record
+from slider_resonator.scenes.need_table import AllowedTable
+from slider_resonator.scenes.scene import Scene
+
+FINEST_TOLERANCE = 1e-13
+"""Tolerance of the resolved LuGre device."""
+LEAP_TOLERANCES = (1e-9, 1e-11)
+"""Tolerances of two runs with leaps, whose difference bounds the error of the finer one."""
+TRUSTED = 0.1
+"""Share of an allowed error up to which these may differ."""
+SHORT = 0.3
+"""CPU time (s) of the resolved run up to which it is always made."""
+GAIN = 3.0
+"""Quotient of CPU times from which on leaps gain enough for a second run."""
+HEAD_PERIODS = 300.0
+"""Drive periods from which the CPU time of resolved motion is measured."""
+MAX_PERIODS = 10_000.0
+"""Drive periods in a step of resolved motion: FMUs bound the work of a step."""
+STEPS, MIN_POINTS, MAX_POINTS = 8, 4000, 20_000
+"""Points of a reference in a step of the candidate, and in total, where inputs must be held; at
+least two in a step."""
+
+
+@dataclass(frozen=True)
+class Readings:
+    """The needs of a run, and the times (s) at which signals (n,) and a beat (m,) are read."""
+
+    needs: dict[str, AllowedTable]
+    points: Array
+    grid: Array
+
+    def errors(
+        self, scene: Scene, record: Record, reference: Record, grid: Array | None = None
+    ) -> Estimates:
+        """Return the errors of a run; `grid` (k,) (s) are other points for the beat."""
+        own = self.grid if grid is None else grid
+        compared = Compared(record, reference, self.points, own, scene.drive_period)
+        return compared.errors(self.needs, scene.device.friction_law)
+
+
+class Reference:
+    """The reference runs of a scene; FmuError or Refusal where the FMU cannot make them.
+
+    `has_orders` says whether the FMU has a choice of averaging orders, and `drive_periods` counts
+    what was resolved.
+    """
+
+    def __init__(
+        self, instance: Instance, scene: Scene, readings: Readings, *, has_orders: bool
+    ) -> None:
+        self.drive_periods = 0.0
+        self._instance = instance
+        self._scene = scene
+        self._readings = readings
+        self._stop = scene.stop_time or 0.0
+        self._model = Model(2, scene.device.friction_law)
+        self._leaps = Model(0, self._model.friction_law, 2) if has_orders else None
+        self._records: dict[float, Record] = {}
+
+    @cached_property
+    def seconds(self) -> float:
+        """CPU time (s) of the resolved run, by that of its beginning."""
+        head = min(self._stop, HEAD_PERIODS * self._scene.drive_period)
+        return self._run(self._model, FINEST_TOLERANCE, head, head)[1] * self._stop / head
+
+    @cached_property
+    def leaps(self) -> bool:
+        """Whether leaps are cheaper by far than the resolved run, and accurate enough."""
+        if self._leaps is None or "event_times" in self._readings.needs or self.seconds <= SHORT:
+            return False
+        try:
+            coarse, seconds = self._run(self._leaps, LEAP_TOLERANCES[0], self._stop, self._stop)
+            if GAIN * seconds > self.seconds:
+                return False
+            fine, _ = self._run(self._leaps, LEAP_TOLERANCES[1], self._stop, self._stop)
+        except FmuError:
+            return False
+        errors = self._readings.errors(self._scene, coarse, fine)
+        return all(
+            errors[name].error <= TRUSTED * need.at(errors[name].magnitude)
+            for name, need in self._readings.needs.items()
+        )
+
+    def record(self, step: float) -> Record:
+        """Return the reference of candidates with this step (s)."""
+        key = step if must_hold(self._scene, interpolates=self._instance.fmu.interpolates) else 0.0
+        if key not in self._records:
+            leaps = self._leaps if self.leaps else None
+            tolerance = LEAP_TOLERANCES[-1] if leaps else FINEST_TOLERANCE
+            self._records[key] = self._run(leaps or self._model, tolerance, self._stop, step)[0]
+        return self._records[key]
+
+    def _run(
+        self, model: Model, tolerance: float, stop: float, step: float
+    ) -> tuple[Record, float]:
+        """Run a model up to `stop` (s), with inputs as for candidates with this step (s)."""
+        points = np.union1d(self._readings.points, self._readings.grid)
+        points = np.concatenate([[0.0], points[(points > 0.0) & (points < stop)], [stop]])
+        if model.fidelity > 0:
+            self.drive_periods += stop / self._scene.drive_period
+            pieces = np.arange(0.0, stop, MAX_PERIODS * self._scene.drive_period)
+            points = np.union1d(points, pieces)
+        fine = min(step / STEPS, stop / MIN_POINTS)
+        while stop / fine > MAX_POINTS and fine < 0.5 * step:
+            fine *= 2.0
+        interpolates = self._instance.fmu.interpolates
+        schedule = exact_schedule(self._scene, points, fine, interpolates=interpolates)
+        values = {**self._scene.parameters, **Candidate(model, tolerance, None).parameters}
+        return timed_run(self._instance, values, schedule)
