@@ -13,7 +13,7 @@ from slider_resonator.scenes.scene import Scene
 
 MARGIN = 0.99
 """Largest share of an allowed error that an estimate may take."""
-SAME_COST = 1.03
+SAME_COST = 1.05
 """Quotient of two costs that counts as a tie: measured times scatter."""
 
 INPUTS = {
@@ -59,17 +59,19 @@ class Evaluation:
 
 
 def cheapest(evaluations: Sequence[Evaluation]) -> Evaluation:
-    """Return the cheapest, and of a tie the one whose errors are the smallest of the allowed ones.
+    """Return the cheapest, and of a tie the one that leaves out least.
 
-    Where these are the same it is resolved motion before others, and the largest tolerance.
+    That is resolved motion before leaps, these before fidelity 1 and that before averages, LuGre
+    friction before Coulomb's, and the largest tolerance.
     """
     most = SAME_COST * min(one.cost for one in evaluations)
-    tied = [one for one in evaluations if one.cost <= most]
 
     def rank(one: Evaluation) -> tuple[float, int, float]:
-        return one.excess, -one.candidate.model.fidelity, -one.candidate.tolerance
+        model = one.candidate.model
+        kept = 1.5 if model.averaging_order == 2 else model.fidelity
+        return -kept, -model.friction_law, -one.candidate.tolerance
 
-    return min(tied, key=rank)
+    return min((one for one in evaluations if one.cost <= most), key=rank)
 
 
 @dataclass(frozen=True)

@@ -64,8 +64,8 @@ def choose_command(
     tolerance are ignored; its step, of several the largest, is the sampling step of signals. Inputs
     are held over each step, or go on as straight lines where [run] says interpolate and the FMU
     can; tuned parameters are held. A scene with a sweep stands for its unvaried device. The last
-    digits of the cost differ from call to call; where costs differ by less than 3 %, the candidate
-    with the smaller error is chosen. Exit code: 0 when a model meets
+    digits of the cost differ from call to call; where costs differ by less than 5 %, the model that
+    leaves out least is chosen. Exit code: 0 when a model meets
     the needs, 1 when none does (then the nearest is shown), 2 when the scene could not run, the FMU
     crashed or exceeded the time limit.
 
