@@ -81,7 +81,7 @@ def lugre(need: str, stiffness: float = 1e5, periods: int = 200, steps: int = 20
 def test_a_tighter_need_takes_a_tighter_tolerance(instance: Instance) -> None:
     tolerances = [
         choose_with(instance, lugre(f"position = {{ rel = {need} }}")).tolerance
-        for need in (1e-4, 1e-6, 1e-8)
+        for need in (1e-2, 1e-5, 1e-8)
     ]
     assert tolerances == sorted(tolerances, reverse=True)
     assert len(set(tolerances)) == 3
@@ -199,23 +199,27 @@ def test_the_mean_velocity_can_be_needed_throughout(instance: Instance) -> None:
 
 
 @pytest.mark.parametrize(
-    ("device", "fidelity"),
+    ("device", "averages"),
     [
-        ("friction_coefficient = 0.0", 0),
-        ("base_amplitude = 0.0\ninitial_velocity = 0.3", 0),
-        ("normal_preload = 0.0", 0),
-        ("damping_ratio = 0.0\nresonator_mass = 1.0\nresonator_frequency = 2474.8737341529163", 2),
+        ("friction_coefficient = 0.0", True),
+        ("base_amplitude = 0.0\ninitial_velocity = 0.3", True),
+        ("normal_preload = 0.0", True),
+        (
+            "damping_ratio = 0.0\nresonator_mass = 1.0\nresonator_frequency = 2474.8737341529163",
+            False,
+        ),
     ],
 )
-def test_without_friction_or_vibration_averaged_motion_serves_but_not_in_undamped_resonance(
-    instance: Instance, device: str, fidelity: int
+def test_averages_serve_without_friction_or_vibration_but_not_in_undamped_resonance(
+    instance: Instance, device: str, averages: bool
 ) -> None:
     run = "[run]\ndrive_periods = 500\nsteps_per_period = 1\n"
     text = f"[device]\n{device}\n{run}[need]\nmean_velocity = {{ rel = 0.05 }}\n"
     choice = choose_with(instance, scene_of(text))
-    assert (choice.meets, choice.fidelity) == (True, fidelity)
-    if fidelity:
-        assert "damping_ratio = 0.0 refused" in choice.ruled_out[0].why
+    assert choice.meets
+    refused = [m for m in choice.ruled_out if "damping_ratio = 0.0 refused" in m.why]
+    assert (refused == []) == averages
+    assert all(choice.model != m.model for m in refused)
 
 
 def test_a_scene_without_needs_is_refused(instance: Instance) -> None:
