@@ -26,11 +26,11 @@ from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line
-from slider_resonator.stress.extremes.cell import MatrixCell
-from slider_resonator.stress.extremes.listing import as_plain, write_matrices
-from slider_resonator.stress.extremes.matrix import all_cells
-from slider_resonator.stress.extremes.run import TIME_LIMIT, Matrix, run_matrix
-from slider_resonator.stress.extremes.verdict import PASSED
+from slider_resonator.stress.case import MatrixCell
+from slider_resonator.stress.listing import as_plain, write_matrices
+from slider_resonator.stress.matrix import all_cells
+from slider_resonator.stress.run import TIME_LIMIT, Matrix, run_matrix
+from slider_resonator.stress.verdict import PASSED
 
 
 @click.command("extremes")

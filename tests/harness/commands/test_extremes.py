@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.commands import extremes
-from slider_resonator.stress.extremes.cell import Hold, Limit, MatrixCell, Model
+from slider_resonator.stress.case import Hold, Limit, MatrixCell, Model
 from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 

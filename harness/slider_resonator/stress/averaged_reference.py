@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.stress.extremes.cell import MIN_DIVISIBLE, MatrixCell
-from slider_resonator.stress.extremes.observe import Observation
-from slider_resonator.stress.extremes.verdict import REFERENCE, BoundCheck
+from slider_resonator.stress.case import MIN_DIVISIBLE, MatrixCell
+from slider_resonator.stress.observe import Observation
+from slider_resonator.stress.verdict import REFERENCE, BoundCheck
 
 REFERENCE_ERROR = 1e-6
 """Error of the reference, as a fraction of peaks; each of its steps keeps 1e-8."""

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from math import nextafter, pi
 
-from slider_resonator.stress.extremes.cell import CHEAP, COULOMB_RESOLVED, Limit, MatrixCell, Model
-from slider_resonator.stress.extremes.device_axes import usual_holds
+from slider_resonator.stress.case import CHEAP, COULOMB_RESOLVED, Limit, MatrixCell, Model
+from slider_resonator.stress.device_axes import usual_holds
 
 LIMIT = 2 * 0.1 * 1.0
 """Friction of table 1 at a constant load of 1 N, N."""

@@ -22,8 +22,8 @@ from slider_resonator.output.hover_plot import (
 from slider_resonator.output.html_page import escaped, rendered, section, write_page
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict_so_far
-from slider_resonator.stress.extremes.cell import MODELS
-from slider_resonator.stress.extremes.picture import (
+from slider_resonator.stress.case import MODELS
+from slider_resonator.stress.picture import (
     FAILED_COLOUR,
     FAR,
     NEAR,
@@ -32,8 +32,8 @@ from slider_resonator.stress.extremes.picture import (
     cell_colour,
     margin,
 )
-from slider_resonator.stress.extremes.run import Matrix
-from slider_resonator.stress.extremes.verdict import (
+from slider_resonator.stress.run import Matrix
+from slider_resonator.stress.verdict import (
     FAILED,
     PASSED,
     REFUSED,

@@ -13,10 +13,10 @@ from slider_resonator.output.atomic import write_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Column, Row, Table, texts
 from slider_resonator.output.targets import make_folder
-from slider_resonator.stress.extremes.page import write_matrix_page
-from slider_resonator.stress.extremes.picture import draw_matrix
-from slider_resonator.stress.extremes.run import Matrix
-from slider_resonator.stress.extremes.verdict import PASSED, CellVerdict
+from slider_resonator.stress.page import write_matrix_page
+from slider_resonator.stress.picture import draw_matrix
+from slider_resonator.stress.run import Matrix
+from slider_resonator.stress.verdict import PASSED, CellVerdict
 
 AXIS_COLUMNS = (
     *(Column("axis"), Column("cells", numeric=True)),

@@ -9,7 +9,7 @@ from math import pi, sqrt, tau
 
 from slider_resonator.device.device import Device
 from slider_resonator.references.closed_forms import device_blocking_force
-from slider_resonator.stress.extremes.cell import (
+from slider_resonator.stress.case import (
     COULOMB_RESOLVED,
     MODELS,
     Hold,
@@ -17,7 +17,7 @@ from slider_resonator.stress.extremes.cell import (
     MatrixCell,
     Model,
 )
-from slider_resonator.stress.extremes.device_axes import NEAR_ONE, W, usual_holds
+from slider_resonator.stress.device_axes import NEAR_ONE, W, usual_holds
 
 PERIOD = tau / W
 PHASE = 0.4

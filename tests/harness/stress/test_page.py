@@ -3,10 +3,10 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from slider_resonator.stress.extremes.cell import Model
-from slider_resonator.stress.extremes.page import repeating, write_matrix_page
-from slider_resonator.stress.extremes.run import Matrix
-from slider_resonator.stress.extremes.verdict import (
+from slider_resonator.stress.case import Model
+from slider_resonator.stress.page import repeating, write_matrix_page
+from slider_resonator.stress.run import Matrix
+from slider_resonator.stress.verdict import (
     FAILED,
     PASSED,
     REFUSED,

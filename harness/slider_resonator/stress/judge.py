@@ -6,11 +6,11 @@ import re
 from dataclasses import replace
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
-from slider_resonator.stress.extremes.cell import MatrixCell
-from slider_resonator.stress.extremes.equality import equalities
-from slider_resonator.stress.extremes.invariants import invariants
-from slider_resonator.stress.extremes.observe import Observation
-from slider_resonator.stress.extremes.verdict import (
+from slider_resonator.stress.case import MatrixCell
+from slider_resonator.stress.equality import equalities
+from slider_resonator.stress.invariants import invariants
+from slider_resonator.stress.observe import Observation
+from slider_resonator.stress.verdict import (
     FAILED,
     PASSED,
     REFUSED,

@@ -11,9 +11,9 @@ from slider_resonator.arrays import Array
 from slider_resonator.checks.leap_error import allowed_by_leaps, centre_signals
 from slider_resonator.device.device import FULL, Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.stress.extremes.cell import MatrixCell
-from slider_resonator.stress.extremes.observe import Observation
-from slider_resonator.stress.extremes.verdict import REFERENCE, BoundCheck
+from slider_resonator.stress.case import MatrixCell
+from slider_resonator.stress.observe import Observation
+from slider_resonator.stress.verdict import REFERENCE, BoundCheck
 
 
 def full_device(cell: MatrixCell) -> Device:

@@ -12,9 +12,9 @@ from slider_resonator.checks.leap_error import MARGIN
 from slider_resonator.checks.natural_scale import fast_velocity
 from slider_resonator.device.device import Device
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.stress.extremes.cell import MatrixCell
-from slider_resonator.stress.extremes.observe import NAMES, Observation
-from slider_resonator.stress.extremes.verdict import BoundCheck
+from slider_resonator.stress.case import MatrixCell
+from slider_resonator.stress.observe import NAMES, Observation
+from slider_resonator.stress.verdict import BoundCheck
 
 Exact = NDArray[np.longdouble]
 

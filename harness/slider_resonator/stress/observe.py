@@ -13,7 +13,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS, OUTPUTS
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.stress.extremes.cell import Hold, MatrixCell
+from slider_resonator.stress.case import Hold, MatrixCell
 
 NAMES = tuple(OUTPUTS)
 """Outputs that are read."""

@@ -14,9 +14,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from slider_resonator.output.plot_style import save, style
-from slider_resonator.stress.extremes.cell import MODELS
-from slider_resonator.stress.extremes.run import Matrix
-from slider_resonator.stress.extremes.verdict import FAILED, PASSED, REFUSED, CellVerdict
+from slider_resonator.stress.case import MODELS
+from slider_resonator.stress.run import Matrix
+from slider_resonator.stress.verdict import FAILED, PASSED, REFUSED, CellVerdict
 
 FAR, NEAR = -8.0, 0.0
 """Decimal logarithm of a deviation over its bound, at the ends of the scale."""

@@ -14,10 +14,10 @@ from slider_resonator.fmu.isolation.tasks import run_all_tasks
 from slider_resonator.fmu.opening import lacking
 from slider_resonator.output.progress import Progress, counted
 from slider_resonator.output.readable import number_of
-from slider_resonator.stress.extremes.cell import MatrixCell
-from slider_resonator.stress.extremes.judge import MAX_RELATIVE_COST, broken, judge
-from slider_resonator.stress.extremes.observe import observe
-from slider_resonator.stress.extremes.verdict import (
+from slider_resonator.stress.case import MatrixCell
+from slider_resonator.stress.judge import MAX_RELATIVE_COST, broken, judge
+from slider_resonator.stress.observe import observe
+from slider_resonator.stress.verdict import (
     FAILED,
     NO_REFERENCE,
     PASSED,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from math import nextafter, sqrt, tau
 
-from slider_resonator.stress.extremes.cell import (
+from slider_resonator.stress.case import (
     CHEAP,
     CHEAP_LUGRE,
     LUGRE,

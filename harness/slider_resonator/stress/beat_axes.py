@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from math import pi, tau
 
-from slider_resonator.stress.extremes.cell import MODELS, Hold, Limit, MatrixCell, Model
-from slider_resonator.stress.extremes.device_axes import W, usual_holds
+from slider_resonator.stress.case import MODELS, Hold, Limit, MatrixCell, Model
+from slider_resonator.stress.device_axes import W, usual_holds
 
 PERIOD = tau / W
 DETUNING = 0.05

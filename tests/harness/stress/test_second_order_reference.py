@@ -7,12 +7,12 @@ from dataclasses import replace
 import pytest
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.stress.extremes.cell import Hold, MatrixCell, Model
-from slider_resonator.stress.extremes.equality import has_reference
-from slider_resonator.stress.extremes.judge import judge
-from slider_resonator.stress.extremes.matrix import all_cells
-from slider_resonator.stress.extremes.observe import NAMES, Observation, observe
-from slider_resonator.stress.extremes.verdict import FAILED, PASSED, REFERENCE
+from slider_resonator.stress.case import Hold, MatrixCell, Model
+from slider_resonator.stress.equality import has_reference
+from slider_resonator.stress.judge import judge
+from slider_resonator.stress.matrix import all_cells
+from slider_resonator.stress.observe import NAMES, Observation, observe
+from slider_resonator.stress.verdict import FAILED, PASSED, REFERENCE
 
 CELL = MatrixCell("table 1", "order 2", Model(0, 0, 2), {}, (Hold(0.25, 4, load=0.02),))
 

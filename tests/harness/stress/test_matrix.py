@@ -4,8 +4,8 @@ from collections import Counter
 
 import pytest
 
-from slider_resonator.stress.extremes.cell import CHEAP, MODELS, Hold, MatrixCell, Model
-from slider_resonator.stress.extremes.matrix import all_cells
+from slider_resonator.stress.case import CHEAP, MODELS, Hold, MatrixCell, Model
+from slider_resonator.stress.matrix import all_cells
 
 AXES = {
     "Omega": {f"1e{n}" for n in range(1, 8)},

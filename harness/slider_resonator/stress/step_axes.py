@@ -6,7 +6,7 @@ import random
 from collections.abc import Iterator
 from math import tau
 
-from slider_resonator.stress.extremes.cell import (
+from slider_resonator.stress.case import (
     CHEAP,
     MODELS,
     RESOLVED,
@@ -15,7 +15,7 @@ from slider_resonator.stress.extremes.cell import (
     MatrixCell,
     Model,
 )
-from slider_resonator.stress.extremes.device_axes import AMPLITUDE, W
+from slider_resonator.stress.device_axes import AMPLITUDE, W
 
 STEP = "communication step"
 PERIOD = tau / W

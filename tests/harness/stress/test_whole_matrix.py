@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.stress.extremes.cell import MatrixCell
-from slider_resonator.stress.extremes.judge import MAX_RELATIVE_COST
-from slider_resonator.stress.extremes.matrix import all_cells
-from slider_resonator.stress.extremes.run import Matrix, run_matrix
-from slider_resonator.stress.extremes.verdict import FAILED, REFERENCE, REFUSED
+from slider_resonator.stress.case import MatrixCell
+from slider_resonator.stress.judge import MAX_RELATIVE_COST
+from slider_resonator.stress.matrix import all_cells
+from slider_resonator.stress.run import Matrix, run_matrix
+from slider_resonator.stress.verdict import FAILED, REFERENCE, REFUSED
 
 EVERY, EVERY_OF_SECOND_ORDER = 17, 41
 """Of how many cells the Python FMU runs one, and of those of second-order averages. Prime: the

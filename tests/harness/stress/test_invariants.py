@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.stress.extremes.cell import Hold, MatrixCell, Model
-from slider_resonator.stress.extremes.judge import MAX_RELATIVE_COST, judge
-from slider_resonator.stress.extremes.observe import NAMES, Observation, observe
-from slider_resonator.stress.extremes.verdict import FAILED, PASSED, REFUSED
+from slider_resonator.stress.case import Hold, MatrixCell, Model
+from slider_resonator.stress.judge import MAX_RELATIVE_COST, judge
+from slider_resonator.stress.observe import NAMES, Observation, observe
+from slider_resonator.stress.verdict import FAILED, PASSED, REFUSED
 
 TABLE_1 = MatrixCell("table 1", "as it is", Model(2, 0), {}, (Hold(1e-4, 60),))
 

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import FmuError
-from slider_resonator.stress.extremes.cell import Hold, MatrixCell, Model
-from slider_resonator.stress.extremes.run import Matrix, run_matrix
-from slider_resonator.stress.extremes.verdict import FAILED, PASSED
+from slider_resonator.stress.case import Hold, MatrixCell, Model
+from slider_resonator.stress.run import Matrix, run_matrix
+from slider_resonator.stress.verdict import FAILED, PASSED
 from tests.harness.faulty_fmus import compiled
 
 QUICK = MatrixCell("steps", "few", Model(2, 0), {}, (Hold(1e-4, 20),))

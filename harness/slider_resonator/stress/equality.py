@@ -14,10 +14,10 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.taylor import simulate
 from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
-from slider_resonator.stress.extremes import averaged_reference, second_order_reference
-from slider_resonator.stress.extremes.cell import MatrixCell
-from slider_resonator.stress.extremes.observe import NAMES, Observation
-from slider_resonator.stress.extremes.verdict import NO_REFERENCE, REFERENCE, BoundCheck
+from slider_resonator.stress import averaged_reference, second_order_reference
+from slider_resonator.stress.case import MatrixCell
+from slider_resonator.stress.observe import NAMES, Observation
+from slider_resonator.stress.verdict import NO_REFERENCE, REFERENCE, BoundCheck
 
 SIGNALS = ("position", "velocity", "resonator_displacement", "resonator_velocity")
 EXACT = 1e-10

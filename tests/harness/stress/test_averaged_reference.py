@@ -7,12 +7,12 @@ from dataclasses import replace
 import pytest
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.stress.extremes.averaged_reference import REFERENCE_ERROR, covers
-from slider_resonator.stress.extremes.cell import Hold, MatrixCell, Model
-from slider_resonator.stress.extremes.judge import judge
-from slider_resonator.stress.extremes.matrix import all_cells
-from slider_resonator.stress.extremes.observe import NAMES, Observation, observe
-from slider_resonator.stress.extremes.verdict import FAILED, PASSED, REFERENCE
+from slider_resonator.stress.averaged_reference import REFERENCE_ERROR, covers
+from slider_resonator.stress.case import Hold, MatrixCell, Model
+from slider_resonator.stress.judge import judge
+from slider_resonator.stress.matrix import all_cells
+from slider_resonator.stress.observe import NAMES, Observation, observe
+from slider_resonator.stress.verdict import FAILED, PASSED, REFERENCE
 
 CELL = MatrixCell("table 1", "averaged", Model(0, 0), {}, (Hold(0.01, 20, load=0.02),))
 
