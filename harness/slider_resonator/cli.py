@@ -30,14 +30,15 @@ INTERRUPTED = 130
 COMMANDS: Mapping[str, str] = {
     "baseline": "Compare an FMU with its own earlier results.",
     "blocking": "Find the load that stops an FMU, without a long run.",
-    "campaign": "Run random devices and schedules on FMUs.",
+    "campaign": "Run the random devices of `stress`.",
     "choose": "Choose the cheapest model that meets a scene's needs.",
     "device": "Say what a device file means; devices to start from.",
-    "extremes": "Run FMUs at the extremes of every parameter and input.",
+    "extremes": "Run the extremes of `stress`.",
     "fit": "Estimate parameters of a device from measurements.",
     "run": "Run one scene and report results and cost.",
     "scenes": "List the built-in scenes; help to write your own.",
     "steady": "Find the steady velocity of an FMU, without a long run.",
+    "stress": "Run FMUs at extremes and with random devices.",
     "sweep": "Compute measures over a grid of parameters and inputs.",
     "trade": "Measure error and cost of every model and peer method.",
     "validate": "Compare FMUs with the references, scene by scene.",
@@ -189,7 +190,7 @@ def main(max_memory: int | None, max_unpacked: int | None) -> None:
       slider-resonator steady my.fmu --set phase=0.4 --set load=0.05 --json
       slider-resonator blocking my.fmu --json
       slider-resonator choose feed_forward --json
-      slider-resonator extremes --out extremes
+      slider-resonator stress --out stress
       slider-resonator sweep grid.toml --out table.parquet
       slider-resonator trade table_1 --out trade
       slider-resonator baseline check my.fmu --dir baseline

@@ -30,15 +30,13 @@ from slider_resonator.output.hover_plot import (
 from slider_resonator.output.html_page import rendered, write_page
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.scene_files import find_scene
-from slider_resonator.stress.campaign.page import write_campaigns
-from slider_resonator.stress.page import write_matrix_page
+from slider_resonator.stress.page import write_stress_page
 from slider_resonator.sweeping.grid import grid_from
 from slider_resonator.sweeping.page import write_sweep_page
 from slider_resonator.sweeping.sweeping import run_sweep
 from slider_resonator.trade.page import write_trades
 from tests.harness.known_provenance import PROVENANCE
-from tests.harness.stress.campaign.test_page import CAMPAIGN
-from tests.harness.stress.test_page import MATRIX
+from tests.harness.stress.test_page import RESULT
 from tests.harness.trade.test_needs import TRADE
 from tests.harness.verdicts import PASSED
 
@@ -219,18 +217,9 @@ def test_trade(browser: Chrome, tmp_path: Path) -> None:
     assert "error: " in text
 
 
-def test_campaign(browser: Chrome, tmp_path: Path) -> None:
-    page = tmp_path / "campaign.html"
-    write_campaigns(page, [CAMPAIGN], PROVENANCE)
-    assert opened(browser, page) == 1
-    text = hovered(browser)
-    assert "largest error over its tolerance [1]: " in text
-    assert "slider-resonator campaign " in text
-
-
-def test_extremes(browser: Chrome, tmp_path: Path) -> None:
+def test_stress(browser: Chrome, tmp_path: Path) -> None:
     page = tmp_path / "index.html"
-    write_matrix_page(page, [MATRIX], PROVENANCE)
+    write_stress_page(page, [RESULT], PROVENANCE)
     assert opened(browser, page) == 1
     assert "largest deviation over its bound [1]: " in hovered(browser)
     cells = browser.find_elements("css selector", ".matrix td[title]")

@@ -1,41 +1,62 @@
-"""A cell of the stability matrix: its run and its place."""
+"""A case: a device, what it gets in a run, and the model that follows it."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import accumulate, pairwise
 from math import tau
+from typing import Any
 
-from slider_resonator.device.device import Device
+import numpy as np
+
+from slider_resonator.arrays import Array
+from slider_resonator.device.device import FULL, Device
+from slider_resonator.device.held_inputs import TunedInputs
 
 SUBSTEPS = 3
-"""Substeps per step in the second partition of a cell, for steps that do not repeat."""
+"""Substeps per step in the second partition of a case, for steps that do not repeat."""
 MIN_DIVISIBLE = 1e-300
 """Steps up to this size, s, are not divided."""
-
 LEAP_TOLERANCE = 1e-6
-"""Tolerance of averages of second order, under which they leap over periods."""
+"""Tolerance under which averages of second order leap over periods, where none is given."""
+RANDOM = "random device"
+"""Axis of the cases that are drawn."""
 
 
 @dataclass(frozen=True)
 class Hold:
-    """Inputs (rad, N, 1) held over `count` communication steps of `size` (s)."""
+    """Inputs (rad, N, 1) held over `count` communication steps of `size` (s).
+
+    `tuned` are the tunable parameters that the run changes, by name.
+    """
 
     size: float
     count: int = 1
     phase: float = 0.4
     load: float = 0.0
     frequency_ratio: float = 1.0
+    tuned: tuple[tuple[str, float], ...] = ()
 
     @property
     def inputs(self) -> tuple[float, float, float]:
         """Phase, load, frequency_ratio."""
         return self.phase, self.load, self.frequency_ratio
 
+    def under(self, inputs: Mapping[str, float]) -> Hold:
+        """Return the same steps with some inputs, by name, replaced."""
+        changed: dict[str, Any] = dict(inputs)
+        return replace(self, **changed)
+
+    @property
+    def duration(self) -> float:
+        """Time of all its steps, s."""
+        return self.size * self.count
+
 
 @dataclass(frozen=True)
 class Model:
-    """A column of the matrix: degrees of freedom, friction law, and the order of averages."""
+    """Degrees of freedom that are resolved, friction law, and the order of averages."""
 
     fidelity: int
     friction_law: int
@@ -43,15 +64,26 @@ class Model:
 
     @property
     def name(self) -> str:
-        """The column's heading."""
+        """The model in words."""
         law = "LuGre" if self.friction_law else "Coulomb"
         order = ", order 2" if self.second_order else ""
         return f"{law}, fidelity {self.fidelity}{order}"
 
     @property
     def second_order(self) -> bool:
-        """Whether it is motion by averages of second order."""
+        """Whether it leaps over periods, by averages of second order."""
         return self.fidelity == 0 and self.averaging_order == 2
+
+    @property
+    def first_order(self) -> bool:
+        """Whether it is the averaged motion of first order."""
+        return self.fidelity == 0 and self.averaging_order == 1
+
+
+MODELS = (
+    *(Model(2, 0), Model(1, 0), Model(0, 0), Model(0, 0, 2)),
+    *(Model(2, 1), Model(1, 1), Model(0, 1), Model(0, 1, 2)),
+)
 
 
 @dataclass(frozen=True)
@@ -65,7 +97,7 @@ class Limit:
 
 
 @dataclass(frozen=True)
-class MatrixCell:
+class Case:
     """One run: the value `value` on the axis `axis`, by one model.
 
     `parameters` are those that differ from table 1. `from_zero` asks for the same motion when the
@@ -88,6 +120,11 @@ class MatrixCell:
         return f"{self.axis}: {self.value}: {self.model.name}"
 
     @property
+    def is_random(self) -> bool:
+        """Whether its device is drawn: it is run once and judged by its reference alone."""
+        return self.axis == RANDOM
+
+    @property
     def settings(self) -> dict[str, float]:
         """All parameters that are set in the FMU."""
         chosen = {"fidelity": self.model.fidelity, "friction_law": self.model.friction_law}
@@ -98,8 +135,13 @@ class MatrixCell:
 
     @property
     def device(self) -> Device:
-        """The device for the references."""
+        """The device at the start."""
         return Device.from_mapping(self.settings)
+
+    @property
+    def reference_device(self) -> Device:
+        """The device of the reference: leaps are judged by resolved motion of the full device."""
+        return replace(self.device, fidelity=FULL) if self.model.second_order else self.device
 
     @property
     def period(self) -> float:
@@ -107,25 +149,44 @@ class MatrixCell:
         return tau / self.device.drive_frequency
 
     @property
+    def duration(self) -> float:
+        """Time of all steps, s."""
+        return sum(hold.duration for hold in self.holds)
+
+    @property
+    def sizes(self) -> Array:
+        """Size of each step (s), shape (n,)."""
+        return np.repeat([h.size for h in self.holds], [h.count for h in self.holds])
+
+    @property
+    def inputs(self) -> Array:
+        """Phase (rad), load (N) and frequency ratio of each step, shape (n, 3)."""
+        return np.repeat([h.inputs for h in self.holds], [h.count for h in self.holds], axis=0)
+
+    @property
+    def times(self) -> Array:
+        """Times of the communication points (s) from 0 on, shape (n + 1,)."""
+        return np.concatenate([[0.0], np.cumsum(self.sizes)])
+
+    @property
+    def held(self) -> list[TunedInputs]:
+        """The inputs for references, from time 0 on, equal neighbours merged."""
+        ends = self.times[[0, *accumulate(hold.count for hold in self.holds)]].tolist()
+        held: list[TunedInputs] = []
+        for (start, stop), hold in zip(pairwise(ends), self.holds, strict=True):
+            one = TunedInputs(start, stop, *hold.inputs, tuned=hold.tuned)
+            if held and replace(held[-1], start=start, stop=stop) == one:
+                held[-1] = replace(held[-1], stop=stop)
+            else:
+                held.append(one)
+        return held
+
+    @property
     def other_holds(self) -> tuple[Hold, ...]:
         """The same inputs over the same times in other steps: repeated merged, others divided."""
         if any(hold.count > 1 for hold in self.holds):
-            return tuple(replace(h, size=h.size * h.count, count=1) for h in self.holds)
+            return tuple(replace(h, size=h.duration, count=1) for h in self.holds)
         return tuple(
             replace(h, size=h.size / SUBSTEPS, count=SUBSTEPS) if h.size > MIN_DIVISIBLE else h
             for h in self.holds
         )
-
-
-RESOLVED_COULOMB = Model(2, 0)
-MODELS = (
-    *(RESOLVED_COULOMB, Model(1, 0), Model(0, 0), Model(0, 0, 2)),
-    *(Model(2, 1), Model(1, 1), Model(0, 1), Model(0, 1, 2)),
-)
-CHEAP = tuple(model for model in MODELS if model != Model(0, 1, 2))
-"""All but LuGre friction by averages of second order, whose cells take longest: that is left out on
-axes that try nothing of it that others do not."""
-RESOLVED = tuple(model for model in MODELS if model.fidelity > 0)
-LUGRE = tuple(model for model in MODELS if model.friction_law == 1)
-CHEAP_LUGRE = tuple(model for model in CHEAP if model.friction_law == 1)
-COULOMB_RESOLVED = tuple(model for model in RESOLVED if model.friction_law == 0)

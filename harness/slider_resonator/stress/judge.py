@@ -1,62 +1,67 @@
-"""Judge a cell by its observation."""
+"""Judge a case by its observation."""
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 
-from slider_resonator.device.interface import INPUTS, PARAMETERS
-from slider_resonator.stress.case import MatrixCell
-from slider_resonator.stress.equality import equalities
-from slider_resonator.stress.invariants import invariants
+from slider_resonator.stress.case import Case
+from slider_resonator.stress.comparisons import (
+    compare_with_reference,
+    equalities,
+    has_reference,
+    is_sensitive,
+)
+from slider_resonator.stress.invariants import finite, invariants
 from slider_resonator.stress.observe import Observation
 from slider_resonator.stress.verdict import (
     FAILED,
+    NO_REFERENCE,
     PASSED,
+    REFERENCE,
     REFUSED,
+    SENSITIVE,
     BoundCheck,
-    CellVerdict,
+    Verdict,
+    refused_by_name,
+    verdict_on,
 )
 
-NAMES = "|".join([*PARAMETERS, *INPUTS, "communicationStepSize"])
-NAMED = re.compile(rf"\b({NAMES}) = (\S+) refused\b.*\bmust ")
 MAX_RELATIVE_COST = 1000.0
 """Maximum cost of a step, per period it spans (at least 1), relative to a drive period.
 
 A step may have to tabulate friction, or to find events that nearly coincide."""
 
 
-def judge(cell: MatrixCell, seen: Observation) -> CellVerdict:
-    """Return the verdict on a cell that ran to its end or was refused."""
+def judge(case: Case, seen: Observation) -> Verdict:
+    """Return the verdict on a case that ran to its end or was refused.
+
+    A random case is judged by its reference alone, and passes over what that does not say.
+    """
     if seen.refusal is not None:
-        named = refused_by_name(cell, seen.refusal)
-        return _verdict(cell, REFUSED if named else FAILED, seen.refusal)
-    checks = list(invariants(cell, seen))
+        named = refused_by_name(case, seen.refusal)
+        return verdict_on(case, REFUSED if named else FAILED, seen.refusal)
+    checks = [finite(seen)]
     if checks[0].passed:
-        checks.extend(equalities(cell, seen))
-    checks.append(_cost(seen))
+        checks += [] if case.is_random else [*invariants(case, seen), *equalities(case, seen)]
+        checks += [compare_with_reference(case, seen)] if has_reference(case) else []
+    checks += [] if case.is_random else [_cost(seen)]
     reason = "; ".join(f"{check.name}: {check.words}" for check in checks if not check.passed)
     return replace(
-        _verdict(cell, FAILED if reason else PASSED, reason),
+        verdict_on(case, FAILED if reason else PASSED, reason),
+        **(_of_reference(case, checks[-1]) if case.is_random else {}),
         checks=tuple(checks),
         worst_step=seen.worst_step,
         period_cost=seen.period_cost,
     )
 
 
-def refused_by_name(cell: MatrixCell, text: str) -> bool:
-    """Return whether a refusal names a variable or the step, its value and the requirement."""
-    found = NAMED.search(text)
-    if found is None:
-        return False
-    name, value = found.groups()
-    if name == "communicationStepSize":
-        present = {hold.size for hold in (*cell.holds, *cell.other_holds)} | {cell.period}
-    elif name in INPUTS:
-        present = {float(getattr(hold, name)) for hold in cell.holds}
-    else:
-        present = {float(getattr(cell.device, name))}
-    return any(value == repr(one) for one in present)
+def _of_reference(case: Case, check: BoundCheck) -> dict[str, str]:
+    """Return verdict and reason where the reference of a random case says nothing about it."""
+    if check.name == NO_REFERENCE:
+        return {"verdict": NO_REFERENCE, "reason": check.words}
+    if check.name == REFERENCE and not check.passed and is_sensitive(case, check.found):
+        return {"verdict": SENSITIVE}
+    return {}
 
 
 def _cost(seen: Observation) -> BoundCheck:
@@ -66,12 +71,3 @@ def _cost(seen: Observation) -> BoundCheck:
         f"allowed {MAX_RELATIVE_COST:g}"
     )
     return BoundCheck("cost of a step", ratio / MAX_RELATIVE_COST, words, is_deviation=False)
-
-
-def broken(cell: MatrixCell, reason: str) -> CellVerdict:
-    """Return the verdict on a cell that crashed or exceeded its time limit."""
-    return _verdict(cell, FAILED, reason)
-
-
-def _verdict(cell: MatrixCell, verdict: str, reason: str) -> CellVerdict:
-    return CellVerdict(cell.axis, cell.value, cell.model.name, verdict, reason)

@@ -1,91 +1,123 @@
-"""The verdicts as files: JSON, a page to read, and the picture."""
+"""The result in words, as plain data and as files."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import accumulate
 from pathlib import Path
-from urllib.parse import quote
 
+from slider_resonator.device.interface import INPUTS
 from slider_resonator.fmu.provenance import Provenance
-from slider_resonator.fmu.provenance_text import HEADING, provenance_markdown
-from slider_resonator.output import markdown
 from slider_resonator.output.atomic import write_text
 from slider_resonator.output.json_output import to_json
-from slider_resonator.output.table import Column, Row, Table, texts
 from slider_resonator.output.targets import make_folder
-from slider_resonator.stress.page import write_matrix_page
-from slider_resonator.stress.picture import draw_matrix
-from slider_resonator.stress.run import Matrix
-from slider_resonator.stress.verdict import PASSED, CellVerdict
-
-AXIS_COLUMNS = (
-    *(Column("axis"), Column("cells", numeric=True)),
-    *texts("checked by", "nearest to its bound"),
-)
+from slider_resonator.output.terminal import one_line
+from slider_resonator.stress.case import RANDOM, Case
+from slider_resonator.stress.run import StressResult
+from slider_resonator.stress.verdict import FAILED, NO_REFERENCE, PASSED
 
 
-def write_matrices(matrices: Sequence[Matrix], out: Path, provenance: Provenance) -> None:
-    """Write extremes.json, extremes.md, index.html and a picture for each FMU into a folder.
+@dataclass(frozen=True)
+class Files:
+    """What to write: the result as JSON, the page, and a picture of the axes for each FMU.
 
-    Raises HarnessError when that is impossible.
+    Pictures get the name of the JSON file and of the FMU, in the folder `pictures`.
     """
-    make_folder(out)
-    write_text(out / "extremes.json", to_json(as_plain(matrices), provenance))
-    for matrix in matrices:
-        draw_matrix(matrix, out / _picture(matrix))
-    parts = ["# Stability at the extremes", *(_page(matrix) for matrix in matrices)]
-    parts += [f"## {HEADING}", provenance_markdown(provenance)]
-    write_text(out / "extremes.md", "\n\n".join(parts) + "\n")
-    write_matrix_page(out / "index.html", matrices, provenance)
+
+    json: Path | None = None
+    page: Path | None = None
+    pictures: Path | None = None
+
+    @property
+    def names(self) -> list[str]:
+        """The files, and the folder of the pictures in place of what is in it."""
+        paths = [self.pictures] if self.pictures else [self.json, self.page]
+        return [str(path) for path in paths if path is not None]
 
 
-def as_plain(matrices: Sequence[Matrix]) -> dict[str, object]:
+def in_folder(folder: Path, name: str) -> Files:
+    """Return all files in a folder: NAME.json, index.html and NAME_<FMU>.png."""
+    return Files(folder / f"{name}.json", folder / "index.html", folder)
+
+
+def write_files(results: Sequence[StressResult], files: Files, provenance: Provenance) -> None:
+    """Write what is asked for; HarnessError when that is impossible."""
+    if files.pictures is not None:
+        make_folder(files.pictures)
+    if files.json is not None:
+        write_text(files.json, to_json(as_plain(results), provenance))
+    # Imported here: they take longer to load than a case to run.
+    if files.page is not None:
+        from slider_resonator.stress.page import write_stress_page
+
+        write_stress_page(files.page, results, provenance)
+    for result in results:
+        if files.pictures and files.json and result.by_axis().keys() - {RANDOM}:
+            from slider_resonator.stress.picture import draw_map
+
+            name = f"{files.json.stem}_{Path(result.fmu).stem}.png"
+            draw_map(result, files.pictures / name)
+
+
+def as_plain(results: Sequence[StressResult]) -> dict[str, object]:
     """Return the results for JSON."""
     return {
-        "passed": all(matrix.passed for matrix in matrices),
+        "passed": all(result.passed for result in results),
         "fmus": [
             {
-                "fmu": matrix.fmu,
-                "passed": matrix.passed,
-                "cells": len(matrix.verdicts),
-                "not_run": matrix.not_run,
-                "counts": matrix.counts,
-                "wall_time": matrix.wall_time,
-                "worst_step_over_period_cost": matrix.most_expensive
-                and matrix.most_expensive.cost_ratio,
-                "worst_step_cell": matrix.most_expensive and matrix.most_expensive.name,
-                "verdicts": matrix.verdicts,
+                "fmu": result.fmu,
+                "passed": result.passed,
+                "cases": len(result.verdicts),
+                "skipped": result.skipped,
+                "not_run": result.not_run,
+                "counts": result.counts,
+                "wall_time": result.wall_time,
+                "worst_step_over_period_cost": result.most_expensive
+                and result.most_expensive.cost_ratio,
+                "worst_step_case": result.most_expensive and result.most_expensive.name,
+                "worst": {model: case.name for model, case in result.nearest.items()},
+                "verdicts": result.verdicts,
             }
-            for matrix in matrices
+            for result in results
         ],
     }
 
 
-def _page(matrix: Matrix) -> str:
-    name = Path(matrix.fmu).name
-    others = [one for one in matrix.verdicts if one.verdict != PASSED]
-    axes = [_axis_row(axis, verdicts) for axis, verdicts in matrix.by_axis().items()]
-    parts = [
-        f"## {markdown.escaped(name)}",
-        matrix.summary.replace("\n", "\n\n"),
-        f"![{markdown.escaped(name)}: the matrix]({quote(_picture(matrix))})",
-        "### By axis",
-        markdown.rendered(Table(AXIS_COLUMNS, axes)),
-    ]
-    if others:
-        rows = [(one.name, one.verdict, one.reason) for one in others]
-        table = Table(texts("cell", "verdict", "reason"), rows)
-        parts.extend(["### Not passed", markdown.rendered(table)])
-    return "\n\n".join(parts)
+def sentences(result: StressResult) -> str:
+    """Return what was found, in lines: the cases nearest to a bound, and those that did not pass.
+
+    A failed one comes with the command that runs it again.
+    """
+    lines = [f"{one_line(result.fmu)}: {result.summary}"]
+    for model, case in result.nearest.items():
+        if check := case.nearest:
+            lines.append(
+                f"  nearest to a bound, {model}: {check.found:.2g} of it in {check.name}, "
+                f"{case.axis}: {case.value}"
+            )
+    for case in result.verdicts:
+        if case.verdict not in (PASSED, NO_REFERENCE):
+            lines.append(f"  {case.verdict}: {case.name}: {one_line(case.reason)}")
+        if case.verdict == FAILED:
+            lines.append(f"    {one_line(case.command(result.fmu))}")
+    return "\n".join(lines)
 
 
-def _axis_row(axis: str, verdicts: Sequence[CellVerdict]) -> Row:
-    checks = [check for one in verdicts for check in one.checks]
-    names = ", ".join(dict.fromkeys(check.name for check in checks))
-    nearest = max(checks, key=lambda check: check.found, default=None)
-    words = f"{nearest.name}, {nearest.found:.2g} of it" if nearest else ""
-    return (axis, str(len(verdicts)), names, words)
-
-
-def _picture(matrix: Matrix) -> str:
-    return f"extremes_{Path(matrix.fmu).stem}.png"
+def values_of(case: Case) -> str:
+    """Return the values of a case, in lines."""
+    lines = [f"  {case.name}:"]
+    lines += [f"    {name} = {value!r}" for name, value in case.settings.items()]
+    lines.append(
+        f"    {len(case.sizes)} steps of {case.sizes.min():.3g} to {case.sizes.max():.3g} s from "
+        f"{case.start_time:g} s on"
+    )
+    before: dict[str, float] = {}
+    starts = accumulate((hold.duration for hold in case.holds), initial=0.0)
+    for start, hold in zip(starts, case.holds, strict=False):
+        now = dict(zip(INPUTS, hold.inputs, strict=True)) | dict(hold.tuned)
+        if now != before:
+            words = ", ".join(f"{name} = {value!r}" for name, value in now.items())
+            lines.append(f"    from {start!r} s on: {words}")
+        before = now
+    return "\n".join(lines)

@@ -1,10 +1,10 @@
-"""Running a cell in an FMU and recording outputs and costs."""
+"""Running a case in an FMU and recording outputs and costs."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from statistics import median
 
 import numpy as np
@@ -13,116 +13,124 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS, OUTPUTS
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.stress.case import Hold, MatrixCell
+from slider_resonator.stress.case import Case, Hold
 
-NAMES = tuple(OUTPUTS)
-"""Outputs that are read."""
+SIGNALS = ("position", "velocity", "resonator_displacement", "resonator_velocity")
+"""Outputs of resolved motion that are compared."""
+MEAN = ("position", "mean_velocity")
+"""Those of averaged motion."""
 BASELINE_STEPS = 5
 """Steps of a drive period, or of the whole run if that is shorter, that measure its cost."""
 
 
 @dataclass(frozen=True)
 class Observation:
-    """The outputs and costs of an FMU in a cell.
+    """The outputs and costs of an FMU in a case.
 
-    `sizes` (n,) and `inputs` (n, 3) are those of each step, `outputs` (n + 1, 13) start with
-    the first moment. `other` (13,) are the last outputs in the other partition, `from_zero`
-    those of a run from time 0, where one was made. `replayed` is whether a second run, and steps
-    after a return to a stored state, were equal bit by bit. `worst_step` is the CPU time (s) of the
-    most expensive step, the smaller of two runs, per drive period it spans (at least 1);
-    `period_cost` is the median of a drive period of the device. `refusal` is the message of the FMU
-    where it refused the cell; all else is empty then.
+    `outputs` start with the first moment, each of shape (n + 1,). `other` are the last ones in the
+    other partition, `from_zero` those of a run from time 0, where one was made. `replayed` is
+    whether a second run, and steps after a return to a stored state, were equal bit by bit.
+    `worst_step` is the CPU time (s) of the most expensive step, the smaller of two runs, per drive
+    period it spans (at least 1); `period_cost` is the median of a drive period of the device.
+    `refusal` is the message of the FMU where it refused the case; all else is empty then.
     """
 
-    sizes: Array
-    inputs: Array
-    outputs: Array
-    other: Array
-    from_zero: Array | None = None
+    outputs: Mapping[str, Array] = field(default_factory=dict)
+    other: Mapping[str, float] | None = None
+    from_zero: Mapping[str, float] | None = None
     replayed: bool = True
     worst_step: float = 0.0
     period_cost: float = 0.0
     refusal: str | None = None
 
-    def signal(self, name: str) -> Array:
-        """Return one output over the run, shape (n + 1,)."""
-        column: Array = self.outputs[:, NAMES.index(name)]
-        return column
 
+def observe(instance: Instance, case: Case) -> Observation:
+    """Run a case; a refusal is part of the observation. Raises FmuError for an unusable FMU.
 
-def observe(instance: Instance, cell: MatrixCell) -> Observation:
-    """Run a cell; a refusal is part of the observation. Raises FmuError for an unusable FMU."""
+    A random case is run once, and only what is compared is read.
+    """
     try:
-        return _observe(instance, cell)
+        if case.is_random:
+            names = MEAN if case.model.first_order else SIGNALS
+            return Observation(_Run(instance, case, names).outputs)
+        return _observe(instance, case)
     except Refusal as refusal:
-        none = np.empty((0, len(NAMES)))
-        return Observation(np.empty(0), np.empty((0, 3)), none, np.empty(0), refusal=str(refusal))
+        return Observation(refusal=str(refusal))
 
 
-def _observe(instance: Instance, cell: MatrixCell) -> Observation:
-    begin(instance, cell, cell.start_time)
-    outputs, costs = _follow(instance, cell.holds)
-    begin(instance, cell, cell.start_time)
-    again, costs_again = _follow(instance, cell.holds)
-    costs = [min(pair) for pair in zip(costs, costs_again, strict=True)]
-    replayed = bool(np.array_equal(outputs, again, equal_nan=True))
-    if cell.restored:
-        replayed = replayed and _replayed(instance, cell)
-    from_zero = None
-    if cell.from_zero:
-        begin(instance, cell, 0.0)
-        from_zero = _follow(instance, cell.holds)[0][-1]
-    begin(instance, cell, cell.start_time)
-    other, _ = _follow(instance, cell.other_holds)
-    begin(instance, cell, 0.0)
-    size = min(cell.period, sum(hold.size * hold.count for hold in cell.holds))
-    baseline = (Hold(size, BASELINE_STEPS, *cell.holds[0].inputs),)
-    _, periods = _follow(instance, baseline)
-    sizes = [hold.size for hold in cell.holds for _ in range(hold.count)]
-    inputs = [hold.inputs for hold in cell.holds for _ in range(hold.count)]
+def _observe(instance: Instance, case: Case) -> Observation:
+    first, second = _Run(instance, case), _Run(instance, case)
+    replayed = all(
+        np.array_equal(first.outputs[name], second.outputs[name], equal_nan=True)
+        for name in OUTPUTS
+    )
+    if case.restored:
+        replayed = replayed and _replayed(instance, case)
+    from_zero = _Run(instance, case, start_time=0.0).last if case.from_zero else None
+    other = _Run(instance, case, holds=case.other_holds).last
+    size = min(case.period, case.duration)
+    baseline = (Hold(size, BASELINE_STEPS, *case.holds[0].inputs),)
+    periods = _Run(instance, case, holds=baseline, start_time=0.0).costs
+    steps = zip(case.sizes, first.costs, second.costs, strict=True)
     return Observation(
-        sizes=np.array(sizes),
-        inputs=np.array(inputs),
-        outputs=outputs,
-        other=other[-1],
+        outputs=first.outputs,
+        other=other,
         from_zero=from_zero,
         replayed=replayed,
-        worst_step=max(cost / max(1.0, size / cell.period) for size, cost in costs),
-        period_cost=median(cost for _, cost in periods) * cell.period / size,
+        worst_step=max(min(costs) / max(1.0, one / case.period) for one, *costs in steps),
+        period_cost=median(periods) * case.period / size,
     )
 
 
-def begin(instance: Instance, cell: MatrixCell, start_time: float) -> None:
-    """Initialise the FMU for a cell; Refusal when it does not take the parameters."""
-    first = dict(zip(INPUTS, cell.holds[0].inputs, strict=True))
-    instance.start({**cell.settings, **first}, start_time=start_time)
+class _Run:
+    """A run of a case, or of other holds or from another time (s): outputs and costs of steps, s.
+
+    Raises Refusal when the FMU does not take the parameters or a step.
+    """
+
+    def __init__(
+        self,
+        instance: Instance,
+        case: Case,
+        names: Sequence[str] = tuple(OUTPUTS),
+        *,
+        holds: Sequence[Hold] | None = None,
+        start_time: float | None = None,
+    ) -> None:
+        _begin(instance, case, case.start_time if start_time is None else start_time)
+        block, clock = instance.block(names), time.thread_time
+        self.costs: list[float] = []
+        tuned = case.holds[0].tuned
+        with instance.explained():
+            rows = [block.read()]
+            for hold in holds or case.holds:
+                instance.set_inputs(hold.inputs)
+                if hold.tuned != tuned:
+                    tuned = hold.tuned
+                    instance.set(dict(tuned))
+                for _ in range(hold.count):
+                    began = clock()
+                    instance.step_by(hold.size)
+                    self.costs.append(clock() - began)
+                    rows.append(block.read())
+        self.outputs = dict(zip(names, np.array(rows).T, strict=True))
+        self.last = dict(zip(names, rows[-1], strict=True))
 
 
-def _follow(instance: Instance, holds: Sequence[Hold]) -> tuple[Array, list[tuple[float, float]]]:
-    """Return the outputs at all points, and size and CPU time (s) of every step."""
-    block = instance.block(NAMES)
-    clock = time.thread_time
-    costs = []
-    with instance.explained():
-        rows = [block.read()]
-        for hold in holds:
-            instance.set_inputs(hold.inputs)
-            for _ in range(hold.count):
-                began = clock()
-                instance.step_by(hold.size)
-                costs.append((hold.size, clock() - began))
-                rows.append(block.read())
-    return np.array(rows), costs
+def _begin(instance: Instance, case: Case, start_time: float) -> None:
+    first = dict(zip(INPUTS, case.holds[0].inputs, strict=True))
+    settings = case.settings | dict(case.holds[0].tuned)
+    instance.start({**settings, **first}, start_time=start_time)
 
 
-def _replayed(instance: Instance, cell: MatrixCell) -> bool:
+def _replayed(instance: Instance, case: Case) -> bool:
     """Return whether every second step, repeated from a stored state, gives the same outputs."""
-    begin(instance, cell, 0.0)
-    block = instance.block(NAMES)
+    _begin(instance, case, 0.0)
+    block = instance.block(list(OUTPUTS))
     slave = instance.slave
     equal = True
     with instance.explained():
-        for hold in cell.holds:
+        for hold in case.holds:
             instance.set_inputs(hold.inputs)
             for index in range(hold.count):
                 if index % 2:

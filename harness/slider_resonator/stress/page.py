@@ -1,8 +1,7 @@
-"""The matrices as a page of HTML: a grid for each axis, and every cell over its bound."""
+"""The result as a page of HTML: every case over its bound, and a grid for each axis."""
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -22,27 +21,13 @@ from slider_resonator.output.hover_plot import (
 from slider_resonator.output.html_page import escaped, rendered, section, write_page
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict_so_far
-from slider_resonator.stress.case import MODELS
-from slider_resonator.stress.picture import (
-    FAILED_COLOUR,
-    FAR,
-    NEAR,
-    REFUSED_COLOUR,
-    SHADES,
-    cell_colour,
-    margin,
-)
-from slider_resonator.stress.run import Matrix
-from slider_resonator.stress.verdict import (
-    FAILED,
-    PASSED,
-    REFUSED,
-    BoundCheck,
-    CellVerdict,
-)
+from slider_resonator.stress.case import MODELS, RANDOM
+from slider_resonator.stress.picture import FAILED_COLOUR, FAR, NEAR, SHADES, colour, margin
+from slider_resonator.stress.run import StressResult
+from slider_resonator.stress.verdict import FAILED, MEANINGS, PASSED, SENSITIVE, Verdict
 
-SIGNS = {PASSED: "", REFUSED: "r", FAILED: "F"}
-"""What a cell of the grid shows besides its colour."""
+MAX_SHOWN = 1e6
+"""Deviation over its bound above which a point is drawn at this value."""
 STYLE = """
 .matrix { width: auto } .matrix th { font-weight: 400; vertical-align: bottom }
 .matrix thead th:not(:first-child) { text-align: center; width: 4.5rem; font-size: 12px }
@@ -52,133 +37,149 @@ STYLE = """
 """
 
 
-def write_matrix_page(path: Path, matrices: Sequence[Matrix], provenance: Provenance) -> None:
+def write_stress_page(path: Path, results: Sequence[StressResult], provenance: Provenance) -> None:
     """Write the page; HarnessError when that is impossible."""
-    parts = [_overview(matrices), _scale()]
-    parts += [part for matrix in matrices for part in _matrix(matrix)]
+    parts = [_overview(results), _legend(results), _scale()]
+    parts += [part for result in results for part in _of_one_fmu(result)]
     parts.append(provenance_html(provenance))
-    style = hover_style() + STYLE
-    write_page(path, "Stability at the extremes", parts, hover_scripts(), style)
+    write_page(path, "Stress test", parts, hover_scripts(), hover_style() + STYLE)
 
 
-def repeating(matrix: Matrix, cell: CellVerdict) -> str:
-    """Return the command that runs one cell again."""
-    words = ("slider-resonator", "extremes", matrix.fmu, "--cell", cell.name, "--out", "one_cell")
-    return shlex.join(words)
-
-
-def _overview(matrices: Sequence[Matrix]) -> str:
+def _overview(results: Sequence[StressResult]) -> str:
     rows: list[Row] = [
         (
             Path(one.fmu).name,
             verdict_so_far(one.failed, one.not_run),
-            *(str(one.counts[name]) for name in (PASSED, REFUSED, FAILED)),
+            str(len(one.verdicts)),
+            str(one.skipped),
             str(one.not_run),
             f"{one.wall_time:.0f}",
         )
-        for one in matrices
+        for one in results
     ]
-    columns = (
-        *texts("FMU", "verdict"),
-        *numbers(PASSED, REFUSED, FAILED, "not run", "wall time [s]"),
-    )
-    return rendered(Table(columns, rows))
+    counts = numbers("cases", "skipped", "not run", "wall time [s]")
+    return rendered(Table((*texts("FMU", "verdict"), *counts), rows))
+
+
+def _legend(results: Sequence[StressResult]) -> str:
+    rows: list[Row] = []
+    for name, meaning in MEANINGS.items():
+        count = sum(one.counts.get(name, 0) for one in results)
+        rows.append((_coloured(name) if count else name, str(count), meaning))
+    return rendered(Table((*texts("verdict"), *numbers("cases"), *texts("meaning")), rows))
 
 
 def _scale() -> str:
     shades = ", ".join(to_hex(SHADES(i / 8)) for i in range(9))
     return (
-        "<p>Columns are friction law and fidelity. A cell in the grid, or a point in the plot, "
-        "says its checks. A cell is shaded by its largest deviation over the allowed one; "
-        f'<b style="background: {REFUSED_COLOUR}">&nbsp;r&nbsp;</b> is refused by name, '
-        f'<b style="background: {FAILED_COLOUR}">&nbsp;F&nbsp;</b> failed.</p>'
+        "<p>A cell in a grid, or a point in the plot, says its checks. It is shaded by its largest "
+        "deviation over the allowed one; r is refused by name, F failed.</p>"
         f'<p class="scale">{10.0**FAR:g} '
         f'<i style="background: linear-gradient(to right, {shades})"></i> {10.0**NEAR:g}</p>'
     )
 
 
-def _matrix(matrix: Matrix) -> list[str]:
-    parts = [f"<h2>{escaped(Path(matrix.fmu).name)}</h2>"]
-    parts += [f"<p>{escaped(line)}</p>" for line in matrix.summary.splitlines()]
-    for name in (FAILED, REFUSED):
-        chosen = [one for one in matrix.verdicts if one.verdict == name]
+def _of_one_fmu(result: StressResult) -> list[str]:
+    parts = [f"<h2>{escaped(Path(result.fmu).name)}</h2>"]
+    parts += [f"<p>{escaped(line)}</p>" for line in result.summary.splitlines()]
+    for name in (FAILED, *(other for other in MEANINGS if other not in (PASSED, FAILED))):
+        chosen = [one for one in result.verdicts if one.verdict == name]
         if chosen:
-            heading = f"{name[0].upper()}{name[1:]}"
-            cells = number_of(len(chosen), "cell")
-            found = rendered(_others(matrix, chosen))
-            anchor = f"{name}-{Path(matrix.fmu).name}".replace(" ", "-")
-            parts.append(section(anchor, heading, cells, found, unfolded=name == FAILED))
-    parts.append(plot_html(_plot(matrix)))
-    parts += [_grid(axis, cells) for axis, cells in matrix.by_axis().items()]
-    return parts
+            anchor = f"{name}-{Path(result.fmu).name}".replace(" ", "-")
+            heading, count = name.capitalize(), number_of(len(chosen), "case")
+            table = rendered(_others(result, chosen))
+            parts.append(section(anchor, heading, count, table, unfolded=name == FAILED))
+    parts += [plot_html(_plot(result)), rendered(_nearest(result))]
+    return parts + [_grid(axis, ones) for axis, ones in result.by_axis().items() if axis != RANDOM]
 
 
-def _others(matrix: Matrix, chosen: Sequence[CellVerdict]) -> Table:
+def _coloured(verdict: str) -> Cell:
+    return Cell(verdict, Style.FAIL if verdict == FAILED else Style.PLAIN)
+
+
+def _others(result: StressResult, chosen: Sequence[Verdict]) -> Table:
     rows: list[Row] = [
-        (
-            one.name,
-            Cell(one.verdict, Style.FAIL if one.verdict == FAILED else Style.PLAIN),
-            one.reason,
-            repeating(matrix, one),
-        )
-        for one in chosen
+        (one.name, _coloured(one.verdict), one.reason, one.command(result.fmu)) for one in chosen
     ]
-    return Table(texts("cell", "verdict", "reason", "run it again"), rows)
+    return Table(texts("case", "verdict", "reason", "run it again"), rows)
 
 
-def _plot(matrix: Matrix) -> HoverPlot:
-    places = {id(one): float(i) for i, one in enumerate(matrix.verdicts, start=1)}
+def _nearest(result: StressResult) -> Table:
+    rows: list[Row] = [
+        (model, f"{check.found:.2g}", check.name, case.name)
+        for model, case in result.nearest.items()
+        if (check := case.nearest)
+    ]
+    columns = (*texts("model"), *numbers("nearest to its bound"), *texts("in", "case"))
+    return Table(columns, rows)
+
+
+def _plot(result: StressResult) -> HoverPlot:
     series = []
     for index, model in enumerate(MODELS):
-        chosen = [one for one in matrix.verdicts if one.model == model.name]
-        passed = [one for one in chosen if one.verdict == PASSED]
-        colour, marker, _ = look(index)
-        for label, sign, ink, group in (
-            (model.name, marker, colour, passed),
-            (
-                f"{model.name}: not passed",
-                "✖",
-                FAILED_COLOUR,
-                [o for o in chosen if o not in passed],
-            ),
+        ink, marker, _ = look(index)
+        for label, sign, shown, passed in (
+            (model.name, marker, ink, True),
+            (f"{model.name}: not passed", "✖", FAILED_COLOUR, False),
         ):
+            group = [
+                (float(place), one)
+                for place, one in enumerate(result.verdicts, start=1)
+                if one.model == model.name and (one.verdict == PASSED) == passed
+            ]
             if group:
-                heights = [10.0 ** margin(o) if o.verdict == PASSED else None for o in group]
-                x, notes = [places[id(o)] for o in group], [_note(o) for o in group]
-                series.append(Series(label, x, heights, ink, sign, notes=notes))
+                places, notes = [place for place, _ in group], [_note(one) for _, one in group]
+                heights = [_height(one) for _, one in group]
+                series.append(Series(label, places, heights, shown, sign, notes=notes))
     y = Axis("largest deviation over its bound [1]", log=True)
-    return HoverPlot("Each cell over its bound", Axis("cell"), y, series)
+    return HoverPlot("Each case over its bound", Axis("case"), y, series)
 
 
-def _note(one: CellVerdict) -> str:
+def _height(one: Verdict) -> float | None:
+    """Return the deviation of a case that has one, within the scale where it passed."""
+    if one.verdict == PASSED:
+        return float(10.0 ** margin(one))
+    far = one.nearest.found if one.nearest else 0.0
+    return min(far, MAX_SHOWN) if one.verdict in (FAILED, SENSITIVE) and far > 0.0 else None
+
+
+def _note(one: Verdict) -> str:
     checks = sorted(one.checks, key=lambda check: -check.found)
     lines = [f"{one.axis}: {one.value}", one.verdict + (f": {one.reason}" if one.reason else "")]
-    return "\n".join([*lines, *map(_words, checks)])
+    return "\n".join(
+        [*lines, *(f"{check.name}: {check.found:.2g} of what is allowed" for check in checks)]
+    )
 
 
-def _words(check: BoundCheck) -> str:
-    return f"{check.name}: {check.found:.2g} of what is allowed"
-
-
-def _grid(axis: str, cells: Sequence[CellVerdict]) -> str:
+def _grid(axis: str, cases: Sequence[Verdict]) -> str:
     """Return a table of values over models, each cell with its checks as its title."""
-    models = [m.name for m in MODELS if any(one.model == m.name for one in cells)]
-    by_place = {(one.value, one.model): one for one in cells}
+    models = [m.name for m in MODELS if any(one.model == m.name for one in cases)]
+    by_place = {(one.value, one.model): one for one in cases}
     head = "".join(f'<th scope="col">{escaped(name)}</th>' for name in models)
     rows = "\n".join(
         f'<tr><th scope="row">{escaped(value)}</th>'
         + "".join(_cell(by_place.get((value, model))) for model in models)
         + "</tr>"
-        for value in dict.fromkeys(one.value for one in cells)
+        for value in dict.fromkeys(one.value for one in cases)
     )
     title = '<th scope="col">value</th>'
     table = f'<table class="matrix"><thead><tr>{title}{head}</tr></thead><tbody>\n{rows}</tbody>'
-    return f'<h3>{escaped(axis)}</h3><div class="wide">{table}</table></div>'
+    words = escaped(_checked(cases))
+    return f'<h3>{escaped(axis)}</h3><p>{words}</p><div class="wide">{table}</table></div>'
 
 
-def _cell(one: CellVerdict | None) -> str:
+def _checked(cases: Sequence[Verdict]) -> str:
+    """Return by what an axis is checked, and which check is nearest to its bound."""
+    checks = [check for one in cases for check in one.checks]
+    names = ", ".join(dict.fromkeys(check.name for check in checks))
+    nearest = max(checks, key=lambda check: check.found, default=None)
+    words = f"; nearest to its bound: {nearest.name}, {nearest.found:.2g} of it" if nearest else ""
+    return f"{number_of(len(cases), 'case')} checked by {names}{words}"
+
+
+def _cell(one: Verdict | None) -> str:
     if one is None:
         return "<td></td>"
-    colour = to_hex(cell_colour(one))
     note = escaped(f"{one.model}\n{_note(one)}")
-    return f'<td style="background: {colour}" title="{note}">{SIGNS[one.verdict]}</td>'
+    sign = "" if one.verdict == PASSED else "F" if one.verdict == FAILED else "r"
+    return f'<td style="background: {to_hex(colour(one))}" title="{note}">{sign}</td>'

@@ -1,21 +1,23 @@
-"""Running and judging all cells of the matrix in an FMU."""
+"""Running and judging cases in an FMU, which runs in processes of its own."""
 
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import run_all_tasks
-from slider_resonator.fmu.opening import lacking
+from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.progress import Progress, counted
 from slider_resonator.output.readable import number_of
-from slider_resonator.stress.case import MatrixCell
-from slider_resonator.stress.judge import MAX_RELATIVE_COST, broken, judge
+from slider_resonator.stress.case import RANDOM, Case
+from slider_resonator.stress.judge import MAX_RELATIVE_COST, judge
 from slider_resonator.stress.observe import observe
 from slider_resonator.stress.verdict import (
     FAILED,
@@ -23,54 +25,65 @@ from slider_resonator.stress.verdict import (
     PASSED,
     REFERENCE,
     REFUSED,
-    CellVerdict,
+    Verdict,
+    verdict_on,
 )
 
 TIME_LIMIT = 300.0
-"""Time limit of a cell, s."""
+"""Time limit of a case, s."""
+MAX_REFUSED = 0.02
+"""Share of the random cases that an FMU may refuse: their values are those of devices."""
 
 
 @dataclass(frozen=True)
-class Matrix:
-    """The verdicts of an FMU, one for each cell, and the wall time in s.
+class StressResult:
+    """The verdicts on an FMU, one for each case that ran, and the wall time in s.
 
-    An interrupted run has cells that were `not_run`.
+    Cases were `skipped` that do not apply to the FMU; an interrupted run has some that were
+    `not_run`.
     """
 
     fmu: str
-    verdicts: tuple[CellVerdict, ...]
+    verdicts: tuple[Verdict, ...]
     wall_time: float
     not_run: int = 0
+    skipped: int = 0
 
-    def by_axis(self) -> dict[str, list[CellVerdict]]:
+    def by_axis(self) -> dict[str, list[Verdict]]:
         """Return axis to verdicts, in order."""
-        groups: dict[str, list[CellVerdict]] = {}
+        groups: dict[str, list[Verdict]] = {}
         for one in self.verdicts:
             groups.setdefault(one.axis, []).append(one)
         return groups
 
-    def count(self, verdict: str) -> int:
-        """Return how many cells have this verdict."""
-        return sum(one.verdict == verdict for one in self.verdicts)
-
     @property
     def counts(self) -> dict[str, int]:
-        """Return verdict to count."""
-        return {verdict: self.count(verdict) for verdict in (PASSED, REFUSED, FAILED)}
+        """Verdict to count; passed, refused and failed are always there."""
+        none = dict.fromkeys((PASSED, REFUSED, FAILED), 0)
+        return none | Counter(one.verdict for one in self.verdicts)
+
+    @property
+    def nearest(self) -> dict[str, Verdict]:
+        """For each model the passed case that is nearest to a bound."""
+        passed = [one for one in self.verdicts if one.verdict == PASSED and one.nearest]
+        ordered = sorted(passed, key=lambda one: one.nearest.found if one.nearest else 0.0)
+        return {one.model: one for one in ordered}
 
     @property
     def passed(self) -> bool:
-        """Whether all cells ran and none failed."""
+        """Whether all cases ran, none failed, and next to no random device was refused."""
         return not (self.failed or self.not_run)
 
     @property
     def failed(self) -> bool:
-        """Whether a cell failed."""
-        return self.count(FAILED) > 0
+        """Whether a case failed, or too many random devices were refused."""
+        drawn = self.by_axis().get(RANDOM, [])
+        refused = sum(one.verdict == REFUSED for one in drawn)
+        return self.counts[FAILED] > 0 or refused > max(1.0, MAX_REFUSED * len(drawn))
 
     @property
-    def most_expensive(self) -> CellVerdict | None:
-        """The cell with the worst cost of a step relative to a period of its device."""
+    def most_expensive(self) -> Verdict | None:
+        """The case with the worst cost of a step relative to a period of its device."""
         ran = [one for one in self.verdicts if one.period_cost > 0.0]
         return max(ran, key=lambda one: one.cost_ratio, default=None)
 
@@ -78,12 +91,13 @@ class Matrix:
     def summary(self) -> str:
         """The counts and the worst cost, in words."""
         compared = sum(one.has(REFERENCE) for one in self.verdicts)
+        counts = ", ".join(f"{count} {verdict}" for verdict, count in self.counts.items())
+        skipped = f"{self.skipped} skipped: not for this FMU" if self.skipped else "none skipped"
+        not_run = f", {self.not_run} not run: incomplete" if self.not_run else ""
         lines = [
-            f"{number_of(len(self.verdicts), 'cell')}: {self.count(PASSED)} passed, "
-            f"{self.count(REFUSED)} refused by name, {self.count(FAILED)} failed, "
-            f"{f'{self.not_run} not run: incomplete' if self.not_run else 'none skipped'}; "
+            f"{number_of(len(self.verdicts), 'case')}: {counts}, {skipped}{not_run}; "
             f"{self.wall_time:.0f} s",
-            f"{number_of(compared, 'cell')} compared with a reference, "
+            f"{number_of(compared, 'case')} compared with a reference, "
             f"which gave up in {sum(one.has(NO_REFERENCE) for one in self.verdicts)} others",
         ]
         worst = self.most_expensive
@@ -96,47 +110,73 @@ class Matrix:
         return "\n".join(lines)
 
 
-def run_matrix(
+def applicable(fmu: Path, cases: Sequence[Case]) -> list[Case]:
+    """Return the cases that an FMU has what they need for; FmuError when there is none.
+
+    Averages of second order need `averaging_order`, unequal steps an FMU that takes them.
+    """
+    with open_fmu(fmu) as opened:
+        lacks, equal_only = opened.lacks, opened.takes_equal_steps_only
+    chosen = [
+        case
+        for case in cases
+        if not ("averaging_order" in lacks and case.model.second_order)
+        and not (equal_only and len({hold.size for hold in case.holds}) > 1)
+    ]
+    if not chosen:
+        one = cases[0].name if len(cases) == 1 else f"none of {number_of(len(cases), 'case')}"
+        lacking = f"it lacks {', '.join(lacks)}" if lacks else "it takes equal steps only"
+        raise FmuError(f"{fmu}: no case applies to this FMU: {one} needs more; {lacking}")
+    return chosen
+
+
+def run_cases(
     fmu: Path,
-    cells: Sequence[MatrixCell],
+    cases: Sequence[Case],
     progress: Progress,
     time_limit: float = TIME_LIMIT,
-    keep: Callable[[Matrix], None] = lambda matrix: None,
-) -> Matrix:
-    """Run and judge every cell; FmuError when the FMU cannot be run at all.
+    *,
+    jobs: int = 1,
+    keep: Callable[[StressResult], None] = lambda result: None,
+) -> StressResult:
+    """Run and judge the cases that apply; FmuError when none does or the FMU cannot be run at all.
 
-    Cells of second order are left out for an FMU without `averaging_order`. A crash or a missed
-    `time_limit` (s) fails its cell only. `keep` is called with what there is
-    when the run is interrupted or stopped by an error.
+    A crash or a missed `time_limit` (s) fails its case only. An FMU without fault gets up to `jobs`
+    processes. `keep` is called with what there is when the run is interrupted or stopped by an
+    error.
     """
     began = time.perf_counter()
-    verdicts: list[CellVerdict] = []
-    if "averaging_order" in lacking(fmu):
-        cells = [cell for cell in cells if not cell.model.second_order]
+    verdicts: list[Verdict] = []
+    chosen = applicable(fmu, cases)
 
-    def report(cell: MatrixCell) -> None:
-        label = counted(f"{fmu.name}: {cell.axis}", len(verdicts), len(cells))
-        progress(label, len(verdicts) / len(cells))
+    def report(case: Case) -> None:
+        done = len(verdicts)
+        label = case.value if case.is_random else case.axis
+        progress(counted(f"{fmu.name}: {label}", done, len(chosen)), done / len(chosen))
 
-    def matrix() -> Matrix:
-        seconds = time.perf_counter() - began
-        return Matrix(str(fmu), tuple(verdicts), seconds, len(cells) - len(verdicts))
+    def result() -> StressResult:
+        seconds, skipped = time.perf_counter() - began, len(cases) - len(chosen)
+        left = len(chosen) - len(verdicts)
+        return StressResult(str(fmu), tuple(verdicts), seconds, left, skipped)
 
-    tasks = [(cell, partial(observe, cell=cell)) for cell in cells]
+    tasks = [(case, partial(observe, case=case)) for case in chosen]
     try:
         finished = run_all_tasks(
             fmu,
             tasks,
             time_limit,
-            name=lambda cell: cell.name,
+            name=lambda case: case.name,
             meanwhile=report,
             outcomes=(FmuDied,),
+            jobs=jobs,
         )
         with closing(finished):
-            for cell, result, error in finished:
-                verdicts.append(judge(cell, result) if error is None else broken(cell, str(error)))
+            for case, seen, error in finished:
+                verdicts.append(
+                    judge(case, seen) if error is None else verdict_on(case, FAILED, str(error))
+                )
     except BaseException:
         if verdicts:
-            keep(matrix())
+            keep(result())
         raise
-    return matrix()
+    return result()

@@ -75,7 +75,7 @@ def test_every_command_has_the_common_options_that_make_sense_for_it() -> None:
         *("baseline", "build"),
         *("baseline accept", "baseline record"),  # whose results are files
     }
-    assert having("--jobs") == {"fit", "mutants", "sweep", "validate"}
+    assert having("--jobs") == {"fit", "mutants", "stress", "sweep", "validate"}
     assert having("--scene") == {
         *("baseline accept", "baseline check", "baseline record", "mutants", "validate")
     }

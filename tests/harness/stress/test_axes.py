@@ -4,8 +4,8 @@ from collections import Counter
 
 import pytest
 
-from slider_resonator.stress.case import CHEAP, MODELS, Hold, MatrixCell, Model
-from slider_resonator.stress.matrix import all_cells
+from slider_resonator.stress.axes import CHEAP, axis_cases
+from slider_resonator.stress.case import MODELS, Case, Hold, Model
 
 AXES = {
     "Omega": {f"1e{n}" for n in range(1, 8)},
@@ -55,7 +55,7 @@ AXES = {
 
 @pytest.mark.parametrize("axis", AXES)
 def test_every_value_is_there(axis: str) -> None:
-    assert {cell.value for cell in all_cells() if cell.axis == axis} >= AXES[axis]
+    assert {case.value for case in axis_cases() if case.axis == axis} >= AXES[axis]
 
 
 def test_every_device_is_run_by_every_model_that_covers_it() -> None:
@@ -74,15 +74,15 @@ def test_every_device_is_run_by_every_model_that_covers_it() -> None:
         "frequency ratio",
         "state restored",
     ):
-        counts = Counter(cell.value for cell in all_cells() if cell.axis == axis)
+        counts = Counter(case.value for case in axis_cases() if case.axis == axis)
         assert set(counts.values()) == {len(MODELS)}, axis
     for axis in ("resonance", "communication step", "grazing release"):
-        counts = Counter(cell.value for cell in all_cells() if cell.axis == axis)
+        counts = Counter(case.value for case in axis_cases() if case.axis == axis)
         assert set(counts.values()) == {len(CHEAP)}, axis
 
 
 def test_long_runs_are_asked_for() -> None:
-    added = {cell.name for cell in all_cells(long=True)} - {cell.name for cell in all_cells()}
+    added = {case.name for case in axis_cases(long=True)} - {case.name for case in axis_cases()}
     assert added == {
         *(f"drive periods: 1e+08: Coulomb, fidelity {n}" for n in (1, 2)),
         *(f"drive periods: 1e+06: LuGre, fidelity {n}" for n in (1, 2)),
@@ -90,18 +90,18 @@ def test_long_runs_are_asked_for() -> None:
 
 
 def test_names_are_unique() -> None:
-    counts = Counter(cell.name for cell in all_cells(long=True))
+    counts = Counter(case.name for case in axis_cases(long=True))
     assert [name for name, count in counts.items() if count > 1] == []
 
 
 def test_other_steps_cover_the_same_times() -> None:
-    for cell in all_cells():
-        total = sum(hold.size * hold.count for hold in cell.holds)
-        other = sum(hold.size * hold.count for hold in cell.other_holds)
-        assert abs(other - total) <= 1e-12 * total, cell.name
-        assert cell.other_holds != cell.holds, cell.name
+    for case in axis_cases():
+        total = sum(hold.size * hold.count for hold in case.holds)
+        other = sum(hold.size * hold.count for hold in case.other_holds)
+        assert abs(other - total) <= 1e-12 * total, case.name
+        assert case.other_holds != case.holds, case.name
 
 
 def test_steps_that_cannot_be_cut_are_kept() -> None:
-    cell = MatrixCell("step", "denormal", Model(2, 0), {}, (Hold(5e-324), Hold(1e-3)))
-    assert [hold.count for hold in cell.other_holds] == [1, 3]
+    case = Case("step", "denormal", Model(2, 0), {}, (Hold(5e-324), Hold(1e-3)))
+    assert [hold.count for hold in case.other_holds] == [1, 3]

@@ -1,0 +1,196 @@
+"""`stress`: run FMUs at extremes and with random devices."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from difflib import get_close_matches
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import click
+
+from slider_resonator.commands.options import (
+    default_fmus,
+    fmus_argument,
+    jobs_option,
+    json_option,
+    time_limit_option,
+)
+from slider_resonator.commands.results import print_result
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.isolation.processes import available_cores
+from slider_resonator.fmu.provenance import provenance_of
+from slider_resonator.output.console import noting_on_interrupt
+from slider_resonator.output.progress import part_of
+from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.readable import number_of
+from slider_resonator.output.targets import distinct, make_folder
+from slider_resonator.output.terminal import one_line
+from slider_resonator.stress.axes import axis_cases
+from slider_resonator.stress.case import RANDOM, Case
+from slider_resonator.stress.listing import (
+    Files,
+    as_plain,
+    in_folder,
+    sentences,
+    values_of,
+    write_files,
+)
+from slider_resonator.stress.random_cases import random_case
+from slider_resonator.stress.run import TIME_LIMIT, StressResult, applicable, run_cases
+
+CASES = 1000
+"""Random devices of a campaign."""
+_DRAWN = re.compile(rf"{RANDOM}: seed (\d+), case (\d+)(?:: .*)?")
+
+
+def long_option(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the option --long."""
+    return click.option(
+        "--long",
+        is_flag=True,
+        help="Lengthen resolved runs from 1e5 to 1e8 drive periods, with LuGre friction from 1e3 "
+        "to 1e6: minutes each in the native FMU, so give slower ones a --time-limit. Averaged "
+        "motion always has 1e8.",
+    )(command)
+
+
+def seed_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options --first and --seed of random devices."""
+    for name, default, text in (
+        ("seed", 1, "Seed of the random devices: the same cases everywhere."),
+        ("first", 0, "Number of the first random device."),
+    ):
+        command = click.option(
+            f"--{name}",
+            type=click.IntRange(min=0),
+            default=default,
+            show_default=True,
+            envvar=f"CAMPAIGN_{name.upper()}",
+            show_envvar=True,
+            help=text,
+        )(command)
+    return command
+
+
+@click.command("stress")
+@fmus_argument
+@click.option(
+    "--random",
+    "count",
+    type=click.IntRange(min=1),
+    help="Run this number of random devices instead of the axes. Each takes about half a second.",
+)
+@seed_options
+@long_option
+@click.option("--case", "name", metavar="NAME", help="Run the case of this name alone.")
+@time_limit_option(TIME_LIMIT, "For each case; one that hangs fails.")
+@jobs_option
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Folder for stress.json, index.html and a picture of the axes for each FMU.",
+)
+@json_option
+def stress_command(
+    fmus: tuple[Path, ...],
+    count: int | None,
+    first: int,
+    seed: int,
+    long: bool,
+    name: str | None,
+    time_limit: float,
+    jobs: int | None,
+    out: Path | None,
+    as_json: bool,
+) -> None:
+    """Run FMUs at the extremes of everything, or with random devices, and judge them by physics.
+
+    A case on an axis takes a parameter, an input or the steps to an extreme. It passes the bounds
+    that follow from the equations, agrees with other steps and, where one is in reach, with a
+    reference, or is refused by name. With --random devices lie over decades; inputs, tunable
+    parameters and step sizes change in the run, and each is compared with its reference. A hang or
+    a crash fails its case. Without FMUS: those in dist. Exit code: 0 when no case fails, 1 when one
+    does, 2 when an FMU could not run or no case applies to it. What has run is written when the
+    command is interrupted.
+
+    \b
+    Examples:
+      slider-resonator stress --out stress
+      slider-resonator stress my.fmu --random 10000 --out stress --json
+      slider-resonator stress my.fmu --case "r_m: 1e-12: Coulomb, fidelity 1"
+    """
+    if name is not None:
+        cases = [case_named(name, "--case")]
+    elif count is not None:
+        cases = [random_case(seed, number) for number in range(first, first + count)]
+    else:
+        cases = axis_cases(long=long)
+    files = Files() if out is None else in_folder(out, "stress")
+    stress(fmus, cases, files, time_limit, jobs, as_json=as_json)
+
+
+def case_named(name: str, option: str) -> Case:
+    """Return the case of a name, on an axis or drawn; HarnessError when there is none."""
+    drawn = _DRAWN.fullmatch(name)
+    if drawn:
+        return random_case(int(drawn[1]), int(drawn[2]))
+    cases = {case.name: case for case in axis_cases(long=True)}
+    if name not in cases:
+        near = get_close_matches(name, cases, n=1)
+        hint = f"; did you mean {near[0]!r}?" if near else ""
+        raise HarnessError(
+            f"{option} {name!r} refused: must be AXIS: VALUE: MODEL of a case, as in the result"
+            f"{hint}"
+        )
+    return cases[name]
+
+
+def stress(
+    fmus: Sequence[Path],
+    cases: Sequence[Case],
+    files: Files,
+    time_limit: float,
+    jobs: int | None = None,
+    *,
+    as_json: bool,
+) -> None:
+    """Run the cases, print and write the result, and exit with its code."""
+    chosen = fmus or default_fmus()
+    distinct(
+        {"--out": files.json, "--html": files.page}, {f"the FMU {path}": path for path in chosen}
+    )
+    for path in chosen:
+        applicable(path, cases)  # before any of them runs: it takes minutes
+    if files.pictures is not None:
+        make_folder(files.pictures)
+    provenance = provenance_of(*chosen)
+    results: list[StressResult] = []
+
+    def keep(result: StressResult) -> None:
+        results.append(result)
+        write_files(results, files, provenance)
+
+    with noting_on_interrupt(partial(_kept, results, files)), progress_bar() as progress:
+        for index, fmu in enumerate(chosen):
+            part = part_of(progress, index, len(chosen))
+            workers = jobs or available_cores()
+            keep(run_cases(fmu, cases, part, time_limit, jobs=workers, keep=keep))
+    lines = [sentences(result) for result in results]
+    lines += [values_of(case) for case in cases if len(cases) == 1]
+    lines += [f"written {one_line(name)}" for name in files.names]
+    print_result(as_plain(results), "\n".join(lines), as_json=as_json, provenance=provenance)
+    click.get_current_context().exit(0 if all(result.passed for result in results) else 1)
+
+
+def _kept(results: Sequence[StressResult], files: Files) -> str:
+    if not results or not files.names:
+        return "nothing is kept; --out keeps what is finished"
+    ran = sum(len(result.verdicts) for result in results)
+    places = " and ".join(files.names)
+    return (
+        f"the verdicts of {number_of(ran, 'case')} are kept in {places}; the same command runs "
+        "all cases again"
+    )

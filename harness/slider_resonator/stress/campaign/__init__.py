@@ -1,1 +1,0 @@
-"""Random devices and schedules in an FMU, against the references."""

@@ -1,0 +1,111 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.commands import extremes, stress
+from slider_resonator.stress.case import Case, Hold, Limit, Model
+from tests.harness.calling import call
+from tests.harness.faulty_fmus import without_later_variables
+from tests.harness.public_json import assert_public_keys
+
+HOLDS = (Hold(1e-4, 20),)
+GOOD = Case("steps", "few", Model(2, 0), {}, HOLDS)
+REFUSED = Case("mu", "0", Model(2, 1), {"friction_coefficient": 0.0}, HOLDS)
+FLIES = Limit("position", 1.0, 1e-9, "it flies")
+WRONG = Case("steps", "wrong", Model(1, 0), {}, HOLDS, limits=(FLIES,))
+DRAWN = "random device: seed 1, case 10"
+
+
+@pytest.fixture(autouse=True)
+def few_cases(monkeypatch: pytest.MonkeyPatch) -> list[Case]:
+    """Put a few cases in place of those of the axes."""
+    cases = [GOOD, REFUSED]
+    for module in (stress, extremes):
+        monkeypatch.setattr(module, "axis_cases", lambda *, long: cases)
+    return cases
+
+
+def text_of(*arguments: object, code: int = 0) -> str:
+    result = call(*arguments)
+    assert result.exit_code == code, result.output
+    return result.output
+
+
+@pytest.mark.parametrize("command", ["stress", "extremes"])
+def test_results_of_the_axes_are_written(native_fmu: Path, tmp_path: Path, command: str) -> None:
+    out = tmp_path / "new"
+    text = text_of(command, native_fmu, "--out", out)
+    assert "2 cases: 1 passed, 1 refused by name, 0 failed, none skipped" in text
+    assert "worst cost of a step" in text
+    assert "friction_coefficient = 0.0 refused" in text
+    document = (out / f"{command}.json").read_text(encoding="utf-8")
+    assert_public_keys("stress", document)
+    verdicts = [one["verdict"] for one in json.loads(document)["fmus"][0]["verdicts"]]
+    assert verdicts == ["passed", "refused by name"]
+    assert (out / f"{command}_SliderResonator.png").read_bytes().startswith(b"\x89PNG")
+    assert "friction_coefficient = 0.0 refused" in (out / "index.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("command", "option"), [("stress", "--case"), ("extremes", "--cell")])
+def test_one_case_is_run_by_its_name(
+    native_fmu: Path, tmp_path: Path, command: str, option: str
+) -> None:
+    arguments = (command, native_fmu, "--out", tmp_path / "out", option)
+    text = text_of(*arguments, GOOD.name)
+    assert "1 case: 1 passed" in text
+    assert "20 steps of 0.0001 to 0.0001 s from 0 s on" in text, "its values"
+    text = " ".join(text_of(*arguments, GOOD.name.replace(",", ""), code=2).split())
+    assert f"{option} 'steps: few: Coulomb fidelity 2' refused: must be AXIS: VALUE: MODEL" in text
+    assert f"did you mean '{GOOD.name}'?" in text
+
+
+def test_a_random_device_is_run_by_its_name_and_by_its_number(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    out, page = tmp_path / "campaign.json", tmp_path / "campaign.html"
+    arguments = ("campaign", native_fmu, "--seed", 1, "--case", 10, "--out", out, "--html", page)
+    text = text_of(*arguments)
+    assert "1 case: 1 passed" in text
+    assert "slider_mass = " in text
+    written = json.loads(out.read_text())["fmus"][0]
+    again = json.loads(text_of("stress", native_fmu, "--case", DRAWN, "--json"))["fmus"][0]
+    assert again["verdicts"] == written["verdicts"]
+    assert "Coulomb, fidelity 0" in page.read_text(encoding="utf-8")
+    first = json.loads(text_of("stress", native_fmu, "--random", 1, "--first", 10, "--json"))
+    assert first["fmus"][0]["verdicts"] == written["verdicts"]
+
+
+def test_a_failed_case_exits_with_1(native_fmu: Path, few_cases: list[Case]) -> None:
+    few_cases[:] = [WRONG]
+    text = text_of("stress", native_fmu, "--json", code=1)
+    assert "it flies" in json.loads(text)["fmus"][0]["verdicts"][0]["reason"]
+
+
+def test_what_cannot_run_exits_with_2_before_anything_runs(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run: list[Path] = []
+    monkeypatch.setattr(stress, "run_cases", lambda fmu, *_, **__: run.append(fmu))
+    out = tmp_path / "out"
+    text = text_of("stress", native_fmu, "missing.fmu", "--out", out, code=2)
+    assert "missing.fmu: no such file" in text
+    assert run == []
+    assert not out.exists()
+    text_of("campaign", native_fmu, "--html", native_fmu, code=2)
+
+
+@pytest.mark.parametrize(
+    "arguments", [("stress", "--case"), ("extremes", "--out", "out", "--cell")]
+)
+def test_an_fmu_to_which_no_case_applies_exits_with_2(
+    native_fmu: Path, tmp_path: Path, few_cases: list[Case], arguments: tuple[str, ...]
+) -> None:
+    leaping = Case("steps", "few", Model(0, 0, 2), {}, HOLDS)
+    few_cases[:] = [leaping]
+    older = without_later_variables(native_fmu, tmp_path / "older.fmu")
+    command, *options = arguments
+    text = text_of(command, older, *options, leaping.name, code=2)
+    assert "no case applies to this FMU" in text
