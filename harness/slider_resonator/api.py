@@ -42,8 +42,7 @@ from slider_resonator.fmu.run import run as run_schedule
 from slider_resonator.scenes.device_file import read_device as read_device_file
 from slider_resonator.scenes.device_file import to_toml
 from slider_resonator.scenes.scene import Scene, scene_from
-from slider_resonator.scenes.scene import read_scene as read_scene_file
-from slider_resonator.scenes.scene_files import files_of_scenes, find_scene
+from slider_resonator.scenes.scene_files import find_scene, find_scenes
 from slider_resonator.steady.blocking_force import Blocking, find_blocking
 from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
 from slider_resonator.sweeping.grid import Sweep, grid_from, read_grid
@@ -158,24 +157,27 @@ def read_scene(scene: SceneLike, **values: Value) -> Scene:
     if isinstance(scene, Mapping):
         named = {"name": "scene", "title": "scene", **scene}
         return scene_from(named, str(named["name"])).with_values(checked)
-    return read_scene_file(find_scene(str(scene)), checked)
+    return find_scene(str(scene), checked)
 
 
 def validate(
     *fmus: str | Path,
-    scenes: str | Path | Sequence[str | Path] = (),
+    scenes: str | Path | Sequence[str | Path] | None = None,
     time_limit: float = TIME_LIMIT,
     jobs: int | None = None,
 ) -> tuple[Validation, ...]:
     """Compare FMUs with the references.
 
-    `scenes` is a name, a file or a folder, or several of these, by default all. `jobs` processes
-    compute the references and as many at most run an FMU, by default one for each core.
+    `scenes` is a name, a file or a folder, or several of these, by default all that are built in.
+    `jobs` processes compute the references and as many at most run an FMU, by default one for each
+    core. Raises SceneError where `scenes` is empty.
     """
     named = [scenes] if isinstance(scenes, str | Path) else scenes
-    files = files_of_scenes([str(scene) for scene in named])
+    if named is not None and not named:
+        raise SceneError("scenes = []: must be at least one scene; leave it out to run all")
+    found = find_scenes([str(scene) for scene in named or ()])
     paths = [Path(fmu) for fmu in fmus] or [fmu_path("native")]
-    return validate_scenes(paths, files, time_limit=time_limit, jobs=jobs or available_cores())
+    return validate_scenes(paths, found, time_limit=time_limit, jobs=jobs or available_cores())
 
 
 def choose(scene: SceneLike, fmu: str | Path | None = None, **values: Value) -> Choice:

@@ -21,8 +21,7 @@ from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
-from slider_resonator.scenes.scene import read_scene
-from slider_resonator.scenes.scene_files import built_in_scenes
+from slider_resonator.scenes.scene_files import find_scenes
 
 COUNTS = ("reversals", "contact_mode")
 ROUNDING = 1e-11
@@ -98,7 +97,7 @@ def both(twins: Twins, values: Mapping[str, float], course: Schedule) -> tuple[R
     return native, python
 
 
-SCENES = {name: read_scene(path) for name, path in sorted(built_in_scenes().items())}
+SCENES = {scene.name: scene for scene in find_scenes([])}
 IN_BOTH = [name for name, s in SCENES.items() if s.stop_time and not s.interpolates]
 """Scenes with a run that both can do: the Python FMU takes no derivatives of inputs."""
 

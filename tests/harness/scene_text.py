@@ -5,7 +5,7 @@ from __future__ import annotations
 import tomllib
 from pathlib import Path
 
-from slider_resonator.scenes.scene import Scene, scene_from
+from slider_resonator.scenes.scene import Scene, read_scene, scene_from
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 
@@ -15,6 +15,11 @@ def scene_file(folder: Path, text: str) -> Path:
     path = folder / "mine.toml"
     path.write_text(HEAD + text)
     return path
+
+
+def scene_read(folder: Path, text: str) -> Scene:
+    """Return the scene of a file with a text below `HEAD`."""
+    return read_scene(scene_file(folder, text))
 
 
 def scene_of(text: str) -> Scene:

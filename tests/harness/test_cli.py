@@ -153,10 +153,10 @@ def test_noise_and_minus_zero_are_not_shown(python_fmu: Path) -> None:
 def test_a_bug_is_not_taken_for_a_verdict(
     monkeypatch: pytest.MonkeyPatch, error: Exception, reported: str
 ) -> None:
-    def broken() -> None:
+    def broken(names: list[str]) -> None:
         raise error
 
-    monkeypatch.setattr("slider_resonator.commands.scenes.built_in_scenes", broken)
+    monkeypatch.setattr("slider_resonator.commands.scenes.find_scenes", broken)
     result = call("scenes")
     assert result.exit_code == 2, "Python itself would have exited with 1"
     assert reported in result.stderr
@@ -168,11 +168,11 @@ import sys, time
 from slider_resonator.cli import main
 from slider_resonator.commands import scenes
 
-def wait():
+def wait(names):
     print("ready", file=sys.stderr, flush=True)
     time.sleep(60)
 
-scenes.built_in_scenes = wait
+scenes.find_scenes = wait
 main(["scenes", "--json"])
 """
     with subprocess.Popen(

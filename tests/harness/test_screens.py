@@ -20,8 +20,7 @@ from slider_resonator.checks.validate import Validation
 from slider_resonator.commands.scenes import quantities_table, scenes_table
 from slider_resonator.output.table import Table
 from slider_resonator.output.terminal import rendered
-from slider_resonator.scenes.scene import read_scene
-from slider_resonator.scenes.scene_files import built_in_scenes
+from slider_resonator.scenes.scene_files import find_scenes
 from slider_resonator.scenes.vocabulary import QUANTITIES
 from tests.harness.scene_text import scene_of
 from tests.harness.verdicts import NONE, PASSED, WORD
@@ -95,7 +94,7 @@ def test_no_line_is_wider_than_the_screen(name: str, width: int) -> None:
 
 @pytest.mark.parametrize("width", WIDTHS)
 def test_no_scene_and_no_quantity_is_cut(width: int) -> None:
-    scenes = [read_scene(path) for path in built_in_scenes().values()]
+    scenes = find_scenes([])
     words = screen(shown(scenes_table(scenes)), width).split()
     assert {scene.name for scene in scenes} <= set(words)
     words = screen(shown(quantities_table()), width).replace(",", " ").split()

@@ -39,8 +39,8 @@ from slider_resonator.fmu.provenance import identity_of
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.targets import make_folder
-from slider_resonator.scenes.scene import Scene, ScenePoint, read_scene
-from slider_resonator.scenes.scene_files import built_in_scenes
+from slider_resonator.scenes.scene import Scene, ScenePoint
+from slider_resonator.scenes.scene_files import built_in_scenes, find_scene, find_scenes
 
 CHANGED = ".changed"
 """Folder beside the scenes with the changed results of the last check; git ignores it."""
@@ -48,7 +48,7 @@ CHANGED = ".changed"
 
 def record(
     fmu: Path,
-    files: Sequence[Path],
+    scenes: Sequence[Scene],
     folder: Path,
     progress: Progress = no_progress,
     *,
@@ -61,7 +61,6 @@ def record(
     not set, where two scenes have one name, and for a folder that cannot be made; FmuError for a
     file that is no FMU.
     """
-    scenes = [read_scene(file) for file in files]
     names = [scene.name for scene in scenes]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
@@ -84,21 +83,21 @@ def record(
     return tuple(scene.name for scene in whole), tuple(run_failures)
 
 
-def applicable_scenes(fmu: Path) -> list[Path]:
-    """Return the files of the built-in scenes that the FMU can run; FmuError for no FMU.
+def applicable_scenes(fmu: Path) -> list[Scene]:
+    """Return the built-in scenes that the FMU can run; FmuError for no FMU.
 
     Those with `interpolate` are for FMUs that take derivatives of inputs.
     """
-    files = list(built_in_scenes().values())
+    scenes = find_scenes([])
     with open_fmu(fmu) as opened:
         if opened.interpolates:
-            return files
-    return [file for file in files if not read_scene(file).interpolates]
+            return scenes
+    return [scene for scene in scenes if not scene.interpolates]
 
 
 def check(
     fmu: Path,
-    files: Sequence[Path],
+    scenes: Sequence[Scene],
     folder: Path,
     progress: Progress = no_progress,
     *,
@@ -113,7 +112,7 @@ def check(
     """
     began = perf_counter()
     identity = identity_of(fmu)
-    scenes = [read_scene(file) for file in dict.fromkeys(files or recorded_files(folder))]
+    scenes = list({one.source: one for one in scenes or scenes_recorded(folder)}.values())
     golden = [_recorded(folder, scene) for scene in scenes]
     measured, run_failures, not_applied = _measure(fmu, scenes, folder, progress, time_limit)
     compared: list[tuple[Check, Curves | None]] = []
@@ -180,15 +179,15 @@ def accept(fmu: Path, folder: Path, names: Sequence[str]) -> tuple[str, ...]:
     return chosen
 
 
-def recorded_files(folder: Path) -> list[Path]:
-    """Return the scene files of everything recorded; HarnessError where that is nothing."""
+def scenes_recorded(folder: Path) -> list[Scene]:
+    """Return the scenes of everything recorded; HarnessError where that is nothing."""
     folders = recorded_scenes(folder)
     if not folders:
         raise HarnessError(
             f"{folder}: nothing is recorded here; `slider-resonator baseline record FMU --dir "
             f"{folder}` does so"
         )
-    return [_scene_file(path) for path in folders]
+    return [_scene_of(path) for path in folders]
 
 
 def _measure(
@@ -228,18 +227,17 @@ def _measure(
     return recorded, run_failures, not_applied
 
 
-def _scene_file(path: Path) -> Path:
-    """Return the scene's file: a built-in one by its name, others where they were."""
+def _scene_of(path: Path) -> Scene:
+    """Return the scene that is recorded: a built-in one by its name, others where they were."""
     file = read_recorded(path).provenance.get(SCENE_FILE, BUILT_IN)
     if file != BUILT_IN:
-        return path.parent / file
-    try:
-        return built_in_scenes()[path.name]
-    except KeyError:
+        return find_scene(f"{path.parent / file}#{path.name}")
+    if path.name not in built_in_scenes():
         raise SceneError(
             f"{path}: recorded of a built-in scene that this version does not have; remove the "
             "folder, or name with --scene what to check"
-        ) from None
+        )
+    return find_scene(path.name)
 
 
 def _recorded(folder: Path, scene: Scene) -> Recorded:

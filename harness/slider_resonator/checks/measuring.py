@@ -31,7 +31,7 @@ from slider_resonator.checks.conduct.states import state_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
 from slider_resonator.checks.measures.ripple import ripple_amplitude
-from slider_resonator.checks.measures.slow import slow_displacement, travelled_velocity
+from slider_resonator.checks.measures.slow import last_step_velocity, slow_displacement
 from slider_resonator.checks.measures.slow_error import error_over_estimate
 from slider_resonator.errors import NotApplicable, SceneError
 from slider_resonator.fmu.interface_check import description_faults
@@ -127,7 +127,7 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     ),
     "mean_velocity": _final("mean_velocity"),
     "mean_velocity_in_run": _output("mean_velocity"),
-    "travelled_velocity": lambda fmu: travelled_velocity(fmu.record.times, fmu.record["position"]),
+    "last_step_velocity": lambda fmu: last_step_velocity(fmu.record.times, fmu.record["position"]),
     "slow_motion_error": _final("slow_motion_error"),
     "error_over_estimate": error_over_estimate,
     "stick_fraction": _final("stick_fraction"),

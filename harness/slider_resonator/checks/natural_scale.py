@@ -50,7 +50,7 @@ _SCALES: Mapping[str, Callable[[Device], float]] = {
     "predicted_velocity_in_run": fast_velocity,
     "mean_velocity": fast_velocity,
     "mean_velocity_in_run": fast_velocity,
-    "travelled_velocity": fast_velocity,
+    "last_step_velocity": fast_velocity,
     "velocity": fast_velocity,
     "blocking_force": _full_friction,
     "predicted_blocking_force": _full_friction,

@@ -23,7 +23,7 @@ from slider_resonator.fmu.isolation.tasks import Finished
 from slider_resonator.fmu.opening import lacking
 from slider_resonator.fmu.provenance import FmuIdentity, Provenance, identity_of, provenance_of
 from slider_resonator.output.progress import Progress, counted, no_progress
-from slider_resonator.scenes.scene import Scene, ScenePoint, read_scene
+from slider_resonator.scenes.scene import Scene, ScenePoint
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 
@@ -101,7 +101,7 @@ class Validation:
 
 def validate(
     fmu_paths: Sequence[Path],
-    scene_files: Sequence[Path],
+    scenes: Sequence[Scene],
     progress: Progress = no_progress,
     *,
     time_limit: float = TIME_LIMIT,
@@ -113,10 +113,10 @@ def validate(
     by this one; an FMU that shows no fault runs in up to `jobs` processes. The verdicts and their
     order are those with 1. `progress` gets the scene at work
     and the share of all the work that is done. An FMU that does not answer within `time_limit` (s)
-    for a point is stopped. Raises SceneError for a faulty scene file; what is wrong with an FMU is
-    among the run failures of its validation.
+    for a point is stopped. Raises SceneError for a scene that expects nothing; what is wrong with
+    an FMU is among the run failures of its validation.
     """
-    points = [point for file in scene_files for point in points_to_check(read_scene(file))]
+    points = [point for scene in scenes for point in points_to_check(scene)]
     work = _Work(progress, len(points) * len(fmu_paths))
     with ExpectedValues(points, jobs) as expected:
         judgings = [_Judging(path, expected, work) for path in fmu_paths]

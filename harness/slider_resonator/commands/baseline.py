@@ -20,7 +20,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.terminal import one_line
-from slider_resonator.scenes.scene_files import files_of_scenes
+from slider_resonator.scenes.scene_files import find_scenes
 
 dir_option = click.option(
     "--dir",
@@ -73,10 +73,10 @@ def record_command(
       slider-resonator baseline record my.fmu --dir baseline
       slider-resonator baseline record my.fmu --dir baseline --scene scenes/mine.toml --replace
     """
-    files = files_of_scenes(scenes) if scenes else applicable_scenes(fmu)
+    found = find_scenes(scenes) if scenes else applicable_scenes(fmu)
     with progress_bar() as progress:
         names, run_failures = record(
-            fmu, files, folder, progress, replace=replace, time_limit=time_limit
+            fmu, found, folder, progress, replace=replace, time_limit=time_limit
         )
     print_text(f"recorded {len(names)} scene{'s' * (len(names) != 1)} in {one_line(str(folder))}")
     print_run_failures(str(fmu), run_failures)
@@ -124,9 +124,9 @@ def check_command(
     """
     reports = Reports.requested("Slider-resonator baseline", junit, html, json, {"the FMU": fmu})
     try:
-        files = files_of_scenes(scenes) if scenes else []
+        found = find_scenes(scenes) if scenes else []
         with progress_bar() as progress:
-            result = check(fmu, files, folder, progress, tolerance=tolerance, time_limit=time_limit)
+            result = check(fmu, found, folder, progress, tolerance=tolerance, time_limit=time_limit)
     except HarnessError as error:
         reports.write([], str(error))
         raise

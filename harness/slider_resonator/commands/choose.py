@@ -22,7 +22,6 @@ from slider_resonator.commands.results import print_json, print_table, print_tex
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.scenes.scene import read_scene
 from slider_resonator.scenes.scene_files import find_scene
 
 UNITS = {
@@ -76,7 +75,7 @@ def choose_command(
       slider-resonator choose feed_forward --set friction_law=1 bristle_stiffness=1e6
     """
     check_left_to_choose(settings)
-    read = read_scene(find_scene(scene), settings)
+    read = find_scene(scene, settings)
     path = default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:

@@ -38,7 +38,7 @@ from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, readable
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
-from slider_resonator.scenes.scene import Scene, read_scene
+from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import find_scene
 
 if TYPE_CHECKING:
@@ -154,7 +154,7 @@ def run_command(
       slider-resonator run my.fmu table_1 --plot a.png --window 0.1:0.11 --overlay fidelity=1
       slider-resonator run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
-    read = read_scene(find_scene(scene), settings)
+    read = find_scene(scene, settings)
     if interpolate is not None:
         read = read.interpolating(interpolate)
     files = {f"the scene's file {file}": file for file in read.files}

@@ -14,14 +14,18 @@ from slider_resonator.output.atomic import write_text
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.output.terminal import escaped
+from slider_resonator.scenes.expansion import variants
 from slider_resonator.scenes.json_schema import scene_schema
 from slider_resonator.scenes.page import example_text, scene_page
-from slider_resonator.scenes.scene import Scene, read_scene
-from slider_resonator.scenes.scene_files import built_in_scenes, find_scene, scene_files
+from slider_resonator.scenes.scene import Scene
+from slider_resonator.scenes.scene_files import find_scene, find_scenes, is_core
+from slider_resonator.scenes.toml_file import read_toml
+from slider_resonator.scenes.toml_text import toml_text
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 
 @click.command("scenes")
+@click.option("--all", is_flag=True, help="List the thorough scenes, too, not only the core.")
 @click.option("--quantities", is_flag=True, help="List the quantities that a scene can check.")
 @click.option("--show", metavar="NAME|FILE", help="Print the text of a scene.")
 @click.option("--template", is_flag=True, help="Print a commented scene to start from.")
@@ -38,12 +42,15 @@ from slider_resonator.scenes.vocabulary import QUANTITIES
 def scenes_command(as_json: bool, **chosen: Any) -> None:
     """List the built-in scenes, or help to write your own.
 
+    The core scenes are situations that an engineer knows. The thorough ones are for faults that
+    hide; --all and --json list them, too, and validate runs both.
+
     The command run takes scenes with a length, in simulated seconds; validate takes all. Every
     key of a scene file is in docs/scenes.md.
 
     \b
     The tables of a scene file, of which only name and title are needed:
-      name, title, description
+      name, title, description, expect_bundles
       [device]    parameters that differ from table 1
       [inputs]    phase, load, frequency_ratio: a number, steps, ramp or csv
       [tuning]    tunable parameters that change in the run, as inputs do
@@ -54,10 +61,12 @@ def scenes_command(as_json: bool, **chosen: Any) -> None:
                   relative, absolute, tube; why
       [sweep]     variable, values
       [need]      accuracy that the command choose meets
+      [[variant]] scenes that differ in some keys: a file of several
 
     \b
     Examples:
       slider-resonator scenes
+      slider-resonator scenes --all
       slider-resonator scenes --template > my_step.toml
       slider-resonator scenes --check my_step.toml
       slider-resonator scenes --show table_1
@@ -67,11 +76,10 @@ def scenes_command(as_json: bool, **chosen: Any) -> None:
     given = [name for name, value in chosen.items() if value]
     if len(given) > 1:
         raise click.UsageError(f"{' and '.join(f'--{name}' for name in given)}: must be only one")
-    if as_json and given not in ([], ["quantities"]):
+    if as_json and given not in ([], ["all"], ["quantities"]):
         raise click.UsageError(f"--json does not go with --{given[0]}")
     if chosen["show"]:
-        text = find_scene(chosen["show"]).read_text(encoding="utf-8", errors="replace")
-        click.echo(escaped(text), nl=False)
+        click.echo(escaped(_text(find_scene(chosen["show"]))), nl=False)
     elif chosen["template"]:
         click.echo(example_text("template.toml"), nl=False)
     elif chosen["check"]:
@@ -83,13 +91,22 @@ def scenes_command(as_json: bool, **chosen: Any) -> None:
     elif chosen["quantities"]:
         _list_quantities(as_json)
     else:
-        _list_scenes(as_json)
+        _list_scenes(as_json, all_scenes=chosen["all"])
 
 
-def _check(scene: str) -> None:
-    for path in scene_files(scene):
-        checks = sum(len(point.scene.expect) for point in read_scene(path).points())
-        click.echo(escaped(f"{path}: valid, {number_of(checks, 'check')}"))
+def _text(scene: Scene) -> str:
+    """Return the text of a scene's file, or the scene alone where that has several."""
+    path = scene.files[0]
+    content = variants(read_toml(path), str(path))
+    if len(content) > 1:
+        return toml_text(content[scene.name])
+    return path.read_text(encoding="utf-8-sig")
+
+
+def _check(given: str) -> None:
+    for scene in find_scenes([given]):
+        checks = sum(len(point.scene.expect) for point in scene.points())
+        click.echo(escaped(f"{scene.source}: valid, {number_of(checks, 'check')}"))
 
 
 def _list_quantities(as_json: bool) -> None:
@@ -119,15 +136,16 @@ def quantities_table() -> Table:
     return Table(texts("quantity", "kind", "unit", "meaning", "references"), cells)
 
 
-def _list_scenes(as_json: bool) -> None:
-    scenes = [read_scene(path) for path in built_in_scenes().values()]
+def _list_scenes(as_json: bool, *, all_scenes: bool) -> None:
+    scenes = find_scenes([])
     if as_json:
         rows = [
             {
                 "name": scene.name,
                 "title": scene.title,
                 "description": scene.description,
-                "file": scene.source,
+                "file": str(scene.files[0]),
+                "core": is_core(scene),
                 "checks": len(scene.expect),
                 "stop_time": scene.stop_time,
             }
@@ -135,7 +153,11 @@ def _list_scenes(as_json: bool) -> None:
         ]
         print_json(rows)
         return
-    print_table(scenes_table(scenes))
+    listed = [scene for scene in scenes if all_scenes or is_core(scene)]
+    print_table(scenes_table(listed))
+    if len(listed) < len(scenes):
+        more = number_of(len(scenes) - len(listed), "more scene")
+        click.echo(f"{more} with --all")
 
 
 def scenes_table(scenes: Sequence[Scene]) -> Table:

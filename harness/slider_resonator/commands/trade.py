@@ -25,7 +25,6 @@ from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
 from slider_resonator.output.terminal import one_line
-from slider_resonator.scenes.scene import read_scene
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.trade.files import write_omissions, write_rows
 from slider_resonator.trade.measure import BUDGET, REPEATS, measure_trade
@@ -147,8 +146,8 @@ def trade_command(
 
 def _problems(scenes: Sequence[str], periods: int | None) -> list[Problem]:
     problems = []
-    for path in map(find_scene, scenes):
-        problems += [problem_of(p.scene, p.at, periods) for p in read_scene(path).points()]
+    for scene in map(find_scene, scenes):
+        problems += [problem_of(p.scene, p.at, periods) for p in scene.points()]
     return problems
 
 

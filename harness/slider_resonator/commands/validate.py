@@ -20,7 +20,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.isolation.processes import available_cores
 from slider_resonator.output.progress_bar import progress_bar
-from slider_resonator.scenes.scene_files import files_of_scenes
+from slider_resonator.scenes.scene_files import find_scenes
 
 
 @click.command("validate")
@@ -67,11 +67,11 @@ def validate_command(
     sources |= {f"the scene {scene}": Path(scene) for scene in scenes}
     reports = Reports.requested(TITLE, junit, html, json, sources)
     try:
-        files = files_of_scenes(scenes)
+        found = find_scenes(scenes)
         paths = fmus or default_fmus()
         with progress_bar() as progress:
             validations = validate(
-                paths, files, progress, time_limit=time_limit, jobs=jobs or available_cores()
+                paths, found, progress, time_limit=time_limit, jobs=jobs or available_cores()
             )
     except HarnessError as error:
         reports.write([], str(error))

@@ -34,6 +34,7 @@ class ExpectTable(KeyTable):
         "A real number needs a tolerance, be it 0; counts, words and contact modes need none.",
         "`tube` allows a signal to be early or late, with the references `located_events`, "
         "`taylor` and `bristle_state`. For `event_times` it is the tolerance, alone.",
+        "`quantity` may be a list of names, which is short for an [[expect]] of each.",
         "`absolute = 0.001` with a unit of m means 1 mm: all values are in the unit of the "
         "quantity.",
     )

@@ -19,6 +19,7 @@ from slider_resonator.device.interface import (
 )
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
+from slider_resonator.scenes.expansion import with_bundles
 from slider_resonator.scenes.key_table import NAMED
 from slider_resonator.scenes.schema import RunTable, SceneTable
 from slider_resonator.scenes.toml_text import toml_value
@@ -61,8 +62,8 @@ PLACES: Mapping[str, str] = {
 _TABLES = {("beside",), ("device",), ("inputs",), ("need",), ("run",), ("sweep",), ("tuning",)}
 
 
-def explanations(source: str, error: ValidationError) -> list[str]:
-    """Return one line per error: file, key path, value and requirement.
+def explanations(source: str, error: ValidationError, content: Mapping[str, Any]) -> list[str]:
+    """Return one line per error in a scene's content: file, key path, value and requirement.
 
     Of the errors of one kind in a list only the first is reported.
     """
@@ -71,13 +72,13 @@ def explanations(source: str, error: ValidationError) -> list[str]:
         place = problem["loc"]
         in_list = bool(place) and isinstance(place[-1], int)
         first.setdefault((problem["type"], *(place[:-1] if in_list else place)), problem)
-    return [f"{source}: {_explanation(problem)}" for problem in first.values()]
+    return [f"{source}: {_explanation(problem, content)}" for problem in first.values()]
 
 
-def _explanation(problem: ErrorDetails) -> str:
+def _explanation(problem: ErrorDetails, content: Mapping[str, Any]) -> str:
     """Return key path, value and requirement of an error."""
     location = tuple(part for part in problem["loc"] if part != "constant")
-    key, kind = _key_path(location), problem["type"]
+    key, kind = _key_path(_named(location, content)), problem["type"]
     if not location:
         return problem["msg"].removeprefix("Value error, ")
     if kind == NAMED:
@@ -141,8 +142,17 @@ def _in_unit(location: tuple[int | str, ...], field: Any) -> str:
 def _key_path(location: tuple[int | str, ...]) -> str:
     path = ""
     for part in location:
-        path += f"[{part}]" if isinstance(part, int) else f".{part}" if path else part
+        path += f"[{part + 1}]" if isinstance(part, int) else f".{part}" if path else part
     return path
+
+
+def _named(location: tuple[int | str, ...], content: Mapping[str, Any]) -> tuple[int | str, ...]:
+    """Return a location with quantity and reference in place of the number of an expectation."""
+    if len(location) < 2 or location[0] != "expect" or not isinstance(location[1], int):
+        return location
+    expect = with_bundles(content)["expect"][location[1]]
+    known = [str(expect[key]) for key in ("quantity", "reference") if key in expect]
+    return (f"expect[{', '.join(known)}]", *location[2:]) if known else location
 
 
 def _field_at(location: tuple[int | str, ...]) -> Any:

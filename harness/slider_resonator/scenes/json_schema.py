@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from typing import Any
 
+from slider_resonator.scenes.expansion import bundles
 from slider_resonator.scenes.schema import SceneTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -20,9 +22,13 @@ _ONE_OF: Mapping[str, tuple[tuple[str, ...], ...]] = {
 
 
 def scene_schema() -> dict[str, Any]:
-    """Return the JSON schema (draft 2020-12) of a scene file."""
-    schema: dict[str, Any] = _without_null(SceneTable.model_json_schema())
-    tables = schema["$defs"]
+    """Return the JSON schema (draft 2020-12) of a scene file.
+
+    Of a file with variants or bundles, which give what a table leaves out, any part is accepted.
+    """
+    scene: dict[str, Any] = _without_null(SceneTable.model_json_schema())
+    tables = scene.pop("$defs")
+    scene["properties"]["expect_bundles"]["items"] = {"enum": list(bundles())}
     for name, groups in _ONE_OF.items():
         tables[name]["allOf"] = [
             {"oneOf": [{"required": [key]} for key in group]} for group in groups
@@ -34,12 +40,32 @@ def scene_schema() -> dict[str, Any]:
         }
         for name, quantity in QUANTITIES.items()
     ]
-    tables["InputTable"] = {"anyOf": [{"type": "number"}, tables["InputTable"]]}
+    quantity = tables["ExpectTable"]["properties"]["quantity"]
+    quantity["anyOf"] = [{"enum": quantity.pop("enum")}]
+    quantity["anyOf"] += [{"type": "array", "minItems": 1, "items": quantity["anyOf"][0]}]
+    del quantity["type"]
+    parts = {f"Part{name}": _part(table) for name, table in tables.items()}
+    family = _part(scene)
+    one_of_family = {**family, "required": ["name"]}
+    family["properties"]["variant"]["items"] = {"$ref": "#/$defs/VariantTable"}
+    tables |= {"VariantTable": one_of_family, **parts}
+    for name in ("InputTable", "PartInputTable"):
+        tables[name] = {"anyOf": [{"type": "number"}, tables[name]]}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        **schema,
         "title": "Scene of slider-resonator",
+        "if": {"anyOf": [{"required": ["variant"]}, {"required": ["expect_bundles"]}]},
+        "then": family,
+        "else": scene,
+        "$defs": tables,
     }
+
+
+def _part(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a copy of the schema of a table of which nothing is required."""
+    text = json.dumps({key: table[key] for key in table if key not in ("required", "allOf")})
+    part: dict[str, Any] = json.loads(text.replace("#/$defs/", "#/$defs/Part"))
+    return part
 
 
 def _without_null(schema: Any) -> Any:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib import resources
+from itertools import groupby
 from typing import Any
 
 from pydantic import BaseModel
@@ -11,6 +12,7 @@ from pydantic.fields import FieldInfo
 
 from slider_resonator.device.interface import PARAMETERS, TUNABLES, VARIABLES
 from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
+from slider_resonator.scenes.expansion import bundles
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.input_tables import (
     BesideTable,
@@ -50,6 +52,7 @@ slider-resonator scenes --template > my_step.toml        # a commented scene to 
 slider-resonator scenes --check my_step.toml             # is it valid? nothing is run
 slider-resonator validate --scene my_step.toml           # run it and compare
 slider-resonator scenes --show table_1                   # the text of a built-in scene
+slider-resonator run my_steps.toml#my_fast_step          # one scene of a file of several
 slider-resonator scenes --schema > scene.schema.json     # JSON schema for editors
 ```
 
@@ -78,6 +81,13 @@ def scene_page() -> str:
         if model is SceneTable:
             parts += [_AT_THE_TOP, _device_section()]
     parts += [
+        "## Bundles of expectations\n",
+        'A scene takes them by name: `expect_bundles = ["motion"]`.\n',
+        _table(
+            ("bundle", "what it expects"),
+            [(_code(name), bundle["meaning"]) for name, bundle in bundles().items()],
+        ),
+        _table(("bundle", "quantities", "against", "within"), _bundles()),
         "## Quantities\n",
         "What an expectation can compare. One that needs *constants* is for constant "
         "inputs and parameters, without [tuning].\n",
@@ -173,6 +183,25 @@ def _needs(quantity: Quantity) -> str:
         "[beside]": quantity.needs_beside,
     }
     return ", ".join(name for name, needed in needs.items() if needed)
+
+
+def _bundles() -> list[tuple[str, ...]]:
+    """Return a row for the quantities of a bundle that have one reference and bound."""
+    rows: list[tuple[str, ...]] = []
+    for name, bundle in bundles().items():
+        for (against, within), expects in groupby(bundle["expect"], _bound):
+            quantities = ", ".join(_code(expect["quantity"]) for expect in expects)
+            rows.append((_code(name), quantities, against, within))
+    return rows
+
+
+def _bound(expect: Mapping[str, Any]) -> tuple[str, str]:
+    """Return reference or value of an expectation, and the tolerance."""
+    kinds = ("value", "at_most", "at_least")
+    values = [f"{kind} {expect[kind]:g}" for kind in kinds if kind in expect]
+    bounds = ("absolute", "relative", "tube")
+    within = [f"{kind} {expect[kind]:g}" for kind in bounds if kind in expect]
+    return _code(expect["reference"]) if "reference" in expect else values[0], ", ".join(within)
 
 
 def _references() -> list[tuple[str, ...]]:

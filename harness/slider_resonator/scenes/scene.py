@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import pi
 from pathlib import Path
@@ -15,8 +15,9 @@ from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule, schedule, step_count
 from slider_resonator.device.signal import Signal, constant, ramp, steps
 from slider_resonator.device.values import check_value
-from slider_resonator.errors import SceneError
+from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.scenes.csv_signal import csv_points
+from slider_resonator.scenes.expansion import variants
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.explanations import explanations
 from slider_resonator.scenes.input_tables import InputsTable, InputTable
@@ -196,13 +197,28 @@ class ScenePoint:
     at: Mapping[str, float] = field(default_factory=dict)
 
 
-def read_scene(path: Path, values: Mapping[str, float] | None = None) -> Scene:
-    """Read a scene file; `values` replace those in it as in `Scene.with_values`.
+def read_scenes(path: Path, name: str | None = None) -> tuple[Scene, ...]:
+    """Read the scenes of a file: one, or its variants; with a `name` that one alone.
 
     Raises SceneError with file, key, value and what is allowed.
     """
-    scene = scene_from(read_toml(path), str(path), path.parent)
-    return replace(scene, files=(path, *scene.files)).with_values(values or {})
+    contents = variants(read_toml(path), str(path))
+    if name is not None and name not in contents:
+        raise SceneError(f"{path}: {unknown_name('scene', name, contents)}")
+    scenes = (
+        _scene(content, f"{path}#{one}" if len(contents) > 1 else str(path), path.parent)
+        for one, content in contents.items()
+        if name in (None, one)
+    )
+    return tuple(replace(scene, files=(path, *scene.files)) for scene in scenes)
+
+
+def read_scene(path: Path, values: Mapping[str, float] | None = None) -> Scene:
+    """Read a file of one scene; `values` replace those in it as in `Scene.with_values`.
+
+    Raises SceneError with file, key, value and what is allowed.
+    """
+    return only_scene(read_scenes(path), str(path)).with_values(values or {})
 
 
 def scene_from(content: Mapping[str, Any], source: str, folder: Path = Path()) -> Scene:
@@ -210,10 +226,23 @@ def scene_from(content: Mapping[str, Any], source: str, folder: Path = Path()) -
 
     Raises SceneError with `source`, key, value and what is allowed.
     """
+    contents = variants(content, source)
+    return only_scene([_scene(one, source, folder) for one in contents.values()], source)
+
+
+def only_scene(scenes: Sequence[Scene], source: str) -> Scene:
+    """Return the only one of the scenes of a file; SceneError for several."""
+    if len(scenes) > 1:
+        names = ", ".join(scene.name for scene in scenes)
+        raise SceneError(f"{source}: has the scenes {names}; must be one: {source}#NAME")
+    return scenes[0]
+
+
+def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
     try:
         table = SceneTable.model_validate(content)
     except ValidationError as error:
-        raise SceneError("\n".join(explanations(source, error))) from error
+        raise SceneError("\n".join(explanations(source, error, content))) from error
     tables = _tables_of(table.inputs)
     given = {**tables, **table.tuning.given}
     beside = _tables_of(table.beside.inputs) if table.beside else {}

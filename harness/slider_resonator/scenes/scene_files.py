@@ -1,57 +1,82 @@
-"""The files of scenes: built-in ones by name, others by their path."""
+"""Find scenes: built-in ones by name, others by their file, as `FILE#NAME` where it has several."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from importlib import resources
 from pathlib import Path
 
 from slider_resonator.errors import SceneError, unknown_name
+from slider_resonator.scenes.scene import Scene, only_scene, read_scenes
+
+_NAME = re.compile(r'^name = "([^"]+)"', re.MULTILINE)
+
+FIRST = "table_1"
+"""The scene that is listed first."""
 
 
 def built_in_scenes() -> dict[str, Path]:
-    """Return the files of the built-in scenes by name, in alphabetical order."""
-    folder = Path(str(resources.files("slider_resonator.scenes") / "built_in"))
-    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
+    """Return the files of the built-in scenes by name: table 1, the core, then the thorough ones.
+
+    A file may have several.
+    """
+    core, thorough = _names_in("core"), _names_in("thorough")
+    return {FIRST: core[FIRST], **core, **thorough}
 
 
-def find_scene(name_or_file: str) -> Path:
-    """Return the file of a built-in scene or the file itself; SceneError names the nearest."""
-    built_in = built_in_scenes()
+def is_core(scene: Scene) -> bool:
+    """Whether a scene is one of the core."""
+    return scene.files[0].parent.name == "core"
+
+
+def find_scene(name_or_file: str, values: Mapping[str, float] | None = None) -> Scene:
+    """Return the built-in scene of a name, or that of a file, as `FILE#NAME` one of several.
+
+    `values` replace those of the scene, as in `Scene.with_values`. Raises SceneError with the
+    nearest name, and as `read_scenes` does.
+    """
+    return only_scene(_scenes_of(name_or_file), name_or_file).with_values(values or {})
+
+
+def find_scenes(names_or_files: Sequence[str]) -> list[Scene]:
+    """Return scenes by name, file or folder; all that are built in for an empty sequence.
+
+    Raises SceneError for a folder without scene files, and as `find_scene` does.
+    """
+    if not names_or_files:
+        files = dict.fromkeys(built_in_scenes().values())
+        read = {scene.name: scene for file in files for scene in read_scenes(file)}
+        return [read[name] for name in built_in_scenes()]
+    return [scene for one in names_or_files for scene in _scenes_of(one, folders=True)]
+
+
+def _scenes_of(name_or_file: str, *, folders: bool = False) -> Sequence[Scene]:
+    """Return a built-in scene, or those of a file or, where they may be given, of a folder."""
+    built_in, path = built_in_scenes(), Path(name_or_file)
     if name_or_file in built_in:
-        return built_in[name_or_file]
-    path = Path(name_or_file)
-    if path.is_file():
-        return path
+        return read_scenes(built_in[name_or_file], name_or_file)
     if path.is_dir():
-        raise SceneError(f"{path}: is a directory; must be a scene file or a built-in scene")
+        files = sorted(path.glob("*.toml")) if folders else []
+        if files:
+            return [scene for file in files for scene in read_scenes(file)]
+        also = " or a directory with scene files (*.toml)" if folders else ""
+        raise SceneError(f"{path}: is a directory; must be a scene file, a built-in scene{also}")
+    file, _, name = name_or_file.partition("#")
+    if not path.is_file() and name and Path(file).is_file():
+        return read_scenes(Path(file), name)
+    if path.is_file():
+        return read_scenes(path)
     if path.suffix or len(path.parts) > 1:
         raise SceneError(
             f"{path}: no such scene file; `slider-resonator scenes` lists those built in"
         )
     unknown = unknown_name("scene", name_or_file, built_in)
-    raise SceneError(f"{unknown}; `slider-resonator scenes` lists all")
+    raise SceneError(f"{unknown}; `slider-resonator scenes --all` lists all")
 
 
-def scene_files(scene: str) -> list[Path]:
-    """Return a built-in scene's file, the file itself or those of a folder, in alphabetical order.
-
-    Raises SceneError for a folder without any, and as `find_scene` does.
-    """
-    folder = Path(scene)
-    if scene in built_in_scenes() or not folder.is_dir():
-        return [find_scene(scene)]
-    files = sorted(folder.glob("*.toml"))
-    if not files:
-        raise SceneError(
-            f"{folder}: is a directory; must be a scene file, a built-in scene or a directory "
-            "with scene files (*.toml)"
-        )
-    return files
-
-
-def files_of_scenes(scenes: Sequence[str]) -> list[Path]:
-    """Return the files of scenes, each as for `scene_files`; of all built-in ones without any."""
-    if not scenes:
-        return list(built_in_scenes().values())
-    return [file for scene in scenes for file in scene_files(scene)]
+def _names_in(folder: str) -> dict[str, Path]:
+    place = Path(str(resources.files("slider_resonator.scenes") / "built_in" / folder))
+    files = sorted(place.glob("*.toml"))
+    names = {name: path for path in files for name in _NAME.findall(path.read_text("utf-8"))}
+    return dict(sorted(names.items()))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, field_validator, model_validator
 
@@ -10,6 +11,7 @@ from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.device_keys import device_schema
+from slider_resonator.scenes.expansion import with_bundles
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.input_tables import BesideTable, InputsTable, TuningTable
 from slider_resonator.scenes.key_table import (
@@ -119,6 +121,10 @@ class SceneTable(KeyTable):
     rules: ClassVar[tuple[str, ...]] = (
         "Only `name` and `title` are needed. Any key that is not listed is refused.",
         "All values are in SI units.",
+        "A file with [[variant]] tables is several scenes: each has what the file says, and on top "
+        "of it what its variant says, key by key. A variant needs a name and a title of its own.",
+        "An [[expect]] replaces that of a bundle, and that of a variant one of the file, with the "
+        "same quantity and reference. What it leaves out is that of the one that it replaces.",
     )
 
     name: str = Field(
@@ -142,6 +148,9 @@ class SceneTable(KeyTable):
     )
     beside: BesideTable | None = key("a second instance", {"device": {"damping_ratio": 0.02}})
     run: RunTable | None = key("length and steps", {"stop_time": 0.1, "step_size": 1e-3})
+    expect_bundles: tuple[str, ...] = key(
+        "bundles of expectations; they are listed below", ["motion"], default=()
+    )
     expect: tuple[ExpectTable, ...] = key(
         "what must hold; each is headed [[expect]]",
         [{"quantity": "reversals", "value": 200, "why": "two in each period"}],
@@ -154,6 +163,17 @@ class SceneTable(KeyTable):
     need: NeedTable | None = key(
         "accuracy that the command choose meets", {"position": {"abs": 2e-3}}
     )
+
+    variant: tuple[Mapping[str, Any], ...] = key(
+        "the scenes of a file of several; each is headed [[variant]]",
+        [{"name": "my_fast_step", "title": "The step in 1 ms", "run": {"step_size": 1e-3}}],
+        default=(),
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_bundles(cls, content: Mapping[str, Any]) -> Mapping[str, Any]:
+        return with_bundles(content)
 
     @field_validator("device")
     @classmethod
@@ -174,8 +194,8 @@ class SceneTable(KeyTable):
                 f"sweep.variable = {self.sweep.variable!r}: changes in the run; must be one whose "
                 "value is constant"
             )
-        for index, expect in enumerate(self.expect):
-            quantity, key = QUANTITIES[expect.quantity], f"expect[{index}]: {expect.quantity}"
+        for expect in self.expect:
+            quantity, key = QUANTITIES[expect.quantity], f"expect: {expect.quantity}"
             if quantity.needs_run and self.run is None:
                 raise ValueError(f"{key} is measured in a run: [run] is missing")
             if quantity.needs_constants and not self._constant():

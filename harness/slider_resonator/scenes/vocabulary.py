@@ -163,8 +163,8 @@ QUANTITIES: Mapping[str, Quantity] = {
         "mean velocity over the last whole drive period before each point, first since the start",
         *(*RESOLVED, "averaged"),
     ),
-    "travelled_velocity": _number_of_run(
-        "m/s", "travel of the slider over the last step of the run, by its time"
+    "last_step_velocity": _number_of_run(
+        "m/s", "distance of the last step of the run over its duration"
     ),
     "slow_motion_error": _number_of_run(
         "m/s", "the FMU's output slow_motion_error at the end of the run"

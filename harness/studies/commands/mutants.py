@@ -24,7 +24,7 @@ from slider_resonator.fmu.isolation.processes import available_cores
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import nothing_kept, noting_on_interrupt, output
 from slider_resonator.output.progress_bar import progress_bar
-from slider_resonator.scenes.scene_files import files_of_scenes
+from slider_resonator.scenes.scene_files import find_scenes
 from studies.mutants.archive import read_python_fmu
 from studies.mutants.bench import TIME_LIMIT, Judging
 from studies.mutants.changes import Change, hand_written_faults, harmless_variants
@@ -163,7 +163,7 @@ def mutants_command(
     provenance = provenance_of(path)
     with noting_on_interrupt(lambda: _kept(journal)), progress_bar() as progress:
         cores = jobs or available_cores()
-        judging = Judging(files_of_scenes(scenes), cores, time_limit, journal, progress)
+        judging = Judging(find_scenes(scenes), cores, time_limit, journal, progress)
         run: MutationRun[Any] = judge(judging)
     if as_json:
         print_json(changes_as_plain(run) if native else mutants_as_plain(run), provenance)

@@ -15,7 +15,7 @@ from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.validate import points_to_check
 from slider_resonator.errors import FmuError, SceneError
 from slider_resonator.output.progress import Progress, counted, no_progress
-from slider_resonator.scenes.scene import read_scene
+from slider_resonator.scenes.scene import Scene
 from studies.mutants.trial import BenchPoint, Rejection, first_failure, not_run, point_name
 
 TIME_LIMIT = 30.0
@@ -29,7 +29,7 @@ class Judging:
     `journal` is the file that keeps verdicts.
     """
 
-    scene_files: Sequence[Path]
+    scenes: Sequence[Scene]
     jobs: int = 1
     time_limit: float = TIME_LIMIT
     journal: Path | None = None
@@ -40,12 +40,12 @@ def bench_of(fmu: Path, judging: Judging) -> list[BenchPoint]:
     """Return all points of the scenes, after running the unchanged FMU there.
 
     Raises FmuError when it is rejected, since the rejection of a variant would prove nothing then,
-    and SceneError for a scene that cannot be read, referred to or expects nothing.
+    and SceneError for a scene that cannot be referred to or expects nothing.
     """
     points = [
         BenchPoint(point.scene, point.at)
-        for file in judging.scene_files
-        for point in points_to_check(read_scene(file))
+        for scene in judging.scenes
+        for point in points_to_check(scene)
     ]
     bench: list[BenchPoint] = []
     limit, jobs = judging.time_limit, judging.jobs

@@ -13,7 +13,7 @@ from slider_resonator.checks.compare import Check
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.verdict import sentence
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes.scene import ScenePoint, read_scene
+from slider_resonator.scenes.scene import ScenePoint
 from slider_resonator.scenes.scene_files import find_scene
 
 TIMES = np.linspace(0.0, 0.1, 48)
@@ -22,7 +22,7 @@ WAVE = 1e-3 * np.sin(500.0 * TIMES)
 
 @pytest.fixture(scope="module")
 def point() -> ScenePoint:
-    return ScenePoint(read_scene(find_scene("table_1")))
+    return ScenePoint(find_scene("table_1"))
 
 
 def judged(point: ScenePoint, name: str, golden: Any, now: Any, tolerance: float = 1e-8) -> Check:

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.checks.validate import validate
+from slider_resonator.scenes.scene import read_scene
 from slider_resonator.scenes.scene_files import find_scene
 
 SCENE = """
@@ -52,5 +53,5 @@ def test_resolved_motion_is_near_and_only_averaged_motion_is_equal(
 ) -> None:
     scene = tmp_path / "scene.toml"
     scene.write_text(SCENE.format(fidelity=fidelity, quantity=quantity, relative=relative))
-    ((check,),) = (v.checks for v in validate([native_fmu], [scene]))
+    ((check,),) = (v.checks for v in validate([native_fmu], [read_scene(scene)]))
     assert check.passed is passes, f"off by {check.deviation}"

@@ -12,7 +12,7 @@ from slider_resonator.checks.expected_values import ExpectedValues, values_in
 from slider_resonator.checks.validate import Validation, points_to_check, validate
 from slider_resonator.errors import HarnessError, SceneError
 from slider_resonator.fmu.isolation import tasks
-from slider_resonator.scenes.scene import ScenePoint, read_scene
+from slider_resonator.scenes.scene import ScenePoint
 from slider_resonator.scenes.scene_files import find_scene
 
 SCENES = [find_scene(name) for name in ("overload", "stuck", "table_1", "lift_off")]
@@ -25,7 +25,7 @@ def few_points_suffice(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def points(*names: str) -> list[ScenePoint]:
-    return [point for name in names for point in points_to_check(read_scene(find_scene(name)))]
+    return [point for name in names for point in points_to_check(find_scene(name))]
 
 
 def verdicts(validation: Validation) -> Validation:

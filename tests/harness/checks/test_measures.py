@@ -8,7 +8,7 @@ import pytest
 from slider_resonator.checks.measures.deviation import mismatch_share, peak, share_of
 from slider_resonator.checks.measures.frequency import dominant_frequency
 from slider_resonator.checks.measures.ripple import ripple_amplitude
-from slider_resonator.checks.measures.slow import slow_displacement, travelled_velocity
+from slider_resonator.checks.measures.slow import last_step_velocity, slow_displacement
 from slider_resonator.checks.measures.tube import Tube, no_tube
 
 PERIOD = 0.002
@@ -120,4 +120,4 @@ def test_what_is_no_number_is_never_inside() -> None:
 
 def test_the_travel_of_the_last_step_alone_counts() -> None:
     times = np.array([0.0, 0.1, 0.3, 0.5])
-    assert travelled_velocity(times, np.array([5.0, 1.0, 2.0, 2.5])) == pytest.approx(2.5)
+    assert last_step_velocity(times, np.array([5.0, 1.0, 2.0, 2.5])) == pytest.approx(2.5)

@@ -8,22 +8,22 @@ from slider_resonator.checks.compare import Check
 from slider_resonator.checks.validate import validate, worst_of_sweeps
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.scene_files import find_scene
-from tests.harness.scene_text import scene_file
+from tests.harness.scene_text import scene_read
 
 EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = {}\nrelative = 1e-6\nwhy = "test"\n'
 
 
 def test_a_right_value_passes_and_a_wrong_one_fails(python_fmu: Path, tmp_path: Path) -> None:
-    (right,) = validate([python_fmu], [scene_file(tmp_path, EXPECT.format(0.126667))])
+    (right,) = validate([python_fmu], [scene_read(tmp_path, EXPECT.format(0.126667))])
     assert right.passed
-    (wrong,) = validate([python_fmu], [scene_file(tmp_path, EXPECT.format(0.12673))])
+    (wrong,) = validate([python_fmu], [scene_read(tmp_path, EXPECT.format(0.12673))])
     assert not wrong.passed, "0.05 % off must be noticed"
     assert wrong.checks[0].fmu == pytest.approx(0.126667, rel=1e-6)
 
 
 def test_a_sweep_is_judged_at_every_point(python_fmu: Path, tmp_path: Path) -> None:
     sweep = '[sweep]\nvariable = "phase"\nvalues = [0.0, 0.4]\n'
-    (result,) = validate([python_fmu], [scene_file(tmp_path, EXPECT.format(0.126667) + sweep)])
+    (result,) = validate([python_fmu], [scene_read(tmp_path, EXPECT.format(0.126667) + sweep)])
     assert [dict(check.at) for check in result.checks] == [{"phase": 0.0}, {"phase": 0.4}]
     assert [check.passed for check in result.checks] == [True, False]
     ((worst, points),) = worst_of_sweeps(result.checks)
@@ -32,18 +32,18 @@ def test_a_sweep_is_judged_at_every_point(python_fmu: Path, tmp_path: Path) -> N
 
 def test_a_scene_that_expects_nothing_cannot_be_validated(python_fmu: Path, tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="expects nothing"):
-        validate([python_fmu], [scene_file(tmp_path, "")])
+        validate([python_fmu], [scene_read(tmp_path, "")])
 
 
 def test_a_broken_scene_is_noticed_before_anything_runs(tmp_path: Path) -> None:
     with pytest.raises(SceneError):
-        validate([tmp_path / "no.fmu"], [scene_file(tmp_path, "[runs]\n")])
+        validate([tmp_path / "no.fmu"], [scene_read(tmp_path, "[runs]\n")])
 
 
 def test_progress_names_the_scene_at_work(python_fmu: Path, tmp_path: Path) -> None:
     reported: list[tuple[str, float]] = []
-    path = scene_file(tmp_path, EXPECT.format(0.126667))
-    validate([python_fmu], [path], lambda scene, share: reported.append((scene, share)))
+    scene = scene_read(tmp_path, EXPECT.format(0.126667))
+    validate([python_fmu], [scene], lambda name, share: reported.append((name, share)))
     assert reported == [("1 of 1: mine", 0.0), ("", 1.0)]
 
 
@@ -82,7 +82,7 @@ def test_repeated_validations_of_a_correct_fmu_give_equal_checks(
 def test_several_fmus_are_judged_one_by_one(tmp_path: Path, python_fmu: Path) -> None:
     copy = tmp_path / "copy.fmu"
     copy.write_bytes(python_fmu.read_bytes())
-    scene = scene_file(tmp_path, EXPECT.format(0.126667))
+    scene = scene_read(tmp_path, EXPECT.format(0.126667))
     reported: list[float] = []
     results = validate([python_fmu, copy], [scene], lambda name, share: reported.append(share))
     assert [result.fmu for result in results] == [str(python_fmu), str(copy)]

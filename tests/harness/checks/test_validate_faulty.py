@@ -9,12 +9,13 @@ import pytest
 
 from slider_resonator.checks.validate import Validation, validate
 from slider_resonator.fmu.isolation.tasks import MAX_CRASHES
+from slider_resonator.scenes.scene import read_scene
 from tests.harness import faulty_fmus
 from tests.harness.faulty_fmus import compiled
 
 
 def judged(fmu: Path, *scenes: Path, time_limit: float = 60.0) -> Validation:
-    (validation,) = validate([fmu], scenes, time_limit=time_limit)
+    (validation,) = validate([fmu], list(map(read_scene, scenes)), time_limit=time_limit)
     return validation
 
 
@@ -94,6 +95,8 @@ def test_nothing_is_left_behind(
     folder = tmp_path / "temporary"
     folder.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(folder))
-    codes = [validation.exit_code for validation in validate([crash, native_fmu], [scene])]
+    codes = [
+        validation.exit_code for validation in validate([crash, native_fmu], [read_scene(scene)])
+    ]
     assert codes == [2, 0], "a broken FMU spoils nothing for a good one"
     assert not list(folder.iterdir()), "an FMU that crashes does not tidy up what it unpacked"

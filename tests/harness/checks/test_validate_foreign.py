@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.checks.validate import Validation, validate
+from slider_resonator.scenes.scene import read_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
 from tests.harness import faulty_fmus
 from tests.harness.foreign_fmus import foreign
@@ -40,7 +41,7 @@ def stranger(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path
 def judged(fmu: Path, folder: Path, more: str) -> Validation:
     scene = faulty_fmus.scene(folder)
     scene.write_text(scene.read_text() + more)
-    (validation,) = validate([fmu], [scene])
+    (validation,) = validate([fmu], [read_scene(scene)])
     return validation
 
 
@@ -72,7 +73,7 @@ def test_what_it_does_not_offer_is_listed_and_what_it_does_is_judged(
     expect = '[[expect]]\nquantity = "{}"\nvalue = 0\nwhy = "it must"\n'
     path = tmp_path / "life.toml"
     path.write_text(LIFE + "".join(map(expect.format, counts)))
-    (validation,) = validate([stranger], [path])
+    (validation,) = validate([stranger], [read_scene(path)])
     assert validation.exit_code == 0, [c for c in validation.checks if not c.passed]
     reasons = {one.quantity: one.reason for one in validation.not_applied}
     assert reasons == {
@@ -95,7 +96,7 @@ def test_a_scene_that_needs_a_later_variable_does_not_apply(
         path = faulty_fmus.scene(tmp_path, f"order_{order}")
         device = f"\n[device]\nfidelity = 1\naveraging_order = {order}\n"
         path.write_text(path.read_text() + device)
-        scenes.append(path)
+        scenes.append(read_scene(path))
     (validation,) = validate([old], scenes)
     assert validation.exit_code == 0, validation.run_failures
     assert [check.scene for check in validation.checks] == ["order_1"]
@@ -121,6 +122,6 @@ def test_bent_bristles_need_unequal_steps(stranger: Path, tmp_path: Path) -> Non
     device = "\n[device]\nfriction_law = 1\n"
     scene = faulty_fmus.scene(tmp_path)
     scene.write_text(scene.read_text().replace("located_events", "bristle_state") + lugre + device)
-    (validation,) = validate([stranger], [scene])
+    (validation,) = validate([stranger], [read_scene(scene)])
     assert validation.exit_code == 2
     assert "canHandleVariableCommunicationStepSize = false" in validation.run_failures[0].reason

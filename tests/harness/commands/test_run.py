@@ -14,7 +14,7 @@ from tests.harness.calling import call, refused
 
 def test_neither_the_fmu_nor_the_scene_is_overwritten(python_fmu: Path, tmp_path: Path) -> None:
     fmu = Path(shutil.copy(python_fmu, tmp_path / "copy.fmu"))
-    scene = Path(shutil.copy(find_scene("lift_off"), tmp_path / "scene.toml"))
+    scene = Path(shutil.copy(find_scene("lift_off").files[0], tmp_path / "scene.toml"))
     for target, reported in ((fmu, "is the FMU"), (scene, "is the scene's file")):
         before = target.read_bytes()
         assert reported in refused("run", fmu, scene, "--out", target)

@@ -127,7 +127,7 @@ BELOW_THE_HEAD = {
     ),
     "no run": Mistake(
         '[[expect]]\nquantity = "reversals"\nvalue = 0\nwhy = "x"\n',
-        "expect[0]",
+        "expect: reversals",
         "[run] is missing",
     ),
     "no such CSV": Mistake(
@@ -149,7 +149,7 @@ BELOW_THE_HEAD = {
         "times must increase",
     ),
     "a point without a value": Mistake(
-        RUN + "[inputs]\nload = { steps = [[0.05]] }\n", "inputs.load.steps[0]", "[time (s), value]"
+        RUN + "[inputs]\nload = { steps = [[0.05]] }\n", "inputs.load.steps[1]", "[time (s), value]"
     ),
     "two kinds of input": Mistake(
         RUN + "[inputs]\nload = { constant = 1, ramp = [[0, 1]] }\n",
@@ -167,35 +167,41 @@ BELOW_THE_HEAD = {
     "single brackets": Mistake('[expect]\nquantity = "position"\n', "expect", "headed [[expect]]"),
     "unknown quantity": Mistake(
         expect('quantity = "positon"', 'reference = "taylor"', "relative = 1e-6"),
-        "expect[0].quantity",
+        "expect[positon, taylor].quantity",
         "did you mean 'position'",
     ),
     "unknown reference": Mistake(
         expect('quantity = "position"', 'reference = "tailor"', "relative = 1e-6"),
-        "expect[0]",
+        "expect[position, tailor]",
         "did you mean 'taylor'",
     ),
     "reference of another quantity": Mistake(
         expect('quantity = "position"', 'reference = "closed_form"', "relative = 1e-6"),
-        "expect[0]",
+        "expect[position, closed_form]",
         "must be one of averaged, bristle_state, located_events, taylor",
     ),
     "no tolerance": Mistake(
-        expect('quantity = "position"', 'reference = "taylor"'), "expect[0]", "needs a tolerance"
+        expect('quantity = "position"', 'reference = "taylor"'),
+        "expect[position, taylor]",
+        "needs a tolerance",
     ),
     "negative tolerance": Mistake(
         expect('quantity = "position"', 'reference = "taylor"', "relative = -1e-6"),
-        "expect[0].relative",
+        "expect[position, taylor].relative",
         "must be a number not below 0",
     ),
     "no reason": Mistake(
-        RUN + '[[expect]]\nquantity = "reversals"\nvalue = 0\n', "expect[0].why", 'add why = "'
+        RUN + '[[expect]]\nquantity = "reversals"\nvalue = 0\n',
+        "expect[reversals].why",
+        'add why = "',
     ),
     "nothing expected": Mistake(
-        expect('quantity = "mean_velocity"'), "expect[0]", "exactly one of reference, value"
+        expect('quantity = "mean_velocity"'),
+        "expect[mean_velocity]",
+        "exactly one of reference, value",
     ),
     "a bound of a signal": Mistake(
-        expect('quantity = "position"', "at_most = 1.0"), "expect[0]", "needs a reference"
+        expect('quantity = "position"', "at_most = 1.0"), "expect[position]", "needs a reference"
     ),
     "unknown sweep": Mistake(
         '[sweep]\nvariable = "lode"\nvalues = [1]\n', "sweep.variable", "mean 'load'"
@@ -290,7 +296,7 @@ BELOW_THE_HEAD = {
         RUN + "[inputs]\nload = [[0, 0], [1, 1]]\n", "inputs.load", "such as { steps ="
     ),
     "points that are numbers": Mistake(
-        RUN + "[inputs]\nload = { steps = [0.0, 1.0] }\n", "steps[0]", "[time (s), value]"
+        RUN + "[inputs]\nload = { steps = [0.0, 1.0] }\n", "steps[1]", "[time (s), value]"
     ),
     "a sweep of what changes": Mistake(
         RUN
@@ -301,7 +307,7 @@ BELOW_THE_HEAD = {
     ),
     "an empty reason": Mistake(
         RUN + '[[expect]]\nquantity = "reversals"\nvalue = 0\nwhy = ""\n',
-        "expect[0].why",
+        "expect[reversals].why",
         "not empty",
     ),
     "a tube without a reference for it": Mistake(

@@ -11,7 +11,6 @@ from slider_resonator.fmu.run import run
 from slider_resonator.scenes import run_plot, signals_plot
 from slider_resonator.scenes.plot_units import plot_unit
 from slider_resonator.scenes.run_plot import plot_run, schedule_to_plot
-from slider_resonator.scenes.scene import read_scene
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.signals_plot import Run, plot_signals
 
@@ -45,7 +44,7 @@ def test_one_run_and_several_are_drawn_in_the_same_units(
     figures: list[Figure] = []
     for module in (run_plot, signals_plot):
         monkeypatch.setattr(module, "save", lambda figure, path: figures.append(figure))
-    scene = read_scene(find_scene("table_1"))
+    scene = find_scene("table_1")
     record = run(instance, scene.parameters, schedule_to_plot(scene))
     plot_run(record, scene, tmp_path / "one.png")
     both, window = [Run("a", record), Run("b", record)], (0.0, float(record.times[-1]))

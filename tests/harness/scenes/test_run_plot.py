@@ -9,13 +9,13 @@ from matplotlib.image import imread
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.scenes.run_plot import SMOOTH_POINTS, ZOOM_PERIODS, plot_run, schedule_to_plot
-from slider_resonator.scenes.scene import Scene, read_scene
+from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import find_scene
 
 
 @pytest.fixture
 def scene() -> Scene:
-    return read_scene(find_scene("changing_inputs"))
+    return find_scene("changing_inputs")
 
 
 def test_a_run_becomes_a_picture(instance: Instance, scene: Scene, tmp_path: Path) -> None:
@@ -29,8 +29,7 @@ def test_a_run_becomes_a_picture(instance: Instance, scene: Scene, tmp_path: Pat
 
 
 def test_a_coarse_run_is_drawn_without_its_fast_motion(instance: Instance, tmp_path: Path) -> None:
-    path = find_scene("long_run")
-    scene = read_scene(path)
+    scene = find_scene("long_run")
     record = run(instance, scene.parameters, scene.schedule())
     plot_run(record, scene, tmp_path / "run.png")
     assert imread(tmp_path / "run.png").shape[0] < 700
@@ -38,7 +37,7 @@ def test_a_coarse_run_is_drawn_without_its_fast_motion(instance: Instance, tmp_p
 
 @pytest.mark.parametrize("name", ["table_1", "long_run", "changing_inputs"])
 def test_the_last_drive_periods_are_drawn_smoothly_under_the_same_inputs(name: str) -> None:
-    scene = read_scene(find_scene(name))
+    scene = find_scene(name)
     period = 2.0 * np.pi / scene.device.drive_frequency
     own, shown = scene.schedule(), schedule_to_plot(scene)
     late = shown.times[shown.times >= own.times[-1] - (ZOOM_PERIODS - 0.5) * period]
@@ -48,7 +47,7 @@ def test_the_last_drive_periods_are_drawn_smoothly_under_the_same_inputs(name: s
 
 
 def test_the_lines_and_constant_inputs_are_named(instance: Instance, tmp_path: Path) -> None:
-    scene = read_scene(find_scene("table_1"), {"load": 0.05, "phase": 0.4})
+    scene = find_scene("table_1", {"load": 0.05, "phase": 0.4})
     record = run(instance, scene.parameters, schedule_to_plot(scene))
     plot_run(record, scene, tmp_path / "run.svg")
     text = (tmp_path / "run.svg").read_text()

@@ -1,36 +1,17 @@
 from __future__ import annotations
 
-import pickle
 from pathlib import Path
 
 import pytest
 
 from slider_resonator.device.interface import TUNABLES
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes import scene_files
 from slider_resonator.scenes.input_tables import TuningTable
 from slider_resonator.scenes.scene import read_scene, scene_from
-from slider_resonator.scenes.scene_files import built_in_scenes, files_of_scenes, find_scene
+from slider_resonator.scenes.scene_files import find_scene
 from tests.harness.scene_text import scene_file
 
 RUN = "[run]\ndrive_periods = 10\nsteps_per_period = 4\n"
-
-
-@pytest.mark.parametrize("name", built_in_scenes())
-def test_built_in_scenes_are_sound_and_named_as_their_file(name: str) -> None:
-    scene = read_scene(find_scene(name))
-    assert scene.name == name
-    assert scene.title
-    assert scene.description
-    assert scene.expect, "a built-in scene must expect something"
-    assert all(expect.why for expect in scene.expect)
-
-
-def test_the_scenes_that_the_paper_calls_for_are_built_in() -> None:
-    assert set(built_in_scenes()) >= {
-        *("table_1", "table_1_high_frequency", "phase_sweep", "load_speed", "blocking_force"),
-        *("ratio_3", "detuned_beat", "pushed_at_rest", "lift_off", "changing_inputs"),
-    }
 
 
 def test_a_scene_of_a_name_and_a_title_is_table_1(tmp_path: Path) -> None:
@@ -158,12 +139,6 @@ def test_a_swept_run_of_too_many_steps_is_refused(tmp_path: Path) -> None:
         read_scene(scene_file(tmp_path, run + sweep)).points()
 
 
-@pytest.mark.parametrize("name", built_in_scenes())
-def test_a_scene_is_data_that_can_be_sent_to_another_process(name: str) -> None:
-    scene = read_scene(find_scene(name))
-    assert pickle.loads(pickle.dumps(scene)) == scene
-
-
 def test_a_scene_is_made_of_data_without_a_file(tmp_path: Path) -> None:
     (tmp_path / "load.csv").write_text("time,load\n0,0.1\n")
     content = {"name": "mine", "title": "Mine", "inputs": {"load": {"csv": "load.csv"}}}
@@ -181,18 +156,3 @@ def test_an_allowed_error_has_an_absolute_and_a_relative_part(tmp_path: Path) ->
     assert scene.need.friction_law == "given"
     assert scene.need.needs["position"].at(-2.0) == 0.2 + 1e-6
     assert scene.need.needs["velocity"].at(5.0) == 2.0
-
-
-def test_the_folder_of_built_in_scenes_is_listed_once_for_all(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    listed = []
-    found = built_in_scenes()
-
-    def list_scenes() -> dict[str, Path]:
-        listed.append(1)
-        return found
-
-    monkeypatch.setattr(scene_files, "built_in_scenes", list_scenes)
-    assert files_of_scenes([]) == list(found.values())
-    assert len(listed) == 1

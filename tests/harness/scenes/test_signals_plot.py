@@ -12,7 +12,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.scenes import signals_plot
-from slider_resonator.scenes.scene import Scene, read_scene
+from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.signals_plot import (
     MAX_POINTS,
@@ -30,7 +30,7 @@ WINDOW = (0.02, 0.04)
 
 @cache
 def scene_called(name: str) -> Scene:
-    return read_scene(find_scene(name))
+    return find_scene(name)
 
 
 @pytest.fixture

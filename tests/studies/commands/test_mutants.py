@@ -65,7 +65,7 @@ def test_native_changes_are_listed(native_fmu: Path) -> None:
 
 @pytest.mark.slow
 def test_a_native_run_counts_what_is_rejected(native_fmu: Path) -> None:
-    scenes = ("--scene", "averaged_long_steps", "--scene", "averaged_long_steps_weak_drive")
+    scenes = ("--scene", "averaged_long_steps", "--scene", "averaged_weak_drive")
     only = ("--native", "--file", "settling.c", *scenes, "--jobs", "1")
     result = call("mutants", native_fmu, *only, "--json")
     assert_public_keys("mutants --native", result.output)

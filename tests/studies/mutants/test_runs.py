@@ -7,6 +7,7 @@ import pytest
 from rich.console import Console
 
 from slider_resonator.errors import FmuError, HarnessError
+from slider_resonator.scenes.scene import read_scene
 from slider_resonator.scenes.scene_files import find_scene
 from studies.mutants import judging
 from studies.mutants.archive import read_python_fmu
@@ -37,7 +38,7 @@ def run() -> MutationRun[Mutant]:
 def test_mutants_are_judged_once_and_kept(
     python_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    fmu, scene = read_python_fmu(python_fmu), faulty_fmus.scene(tmp_path)
+    fmu, scene = read_python_fmu(python_fmu), read_scene(faulty_fmus.scene(tmp_path))
     made = fmu_mutants(fmu, ["device.py", "values.py"])
     wrong = next(m for m in made if m.file == "device.py" and m.change == "+ becomes -")
     unseen = next(m for m in made if "raise refused" in m.change)
@@ -57,7 +58,7 @@ def test_mutants_are_judged_once_and_kept(
 def test_faults_are_rejected_and_variants_accepted(native_fmu: Path) -> None:
     names = ("mean_before_first_period", "first_bristle_sign", "split_merges_mirror", "longer_arcs")
     changes = [c for c in (*hand_written_faults(), *harmless_variants()) if c.name in names]
-    scenes = ("less_than_a_period", "lugre_less_than_a_period", "averaged_less_than_a_period")
+    scenes = ("less_than_a_period", "lugre_less_than_a_period", "averaged_short_run")
     run = run_changes(native_fmu, changes, Judging([find_scene(scene) for scene in scenes]))
     assert [verdict.variant.name for verdict in run.survivors] == ["split_merges_mirror"]
     assert run.false_alarms == []

@@ -7,6 +7,7 @@ from threading import Event
 import pytest
 
 from slider_resonator.errors import FmuError
+from slider_resonator.scenes.scene import read_scene
 from studies.mutants.archive import PythonFmu, read_python_fmu
 from studies.mutants.bench import Judging, bench_of
 from studies.mutants.trial import BenchPoint, Tried, trial
@@ -18,7 +19,7 @@ FORCE = "drive = force"
 
 @pytest.fixture(scope="module")
 def bench(python_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> list[BenchPoint]:
-    scene = faulty_fmus.scene(tmp_path_factory.mktemp("scene"))
+    scene = read_scene(faulty_fmus.scene(tmp_path_factory.mktemp("scene")))
     return bench_of(python_fmu, Judging([scene], time_limit=60.0))
 
 
@@ -81,6 +82,6 @@ def test_an_fmu_that_is_rejected_unchanged_is_refused(python_fmu: Path, tmp_path
     faulty = tmp_path / "faulty.fmu"
     module = fmu.modules["device.py"].replace(FORCE, "drive = 1.01 * force", 1)
     fmu.write(faulty, {fmu.path_of("device.py"): module})
-    scene = faulty_fmus.scene(tmp_path)
+    scene = read_scene(faulty_fmus.scene(tmp_path))
     with pytest.raises(FmuError, match=r"rejected before anything is changed: scene short: pos"):
         bench_of(faulty, Judging([scene], time_limit=60.0))
