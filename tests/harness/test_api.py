@@ -115,3 +115,8 @@ def test_finished_fmus_are_found_or_the_remedy_is_named(
         assert sr.fmu_path(build) == tmp_path / name
     with pytest.raises(sr.HarnessError, match="'fmi2': must be one of 'native', 'python', 'fmi3'"):
         sr.fmu_path("fmi2")  # type: ignore[arg-type]
+
+
+def test_no_scenes_are_not_all_scenes() -> None:
+    with pytest.raises(sr.HarnessError, match="must be at least one scene"):
+        sr.validate("no.fmu", scenes=[])

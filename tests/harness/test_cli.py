@@ -49,7 +49,7 @@ def test_every_command_is_listed() -> None:
         (["validate", "no.fmu", "--scene", "tabel_1"], "did you mean 'table_1'"),
         (["run", "no.fmu", "table_1"], "no.fmu: no such file"),
         (["choose", "nope"], "unknown scene 'nope' (must be one of"),
-        (["choose", "nope"], "; `slider-resonator scenes` lists all"),
+        (["choose", "nope"], "; `slider-resonator scenes --all` lists all"),
         (["run", "no.fmu", "no.toml"], "no such scene file"),
         (["steady", "no.fmu", "--set", "phse=1"], "did you mean 'phase'"),
         (["steady", "/"], "is a directory; must be an FMU"),
