@@ -238,27 +238,21 @@ def _jumping_inputs(model: Model, value: str) -> list[Hold]:
 def _slow_axes() -> Iterator[Axis]:
     """Yield slow phases of the load, and values that leave the range of numbers."""
     weak = {"normal_preload": 0.01, "normal_amplitude": 0.01, "initial_velocity": -0.144}
+    beating_velocity = Limit("mean_velocity", -0.0984030, 1e-6, "by small steps")
+    flown_velocity = Limit("mean_velocity", 0.0063860, 1e-7, "by small steps")
     beating = {**weak, "phase": 0.5, "frequency_ratio": 1.0 + DETUNING}
     yield Axis(
         "beat against step",
         dict.fromkeys(BEATS, beating),
         steps=_beats,
-        limits={
-            ("90 beats", COULOMB_AVERAGE): [
-                Limit("mean_velocity", -0.0984030, 1e-6, "by small steps")
-            ]
-        },
+        limits={("90 beats", COULOMB_AVERAGE): [beating_velocity]},
     )
     in_flight = {"normal_preload": 0.5, "phase": -pi / 2.0}
     yield Axis(
         "start in flight",
         {f"ratio {r:g}": {**in_flight, "frequency_ratio": r} for r in (0.01, -0.003, 1e-6)},
         steps=lambda model, _: [Hold(_long(model, 1000.0, 50.0) * PERIOD, 3)],
-        limits={
-            ("ratio 0.01", COULOMB_AVERAGE): [
-                Limit("mean_velocity", 0.0063860, 1e-7, "by small steps")
-            ]
-        },
+        limits={("ratio 0.01", COULOMB_AVERAGE): [flown_velocity]},
     )
     jumps = {"phase": -2.0, "load": 0.15, "frequency_ratio": 3.0}
     yield Axis(
@@ -377,12 +371,9 @@ def _event_axes() -> Iterator[Axis]:
         limits={(text, Model(2, 0)): holds for text in grazing},
     )
     touching = {"base_amplitude": 0.0, "phase": pi, "tangential_force": limit}
+    unloaded = {**at_rest, "normal_preload": 0.0}
     rising = {
-        f"drive {text} the limit all along": {
-            **at_rest,
-            "normal_preload": 0.0,
-            "tangential_force": force,
-        }
+        f"drive {text} the limit all along": {**unloaded, "tangential_force": force}
         for text, force in around.items()
     }
     yield Axis(
