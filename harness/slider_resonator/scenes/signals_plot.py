@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -30,8 +31,12 @@ COLOURS = ("#1f3b57", "#c8553d", "#2e7d32", "#8e24aa", "#b8860b", "#00838f")
 DASHES = ("-", "--", ":", "-.")
 SMOOTH_POINTS = 64
 """Points per drive period of a smooth curve."""
-MAX_POINTS = 8000
-"""Points added to a window; a longer one is drawn with longer steps."""
+MAX_SMOOTH_PERIODS = 120
+"""Drive periods of a window that is drawn in full; a longer one shows envelope and mean."""
+COLUMNS = 400
+"""Columns of an envelope; each has the extremes and the mean of the period at its beginning."""
+COLUMN_POINTS = 16
+"""Points in the period of a column: its extremes err by up to 2 % of the vibration's amplitude."""
 BAND_PERIODS = 30.0
 """The longest window, in drive periods, in which contact is shown as bands behind the curves."""
 
@@ -66,11 +71,51 @@ def check_window(window: tuple[float, float], scene: Scene) -> None:
 
 
 def schedule_for_window(scene: Scene, window: tuple[float, float]) -> Schedule:
-    """Return the schedule of a scene with more points in the window."""
+    """Return the schedule of a scene with more points in the window.
+
+    They are on the whole of a short window, and on the first period of each column of a long one.
+    """
     begin, end = window
-    count = int(np.ceil((end - begin) / scene.drive_period * SMOOTH_POINTS)) + 1
-    times = np.linspace(begin, end, min(max(count, 2), MAX_POINTS))
+    period = scene.drive_period
+    if is_long(scene, window):
+        within = period * np.arange(COLUMN_POINTS + 1) / COLUMN_POINTS
+        times = (_columns(window)[:-1, None] + within).ravel()
+        return scene.schedule().read_at(times[times < end], 0.01 * period / COLUMN_POINTS)
+    count = int(np.ceil((end - begin) / period * SMOOTH_POINTS)) + 1
+    times = np.linspace(begin, end, max(count, 2))
     return scene.schedule().read_at(times, 0.01 * float(times[1] - times[0]))
+
+
+def is_long(scene: Scene, window: tuple[float, float]) -> bool:
+    """Whether a window (s) has too many drive periods to draw each."""
+    return window[1] - window[0] > MAX_SMOOTH_PERIODS * scene.drive_period
+
+
+def _columns(window: tuple[float, float]) -> Array:
+    """Return the edges of the columns of an envelope (s), shape (n + 1,)."""
+    return np.linspace(*window, COLUMNS + 1)
+
+
+def envelope(
+    times: Array, values: Array, window: tuple[float, float], period: float
+) -> tuple[Array, Array, Array, Array]:
+    """Return the beginnings of the columns, and least, mean and greatest value in each, (n,).
+
+    `times` (s) and `values` have shape (m,). The mean is that of the period at the beginning;
+    extremes are those of all points of the column. Columns without two points are left out.
+    """
+    rounding = 0.1 * period / COLUMN_POINTS  # points may also have moved to those of the scene
+    edges = _columns(window) - rounding
+    rows = []
+    for left, right in pairwise(np.searchsorted(times, edges, side="left").tolist()):
+        if right - left > 1:
+            end = times[left] + period + rounding
+            first = slice(left, left + int(np.searchsorted(times[left:right], end)))
+            span = times[first][-1] - times[first][0]
+            mean = np.trapezoid(values[first], times[first]) / span
+            rows.append((times[left], values[left:right].min(), mean, values[left:right].max()))
+    start, least, mean, greatest = np.array(rows).T
+    return start, least, mean, greatest
 
 
 def plot_signals(
@@ -89,7 +134,7 @@ def plot_signals(
         time_factor, time_unit = plot_unit("s", np.asarray(window))
         bands: dict[str, Patch] = {}
         for axes, name in zip(panels, signals, strict=True):
-            _panel(axes, runs, name, window, time_factor)
+            _panel(axes, runs, name, window, time_factor, scene)
             if short and len(runs) == 1 and name != "contact_mode":
                 bands |= _shade(axes, runs[0].record, window, time_factor)
         ends = (time_factor * window[0], time_factor * window[1])
@@ -103,15 +148,26 @@ def plot_signals(
 
 
 def _panel(
-    axes: Axes, runs: Sequence[Run], name: str, window: tuple[float, float], time_factor: float
+    axes: Axes,
+    runs: Sequence[Run],
+    name: str,
+    window: tuple[float, float],
+    time_factor: float,
+    scene: Scene,
 ) -> None:
     windows = [_inside(one.record, window) for one in runs]
     curves = [_values(one.record, name)[inside] for one, inside in zip(runs, windows, strict=True)]
     factor, unit = plot_unit(INPUTS.get(name) or OUTPUTS[name], *curves)
-    held = name in INPUTS or name == "contact_mode"
+    enveloped = is_long(scene, window) and name not in INPUTS
+    held = name in INPUTS or (name == "contact_mode" and not enveloped)
     for index, (one, inside, curve) in enumerate(zip(runs, windows, curves, strict=True)):
+        times = one.record.times[inside]
+        if enveloped:
+            times, least, curve, greatest = envelope(times, curve, window, scene.drive_period)
+            band = (time_factor * times, factor * least, factor * greatest)
+            axes.fill_between(*band, color=COLOURS[index % len(COLOURS)], alpha=0.25, linewidth=0.0)
         axes.plot(
-            time_factor * one.record.times[inside],
+            time_factor * times,
             factor * curve,
             linestyle=DASHES[index % len(DASHES)],
             color=COLOURS[index % len(COLOURS)],

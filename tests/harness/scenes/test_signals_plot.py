@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from math import pi
 from pathlib import Path
 
 import numpy as np
@@ -12,15 +13,17 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.scenes import signals_plot
-from slider_resonator.scenes.scene import Scene
+from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.signals_plot import (
-    MAX_POINTS,
+    COLUMN_POINTS,
+    COLUMNS,
     SIGNALS,
     SMOOTH_POINTS,
     Run,
     check_signals,
     check_window,
+    envelope,
     plot_signals,
     schedule_for_window,
 )
@@ -60,7 +63,27 @@ def test_a_long_window_has_a_bounded_number_of_points() -> None:
     scene = scene_called("long_run")
     own = scene.schedule()
     found = schedule_for_window(scene, (0.0, float(own.times[-1])))
-    assert len(found.times) <= len(own.times) + MAX_POINTS
+    assert len(found.times) <= len(own.times) + COLUMNS * (COLUMN_POINTS + 1)
+
+
+def test_a_long_vibration_is_drawn_as_its_envelope() -> None:
+    """Every n-th point of 60 000 periods would show a beat that the vibration does not have."""
+    content = {
+        "name": "long",
+        "title": "long",
+        "run": {"drive_periods": 60000, "steps_per_period": 0.07},
+    }
+    scene = scene_from(content, "long")
+    window = (0.0, float(scene.schedule().times[-1]))
+    times = schedule_for_window(scene, window).times
+    phase = 2.0 * pi / scene.drive_period * times
+    sampled = np.sin(2.0 * pi / scene.drive_period * np.linspace(*window, 8000))
+    assert np.ptp(sampled) > 1.9, "what would be drawn without an envelope"
+    start, least, mean, greatest = envelope(times, 0.3 + np.sin(phase), window, scene.drive_period)
+    assert len(start) == COLUMNS
+    assert np.abs(least + 0.7).max() < 0.02
+    assert np.abs(greatest - 1.3).max() < 0.02
+    assert np.abs(mean - 0.3).max() < 1e-3
 
 
 def test_each_signal_has_a_panel_with_its_unit_over_contact(
