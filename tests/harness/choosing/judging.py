@@ -1,6 +1,6 @@
 """Judge a choice by full runs: whether it meets the needs, and what the cheapest that does costs.
 
-Nothing of the chooser is used here but the list of candidates and the way a run is timed.
+Of the chooser it uses the list of candidates, the way a run is timed, and inputs as they vary.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from slider_resonator.checks.measures.frequency import NoOscillation, dominant_f
 from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.choice import Choice
 from slider_resonator.choosing.choosing import candidates
+from slider_resonator.choosing.exact_inputs import exact_schedule
 from slider_resonator.choosing.timed_run import timed_run
-from slider_resonator.device.schedule import Schedule, communication_points, in_order, nearest
-from slider_resonator.device.signal import Signal
+from slider_resonator.device.schedule import nearest
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
@@ -126,29 +126,14 @@ class Judge:
         Lines that the FMU cannot follow, and those of parameters, are held at their means.
         """
         if step not in self._true_records:
-            own = self.scene.with_step(step).schedule()
-            stop, passes_on = float(own.times[-1]), self.instance.fmu.interpolates
-            inputs, tuning = dict(self.scene.signals), dict(self.scene.tuning)
-            held = tuning if passes_on else {**inputs, **tuning}
-            corners = [t for s in (*inputs.values(), *tuning.values()) for t in s.times]
-            points = [time for time in corners if 0.0 < time < stop]
-            pieces = np.arange(0.0, stop, 10_000.0 * self.scene.drive_period)
-            parts = [own.times, self.scene.schedule().times, np.array(points), pieces]
-            times = np.unique(np.concatenate(parts))
-            if not all(signal.hold for signal in held.values()):
-                fine = max(step / FINE_STEPS, stop / MAX_POINTS)
-                fine = step / max(2, round(step / fine))
-                times = np.union1d(times, communication_points(stop, fine, points))
-                middles = np.append(0.5 * (times[1:] + times[:-1]), times[-1])
-                means = {
-                    name: Signal(tuple(times), tuple(map(s.at, middles)))
-                    for name, s in held.items()
-                    if not s.hold
-                }
-                inputs |= {name: s for name, s in means.items() if name in inputs}
-                tuning |= {name: s for name, s in means.items() if name in tuning}
+            own = self.scene.with_step(step).schedule().times
+            pieces = np.arange(0.0, own[-1], 10_000.0 * self.scene.drive_period)
+            points = np.unique(np.concatenate([own, self.scene.schedule().times, pieces]))
+            fine = max(step / FINE_STEPS, float(own[-1]) / MAX_POINTS)
+            fine = step / max(2, round(step / fine))
+            interpolates = self.instance.fmu.interpolates
+            samples = exact_schedule(self.scene, points, fine, interpolates=interpolates)
             values = {**self.scene.parameters, **self.reference}
-            samples = Schedule(times, *in_order(inputs), tuning=tuning, interpolates=passes_on)
             self._true_records[step] = timed_run(self.instance, values, samples)[0]
         return self._true_records[step]
 
