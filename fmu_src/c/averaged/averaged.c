@@ -8,7 +8,7 @@
 #include "../device/fast_vibration.h"
 #include "../device/plant.h"
 #include "../device/state.h"
-#include "../friction/friction_law.h"
+#include "mean_friction.h"
 
 /* Halvings of [0, pi] that select one of several balances. */
 enum { SORTING = 4 };
@@ -36,14 +36,13 @@ typedef struct {
 
 static Balance balance_of(const Law *law, Complex force, double normal_lead) {
     const Device *device = &law->device;
-    const AveragedFriction *friction = law->friction->averaged;
     Balance balance = {.law = law, .opposing = law->inputs.load};
     double ratio = law->inputs.frequency_ratio, faces = device->friction_faces;
     double delta = law->inputs.phase + normal_lead + ratio * force_lag(force);
     balance.fast = (FastMotion){fast_velocity(device, force), device->drive_frequency};
     balance.load = vibrating_load_of(device, ratio, delta);
     double mu = law->bristle.coefficient;
-    double drag = friction->drag(&law->bristle, balance.fast.velocity);
+    double drag = law->bristle.damping * balance.fast.velocity;
     balance.rises = drag > mu;
     balance.noise = ROUNDING * EPSILON * faces * (mu + drag) *
                     (device->normal_preload + device->normal_amplitude);
@@ -53,8 +52,8 @@ static Balance balance_of(const Law *law, Complex force, double normal_lead) {
 /* Mean friction [N] when sliding turns forward at tau = `turning` [rad]. */
 static double friction_at(const Balance *balance, double turning) {
     const Law *law = balance->law;
-    return law->device.friction_faces * law->friction->averaged->mean(&law->bristle, &balance->fast,
-                                                                      &balance->load, turning);
+    return law->device.friction_faces *
+           mean_friction(&law->bristle, &balance->fast, &balance->load, turning);
 }
 
 static Point point_at(const Balance *balance, double turning) {
@@ -105,7 +104,7 @@ TheoryRange theory_range(const Law *law) {
     }
     double mu = law->bristle.coefficient;
     double fastest = fmax(range.velocity, fabs(device->initial_velocity));
-    double drag = law->friction->averaged->drag(&law->bristle, fastest);
+    double drag = law->bristle.damping * fastest;
     double normal = device->normal_preload + device->normal_amplitude;
     range.drag = drag / (mu > 0.0 ? mu : 1.0); /* Without friction there is no drag. */
     double bent = fabs(law->friction->first_bristle(law)) * (1.0 + range.drag);
@@ -118,7 +117,8 @@ TheoryRange theory_range(const Law *law) {
 static bool breaks_loose(const Balance *balance, double force, double friction) {
     const Bristle *bristle = &balance->law->bristle;
     double w = balance->fast.frequency, amplitude = balance->fast.velocity / w;
-    double grip = balance->law->friction->averaged->grip(bristle, amplitude, w);
+    /* A vibration far shorter than mu / sigma_0 only bends the bristle. */
+    double grip = fmin(bristle->coefficient, amplitude * hypot(bristle->stiffness, w * bristle->damping));
     return fmin(force, held_amplitude(&balance->law->device))
            > friction * (grip / bristle->coefficient);
 }

@@ -1,9 +1,26 @@
 #include "slow_friction.h"
 
+#include <stddef.h>
+
 #include "../base/elementary.h"
-#include "../device/state.h"
-#include "../friction/friction_law.h"
-#include "slow_phase.h"
+#include "../base/number.h"
+
+/* Largest distance of the frequency ratio from an integer at which the phase counts as slow. Under a lifting
+ * contact: largest distance of q times the ratio, times q, for q up to a few turns. */
+#define NEAR 0.1
+
+double next_slow_boundary(const Device *device, double ratio, double direction) {
+    double next = INFINITY, from = direction * ratio;
+    for (int turns = 1; turns <= max_turns_to_repeat(device); turns++) {
+        double near = NEAR / turns, waves = turns * from;
+        for (int side = -1; side <= 1; side += 2) {
+            double offset = side * near;
+            double boundary = (floor(waves - offset) + 1.0 + offset) / turns;
+            next = fmin(next, boundary);
+        }
+    }
+    return direction * next;
+}
 
 /* Angle tau at which sliding turns forward [rad]; 0 or pi where it never reverses. */
 static double turning_at(double velocity, double fast_velocity) {
@@ -13,115 +30,82 @@ static double turning_at(double velocity, double fast_velocity) {
     return acos(velocity / fast_velocity);
 }
 
-static SlowForm form_of(const Law *law, const AveragedFriction *friction, int turns,
-                        double waves) {
-    const Device *device = &law->device;
-    bool lifts = device->normal_amplitude > device->normal_preload;
-    if (turns == 0 || waves == 0.0) {
-        return UNDER_MEAN_LOAD;
+/* The table of means, where one pays: for a load whose phase enters by sine and cosine alone, or not at all. */
+static const FrictionTable *table_of(const SlowFriction *slow) {
+    const VibratingLoad *load = &slow->load;
+    bool is_sine = !vibrating_load_lifts(load) && fabs(load->ratio) <= MAX_WAVES_TABULATED;
+    if (!is_elastic(&slow->bristle) || !(load->is_constant || is_sine)) {
+        return NULL;
     }
-    bool too_many = friction->is_expensive && fabs(waves) > MAX_WAVES_TABULATED;
-    return lifts || too_many ? UNDER_ANY_LOAD : UNDER_SINE;
+    double waves = load->is_constant ? 1.0 : load->ratio;
+    return friction_table_of(slow->law->tables, &slow->bristle, &slow->fast, waves);
 }
 
-/* Whether the load counts as constant in averages while its frequency grows. */
-static bool is_steady_in_chirp(const SlowFriction *slow) {
-    bool averaged = slow->form == UNDER_MEAN_LOAD && !slow->stands;
-    return slow->slow.chirp != 0.0 && (averaged || slow->law->device.normal_amplitude == 0.0);
-}
-
+/* The ratio may grow: the phase is near that of its middle. */
 SlowFriction slow_friction_of(const Law *law, double theta, double psi) {
     const Device *device = &law->device;
-    double chirp = law->held.plant.normal_rate, ratio = law->inputs.frequency_ratio;
-    SlowPhase phase = chirp != 0.0
-                          ? slow_phase_chirped(device, ratio, law->middle_ratio, chirp)
-                          : slow_phase_of(device, ratio);
-    double n = phase.waves;
-    SlowFriction slow = {.law = law, .friction = law->friction->averaged};
+    double w = device->drive_frequency, first = law->inputs.frequency_ratio, middle = law->middle_ratio;
+    int turns = turns_to_repeat(device, middle, NEAR);
+    double waves = turns > 0 ? nearbyint(turns * middle) / turns : first;
+    double phase = law->inputs.phase + psi - waves * theta + waves * law->fast.lag;
+    SlowFriction slow = {.law = law, .bristle = law->bristle, .fast = {law->fast.velocity, w}};
     if (law->fast.velocity == 0.0) {
-        /* Without vibration a bristle is always fully bent: friction is Coulomb's. */
-        slow.friction = &AVERAGED_COULOMB;
+        slow.bristle = (Bristle){law->bristle.coefficient, INFINITY, 0.0};
     }
-    slow.form = form_of(law, slow.friction, phase.turns, n);
-    slow.fast = (FastMotion){law->fast.velocity, device->drive_frequency};
-    slow.waves = n;
-    slow.slow = phase;
-    slow.beat = slow_phase_beat(&phase);
-    slow.stands = n == 0.0;
-    slow.phase = law->inputs.phase + psi - n * theta + n * law->fast.lag;
-    if (slow.form == UNDER_SINE) {
-        slow.sine = sin(slow.phase);
-        slow.cosine = cos(slow.phase);
-    } else {
-        slow.load = vibrating_load_of(device, n, slow.phase);
-    }
-    if (is_steady_in_chirp(&slow)) {
+    slow.stands = waves == 0.0;
+    slow.load = vibrating_load_of(device, waves, phase);
+    slow.chirp = law->held.plant.normal_rate;
+    if (slow.chirp != 0.0 && ((turns == 0 && !slow.stands) || device->normal_amplitude == 0.0)) {
         /* The frequency ratio may begin at an integer, where the load would count with its phase. */
         slow.load = slow.stands ? slow.load : vibrating_load_flattened(&slow.load);
-        slow.slow.drift = slow.slow.chirp = slow.slow.fastest = 0.0;
-        slow.beat = INFINITY;
+        slow.chirp = 0.0;
+    } else {
+        slow.drift = (first - waves) * w;
+        slow.fastest = fmax(fabs(slow.drift), fabs((2.0 * middle - first - waves) * w));
     }
-    slow.tabulated = slow.form != UNDER_ANY_LOAD && slow.friction->is_expensive;
+    slow.beat = slow.fastest != 0.0 ? TAU / ((turns > 0 ? turns : 1) * slow.fastest) : INFINITY;
+    slow.table = table_of(&slow);
     return slow;
 }
 
-static FrictionMeans means_at(const SlowFriction *slow, double turning) {
-    const Bristle *bristle = &slow->law->bristle;
-    double n = slow->form == UNDER_SINE ? slow->waves : 1.0;
-    if (slow->tabulated) {
-        FrictionTable *tables = slow->law->table;
-        return tabulated_means_at(friction_table_of(tables, slow->friction, bristle, &slow->fast, n), turning);
+/* The load at a time [s]: as it is now, or `turned`. */
+static const VibratingLoad *load_at(const SlowFriction *slow, double t, VibratingLoad *turned) {
+    double gain = (slow->drift + 0.5 * slow->chirp * t) * t;
+    if (gain == 0.0) {
+        return &slow->load;
     }
-    return slow->friction->means(bristle, &slow->fast, n, turning);
-}
-
-/* Mean friction [N] of one face under a sine. */
-static double under_sine(const SlowFriction *slow, double t, double turning) {
-    const Device *device = &slow->law->device;
-    FrictionMeans means = means_at(slow, turning);
-    double sine = slow->sine, cosine = slow->cosine;
-    if (slow_phase_drifts(&slow->slow)) {
-        double phase = slow->phase + slow_phase_gain(&slow->slow, t);
-        sine = sin(phase);
-        cosine = cos(phase);
-    }
-    return device->normal_preload * means.plain +
-           device->normal_amplitude * (cosine * means.sine + sine * means.cosine);
-}
-
-/* The same under a load of any shape. */
-static double under_load(const SlowFriction *slow, double t, double turning) {
-    VibratingLoad load = slow->load;
-    if (slow_phase_drifts(&slow->slow)) {
-        double phase = slow->phase + slow_phase_gain(&slow->slow, t);
-        load = vibrating_load_of(&slow->law->device, slow->waves, phase);
-    }
-    if (slow->form == UNDER_MEAN_LOAD) {
-        return load.constant * means_at(slow, turning).plain;
-    }
-    return slow->friction->mean(&slow->law->bristle, &slow->fast, &load, turning);
+    *turned = vibrating_load_turned(&slow->load, gain);
+    return turned;
 }
 
 double slow_friction_to_kink(const SlowFriction *slow, double t) {
     if (!slow->stands) {
         return INFINITY;
     }
+    VibratingLoad turned;
     const FlightWindow *window = &slow->law->held.window;
-    double chi = slow->phase + slow_phase_gain(&slow->slow, t);
-    double chirp = slow->slow.chirp, drift = slow->slow.drift + chirp * t;
-    double going = drift != 0.0 ? drift : chirp;
-    return time_to_switch_chirped(window, chi, drift, chirp, is_lifted(window, chi, going));
+    double chi = load_at(slow, t, &turned)->delta, drift = slow->drift + slow->chirp * t;
+    double going = drift != 0.0 ? drift : slow->chirp;
+    return time_to_switch_chirped(window, chi, drift, slow->chirp, is_lifted(window, chi, going));
 }
 
 double slow_friction_sway(const SlowFriction *slow) {
     const Device *device = &slow->law->device;
     double amplitude = device->friction_faces * device->friction_coefficient * device->normal_amplitude;
-    return slow->stands ? amplitude * slow->slow.fastest : 0.0;
+    return slow->stands ? amplitude * slow->fastest : 0.0;
 }
 
 double slow_friction_at(const SlowFriction *slow, double t, double velocity) {
-    double turning = turning_at(velocity, slow->fast.velocity);
-    double face = slow->form == UNDER_SINE ? under_sine(slow, t, turning)
-                                           : under_load(slow, t, turning);
+    double turning = turning_at(velocity, slow->fast.velocity), means[MEANS], face;
+    VibratingLoad turned;
+    const VibratingLoad *load = load_at(slow, t, &turned);
+    if (slow->table == NULL) {
+        face = mean_friction(&slow->bristle, &slow->fast, load, turning);
+    } else {
+        tabulated_means(slow->table, turning, means);
+        double swung = cos(load->delta) * means[SINE] + load->sine * means[COSINE];
+        face = load->is_constant ? load->constant * means[PLAIN]
+                                 : load->preload * means[PLAIN] + load->amplitude * swung;
+    }
     return slow->law->device.friction_faces * face;
 }

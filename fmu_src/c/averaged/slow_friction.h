@@ -6,33 +6,27 @@
 #ifndef SLIDER_SLOW_FRICTION_H
 #define SLIDER_SLOW_FRICTION_H
 
+#include <stddef.h>
+
 #include "../friction/law.h"
-#include "slow_phase.h"
+#include "friction_table.h"
 
-/* How mean friction is computed: from the means under a sine, under a load that counts with its mean, or
- * as the mean under a load of any shape. */
-typedef enum { UNDER_SINE, UNDER_MEAN_LOAD, UNDER_ANY_LOAD } SlowForm;
-
-/* `waves` of the normal load over a turn of the drive, its present `phase` [rad] and drift (`slow`). Means are
- * `tabulated` where they are expensive, in a table that is made when it is first asked for: motion along
- * orbits seldom does. `sine` and `cosine` are those of the present phase, under a sine;
- * `load` is the present load otherwise. The phase repeats after `beat` [s]. `stands`: the load itself is
- * slow, at a frequency ratio near 0. */
+/* The mean friction of all faces from a moment on. */
 typedef struct {
     const Law *law;
-    const AveragedFriction *friction;
-    SlowForm form;
-    FastMotion fast;
-    double waves, phase, beat;
-    SlowPhase slow;
-    bool stands, tabulated;
-    double sine, cosine;
-    VibratingLoad load;
+    Bristle bristle;            /* rigid where there is no vibration: a bristle is then always fully bent */
+    FastMotion fast;            /* the vibration */
+    const FrictionTable *table; /* means of a bristle; NULL where a mean is computed whenever it is asked for */
+    VibratingLoad load;         /* the normal load, with its present phase */
+    double drift, chirp;        /* rate of that phase [rad/s], and growth of that [rad/s^2] */
+    double fastest;             /* largest absolute value of the rate [rad/s] */
+    double beat;                /* shortest time in which the phase repeats [s]; infinite if it does not drift */
+    bool stands;                /* whether the load itself is slow, at a frequency ratio near 0 */
 } SlowFriction;
 
 /* Whether each value costs a quadrature. */
 static inline bool slow_friction_is_expensive(const SlowFriction *slow) {
-    return slow->form == UNDER_ANY_LOAD && slow->friction->is_expensive;
+    return is_elastic(&slow->bristle) && slow->table == NULL;
 }
 
 /* The mean friction of all faces from drive phase `theta` and normal phase `psi` [rad] on. */
@@ -48,5 +42,8 @@ double slow_friction_sway(const SlowFriction *slow);
 
 /* The mean friction [N] at time `t` [s] from now and slow velocity `velocity` [m/s]. */
 double slow_friction_at(const SlowFriction *slow, double t, double velocity);
+
+/* The next ratio above (`direction` 1) or below (-1) `ratio` at which the phase of the load begins or ceases to count. */
+double next_slow_boundary(const Device *device, double ratio, double direction);
 
 #endif

@@ -1,152 +1,13 @@
 #include "slow_motion.h"
 
 #include "../base/angle.h"
-#include "../base/constants.h"
 #include "../base/elementary.h"
-#include "slow_friction.h"
-#include "slow_motion_error.h"
-#include "slow_pass.h"
+#include "../base/number.h"
+#include "slow_equation.h"
 
-/* Error per step of the slow motion, relative to the fast velocity. */
-#define TOLERANCE 2e-10
-
-/* Number of waves of the normal load over a turn that doubles the cost of a quadrature, and number beyond
- * which the load counts with its mean. */
-#define WAVES 10.0
-#define MAX_WAVES 1000.0
-
-/* Lower limit of the number of steps that is accepted. */
-enum { MIN_STEPS = 16 };
-
-/* Pieces of a beat, with constant friction in each, in motion without vibration. */
-#define PIECES 256.0
-
-/* Largest number of legs of a block under a load that grows: it stops, sticks and sets out twice at most. */
-enum { MAX_BLOCK_LEGS = 8 };
-
-/* Largest cost of a step under a growing load, relative to one under a constant load. */
-enum { GROWING = 4 };
-
-/* Direction in which a block at rest sets out under a load that grows by `rate` [N/s]; STICK while friction
- * holds it. */
-static int block_sets_out(double friction, double load, double rate) {
-    if (fabs(load) > friction || (fabs(load) == friction && load * rate > 0.0)) {
-        return load > 0.0 ? BACKWARD : FORWARD;
-    }
-    return STICK;
-}
-
-/* Motion of a block without vibration under constant friction [N] and a load that grows by `rate` [N/s]. */
-static Reached block_after(double velocity, double friction, double load, double rate, double mass,
-                           double duration) {
-    Reached reached = {.t = duration, .velocity = velocity};
-    double left = duration;
-    for (int leg = 0; leg < MAX_BLOCK_LEGS && left > 0.0; leg++) {
-        int direction = direction_of(reached.velocity);
-        if (direction == STICK) {
-            direction = block_sets_out(friction, load, rate);
-        }
-        double a = -(direction * friction + load) / mass, j = -rate / mass;
-        double end = INFINITY;
-        if (direction != STICK) {
-            end = time_to_stop(direction * reached.velocity, direction * a, direction * j);
-        } else if (rate != 0.0) {
-            end = (copysign(friction, rate) - load) / rate;
-        }
-        double t = fmin(left, end);
-        if (direction != STICK) {
-            reached.moved += (reached.velocity + (0.5 * a + j * t / 6.0) * t) * t;
-            reached.velocity = end <= left ? 0.0 : reached.velocity + (a + 0.5 * j * t) * t;
-        }
-        load = direction == STICK && end <= left ? copysign(friction, rate) : load + rate * t;
-        left -= t;
-    }
-    return reached;
-}
-
-static double slow_acceleration(const void *motion, double t, double velocity) {
-    const SlowFriction *friction = motion;
-    const Plant *plant = &friction->law->held.plant;
-    double load = plant->load + plant->load_rate * t;
-    return -(slow_friction_at(friction, t, velocity) + load) / plant->total_mass;
-}
-
-static double time_to_kink(const void *motion, double t) {
-    return slow_friction_to_kink(motion, t);
-}
-
-/* Motion without vibration, with constant friction in each piece of time. */
-static bool pass_unshaken(const SlowFriction *friction, double duration, Budget *budget,
-                          Reached *reached, Refusal *refusal) {
-    const Plant *plant = &friction->law->held.plant;
-    double longest = friction->stands ? fmin(duration, friction->beat / PIECES) : duration;
-    double pieces = ceil(duration / longest), piece = duration / pieces;
-    int allowed = budget_left(budget, MAX_SLOW_STEPS);
-    if (pieces > allowed) {
-        return budget_refuse(budget, allowed * longest, MAX_SLOW_STEPS, "steps of averaged motion",
-                             refusal);
-    }
-    budget_spend(budget, (int)pieces, MAX_SLOW_STEPS);
-    double moved = 0.0, rate = plant->load_rate, mass = plant->total_mass;
-    for (double k = 0.0; k < pieces; k += 1.0) {
-        double resisting = slow_friction_at(friction, (k + 0.5) * piece, INFINITY);
-        double load = plant->load + rate * (k * piece);
-        *reached = block_after(reached->velocity, resisting, load, rate, mass, piece);
-        moved += reached->moved;
-    }
-    reached->moved = moved;
-    return true;
-}
-
-/* Steps of averaged motion that a whole budget buys. */
-static int max_steps(const SlowFriction *friction) {
-    if (!slow_friction_is_expensive(friction)) {
-        bool grows = friction->law->held.plant.load_rate != 0.0;
-        return grows ? MAX_SLOW_STEPS / GROWING : MAX_SLOW_STEPS;
-    }
-    double waves = fmin(fabs(friction->law->inputs.frequency_ratio), MAX_WAVES);
-    return (int)fmax(MIN_STEPS, MAX_QUADRATURE_STEPS / (1.0 + waves / WAVES));
-}
-
-/* Largest Coulomb friction [N] over all phases of the normal load. */
-static double strongest_friction(const Device *device) {
-    double normal = device->normal_preload + device->normal_amplitude;
-    return device->friction_faces * device->friction_coefficient * normal;
-}
-
-/* Integrate the slow velocity over `duration` [s]. A velocity that settles takes few steps, however long
- * the duration is. */
-static bool pass(const SlowFriction *friction, double duration, Budget *budget, Reached *reached,
-                 Refusal *refusal) {
-    const Plant *plant = &friction->law->held.plant;
-    double fast = friction->law->fast.velocity;
-    if (fast == 0.0) {
-        return pass_unshaken(friction, duration, budget, reached, refusal);
-    }
-    double last_load = plant->load + plant->load_rate * duration;
-    double strongest = strongest_friction(&friction->law->device) +
-                       fmax(fabs(plant->load), fabs(last_load));
-    SlowPass plan = {
-        .acceleration = slow_acceleration,
-        .to_kink = time_to_kink,
-        .motion = friction,
-        .fast = fast,
-        .tolerance = TOLERANCE * fast,
-        .step = slow_pass_step(fast, plant->total_mass, strongest, duration),
-        .beat = friction->beat,
-        .may_settle = !slow_phase_drifts(&friction->slow) && plant->load_rate == 0.0,
-        .max_steps = max_steps(friction),
-        .edge = {-fast, fast},
-        .jerk = -plant->load_rate / plant->total_mass,
-        .sway = slow_friction_sway(friction) / plant->total_mass,
-    };
-    Reached now = {.velocity = reached->velocity, .step = plan.step};
-    if (!slow_pass(&plan, duration, budget, &now, refusal)) {
-        return false;
-    }
-    *reached = now;
-    return true;
-}
+/* Error of first order in friction shares and v_q: that of the average, and that of what the average leaves
+ * out, the resonator's first swing and the first bend of bristles. */
+#define FIRST_ORDER 2.0
 
 double slow_velocity(const Law *law, const State *state, double theta) {
     double momentum = state->velocity + device_mass_fraction(&law->device) * state->rate;
@@ -182,10 +43,10 @@ static bool advance(const Law *law, const Moment *moment, double duration, Event
     double share = device_mass_fraction(&law->device);
     double theta = moment->theta, psi = moment->psi;
     State state = moment->state;
-    Reached reached = {.velocity = slow_velocity(law, &state, theta)};
+    SlowPoint reached = {.velocity = slow_velocity(law, &state, theta)};
     double centre = moment->position + share * state.displacement + drive / w * sin(theta);
     SlowFriction friction = slow_friction_of(law, theta, psi);
-    if (!pass(&friction, duration, budget, &reached, refusal)) {
+    if (!slow_pass(&friction, duration, budget, &reached, refusal)) {
         return false;
     }
     theta = within_turn(theta + w * duration);
@@ -195,7 +56,7 @@ static bool advance(const Law *law, const Moment *moment, double duration, Event
     state.displacement = swing.displacement;
     state.rate = swing.rate;
     Moment next = {.state = state, .theta = theta, .psi = psi, .counts = moment->counts};
-    next.position = centre + reached.moved - drive / w * sin(theta) - share * swing.displacement;
+    next.position = centre + reached.travel - drive / w * sin(theta) - share * swing.displacement;
     next.mode = mode(law, &next);
     next.event_age = INFINITY;
     next.means.complete = true;
@@ -227,9 +88,40 @@ static Rates rates(const Law *law, const Moment *moment) {
     return (Rates){state, slow};
 }
 
+/* Share of mean friction in the inertia of the vibration, faces mu N0 / (Mt w v_q): the small number by which averages
+ * expand. A bristle bends over a path of 2 mu/s0 after each of two reversals in a turn, and damps by the impulse of 2 mu
+ * s1/s0 per normal load; but by no more than s1 v_q all the time. */
+static double friction_share(const Law *law) {
+    const Device *device = &law->device;
+    const Bristle *bristle = &law->bristle;
+    double w = device->drive_frequency, fast = law->fast.velocity, mu = bristle->coefficient;
+    double normal = fmax(device->normal_preload, device->normal_amplitude / PI);
+    double damping = fmin(bristle->damping * fast / mu, 2.0 / PI * bristle->damping / bristle->stiffness * w);
+    double friction = device->friction_faces * mu * normal * hypot(1.0, damping);
+    return friction / (device_total_mass(device) * w * fast);
+}
+
+/* Decay in a turn of the drive, as an exponent, of the resonator's own vibration or of a bend of the bristle, the slower
+ * one; infinite without both. The path of a turn is four times the amplitude. */
+static double decay_in_turn(const Law *law) {
+    const Device *device = &law->device;
+    double w = device->drive_frequency, path = 4.0 * law->fast.velocity / w;
+    double bend_decay = law->bristle.stiffness * path / law->bristle.coefficient;
+    if (device->resonator_mass == 0.0) {
+        return bend_decay;
+    }
+    return fmin(slower_decay(&law->held.plant.slip) * TAU / w, bend_decay);
+}
+
+/* In proportion to the share of friction in the inertia of the vibration. */
 static double error(const Law *law, const Moment *moment) {
     (void)moment;
-    return first_order_error(law);
+    double share = law->fast.velocity > 0.0 ? friction_share(law) : 0.0;
+    if (!(share > 0.0)) {
+        return 0.0;
+    }
+    double decay = decay_in_turn(law), swing = decay > 0.0 ? 1.0 + 1.0 / decay : INFINITY;
+    return fmin(FIRST_ORDER * share * swing, 1.0) * law->fast.velocity;
 }
 
 /* The time in which the normal load has one slow phase. */

@@ -15,8 +15,7 @@ const double GAUSS_WEIGHT[GAUSS_NODES] = {
     0.12462897125553388, 0.09515851168249279, 0.062253523938647894, 0.027152459411754096,
 };
 
-/* Legendre polynomials P_0 to P_NODES at x in [-1, 1]. */
-static void legendre(double x, double values[GAUSS_NODES + 1]) {
+void legendre(double x, double values[GAUSS_NODES + 1]) {
     values[0] = 1.0;
     values[1] = x;
     for (int k = 1; k < GAUSS_NODES; k++) {
@@ -50,13 +49,23 @@ void gauss_integrals_prepare(GaussIntegrals *gauss) {
     }
 }
 
-double gauss_last(const GaussIntegrals *gauss, const double *values) {
-    double last[2] = {0.0, 0.0};
-    for (int i = 0; i < 2; i++) {
-        int degree = GAUSS_NODES - 1 - i;
-        for (int j = 0; j < GAUSS_NODES; j++) {
-            last[i] += (2 * degree + 1) * gauss->weighed[degree][j] * values[j];
-        }
+/* Legendre coefficient `k` of the polynomial through `values`. */
+static double coefficient(const GaussIntegrals *gauss, const double *values, int k) {
+    double sum = 0.0;
+    for (int j = 0; j < GAUSS_NODES; j++) {
+        sum += (2 * k + 1) * gauss->weighed[k][j] * values[j];
     }
-    return fmax(fabs(last[0]), fabs(last[1]));
+    return sum;
+}
+
+void gauss_coefficients(const GaussIntegrals *gauss, const double *values,
+                        double coefficients[GAUSS_NODES]) {
+    for (int k = 0; k < GAUSS_NODES; k++) {
+        coefficients[k] = coefficient(gauss, values, k);
+    }
+}
+
+double gauss_last(const GaussIntegrals *gauss, const double *values) {
+    return fmax(fabs(coefficient(gauss, values, GAUSS_NODES - 1)),
+                fabs(coefficient(gauss, values, GAUSS_NODES - 2)));
 }

@@ -19,7 +19,14 @@ typedef struct {
 
 void gauss_integrals_prepare(GaussIntegrals *gauss);
 
-/* The larger absolute value of the last two Legendre coefficients of the polynomial through `values`. */
+/* Legendre polynomials P_0 to P_GAUSS_NODES at x in [-1, 1]. */
+void legendre(double x, double polynomials[GAUSS_NODES + 1]);
+
+/* The Legendre coefficients of the polynomial through `values`. */
+void gauss_coefficients(const GaussIntegrals *gauss, const double *values,
+                        double coefficients[GAUSS_NODES]);
+
+/* The larger absolute value of the last two of these. */
 double gauss_last(const GaussIntegrals *gauss, const double *values);
 
 #endif

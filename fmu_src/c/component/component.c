@@ -6,7 +6,7 @@
 #include "../base/constants.h"
 #include "../base/refusal_texts.h"
 #include "../device/state.h"
-#include "../friction/friction_law.h"
+#include "../friction/law.h"
 #include "component_law.h"
 #include "output_derivatives.h"
 #include "values.h"
@@ -17,9 +17,9 @@ void component_begin(Component *component, const Memory *memory) {
 
 void component_end(Component *component) {
     const Memory *memory = &component->memory;
-    memory->release(memory->host, component->table);
+    memory->release(memory->host, component->tables);
     memory->release(memory->host, component->bending);
-    component->table = NULL;
+    component->tables = NULL;
     component->bending = NULL;
 }
 
@@ -32,18 +32,18 @@ static void *table_of(const Memory *memory, void *kept, size_t size) {
 static bool provide_tables(Component *component, Law *law, Refusal *refusal) {
     const Memory *memory = &component->memory;
     bool averages = law->motion->averages;
-    bool tabulates = averages && law->friction->averaged->is_expensive;
+    bool tabulates = averages && is_elastic(&law->bristle);
     bool bends = !averages && law->friction->bends;
     if (tabulates) {
-        component->table = table_of(memory, component->table, sizeof *component->table);
+        component->tables = table_of(memory, component->tables, sizeof *component->tables);
     }
     if (bends) {
         component->bending = table_of(memory, component->bending, sizeof *component->bending);
     }
-    if ((tabulates && component->table == NULL) || (bends && component->bending == NULL)) {
+    if ((tabulates && component->tables == NULL) || (bends && component->bending == NULL)) {
         return refuse(refusal, "out of memory: the host gives none for tables of friction");
     }
-    law->table = tabulates ? component->table : NULL;
+    law->tables = tabulates ? component->tables : NULL;
     law->bending = bends ? component->bending : NULL;
     return true;
 }
@@ -261,7 +261,7 @@ static bool advance(Component *component, double step_size, double duration, Eve
     const Law *law = present_law(component);
     Budget budget = budget_of(step_size);
     if (inputs_vary(now->derivatives)) {
-        return ramped_step(&component->ramped, now, duration, component->table, &budget, after,
+        return ramped_step(&component->ramped, now, duration, component->tables, &budget, after,
                            refusal);
     }
     return law->motion->advance(law, &now->moment, duration, search, &budget, after, refusal);

@@ -8,7 +8,7 @@
 #include "../base/memory.h"
 #include "../base/refusal.h"
 #include "../friction/bending_kernels.h"
-#include "../friction/friction_table.h"
+#include "../averaged/friction_table.h"
 #include "../friction/law.h"
 #include "experiment.h"
 #include "outputs.h"
@@ -28,7 +28,7 @@ typedef struct {
     Law laws[2];
     RampedStep ramped;
     Memory memory;
-    FrictionTable *table;
+    FrictionTables *tables;
     BendingTables *bending;
     Theory theory;
 } Component;

@@ -4,7 +4,7 @@
 
 #include "../base/refusal_texts.h"
 #include "../device/state.h"
-#include "../friction/friction_laws.h"
+#include "../friction/law.h"
 #include "../averaged/averaged.h"
 #include "motions.h"
 #include "parameter_values.h"

@@ -46,14 +46,14 @@ static Ramp ramp_from(const double values[SETTABLE_COUNT], const InputDerivative
 }
 
 static bool prepare_part(RampedStep *step, const double values[SETTABLE_COUNT], const Ramp *ramp,
-                         double duration, FrictionTable *table, Refusal *refusal) {
+                         double duration, struct FrictionTables *tables, Refusal *refusal) {
     double middle[SETTABLE_COUNT];
     memcpy(middle, values, sizeof middle);
     middle[VR_FREQUENCY_RATIO] = ramp->ratio + 0.5 * ramp->ratio_rate * duration;
     if (!prepare_law(middle, &step->law, refusal)) {
         return false;
     }
-    step->law.table = table;
+    step->law.tables = tables;
     law_ramp(&step->law, ramp, duration);
     return true;
 }
@@ -67,7 +67,7 @@ static void hold_phase(const double begin[SETTABLE_COUNT], const Ramp *ramp, dou
     after->psi = within_turn(after->psi - remainder(added * duration, TAU));
 }
 
-bool ramped_step(RampedStep *step, const Snapshot *now, double duration, FrictionTable *table,
+bool ramped_step(RampedStep *step, const Snapshot *now, double duration, struct FrictionTables *tables,
                  Budget *budget, Moment *after, Refusal *refusal) {
     double values[SETTABLE_COUNT], left = duration;
     Device device = device_of(now->values);
@@ -88,7 +88,7 @@ bool ramped_step(RampedStep *step, const Snapshot *now, double duration, Frictio
             return budget_refuse(budget, 0.0, MAX_SLOW_PHASES, "slow phases of the normal load",
                                  refusal);
         }
-        if (!prepare_part(step, values, &ramp, part, table, refusal)
+        if (!prepare_part(step, values, &ramp, part, tables, refusal)
             || !motion->advance(&step->law, &before, part, NULL, budget, after, refusal)) {
             return false;
         }

@@ -19,7 +19,7 @@ typedef struct {
 
 /* The moment after a step of `duration` [s] from `now` on. Refuses inputs that leave their bounds, and what the motion
  * refuses; `after` is then undefined. */
-bool ramped_step(RampedStep *step, const Snapshot *now, double duration, FrictionTable *table,
+bool ramped_step(RampedStep *step, const Snapshot *now, double duration, struct FrictionTables *tables,
                  Budget *budget, Moment *after, Refusal *refusal);
 
 #endif

@@ -18,6 +18,12 @@ Oscillator oscillator_of(double decay, double stiffness) {
     return oscillator;
 }
 
+double slower_decay(const Oscillator *oscillator) {
+    double decay = oscillator->decay, stiffness = oscillator->stiffness;
+    double excess = decay * decay - stiffness;
+    return excess > 0.0 ? stiffness / (decay + sqrt(excess)) : decay;
+}
+
 Complex transfer(const Oscillator *oscillator, double frequency) {
     Complex impedance = complex_of(oscillator->stiffness - frequency * frequency,
                                    2.0 * oscillator->decay * frequency);

@@ -36,6 +36,9 @@ typedef struct {
 
 Oscillator oscillator_of(double decay, double stiffness);
 
+/* Rate [1/s] at which free motion decays, the slower of two. */
+double slower_decay(const Oscillator *oscillator);
+
 /* Steady response to exp(i frequency t), as a complex amplitude [s^2]. */
 Complex transfer(const Oscillator *oscillator, double frequency);
 

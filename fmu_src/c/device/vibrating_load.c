@@ -39,23 +39,33 @@ static double delta_in(const VibratingLoad *load, int turn) {
     return load->delta + load->ratio * TAU * turn;
 }
 
+/* Whether the load is constant over a turn, at a ratio of rounding: integrals below would lose their digits to 1 / n. */
+static bool stands(const VibratingLoad *load) {
+    return fabs(load->ratio) <= EXACT;
+}
+
 VibratingLoad vibrating_load_of(const Device *device, double ratio, double delta) {
     VibratingLoad load = {0};
     load.preload = device->normal_preload;
     load.amplitude = device->normal_amplitude;
     load.ratio = ratio;
     load.delta = delta;
-    load.dip = load.amplitude > load.preload ? asin(load.preload / load.amplitude) : 0.5 * PI;
+    load.sine = sin(delta);
+    load.dip = vibrating_load_lifts(&load) ? asin(load.preload / load.amplitude) : 0.5 * PI;
     load.cos_dip = cos(load.dip);
     load.per_turn = in_turn(&load, PI + 2.0 * load.dip);
     load.turns = turns_to_repeat(device, ratio, EXACT);
-    /* At a ratio of rounding the integral below would lose its digits to 1 / n. */
-    bool still = fabs(ratio) <= EXACT;
-    load.is_constant = still || load.turns == 0;
-    if (load.is_constant) {
-        load.constant = still ? in_contact(&load, delta) : load.per_turn / TAU;
-    }
+    load.is_constant = stands(&load) || load.turns == 0;
+    load.constant = stands(&load) ? in_contact(&load, delta) : load.per_turn / TAU;
     return load;
+}
+
+VibratingLoad vibrating_load_turned(const VibratingLoad *load, double angle) {
+    VibratingLoad turned = *load;
+    turned.delta += angle;
+    turned.sine = sin(turned.delta);
+    turned.constant = stands(load) ? in_contact(load, turned.delta) : load->constant;
+    return turned;
 }
 
 VibratingLoad vibrating_load_flattened(const VibratingLoad *load) {
@@ -66,7 +76,7 @@ VibratingLoad vibrating_load_flattened(const VibratingLoad *load) {
 }
 
 double vibrating_load_next_kink(const VibratingLoad *load, double angle) {
-    if (load->is_constant || load->dip == 0.5 * PI) {
+    if (load->is_constant || !vibrating_load_lifts(load)) {
         return INFINITY;
     }
     double n = load->ratio, kinks[] = {-load->dip, PI + load->dip}, next = INFINITY;
@@ -95,6 +105,10 @@ double vibrating_load_difference(const VibratingLoad *load, double turning) {
         return load->constant * (TAU - turning - turning) - load->constant * (turning + turning);
     }
     double n = load->ratio, forward = 0.0, backward = 0.0;
+    if (!vibrating_load_lifts(load)) {
+        double swung = 4.0 * load->amplitude / n * sin(n * turning) * load->sine;
+        return load->preload * (TAU - 4.0 * turning) - swung;
+    }
     for (int turn = 0; turn < load->turns; turn++) {
         double delta = delta_in(load, turn), middle = up_to(load, n * turning + delta);
         forward += up_to(load, n * (TAU - turning) + delta) - middle;

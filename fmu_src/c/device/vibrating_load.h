@@ -24,9 +24,9 @@ int max_turns_to_repeat(const Device *device);
 
 /* N(n tau + delta) with lift-off, in N, averaged over the `turns` of the drive after which it
  * repeats; where it never does its mean instead (`is_constant`). The contact is in touch from
- * -`dip` to pi + `dip` of the phase of N, and `per_turn` is the integral of N over that. */
+ * -`dip` to pi + `dip` of the phase of N, and `per_turn` is the integral of N over that; `sine` is sin(delta). */
 typedef struct {
-    double preload, amplitude, ratio, delta;
+    double preload, amplitude, ratio, delta, sine;
     double dip, cos_dip, per_turn;
     int turns;
     bool is_constant;
@@ -37,6 +37,14 @@ VibratingLoad vibrating_load_of(const Device *device, double ratio, double delta
 
 /* The same load with its mean alone, for ratios other than 0. */
 VibratingLoad vibrating_load_flattened(const VibratingLoad *load);
+
+/* The same load, its phase `angle` [rad] further. */
+VibratingLoad vibrating_load_turned(const VibratingLoad *load, double angle);
+
+/* Whether the contact lifts. */
+static inline bool vibrating_load_lifts(const VibratingLoad *load) {
+    return load->amplitude > load->preload;
+}
 
 /* Waves of the load over a turn of the drive; 0 for a constant load. */
 static inline double vibrating_load_waves(const VibratingLoad *load) {

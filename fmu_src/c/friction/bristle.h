@@ -7,15 +7,11 @@
 #include "../base/elementary_functions.h"
 #include "../device/device.h"
 
-/* Coefficient mu > 0 [1], stiffness sigma_0 [1/m] and damping sigma_1 [s/m]. */
+/* Coefficient mu [1], stiffness sigma_0 [1/m] and damping sigma_1 [s/m]. Coulomb friction is that of a rigid bristle, whose
+ * stiffness is infinite. */
 typedef struct {
     double coefficient, stiffness, damping;
 } Bristle;
-
-static inline Bristle bristle_of(const Device *device) {
-    return (Bristle){device->friction_coefficient, device->bristle_stiffness,
-                     device->bristle_damping};
-}
 
 /* sigma_0 z after `travel` [m] in one direction (its sign), from `friction` on. */
 static inline double bristle_after(const Bristle *bristle, double friction, double travel) {

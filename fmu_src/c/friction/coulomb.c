@@ -3,7 +3,7 @@
  * Events are a stop of the slider (then it sticks if friction can hold it, and reverses otherwise),
  * a release, and the lift-off and touchdown of the contact. There is no step size, no tolerance. */
 #include "../base/elementary.h"
-#include "friction_law.h"
+#include "law.h"
 
 /* Share of the longest arc within which a release and a lift-off may be the same event. */
 #define SAME 1e-6
@@ -11,9 +11,9 @@
 /* Relative difference of the forces on a slider up to which they count as balanced. */
 #define BALANCED 1e-12
 
-static bool check(const Device *device, Refusal *refusal) {
-    (void)device;
+static bool prepare(const Device *device, Bristle *bristle, Refusal *refusal) {
     (void)refusal;
+    *bristle = (Bristle){device->friction_coefficient, INFINITY, 0.0};
     return true;
 }
 
@@ -176,12 +176,11 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 const FrictionLaw COULOMB = {
     .sticks = true,
     .bends = false,
-    .check = check,
+    .prepare = prepare,
     .first_bristle = first_bristle,
     .bristle = bristle,
     .mode = mode,
     .force = force,
     .follow = follow,
     .succeed = succeed,
-    .averaged = &AVERAGED_COULOMB,
 };

@@ -1,4 +1,6 @@
-/* A law: a device under held inputs, with all that follows from these alone. */
+/* A law: a device under held inputs, with all that follows from these alone, and the row of functions of its friction.
+ *
+ * A new law of friction is a file that ends with its row, and an entry in law.c. */
 #ifndef SLIDER_LAW_H
 #define SLIDER_LAW_H
 
@@ -8,8 +10,9 @@
 #include "../device/device.h"
 #include "../device/fast_vibration.h"
 #include "../device/held.h"
+#include "../device/moment.h"
 #include "bristle.h"
-#include "friction_table.h"
+#include "leg.h"
 
 /* The caches outlive the law; the laws of one instance share them. They are NULL where the functions that need them do
  * without. */
@@ -18,13 +21,50 @@ typedef struct Law {
     Inputs inputs;                      /* phase [rad], load [N] and frequency ratio [1], at the start if they grow */
     double middle_ratio;                /* frequency ratio [1] in the middle of a step in which it grows */
     Held held;                          /* what resolved motion needs */
-    Bristle bristle;                    /* what friction needs; Coulomb friction has its coefficient alone */
+    Bristle bristle;                    /* what friction needs */
     FastVibration fast;                 /* the steady vibration, of averaged motion alone */
-    FrictionTable *table;               /* cache: means of expensive friction */
-    const struct FrictionLaw *friction; /* row of the friction law, see friction_law.h */
+    const struct FrictionLaw *friction; /* row of the friction law */
     const struct Motion *motion;        /* row of the kind of motion, see motion.h */
+    struct FrictionTables *tables;      /* cache: mean friction of bristles */
     struct BendingTables *bending;      /* cache: panels of bending bristles */
 } Law;
+
+typedef struct FrictionLaw {
+    /* Whether a slider at rest sticks: friction then balances the other forces. */
+    bool sticks;
+
+    /* Whether a bristle bends after each reversal, so that motion is faster with tables. */
+    bool bends;
+
+    /* Prepare the bristle. Refuses a device for which the law is not defined. */
+    bool (*prepare)(const Device *device, Bristle *bristle, Refusal *refusal);
+
+    /* Friction of the bristle at the start, per unit load. */
+    double (*first_bristle)(const Law *law);
+
+    /* Friction of the bristle after a displacement [m] in one direction from a moment on, per unit load. */
+    double (*bristle)(const Law *law, const Moment *begin, double travelled);
+
+    /* Contact mode under the held inputs. */
+    int (*mode)(const Law *law, const Moment *moment);
+
+    /* Friction force [N] on the slider in contact mode `mode`, positive against +X. */
+    double (*force)(const Law *law, const Moment *moment, int mode);
+
+    /* Begin the leg that starts at `now`, in the contact mode of `now`, and follow it for up to `longest`
+     * [s]. The contact lifts or touches down after `switching` [s]. */
+    void (*follow)(Leg *leg, const Law *law, Moment *now, double longest, double switching);
+
+    /* Change from the end of a finished leg to the next contact mode; `switches` is true where the
+     * contact lifts or touches down there. */
+    void (*succeed)(const Leg *leg, const Law *law, Moment *now, bool switches);
+} FrictionLaw;
+
+extern const FrictionLaw COULOMB, LUGRE;
+
+/* Prepare all of a law but its motion and caches, by the number `friction_law` of the device. Refuses where device and
+ * friction law do not fit; `law` is then undefined. */
+bool law_prepare(Law *law, const Device *device, const Inputs *inputs, Refusal *refusal);
 
 /* Change phase [rad] and load [N] of a law; nothing else prepared depends on these. */
 void law_change(Law *law, double phase, double load);

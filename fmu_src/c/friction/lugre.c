@@ -7,14 +7,15 @@
 #include <math.h>
 
 #include "../base/refusal_texts.h"
-#include "friction_law.h"
+#include "law.h"
 
 /* Share of the tolerance for the error of one leg, and for the bend that a bristle still lacks when closed
  * forms take over. */
 #define TOLERANCE_SHARE 0.01
 
 /* (8) divides by mu. */
-static bool check(const Device *device, Refusal *refusal) {
+static bool prepare(const Device *device, Bristle *bristle, Refusal *refusal) {
+    *bristle = (Bristle){device->friction_coefficient, device->bristle_stiffness, device->bristle_damping};
     return device->friction_coefficient != 0.0 ||
            refuse_lugre_without_friction(refusal, device->friction_coefficient);
 }
@@ -88,12 +89,11 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 const FrictionLaw LUGRE = {
     .sticks = false,
     .bends = true,
-    .check = check,
+    .prepare = prepare,
     .first_bristle = first_bristle,
     .bristle = bristle,
     .mode = mode,
     .force = force,
     .follow = follow,
     .succeed = succeed,
-    .averaged = &AVERAGED_LUGRE,
 };

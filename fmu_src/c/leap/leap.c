@@ -41,10 +41,8 @@
 /* Acceleration, over that under full friction, up to which the motion is steady: fast states then stay. */
 #define STILL 1e-9
 
-/* Change of the slow velocity up to which its rate may be linear, over v_q and the root of the tolerance; and the decay below
- * which it is constant. */
+/* Change of the slow velocity up to which its rate may be linear, over v_q and the root of the tolerance. */
 #define LINEAR 0.3
-#define NO_DECAY 1e-6
 
 /* Largest decay of the slow velocity in a period, over the share of friction: beyond, it is noise. */
 #define MAX_DECAY 4.0
@@ -204,28 +202,14 @@ static double error_behind(const SlowMotion *motion, const SlowStep *step, doubl
     return decay * before + of_step + h * of_rates;
 }
 
-/* The rest of a leap of `h` periods in one step, near a steady velocity: the slow velocity changes so little that its rate is
- * linear in it. Return whether the rate at the end confirms that. */
-static bool linear_step(SlowMotion *motion, const SlowPoint *from, double h, SlowStep *step) {
+/* The rest of a leap of `h` periods in one step, near a steady velocity. Return whether that holds. */
+static bool settles(SlowMotion *motion, const SlowPoint *from, double h, SlowStep *step) {
     const PeriodMap *map = motion->manifold.map;
     const SlowRates *rates = &motion->here.rates;
-    double acceleration = rates->acceleration, tolerance = map->tolerance;
-    double z = h * fmin(0.0, rates->jerk / acceleration), decayed = exp(z);
-    double mean = z < -NO_DECAY ? expm1(z) / z : 1.0;
-    double change = h * acceleration * mean;
-    if (motion->varies || !(fabs(change) <= LINEAR * sqrt(tolerance) * map->speed)) {
-        return false;
-    }
-    SlowPoint *to = &step->to;
-    *to = (SlowPoint){.t = from->t + h, .velocity = from->velocity + change};
-    if (!rate_at(motion, to->t, to->velocity, &to->rate)) {
-        return false;
-    }
-    double weight = z < -NO_DECAY ? (mean - decayed) / (1.0 - decayed) : 0.5;
-    to->travel = from->travel + h * (to->rate.travel + weight * (from->rate.travel - to->rate.travel));
-    step->error = h * mean * fabs(to->rate.acceleration - decayed * acceleration);
-    step->gain = z / h;
-    return step->error <= tolerance * map->speed;
+    double most = LINEAR * sqrt(map->tolerance) * map->speed;
+    return !motion->varies &&
+           linear_step(rate_at, motion, from, rates->jerk / rates->acceleration, h, most, step) &&
+           step->error <= map->tolerance * map->speed;
 }
 
 /* Integrate the slow motion over at most `longest` periods, as far as that goes. `error` is that of the slow velocity. */
@@ -240,7 +224,7 @@ static SlowPoint integrate(SlowMotion *motion, double longest, double h, double 
         Visited before = *here;
         double rest = longest - now.t;
         const RungeKutta *pair = is_short(motion, h) ? &BOGACKI_SHAMPINE : &DORMAND_PRINCE;
-        bool is_linear = linear_step(motion, &now, rest, &step);
+        bool is_linear = settles(motion, &now, rest, &step);
         if (is_linear ||
             (runge_kutta_step(pair, rate_at, motion, &now, h, &step) && step.error <= allowed)) {
             double of_step = is_linear ? step.error : step.error / OVERESTIMATE;

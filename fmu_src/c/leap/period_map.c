@@ -5,7 +5,7 @@
 #include "../base/angle.h"
 #include "../base/elementary.h"
 #include "../device/state.h"
-#include "../friction/friction_law.h"
+#include "../friction/law.h"
 #include "../resolved/events.h"
 
 /* Largest tolerance of LuGre friction in a map: differences of high order amplify its error. */
@@ -28,13 +28,6 @@ static int repeating_turns(const Law *law, int max_turns, double *drift) {
         }
     }
     return best;
-}
-
-/* Largest factor by which the resonator's free motion decays in a period. */
-static double resonator_decay(const Oscillator *slip, double period) {
-    double spread = slip->decay * slip->decay - slip->stiffness;
-    double rate = spread > 0.0 ? slip->stiffness / (slip->decay + sqrt(spread)) : slip->decay;
-    return exp(-rate * period);
 }
 
 static bool prepare_resolvent(PeriodMap *map, const Oscillator *slip) {
@@ -61,7 +54,7 @@ static void prepare_fast_states(PeriodMap *map) {
     map->scale[2] = 1.0;
     map->fast_count = 2;
     map->kept = 0.0;
-    map->decay = resonator_decay(&plant->slip, map->period);
+    map->decay = exp(-slower_decay(&plant->slip) * map->period);
     if (law->friction->bends) {
         double path = 4.0 * map->turns * map->speed / w;
         map->scale[2] = law->bristle.coefficient;

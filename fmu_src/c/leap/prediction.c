@@ -4,7 +4,7 @@
 
 #include "../base/angle.h"
 #include "../device/vibrating_load.h"
-#include "../friction/friction_laws.h"
+#include "../friction/law.h"
 #include "steady_motion.h"
 
 /* Largest number of turns after which the normal load may repeat. */

@@ -5,7 +5,7 @@
 
 #include "../base/clock.h"
 #include "../base/constants.h"
-#include "../friction/friction_law.h"
+#include "../friction/law.h"
 #include "../friction/leg.h"
 
 /* Largest number of legs accepted in a turn of the fastest oscillation: several times as many as

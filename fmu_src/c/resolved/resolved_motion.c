@@ -4,7 +4,7 @@
 #include "../base/elementary.h"
 #include "../base/refusal_texts.h"
 #include "../device/state.h"
-#include "../friction/friction_law.h"
+#include "../friction/law.h"
 #include "events.h"
 
 bool resolved_prepare(Law *law, Refusal *refusal) {

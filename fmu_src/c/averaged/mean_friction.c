@@ -1,14 +1,10 @@
-/* Averaged LuGre friction, uniform in the bristle stiffness.
- *
- * Over one turn of tau the bristle response to the fast motion is periodic, and explicit in the path
- * between the two reversals, so the mean friction is a quadrature: soft bristles give the paper's
- * slow manifold (17), hard ones Coulomb friction (5). */
+#include "mean_friction.h"
+
 #include <stddef.h>
 
 #include "../base/elementary.h"
 #include "../base/gauss_nodes.h"
-#include "../device/state.h"
-#include "averaged_friction.h"
+#include "../base/number.h"
 
 enum { EDGES = 6, MAX_BISECTIONS = 60 };
 
@@ -31,13 +27,13 @@ static const double EDGE[EDGES] = {0.0, 0.05, 0.15, 0.35, 0.65, 1.0};
 
 /* What the quadrature is over: `waves` of the integrand over a turn, and the load (`load`), with its kinks, or, where
  * that is NULL, unit loads: 1 and sine and cosine of `waves` times the angle. The `sum` of friction beyond
- * Coulomb's under these loads is its result; under a load it has one part, `plain`. */
+ * Coulomb's under these loads is its result; under a load it has one part, PLAIN. */
 typedef struct {
     const Bristle *bristle;
     const FastMotion *fast;
     double waves;
     const VibratingLoad *load;
-    FrictionMeans sum;
+    double sum[MEANS];
 } Quadrature;
 
 /* A part of the turn with one direction of sliding, from the angle `begin` on for `length` [rad], and
@@ -104,13 +100,13 @@ static double bent_at(const Quadrature *over, const Arc *arc) {
 /* Adds `friction` per unit load, times a weight of the quadrature, at `angle` [rad]. */
 static void gather(Quadrature *over, double angle, double friction) {
     if (over->load != NULL) {
-        over->sum.plain += vibrating_load_at(over->load, angle) * friction;
+        over->sum[PLAIN] += vibrating_load_at(over->load, angle) * friction;
         return;
     }
-    over->sum.plain += friction;
+    over->sum[PLAIN] += friction;
     if (over->waves != 0.0) {
-        over->sum.sine += friction * sin(over->waves * angle);
-        over->sum.cosine += friction * cos(over->waves * angle);
+        over->sum[SINE] += friction * sin(over->waves * angle);
+        over->sum[COSINE] += friction * cos(over->waves * angle);
     }
 }
 
@@ -175,8 +171,12 @@ static void integrate_turn(Quadrature *over, double turning) {
     integrate_arc(over, &backward);
 }
 
-static double mean(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load,
-                   double turning) {
+double mean_friction(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load,
+                     double turning) {
+    double mu = bristle->coefficient;
+    if (!is_elastic(bristle)) {
+        return mu / TAU * vibrating_load_difference(load, turning);
+    }
     VibratingLoad counted = *load;
     if (fabs(vibrating_load_waves(load)) > MAX_WAVES) {
         counted = vibrating_load_flattened(load);
@@ -184,50 +184,17 @@ static double mean(const Bristle *bristle, const FastMotion *fast, const Vibrati
     Quadrature over = {.bristle = bristle, .fast = fast, .load = &counted};
     over.waves = vibrating_load_waves(&counted);
     integrate_turn(&over, turning);
-    double coulomb = bristle->coefficient * vibrating_load_difference(&counted, turning);
-    return (coulomb + over.sum.plain) / TAU;
+    return (mu * vibrating_load_difference(&counted, turning) + over.sum[PLAIN]) / TAU;
 }
 
-static FrictionMeans means(const Bristle *bristle, const FastMotion *fast, double n,
-                           double turning) {
+void friction_means(const Bristle *bristle, const FastMotion *fast, double n, double turning,
+                    double means[MEANS]) {
     double mu = bristle->coefficient, waves = fabs(n) <= MAX_WAVES ? n : 0.0;
     Quadrature over = {.bristle = bristle, .fast = fast, .waves = waves};
-    over.sum.plain = mu * (TAU - 4.0 * turning);
-    over.sum.cosine = waves != 0.0 ? -4.0 * mu * sin(n * turning) / n : 0.0;
+    over.sum[PLAIN] = mu * (TAU - 4.0 * turning);
+    over.sum[COSINE] = waves != 0.0 ? -4.0 * mu * sin(n * turning) / n : 0.0;
     integrate_turn(&over, turning);
-    return (FrictionMeans){over.sum.plain / TAU, over.sum.sine / TAU, over.sum.cosine / TAU};
+    for (int i = 0; i < MEANS; i++) {
+        means[i] = over.sum[i] / TAU;
+    }
 }
-
-/* A vibration far shorter than mu / sigma_0 only bends the bristle. */
-static double grip(const Bristle *bristle, double amplitude, double frequency) {
-    return fmin(bristle->coefficient,
-                amplitude * hypot(bristle->stiffness, frequency * bristle->damping));
-}
-
-static double drag(const Bristle *bristle, double fast_velocity) {
-    return bristle->damping * fast_velocity;
-}
-
-/* A bristle bends over a path of 2 mu/s0 after each of two reversals in a turn, and damps by the impulse of 2 mu s1/s0
- * per normal load; but by no more than s1 v_q all the time. */
-static double bend_damping(const Bristle *bristle, const FastMotion *fast) {
-    double all_time = bristle->damping * fast->velocity / bristle->coefficient;
-    double bends = 2.0 / PI * bristle->damping / bristle->stiffness * fast->frequency;
-    return fmin(all_time, bends);
-}
-
-/* The path of a turn is four times the amplitude. */
-static double bend_decay(const Bristle *bristle, const FastMotion *fast) {
-    double path = 4.0 * fast->velocity / fast->frequency;
-    return bristle->stiffness * path / bristle->coefficient;
-}
-
-const AveragedFriction AVERAGED_LUGRE = {
-    .is_expensive = true,
-    .grip = grip,
-    .drag = drag,
-    .mean = mean,
-    .means = means,
-    .bend_damping = bend_damping,
-    .bend_decay = bend_decay,
-};

@@ -1,0 +1,197 @@
+#include "slow_equation.h"
+
+#include "../base/constants.h"
+#include "../base/elementary.h"
+#include "../device/contact.h"
+
+/* What the steps of averaged motion are called where they are refused. */
+static const char *const STEPS = "steps of averaged motion";
+
+/* Error per step of the slow motion, relative to the fast velocity. */
+#define TOLERANCE 2e-10
+
+/* Step tried first, as a share of the time in which the strongest force changes the fast velocity. */
+#define FIRST_STEP 0.1
+
+/* Part of a beat that a step may have: its stages then see all phases of the normal load. */
+#define BEAT_SHARE 0.125
+
+/* Part of a beat up to which a kink ahead counts as the one just passed. */
+#define MIN_SHARE 1e-9
+
+/* Shortest step to an edge of friction, as a share of the step tried first. */
+#define MIN_APPROACH 1e-9
+
+/* Change of the velocity up to which its rate may be linear, over the fast velocity. */
+#define LINEAR 4e-6
+
+/* Number of waves of the normal load over a turn that doubles the cost of a quadrature, and number beyond
+ * which the load counts with its mean. */
+#define WAVES 10.0
+#define MAX_WAVES 1000.0
+
+/* Lower limit of the number of steps that is accepted. */
+enum { MIN_STEPS = 16 };
+
+/* Largest cost of a step under a growing load, relative to one under a constant load. */
+enum { GROWING = 4 };
+
+/* Pieces of a beat, with constant friction in each, in motion without vibration. */
+#define PIECES 256.0
+
+/* Largest number of legs of a block under a load that grows: it stops, sticks and sets out twice at most. */
+enum { MAX_BLOCK_LEGS = 8 };
+
+/* Time [s] until a velocity u >= 0 with acceleration a + j t is 0 again; infinite if it never is. */
+static double time_to_stop(double u, double a, double j) {
+    double square = a * a - 2.0 * j * u;
+    if (square < 0.0) {
+        return INFINITY;
+    }
+    if (a < 0.0) {
+        return 2.0 * u / (sqrt(square) - a);
+    }
+    return j < 0.0 ? (a + sqrt(square)) / -j : INFINITY;
+}
+
+/* Direction in which a block at rest sets out under a load that grows by `rate` [N/s]; STICK while friction
+ * holds it. */
+static int block_sets_out(double friction, double load, double rate) {
+    if (fabs(load) > friction || (fabs(load) == friction && load * rate > 0.0)) {
+        return load > 0.0 ? BACKWARD : FORWARD;
+    }
+    return STICK;
+}
+
+/* Motion of a block without vibration under constant friction [N] and a load that grows by `rate` [N/s]. */
+static void block_pass(SlowPoint *now, double friction, double load, double rate, double mass,
+                       double duration) {
+    double left = duration;
+    for (int leg = 0; leg < MAX_BLOCK_LEGS && left > 0.0; leg++) {
+        int direction = direction_of(now->velocity);
+        if (direction == STICK) {
+            direction = block_sets_out(friction, load, rate);
+        }
+        double a = -(direction * friction + load) / mass, j = -rate / mass;
+        double end = INFINITY;
+        if (direction != STICK) {
+            end = time_to_stop(direction * now->velocity, direction * a, direction * j);
+        } else if (rate != 0.0) {
+            end = (copysign(friction, rate) - load) / rate;
+        }
+        double t = fmin(left, end);
+        if (direction != STICK) {
+            now->travel += (now->velocity + (0.5 * a + j * t / 6.0) * t) * t;
+            now->velocity = end <= left ? 0.0 : now->velocity + (a + 0.5 * j * t) * t;
+        }
+        load = direction == STICK && end <= left ? copysign(friction, rate) : load + rate * t;
+        left -= t;
+    }
+}
+
+/* Motion without vibration, with constant friction in each piece of time. */
+static bool pass_unshaken(const SlowFriction *friction, double duration, Budget *budget,
+                          SlowPoint *now, Refusal *refusal) {
+    const Plant *plant = &friction->law->held.plant;
+    double longest = friction->stands ? fmin(duration, friction->beat / PIECES) : duration;
+    double pieces = ceil(duration / longest), piece = duration / pieces;
+    int allowed = budget_left(budget, MAX_SLOW_STEPS);
+    if (pieces > allowed) {
+        return budget_refuse(budget, allowed * longest, MAX_SLOW_STEPS, STEPS, refusal);
+    }
+    budget_spend(budget, (int)pieces, MAX_SLOW_STEPS);
+    for (double k = 0.0; k < pieces; k += 1.0) {
+        double resisting = slow_friction_at(friction, (k + 0.5) * piece, INFINITY);
+        double load = plant->load + plant->load_rate * (k * piece);
+        block_pass(now, resisting, load, plant->load_rate, plant->total_mass, piece);
+    }
+    return true;
+}
+
+static bool rate_at(void *motion, double t, double velocity, SlowRate *rate) {
+    const SlowFriction *friction = motion;
+    const Plant *plant = &friction->law->held.plant;
+    double load = plant->load + plant->load_rate * t;
+    double force = slow_friction_at(friction, t, velocity) + load;
+    *rate = (SlowRate){-force / plant->total_mass, velocity};
+    return true;
+}
+
+/* Steps of averaged motion that a whole budget buys. */
+static int max_steps(const SlowFriction *friction) {
+    if (!slow_friction_is_expensive(friction)) {
+        bool grows = friction->law->held.plant.load_rate != 0.0;
+        return grows ? MAX_SLOW_STEPS / GROWING : MAX_SLOW_STEPS;
+    }
+    double waves = fmin(fabs(friction->law->inputs.frequency_ratio), MAX_WAVES);
+    return (int)fmax(MIN_STEPS, MAX_QUADRATURE_STEPS / (1.0 + waves / WAVES));
+}
+
+/* The step [s] to try first; without force all the `duration`. */
+static double first_step(const SlowFriction *friction, double duration) {
+    const Law *law = friction->law;
+    const Plant *plant = &law->held.plant;
+    double last_load = plant->load + plant->load_rate * duration;
+    double strongest = plant->friction_preload + plant->friction_amplitude +
+                       fmax(fabs(plant->load), fabs(last_load));
+    double change = law->fast.velocity * plant->total_mass;
+    return strongest > 0.0 ? FIRST_STEP * change / strongest : duration;
+}
+
+/* Time [s] until the motion gets to an edge of friction, the fast velocity both ways, beyond which friction no longer depends
+ * on the velocity; by the acceleration of now and its growth, beyond the edge exactly. Steps that end there leave no visit
+ * across an edge between their stages. Infinite under a constant load, where the steps find an edge by their error. */
+static double time_to_edge(const SlowFriction *friction, const SlowPoint *now) {
+    const Plant *plant = &friction->law->held.plant;
+    int side = now->velocity > 0.0 ? 1 : -1;
+    double beyond = side * now->velocity - friction->fast.velocity, jerk = -plant->load_rate / plant->total_mass;
+    double sway = slow_friction_sway(friction) / plant->total_mass;
+    int away = beyond < 0.0 ? -side : side;
+    if (jerk == 0.0) {
+        return INFINITY;
+    }
+    return time_to_stop(fabs(beyond), away * now->rate.acceleration, away * jerk - sway);
+}
+
+/* In this order: refuse a time of too many steps; then step by step: find how long the rates are smooth; pass all the rest
+ * in one step where the velocity settles, or a step of the solver; take it over if its error is small enough. */
+bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoint *now,
+               Refusal *refusal) {
+    double fast = friction->fast.velocity, tolerance = TOLERANCE * fast, gain = 0.0;
+    if (fast == 0.0) {
+        return pass_unshaken(friction, end, budget, now, refusal);
+    }
+    SlowFriction own = *friction;
+    bool varies = own.fastest != 0.0 || own.chirp != 0.0 || own.law->held.plant.load_rate != 0.0;
+    double first = first_step(&own, end), longest = BEAT_SHARE * own.beat, h = first;
+    int tried = 0, max_count = max_steps(&own), allowed = budget_left(budget, max_count);
+    /* No step is longer than a share of a beat: too many of them are refused before the first. */
+    if (varies && end > allowed * longest) {
+        return budget_refuse(budget, allowed * longest, max_count, STEPS, refusal);
+    }
+    rate_at(&own, 0.0, now->velocity, &now->rate);
+    for (; now->t < end && isfinite(now->velocity); tried++) {
+        if (tried == allowed) {
+            return budget_refuse(budget, now->t, max_count, STEPS, refusal);
+        }
+        double kink = fmax(slow_friction_to_kink(&own, now->t), MIN_SHARE * own.beat);
+        double edge = fmax(time_to_edge(&own, now), MIN_APPROACH * first);
+        double next = fmin(end, now->t + fmin(kink, edge)), left = next - now->t;
+        SlowStep step;
+        bool settles = !varies && tried > 0 &&
+                       linear_step(rate_at, &own, now, gain, left, LINEAR * fast, &step) &&
+                       step.error <= tolerance;
+        if (!settles) {
+            h = fmin(fmin(h, longest), left);
+            runge_kutta_step(&DORMAND_PRINCE, rate_at, &own, now, h, &step);
+        }
+        if (!(step.error > tolerance)) {
+            *now = step.to;
+            now->t = settles || h == left ? next : now->t;
+            gain = step.gain;
+        }
+        h *= step_growth(&DORMAND_PRINCE, step.error, tolerance);
+    }
+    budget_spend(budget, tried, max_count);
+    return true;
+}

@@ -1,0 +1,18 @@
+/* The slow equation (M + m) V' = -mean friction - load, over a time. */
+#ifndef SLIDER_SLOW_EQUATION_H
+#define SLIDER_SLOW_EQUATION_H
+
+#include <stdbool.h>
+
+#include "../base/refusal.h"
+#include "../base/runge_kutta.h"
+#include "../device/budget.h"
+#include "slow_friction.h"
+
+/* Bring `now`, at time 0, to time `end` [s]: its velocity settles in few steps, however long the time. Refuses, with
+ * `now` undefined, where that takes more than the budget has. Without vibration it is the motion of a block, with
+ * constant friction in each piece of a beat. */
+bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoint *now,
+               Refusal *refusal);
+
+#endif
