@@ -5,9 +5,9 @@
 #include "../base/complex_number.h"
 #include "../base/elementary.h"
 #include "../base/refusal.h"
+#include "../device/device.h"
 #include "../device/fast_vibration.h"
 #include "../device/plant.h"
-#include "../device/state.h"
 #include "mean_friction.h"
 
 /* Halvings of [0, pi] that select one of several balances. */

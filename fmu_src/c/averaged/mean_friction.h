@@ -7,9 +7,6 @@
 #ifndef SLIDER_MEAN_FRICTION_H
 #define SLIDER_MEAN_FRICTION_H
 
-#include <math.h>
-#include <stdbool.h>
-
 #include "../device/vibrating_load.h"
 #include "../friction/bristle.h"
 
@@ -20,11 +17,6 @@ typedef struct {
 
 /* Means over a turn of tau of the friction per unit load, times 1, sin(n tau) and cos(n tau). */
 enum { PLAIN, SINE, COSINE, MEANS };
-
-/* Whether a mean costs a quadrature. */
-static inline bool is_elastic(const Bristle *bristle) {
-    return isfinite(bristle->stiffness);
-}
 
 /* Mean friction [N] of one face. */
 double mean_friction(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load,

@@ -22,8 +22,10 @@ static const char *const STEPS = "steps of averaged motion";
 /* Shortest step to an edge of friction, as a share of the step tried first. */
 #define MIN_APPROACH 1e-9
 
-/* Change of the velocity up to which its rate may be linear, over the fast velocity. */
+/* Change of the velocity up to which its rate may be linear, over the fast velocity; and the share of the tolerance for what
+ * that leaves: no step corrects it. */
 #define LINEAR 4e-6
+#define SETTLED 1e-3
 
 /* Number of waves of the normal load over a turn that doubles the cost of a quadrature, and number beyond
  * which the load counts with its mean. */
@@ -180,7 +182,7 @@ bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoi
         SlowStep step;
         bool settles = !varies && tried > 0 &&
                        linear_step(rate_at, &own, now, gain, left, LINEAR * fast, &step) &&
-                       step.error <= tolerance;
+                       step.error <= SETTLED * tolerance;
         if (!settles) {
             h = fmin(fmin(h, longest), left);
             runge_kutta_step(&DORMAND_PRINCE, rate_at, &own, now, h, &step);

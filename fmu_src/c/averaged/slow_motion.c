@@ -1,6 +1,5 @@
 #include "slow_motion.h"
 
-#include "../base/angle.h"
 #include "../base/elementary.h"
 #include "../base/number.h"
 #include "slow_equation.h"

@@ -45,6 +45,13 @@ static inline double complex_abs(Complex a) {
     return elementary_hypot(a.re, a.im);
 }
 
+/* exp(z), and the integrals over s from 0 to 1 of exp(z s) (`once`) and of (1 - s) exp(z s) (`twice`); regular at 0. */
+typedef struct {
+    Complex grown, once, twice;
+} Growth;
+
+Growth growth_of(Complex z);
+
 /* Smith's division: no overflow where the quotient has none. */
 static inline Complex complex_div(Complex a, Complex b) {
     if (fabs(b.re) >= fabs(b.im)) {

@@ -5,10 +5,10 @@
 
 #include "../base/constants.h"
 #include "../base/refusal_texts.h"
-#include "../device/state.h"
+#include "../device/device.h"
 #include "../friction/law.h"
 #include "component_law.h"
-#include "output_derivatives.h"
+#include "outputs.h"
 #include "values.h"
 
 void component_begin(Component *component, const Memory *memory) {
@@ -33,7 +33,7 @@ static bool provide_tables(Component *component, Law *law, Refusal *refusal) {
     const Memory *memory = &component->memory;
     bool averages = law->motion->averages;
     bool tabulates = averages && is_elastic(&law->bristle);
-    bool bends = !averages && law->friction->bends;
+    bool bends = !averages && is_elastic(&law->bristle);
     if (tabulates) {
         component->tables = table_of(memory, component->tables, sizeof *component->tables);
     }

@@ -5,10 +5,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "../averaged/friction_table.h"
 #include "../base/memory.h"
 #include "../base/refusal.h"
 #include "../friction/bending_kernels.h"
-#include "../averaged/friction_table.h"
 #include "../friction/law.h"
 #include "experiment.h"
 #include "outputs.h"

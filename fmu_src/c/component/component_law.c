@@ -2,11 +2,13 @@
 
 #include <math.h>
 
-#include "../base/refusal_texts.h"
-#include "../device/state.h"
-#include "../friction/law.h"
 #include "../averaged/averaged.h"
-#include "motions.h"
+#include "../averaged/slow_motion.h"
+#include "../base/refusal_texts.h"
+#include "../device/device.h"
+#include "../friction/law.h"
+#include "../leap/leaping_motion.h"
+#include "../resolved/resolved_motion.h"
 #include "parameter_values.h"
 #include "values.h"
 
@@ -59,11 +61,22 @@ Inputs reduced_inputs(const double values[SETTABLE_COUNT]) {
     return inputs;
 }
 
+const Motion *motion_of(Device *device) {
+    if (device->fidelity != 0) {
+        return &RESOLVED_MOTION;
+    }
+    if (device->averaging_order == 1) {
+        return &AVERAGED_MOTION;
+    }
+    device->fidelity = 2; /* leaps are over periods of the full device */
+    return &LEAPING_MOTION;
+}
+
 bool prepare_law(const double values[SETTABLE_COUNT], Law *law, Refusal *refusal) {
     Device device = device_of(values);
     Inputs inputs = reduced_inputs(values);
     const Motion *motion = motion_of(&device);
-    if (!law_prepare(law, &device, &inputs, refusal) || !motion->prepare(law, refusal)) {
+    if (!law_prepare(law, &device, &inputs, refusal) || (motion->prepare != NULL && !motion->prepare(law, refusal))) {
         return false;
     }
     law->motion = motion;

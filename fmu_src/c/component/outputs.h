@@ -4,9 +4,10 @@
 
 #include <stdbool.h>
 
+#include "../averaged/averaged.h"
+#include "../base/refusal.h"
 #include "../device/moment.h"
 #include "../friction/law.h"
-#include "../averaged/averaged.h"
 
 /* A cache of the prediction of a law at `normal_lead` [rad]; its owner clears `known` when the law changes. */
 typedef struct {
@@ -18,5 +19,11 @@ typedef struct {
 /* The output `reference` of the law at this moment; `last_event_time` [s]. */
 double output_value(unsigned reference, const Law *law, const Moment *moment,
                     double last_event_time, Theory *theory);
+
+/* The right-hand derivative of the output `reference` at the present moment and inputs, per s: 0 for outputs that change only at events and
+ * at the ends of periods. `phase_rate` [rad/s] is the derivative of the input `phase`. Refuses variables
+ * without derivative. */
+bool output_derivative(unsigned reference, const Law *law, const Moment *moment, double phase_rate,
+                       double *derivative, Refusal *refusal);
 
 #endif

@@ -3,9 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../base/angle.h"
 #include "../base/clock.h"
-#include "motions.h"
+#include "../base/number.h"
 #include "parameter_values.h"
 #include "values.h"
 
@@ -82,7 +81,7 @@ bool ramped_step(RampedStep *step, const Snapshot *now, double duration, struct 
     while (left > 0.0) {
         Moment before = *after;
         Ramp ramp = ramp_from(values, now->derivatives);
-        double part = motion->part(&device, &ramp, left);
+        double part = motion->part == NULL ? left : motion->part(&device, &ramp, left);
         budget->passed = clock.elapsed;
         if (budget_left(budget, MAX_SLOW_PHASES) == 0) {
             return budget_refuse(budget, 0.0, MAX_SLOW_PHASES, "slow phases of the normal load",

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "../base/refusal_texts.h"
-#include "../device/state.h"
+#include "../device/device.h"
 #include "state_bytes.h"
 #include "values.h"
 

@@ -1,7 +1,8 @@
-/* The device: its parameters, and the masses that follow from them. */
+/* The device: its parameters, the masses that follow from them, and what moves. */
 #ifndef SLIDER_DEVICE_H
 #define SLIDER_DEVICE_H
 
+#include "../base/number.h"
 #include "parameters.h"
 
 /* Mass of slider and resonator [kg]. */
@@ -13,5 +14,10 @@ static inline double device_total_mass(const Device *device) {
 static inline double device_mass_fraction(const Device *device) {
     return device->resonator_mass / device_total_mass(device);
 }
+
+/* Slider velocity [m/s], resonator displacement [m] and velocity [m/s]. */
+typedef struct {
+    double velocity, displacement, rate;
+} State;
 
 #endif

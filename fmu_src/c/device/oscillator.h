@@ -56,14 +56,8 @@ static inline Response free_motion(const Oscillator *oscillator, Response start,
 }
 
 /* Response to exp(i frequency t) from rest; regular at resonance. Only for oscillatory damping and
- * frequency > 0. `free` is the free response and `turn` exp(i frequency t), both after t. */
+ * frequency > 0. `turn` is exp(i frequency t). */
 ComplexResponse response_from_rest(const Oscillator *oscillator, double frequency, double t,
-                                   Response free, Complex turn);
-
-/* Integral of exp(i frequency s) over s from 0 to t [s], regular at frequency 0. */
-Complex exponential_integral(double frequency, double t);
-
-/* Integral of (t - s) exp(i frequency s) over s from 0 to t [s^2], regular at frequency 0. */
-Complex exponential_double_integral(double frequency, double t);
+                                   Complex turn);
 
 #endif

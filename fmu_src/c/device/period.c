@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "state.h"
+#include "device.h"
 
 /* Displacement [m] at time `t` [s]. Close to the end of the segment, where steps of whole periods ask for
  * it, it follows from the displacement at the end. */

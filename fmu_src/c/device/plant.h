@@ -11,6 +11,7 @@
 #ifndef SLIDER_PLANT_H
 #define SLIDER_PLANT_H
 
+#include <math.h>
 #include <stdbool.h>
 
 #include "../base/complex_number.h"
@@ -53,6 +54,17 @@ static inline double turned_by(const Plant *plant, double t) {
 /* Whether the load or the normal frequency varies. */
 static inline bool is_ramped(const Plant *plant) {
     return plant->load_rate != 0.0 || plant->normal_rate != 0.0;
+}
+
+/* The scale of velocities to which tolerances refer: sum [m/s] of the velocity amplitude of the drive, the velocity that
+ * friction and load change in a radian of the drive, and the velocities of slider and resonator. */
+static inline double velocity_scale(const Plant *plant, const State *state) {
+    double w = plant->drive_frequency;
+    double load = fabs(plant->load) + fabs(plant->load_rate) / w;
+    double forces = plant->friction_preload + plant->friction_amplitude + load;
+    Complex swing = complex_of(state->rate, plant->stick.frequency * state->displacement);
+    return complex_abs(plant->drive) / w + forces / (plant->total_mass * w) +
+           fabs(state->velocity) + plant->mass_fraction * complex_abs(swing);
 }
 
 /* Steady displacement of the resonator, complex amplitude of e [m] (eqs 31-32), a direct drive

@@ -280,7 +280,8 @@ static inline double normal_velocity(const SplitSlide *slide, const Turns *turns
         return complex_mul(slide->velocity_normal, turns->phasors.normal).re;
     }
     Complex push = complex_mul(slide->velocity_normal, slide->start.phasors.normal);
-    return complex_mul(push, exponential_integral(slide->plant->normal_frequency, turns->t)).re;
+    Complex angle = complex_of(0.0, slide->plant->normal_frequency * turns->t);
+    return turns->t * complex_mul(push, growth_of(angle).once).re;
 }
 
 static inline double velocity_by(const SplitSlide *slide, const Turns *turns, double rate) {
@@ -349,7 +350,7 @@ static double normal_travel(const SplitSlide *slide, const Turns *turns) {
         return swing_travel(slide->velocity_normal, q, start, turns->phasors.normal);
     }
     Complex push = complex_mul(slide->velocity_normal, start);
-    return complex_mul(push, exponential_double_integral(q, turns->t)).re;
+    return turns->t * turns->t * complex_mul(push, growth_of(complex_of(0.0, q * turns->t)).twice).re;
 }
 
 static inline double travel_by(const SplitSlide *slide, const Turns *turns,

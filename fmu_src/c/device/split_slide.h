@@ -10,8 +10,8 @@
 #include <stdbool.h>
 
 #include "../base/first_zero.h"
+#include "device.h"
 #include "plant.h"
-#include "state.h"
 
 /* Complex amplitudes per unit exp(i theta) and, for s = 1, per unit exp(i chi): displacement of the
  * resonator (`resonator_*`), velocity of the slider (`velocity_*`). Where `merges`, drive and normal

@@ -29,10 +29,10 @@ void stick_begin(Stick *stick, const Plant *plant, const State *state, double th
 }
 
 /* Response to the drive at a time [s]. */
-static Response forced_at(const Stick *stick, double t, Complex drive_turn, Response free) {
+static Response forced_at(const Stick *stick, double t, Complex drive_turn) {
     double w = stick->plant->drive_frequency;
     if (stick->resonates) {
-        ComplexResponse unit = response_from_rest(&stick->plant->stick, w, t, free, drive_turn);
+        ComplexResponse unit = response_from_rest(&stick->plant->stick, w, t, drive_turn);
         return (Response){complex_mul(stick->forcing, unit.displacement).re,
                           complex_mul(stick->forcing, unit.rate).re};
     }
@@ -52,7 +52,7 @@ static Sample sample_at(const Stick *stick, double t, Complex drive_turn) {
     double frequency = oscillator->frequency, w = stick->plant->drive_frequency;
     Response response = free_response(oscillator, t);
     Response free = free_motion(oscillator, stick->free_start, response);
-    Response forced = forced_at(stick, t, drive_turn, response);
+    Response forced = forced_at(stick, t, drive_turn);
     double second = -2.0 * decay * free.rate - stiffness * free.displacement;
     double energy = hypot(2.0 * decay * second + stiffness * free.rate, frequency * second);
     Sample sample = {free.displacement + forced.displacement, free.rate + forced.rate, 0.0,
@@ -136,6 +136,6 @@ State stick_state(const Stick *stick, double t) {
     Response response = free_response(oscillator, t);
     Response free = free_motion(oscillator, stick->free_start, response);
     Complex drive_turn = complex_rect(1.0, stick->plant->drive_frequency * t);
-    Response forced = forced_at(stick, t, drive_turn, response);
+    Response forced = forced_at(stick, t, drive_turn);
     return (State){0.0, free.displacement + forced.displacement, free.rate + forced.rate};
 }

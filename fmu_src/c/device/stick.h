@@ -4,8 +4,8 @@
 #define SLIDER_STICK_H
 
 #include "../base/first_zero.h"
+#include "device.h"
 #include "plant.h"
-#include "state.h"
 
 /* Motion while |needed force| stays within the limit F0 + F1 sin(chi). `direct` is the part of the
  * needed force that follows the drive, `normal` the changing part of the limit, both complex

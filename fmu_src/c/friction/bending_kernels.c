@@ -2,15 +2,6 @@
 
 #include "../base/elementary.h"
 
-/* |z t| up to which exp(z t) - 1 - z t is summed as a series, and the terms of that. */
-#define SOON 0.25
-enum { TERMS = 12 };
-
-static const double INVERSE[TERMS] = {
-    0.0,     1.0,     1.0 / 2, 1.0 / 3, 1.0 / 4,  1.0 / 5,
-    1.0 / 6, 1.0 / 7, 1.0 / 8, 1.0 / 9, 1.0 / 10, 1.0 / 11,
-};
-
 static void put(ComplexRow *row, int i, Complex z) {
     row->re[i] = z.re;
     row->im[i] = z.im;
@@ -19,20 +10,9 @@ static void put(ComplexRow *row, int i, Complex z) {
 /* exp(z t), and int (exp(z s) - 1) ds from 0 to t. */
 static Complex grow(Complex z, double t, Complex *integral) {
     Complex angle = complex_scale(t, z);
-    if (complex_abs(angle) > SOON) {
-        Complex grown = complex_rect(exp(angle.re), angle.im);
-        Complex bent = complex_sub(grown, complex_of(1.0 + angle.re, angle.im));
-        *integral = complex_div(bent, z);
-        return grown;
-    }
-    Complex term = complex_scale(0.5, angle), total = term;
-    for (int n = 3; n < TERMS; n++) {
-        term = complex_scale(INVERSE[n], complex_mul(term, angle));
-        total = complex_add(total, term);
-    }
-    *integral = complex_scale(t, total);
-    Complex bent = complex_mul(angle, total);
-    return complex_of(1.0 + angle.re + bent.re, angle.im + bent.im);
+    Growth growth = growth_of(angle);
+    *integral = complex_scale(t, complex_mul(angle, growth.twice));
+    return growth.grown;
 }
 
 static void prepare_normal(BendingKernels *kernels, double frequency) {

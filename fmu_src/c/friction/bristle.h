@@ -3,6 +3,7 @@
 #define SLIDER_BRISTLE_H
 
 #include <math.h>
+#include <stdbool.h>
 
 #include "../base/elementary_functions.h"
 #include "../device/device.h"
@@ -12,6 +13,11 @@
 typedef struct {
     double coefficient, stiffness, damping;
 } Bristle;
+
+/* Whether the bristle bends: a slider at rest then does not stick, and takes tables to follow. */
+static inline bool is_elastic(const Bristle *bristle) {
+    return isfinite(bristle->stiffness);
+}
 
 /* sigma_0 z after `travel` [m] in one direction (its sign), from `friction` on. */
 static inline double bristle_after(const Bristle *bristle, double friction, double travel) {

@@ -174,8 +174,6 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 }
 
 const FrictionLaw COULOMB = {
-    .sticks = true,
-    .bends = false,
     .prepare = prepare,
     .first_bristle = first_bristle,
     .bristle = bristle,

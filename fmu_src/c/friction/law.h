@@ -30,12 +30,6 @@ typedef struct Law {
 } Law;
 
 typedef struct FrictionLaw {
-    /* Whether a slider at rest sticks: friction then balances the other forces. */
-    bool sticks;
-
-    /* Whether a bristle bends after each reversal, so that motion is faster with tables. */
-    bool bends;
-
     /* Prepare the bristle. Refuses a device for which the law is not defined. */
     bool (*prepare)(const Device *device, Bristle *bristle, Refusal *refusal);
 

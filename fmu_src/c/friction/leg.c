@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "../base/angle.h"
-#include "../device/velocity_scale.h"
+#include "../base/number.h"
+#include "../device/plant.h"
 
 /* Tolerance of a series, in velocity scales: rounding. */
 #define SERIES_ROUNDING (2.0 * EPSILON)

@@ -87,8 +87,6 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 }
 
 const FrictionLaw LUGRE = {
-    .sticks = false,
-    .bends = true,
     .prepare = prepare,
     .first_bristle = first_bristle,
     .bristle = bristle,

@@ -14,9 +14,9 @@
 #include <stdbool.h>
 
 #include "../base/first_zero.h"
+#include "../device/device.h"
 #include "../device/plant.h"
 #include "../device/split_slide.h"
-#include "../device/state.h"
 #include "bristle.h"
 
 /* Order of the series: close to the cheapest one at any tolerance. */

@@ -2,7 +2,7 @@
 
 #include "../base/elementary.h"
 #include "../base/runge_kutta.h"
-#include "../device/state.h"
+#include "../device/device.h"
 
 /* Evaluations in a step of the solver, and the share of the leapt periods that they may map: the rest is the gain. */
 #define EVALUATIONS 6.0
@@ -58,8 +58,8 @@ typedef struct {
     Moment landing, after;
 } Visited;
 
-/* The slow motion from a moment at the section on, at normal phase `psi` [rad]. `varies`: its rates depend on time, too. Fast states are extrapolated from two points, that where the present
- * step begins (`here`) and another. */
+/* The slow motion from a moment at the section on, at normal phase `psi` [rad]. `varies`: its rates depend on time, too. Fast
+ * states are extrapolated from two points, that where the present step begins (`here`) and another. */
 typedef struct {
     Manifold manifold;
     double psi;

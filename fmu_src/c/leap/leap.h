@@ -19,8 +19,9 @@ typedef struct {
     int in_vain;
 } Leap;
 
-/* Leap from a moment at the section over at most `longest` periods; inputs may grow. `after` is then the moment a few resolved periods behind the landing. Its `leap_error` has grown by the estimated error of the slow
- * velocity, of which the tolerance of the map is allowed. */
+/* Leap from a moment at the section over at most `longest` periods; inputs may grow. `after` is then the moment a few resolved
+ * periods behind the landing. Its `leap_error` has grown by the estimated error of the slow velocity, of which the tolerance
+ * of the map is allowed. */
 Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *budget,
           Moment *after);
 

@@ -6,9 +6,9 @@
 
 #include <stddef.h>
 
-#include "../base/angle.h"
 #include "../base/clock.h"
 #include "../base/elementary.h"
+#include "../base/number.h"
 #include "../resolved/events.h"
 #include "../resolved/resolved_motion.h"
 #include "leap.h"
@@ -119,18 +119,11 @@ static bool advance(const Law *law, const Moment *moment, double duration, Event
     return true;
 }
 
-static double error(const Law *law, const Moment *moment) {
-    (void)law;
-    return moment->leap_error;
-}
-
 const Motion LEAPING_MOTION = {
-    .prepare = resolved_prepare,
     .start = resolved_start,
     .advance = advance,
     .mode = resolved_mode,
     .force = resolved_force,
     .rates = resolved_rates,
-    .error = error,
-    .part = whole_part,
+    .error = resolved_error,
 };

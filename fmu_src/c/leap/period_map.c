@@ -2,9 +2,9 @@
 
 #include <stddef.h>
 
-#include "../base/angle.h"
 #include "../base/elementary.h"
-#include "../device/state.h"
+#include "../base/number.h"
+#include "../device/device.h"
 #include "../friction/law.h"
 #include "../resolved/events.h"
 
@@ -55,7 +55,7 @@ static void prepare_fast_states(PeriodMap *map) {
     map->fast_count = 2;
     map->kept = 0.0;
     map->decay = exp(-slower_decay(&plant->slip) * map->period);
-    if (law->friction->bends) {
+    if (is_elastic(&law->bristle)) {
         double path = 4.0 * map->turns * map->speed / w;
         map->scale[2] = law->bristle.coefficient;
         map->fast_count = 3;

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "../device/state.h"
+#include "../device/device.h"
 
 /* Largest change of the slow velocity in a period, over itself and the share of friction. */
 #define MAX_RATE 4.0

@@ -1,7 +1,7 @@
 /* The interface of a kind of motion: a row of functions.
  *
  * Motion is resolved (fidelity 1 and 2), averaged (fidelity 0, order 1), or leaps over periods (fidelity 0, order 2):
- * motions.h picks it. A law is prepared, a motion started, then advanced step by step, to an event if one is wanted;
+ * component_law.c picks it. A law is prepared, a motion started, then advanced step by step, to an event if one is wanted;
  * all else reads the moment in between. */
 #ifndef SLIDER_MOTION_H
 #define SLIDER_MOTION_H
@@ -9,10 +9,7 @@
 #include <stdbool.h>
 
 #include "../base/refusal.h"
-#include "../device/budget.h"
-#include "../device/moment.h"
-#include "../friction/law.h"
-#include "event_search.h"
+#include "events.h"
 
 /* Rates of the state and of the mean velocity [m/s, m/s^2]. */
 typedef struct {
@@ -24,7 +21,8 @@ typedef struct Motion {
     /* Whether friction counts with its mean over a turn. */
     bool averages;
 
-    /* Prepare what only this motion needs of a law. Refuses where that is not defined; the law is then undefined. */
+    /* Prepare what only this motion needs of a law; NULL for nothing. Refuses where that is not defined; the law is then
+     * undefined. */
     bool (*prepare)(Law *law, Refusal *refusal);
 
     /* The first moment, at drive and normal phase 0, from the initial values of the device. */
@@ -45,10 +43,11 @@ typedef struct Motion {
 
     Rates (*rates)(const Law *law, const Moment *moment);
 
-    /* Estimate of the error of the slow velocity [m/s]; 0 for resolved motion. */
+    /* Estimate of the error of the slow velocity [m/s]. */
     double (*error)(const Law *law, const Moment *moment);
 
-    /* The part [s] of the time `left` for which one law holds, prepared for its middle, where inputs grow by `ramp`. */
+    /* The part [s] of the time `left` for which one law holds, prepared for its middle, where inputs grow by `ramp`; NULL for
+     * all of it. */
     double (*part)(const Device *device, const Ramp *ramp, double left);
 } Motion;
 

@@ -3,15 +3,9 @@
 
 #include "../base/elementary.h"
 #include "../base/refusal_texts.h"
-#include "../device/state.h"
+#include "../device/device.h"
 #include "../friction/law.h"
 #include "events.h"
-
-bool resolved_prepare(Law *law, Refusal *refusal) {
-    (void)law;
-    (void)refusal;
-    return true;
-}
 
 /* Velocity [m/s] at the start. A resonator that is not resolved vibrates steadily at once; the velocity is
  * chosen so that the momentum of the pair is that of the initial values. */
@@ -65,7 +59,7 @@ Rates resolved_rates(const Law *law, const Moment *moment) {
     double w = plant->drive_frequency, sine = sin(moment->theta), cosine = cos(moment->theta);
     State rates = {.displacement = moment->state.rate};
     int mode = law->friction->mode(law, moment);
-    if (mode != STICK || !law->friction->sticks) {
+    if (mode != STICK || is_elastic(&law->bristle)) {
         double force = plant->holding_drive.re * sine + plant->holding_drive.im * cosine -
                        plant->load - law->friction->force(law, moment, mode);
         force += plant->spring * moment->state.displacement + plant->damper * moment->state.rate;
@@ -83,25 +77,16 @@ Rates resolved_rates(const Law *law, const Moment *moment) {
     return (Rates){rates, 0.0};
 }
 
-static double no_error(const Law *law, const Moment *moment) {
+double resolved_error(const Law *law, const Moment *moment) {
     (void)law;
-    (void)moment;
-    return 0.0;
-}
-
-double whole_part(const Device *device, const Ramp *ramp, double left) {
-    (void)device;
-    (void)ramp;
-    return left;
+    return moment->leap_error;
 }
 
 const Motion RESOLVED_MOTION = {
-    .prepare = resolved_prepare,
     .start = resolved_start,
     .advance = advance,
     .mode = resolved_mode,
     .force = resolved_force,
     .rates = resolved_rates,
-    .error = no_error,
-    .part = whole_part,
+    .error = resolved_error,
 };

@@ -7,15 +7,12 @@
 
 extern const Motion RESOLVED_MOTION;
 
-/* Nothing beyond the law itself is needed. */
-bool resolved_prepare(Law *law, Refusal *refusal);
-
 Moment resolved_start(const Law *law);
 int resolved_mode(const Law *law, const Moment *moment);
 double resolved_force(const Law *law, const Moment *moment, int mode);
 Rates resolved_rates(const Law *law, const Moment *moment);
 
-/* The whole time: one law holds however long inputs grow. */
-double whole_part(const Device *device, const Ramp *ramp, double left);
+/* The error that leaps have left in the slow velocity. */
+double resolved_error(const Law *law, const Moment *moment);
 
 #endif
