@@ -20,11 +20,10 @@ enum { SORTING = 4 };
 #define ROUNDING 8.0
 
 /* Friction and load as functions of the angle Theta at which sliding turns forward; `noise` is the
- * rounding error of their sum [N]. Where friction `rises` with the angle there may be several balances. */
+ * rounding error of their sum [N]. Several angles may balance where friction rises with the angle. */
 typedef struct {
     const Law *law;
     double opposing, noise;
-    bool rises;
     FastMotion fast;
     VibratingLoad load;
 } Balance;
@@ -34,16 +33,15 @@ typedef struct {
     double turning, excess;
 } Point;
 
-static Balance balance_of(const Law *law, Complex force, double normal_lead) {
+static Balance balance_of(const Law *law, const FastVibration *fast, double normal_lead) {
     const Device *device = &law->device;
     Balance balance = {.law = law, .opposing = law->inputs.load};
     double ratio = law->inputs.frequency_ratio, faces = device->friction_faces;
-    double delta = law->inputs.phase + normal_lead + ratio * force_lag(force);
-    balance.fast = (FastMotion){fast_velocity(device, force), device->drive_frequency};
+    double delta = law->inputs.phase + normal_lead + ratio * fast->lag;
+    balance.fast = (FastMotion){fast->velocity, device->drive_frequency};
     balance.load = vibrating_load_of(device, ratio, delta);
     double mu = law->bristle.coefficient;
     double drag = law->bristle.damping * balance.fast.velocity;
-    balance.rises = drag > mu;
     balance.noise = ROUNDING * EPSILON * faces * (mu + drag) *
                     (device->normal_preload + device->normal_amplitude);
     return balance;
@@ -97,10 +95,10 @@ static double balanced_turning(const Balance *balance, Point low, Point high) {
 TheoryRange theory_range(const Law *law) {
     const Device *device = &law->device;
     TheoryRange range = {0.0, 0.0, 0.0};
-    Complex force;
+    FastVibration fast;
     Refusal refusal;
-    if (equivalent_force(device, &force, &refusal)) {
-        range.velocity = fast_velocity(device, force);
+    if (fast_vibration_prepare(&fast, device, &refusal)) {
+        range.velocity = fast.velocity;
     }
     double mu = law->bristle.coefficient;
     double fastest = fmax(range.velocity, fabs(device->initial_velocity));
@@ -112,24 +110,25 @@ TheoryRange theory_range(const Law *law) {
     return range;
 }
 
-/* Whether the vibration alone overcomes the mean `friction` [N] of sliding: the amplitude `force` [N] of
- * its force on the pair must, and so must that of its force on a held slider. */
-static bool breaks_loose(const Balance *balance, double force, double friction) {
+/* Whether the vibration alone overcomes the mean `friction` [N] of sliding: the amplitude of its force on the pair must, and
+ * so must that of its force on a held slider. */
+static bool breaks_loose(const Balance *balance, double friction) {
+    const Device *device = &balance->law->device;
     const Bristle *bristle = &balance->law->bristle;
     double w = balance->fast.frequency, amplitude = balance->fast.velocity / w;
+    double force = device_total_mass(device) * w * balance->fast.velocity;
     /* A vibration far shorter than mu / sigma_0 only bends the bristle. */
     double grip = fmin(bristle->coefficient, amplitude * hypot(bristle->stiffness, w * bristle->damping));
-    return fmin(force, held_amplitude(&balance->law->device))
-           > friction * (grip / bristle->coefficient);
+    return fmin(force, held_amplitude(device)) > friction * (grip / bristle->coefficient);
 }
 
 Averaged averaged(const Law *law, double normal_lead) {
-    Complex force;
+    FastVibration fast;
     Refusal refusal;
-    if (!equivalent_force(&law->device, &force, &refusal) || (force.re == 0.0 && force.im == 0.0)) {
+    if (!fast_vibration_prepare(&fast, &law->device, &refusal) || fast.velocity == 0.0) {
         return (Averaged){0.0, 0.0, false};
     }
-    Balance balance = balance_of(law, force, normal_lead);
+    Balance balance = balance_of(law, &fast, normal_lead);
     double first = friction_at(&balance, 0.0), last = friction_at(&balance, PI);
     double load = law->inputs.load;
     if (first == last) {
@@ -139,6 +138,6 @@ Averaged averaged(const Law *law, double normal_lead) {
     }
     Point low = {0.0, first + load - balance.noise}, high = {PI, last + load - balance.noise};
     double turning = balanced_turning(&balance, low, high);
-    bool valid = fabs(load) < first && breaks_loose(&balance, complex_abs(force), first);
+    bool valid = fabs(load) < first && breaks_loose(&balance, first);
     return (Averaged){balance.fast.velocity * cos(turning), -friction_at(&balance, 0.5 * PI), valid};
 }

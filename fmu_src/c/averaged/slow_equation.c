@@ -185,14 +185,14 @@ bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoi
                        step.error <= SETTLED * tolerance;
         if (!settles) {
             h = fmin(fmin(h, longest), left);
-            runge_kutta_step(&DORMAND_PRINCE, rate_at, &own, now, h, &step);
+            runge_kutta_step(rate_at, &own, now, h, &step);
         }
         if (!(step.error > tolerance)) {
             *now = step.to;
             now->t = settles || h == left ? next : now->t;
             gain = step.gain;
         }
-        h *= step_growth(&DORMAND_PRINCE, step.error, tolerance);
+        h *= step_growth(step.error, tolerance);
     }
     budget_spend(budget, tried, max_count);
     return true;

@@ -8,7 +8,8 @@
  * out, the resonator's first swing and the first bend of bristles. */
 #define FIRST_ORDER 2.0
 
-double slow_velocity(const Law *law, const State *state, double theta) {
+/* Slow velocity V [m/s] of a state at drive phase `theta` [rad]. */
+static double slow_velocity(const Law *law, const State *state, double theta) {
     double momentum = state->velocity + device_mass_fraction(&law->device) * state->rate;
     return momentum + law->fast.pair_velocity * cos(theta);
 }

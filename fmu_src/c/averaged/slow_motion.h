@@ -13,7 +13,4 @@
 
 extern const Motion AVERAGED_MOTION;
 
-/* Slow velocity V [m/s] of a state at drive phase `theta` [rad]. */
-double slow_velocity(const Law *law, const State *state, double theta);
-
 #endif

@@ -4,26 +4,21 @@
 
 #include "elementary.h"
 
-const RungeKutta BOGACKI_SHAMPINE = {
-    .order = 3,
-    .stages = 4,
-    .nodes = {0.0, 1.0 / 2, 3.0 / 4, 1.0},
-    .weights = {{0.0}, {1.0 / 2}, {0.0, 3.0 / 4}, {2.0 / 9, 1.0 / 3, 4.0 / 9}},
-    .error = {5.0 / 72, -1.0 / 12, -1.0 / 9, 1.0 / 8},
-};
+/* Dormand and Prince's pair; the last stage is the first of the next step. */
+enum { STAGES = 7 };
 
-const RungeKutta DORMAND_PRINCE = {
-    .order = 5,
-    .stages = 7,
-    .nodes = {0.0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1.0, 1.0},
-    .weights = {{0.0},
-                {1.0 / 5},
-                {3.0 / 40, 9.0 / 40},
-                {44.0 / 45, -56.0 / 15, 32.0 / 9},
-                {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-                {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
-                {35.0 / 384, 0.0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}},
-    .error = {71.0 / 57600, 0.0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40},
+static const double NODES[STAGES] = {0.0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1.0, 1.0};
+static const double WEIGHTS[STAGES][STAGES] = {
+    {0.0},
+    {1.0 / 5},
+    {3.0 / 40, 9.0 / 40},
+    {44.0 / 45, -56.0 / 15, 32.0 / 9},
+    {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+    {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
+    {35.0 / 384, 0.0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84},
+};
+static const double ERROR[STAGES] = {
+    71.0 / 57600, 0.0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40,
 };
 
 /* Bounds of the growth of a step, and the share of the best growth that is taken. */
@@ -34,29 +29,28 @@ const RungeKutta DORMAND_PRINCE = {
 /* Decay over a step below which a velocity is constant. */
 #define NO_DECAY 1e-6
 
-bool runge_kutta_step(const RungeKutta *pair, SlowRateFunction rate, void *motion,
-                      const SlowPoint *from, double h, SlowStep *step) {
-    SlowRate rates[MAX_STAGES] = {from->rate};
-    int stages = pair->stages;
-    double error = h * pair->error[0] * from->rate.acceleration, before = 0.0;
+bool runge_kutta_step(SlowRateFunction rate, void *motion, const SlowPoint *from, double h,
+                      SlowStep *step) {
+    SlowRate rates[STAGES] = {from->rate};
+    double error = h * ERROR[0] * from->rate.acceleration, before = 0.0;
     SlowPoint to = *from;
-    for (int i = 1; i < stages; i++) {
+    for (int i = 1; i < STAGES; i++) {
         double gained = 0.0, travel = 0.0;
         for (int j = 0; j < i; j++) {
-            gained += pair->weights[i][j] * rates[j].acceleration;
-            travel += pair->weights[i][j] * rates[j].travel;
+            gained += WEIGHTS[i][j] * rates[j].acceleration;
+            travel += WEIGHTS[i][j] * rates[j].travel;
         }
         before = to.velocity;
-        to.t = from->t + pair->nodes[i] * h;
+        to.t = from->t + NODES[i] * h;
         to.velocity = from->velocity + h * gained;
         to.travel = from->travel + h * travel;
         if (!rate(motion, to.t, to.velocity, &rates[i])) {
             return false;
         }
-        error += h * pair->error[i] * rates[i].acceleration;
+        error += h * ERROR[i] * rates[i].acceleration;
     }
-    to.rate = rates[stages - 1];
-    double risen = to.rate.acceleration - rates[stages - 2].acceleration;
+    to.rate = rates[STAGES - 1];
+    double risen = to.rate.acceleration - rates[STAGES - 2].acceleration;
     *step = (SlowStep){to, fabs(error), risen / (to.velocity - before)};
     return true;
 }
@@ -76,7 +70,7 @@ bool linear_step(SlowRateFunction rate, void *motion, const SlowPoint *from, dou
     return true;
 }
 
-double step_growth(const RungeKutta *pair, double error, double tolerance) {
-    double growth = error > 0.0 ? SAFETY * pow(tolerance / error, 1.0 / pair->order) : MAX_GROWTH;
+double step_growth(double error, double tolerance) {
+    double growth = error > 0.0 ? SAFETY * pow(tolerance / error, 1.0 / ORDER) : MAX_GROWTH;
     return fmin(MAX_GROWTH, fmax(MIN_GROWTH, growth));
 }

@@ -1,4 +1,4 @@
-/* Embedded Runge-Kutta pairs for one velocity and its travel, whose rates depend on time and velocity. */
+/* An embedded Runge-Kutta pair for one velocity and its travel, whose rates depend on time and velocity. */
 #ifndef SLIDER_RUNGE_KUTTA_H
 #define SLIDER_RUNGE_KUTTA_H
 
@@ -25,21 +25,13 @@ typedef struct {
     double error, gain;
 } SlowStep;
 
-/* Largest number of stages. */
-enum { MAX_STAGES = 7 };
+/* Order of the solution of Dormand and Prince's pair 5(4), whose error is that of the other one. */
+enum { ORDER = 5 };
 
-/* A pair of `order` and one below; the last of its `stages` is the first of the next step. */
-typedef struct {
-    int order, stages;
-    double nodes[MAX_STAGES], weights[MAX_STAGES][MAX_STAGES], error[MAX_STAGES];
-} RungeKutta;
-
-/* Bogacki and Shampine's pair 3(2), and Dormand and Prince's 5(4). */
-extern const RungeKutta BOGACKI_SHAMPINE, DORMAND_PRINCE;
-
-/* One step of `h` from a point. Return false where the rates are not defined at a stage; `step` is then undefined. */
-bool runge_kutta_step(const RungeKutta *pair, SlowRateFunction rate, void *motion,
-                      const SlowPoint *from, double h, SlowStep *step);
+/* One step of `h` from a point by that pair. Return false where the rates are not defined at a stage; `step` is then
+ * undefined. */
+bool runge_kutta_step(SlowRateFunction rate, void *motion, const SlowPoint *from, double h,
+                      SlowStep *step);
 
 /* One step of `h` near a steady velocity, under rates that do not depend on time: the acceleration is linear in the
  * velocity, with a derivative `gain`; a positive one, which is rounding, counts as 0. The error is what the acceleration at
@@ -48,6 +40,6 @@ bool linear_step(SlowRateFunction rate, void *motion, const SlowPoint *from, dou
                  double most, SlowStep *step);
 
 /* Factor by which the next step may be longer or shorter than one with this error. */
-double step_growth(const RungeKutta *pair, double error, double tolerance);
+double step_growth(double error, double tolerance);
 
 #endif

@@ -3,9 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "../averaged/friction_table.h"
 #include "../base/constants.h"
 #include "../base/refusal_texts.h"
 #include "../device/device.h"
+#include "../friction/bending_kernels.h"
 #include "../friction/law.h"
 #include "component_law.h"
 #include "outputs.h"

@@ -5,32 +5,26 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "../averaged/friction_table.h"
 #include "../base/memory.h"
 #include "../base/refusal.h"
-#include "../friction/bending_kernels.h"
 #include "../friction/law.h"
 #include "experiment.h"
 #include "outputs.h"
 #include "ramped_step.h"
 #include "snapshot.h"
 
-/* A slider-resonator. `now` is its complete state, the rest a cache of what follows from it: laws[present]
- * is the law of the present values if `prepared`, the other entry is for the law tried next; `ramped` is the last
- * step under inputs that vary.
- *
- * The tables take far more memory than the rest: each is NULL until a law needs it, comes from `memory`, and
- * stays. Laws point to them. */
+/* A slider-resonator: its complete state, and caches of what follows from it. Tables take far more memory than the rest:
+ * each is NULL until a law needs it, and stays. Laws point to them. */
 typedef struct {
-    Snapshot now;
-    bool prepared;
-    int present;
-    Law laws[2];
-    RampedStep ramped;
-    Memory memory;
-    FrictionTables *tables;
-    BendingTables *bending;
-    Theory theory;
+    Snapshot now;                  /* the complete state */
+    bool prepared;                 /* whether a law of the present values is prepared */
+    int present;                   /* index of that law; the other one is for the law tried next */
+    Law laws[2];                   /* the law of the present values, and room for another */
+    RampedStep ramped;             /* the last step under inputs that vary */
+    Memory memory;                 /* of the host, where tables come from */
+    struct FrictionTables *tables; /* means of friction of bristles, in averaged motion */
+    struct BendingTables *bending; /* panels of bending bristles, in resolved motion */
+    Theory theory;                 /* the last prediction */
 } Component;
 
 #include "component_functions.h"

@@ -17,16 +17,6 @@ typedef struct {
     Complex resonator;
 } FastVibration;
 
-/* Lag theta_1 [rad] of the equivalent `force`; adding 0 makes -0 a 0, which atan2 distinguishes. */
-static inline double force_lag(Complex force) {
-    return -elementary_atan2(force.im + 0.0, force.re);
-}
-
-/* Velocity amplitude v_q [m/s] that the equivalent `force` [N] gives to the pair. */
-static inline double fast_velocity(const Device *device, Complex force) {
-    return complex_abs(force) / (device_total_mass(device) * device->drive_frequency);
-}
-
 /* Refuses where undamped resonance leaves no steady vibration. */
 bool fast_vibration_prepare(FastVibration *fast, const Device *device, Refusal *refusal);
 

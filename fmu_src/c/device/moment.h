@@ -13,7 +13,8 @@
 #define MAX_DRIFT 0.1
 
 /* Drive phase [rad] at which the slider last stopped after sliding in one direction, and its difference
- * from the stop before: the next stop is mostly near that phase one turn later. Before the first stop both are 0, an arbitrary guess. */
+ * from the stop before: the next stop is mostly near that phase one turn later. Before the first stop both are
+ * 0, an arbitrary guess. */
 typedef struct {
     double theta, drift;
 } Stop;

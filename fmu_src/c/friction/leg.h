@@ -16,27 +16,24 @@
  * bending bristles by a panel, and on after it. */
 typedef enum { RESTS, SLIDES, FOLLOWS_SERIES, BENDS_AND_SLIDES } LegKind;
 
-/* Begun by a friction law: the contact `mode`, and the `direction` of sliding, in which the velocity
- * is watched (0 for none) from `watched_from` [s] on.
- *
- * Once followed, it ends after `t` [s] and `travelled` [m]; `zero_of` is the index of the watched signal
- * whose zero ends it, or -1. `turns`: the slider moves, beyond rounding, in another direction than it slid
- * before. Two entries are set before it begins: `departs`, whether it starts from rest and not at a
- * reversal, and the phasors if they are `known`; at its end these are those of the end. */
-typedef struct {
-    LegKind kind;
-    int mode, direction;
-    double watched_from;
+/* Begun by a friction law, then followed, up to the first zero of what it watches. */
+typedef struct Leg {
+    LegKind kind;        /* what the motion is */
+    int mode;            /* contact mode */
+    int direction;       /* of sliding, in which the velocity is watched; 0 for none */
+    double watched_from; /* from when on it is watched [s] */
     union {
         Stick stick;
         SplitSlide slide;
         TaylorSlide series;
         BendingPanel panel;
     } motion;
-    double t, travelled;
-    int zero_of;
-    bool turns, departs;
-    KnownPhasors known;
+    double t;            /* duration [s] once followed */
+    double travelled;    /* displacement of the slider [m] once finished */
+    int zero_of;         /* index of the watched signal whose zero ends it, or -1 */
+    bool turns;          /* whether the slider moves, beyond rounding, in another direction than it slid before */
+    bool departs;        /* set before: whether it starts from rest and not at a reversal */
+    KnownPhasors known;  /* set before: the phasors of the start, if they are known; once finished, of the end */
 } Leg;
 
 /* Computes the phasors at `now`, where the leg begins, unless they are known. */

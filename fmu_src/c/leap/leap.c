@@ -11,10 +11,9 @@
 /* Fewest periods of a step: its evaluations would map more. */
 #define SHORTEST_STEP 16.0
 
-/* First step of the solver's pairs of order 5 and 3, over the time in which rates change, where all that the slow velocity
- * still changes by is the tolerance: what they accept in most devices. */
-#define FIRST_STEP_5 3.3
-#define FIRST_STEP_3 4.5
+/* First step of the solver, over the time in which rates change, where all that the slow velocity still changes by is the
+ * tolerance: what it accepts in most devices. */
+#define FIRST_STEP 3.3
 
 /* Estimated error of a step that is accepted, in tolerances; by how much that estimate, of the embedded method of order 4,
  * exceeds the error. */
@@ -134,15 +133,15 @@ static double in_beat(const SlowMotion *motion, double n) {
     return motion->varies ? MAX_STEP_DRIFT / fabs(drift_after(motion->manifold.map, n)) : INFINITY;
 }
 
-/* The step that a pair of an order is expected to accept, in periods. */
-static double first_step(const SlowMotion *motion, double share, int order) {
+/* The step that the solver is expected to accept, in periods. */
+static double first_step(const SlowMotion *motion) {
     const PeriodMap *map = motion->manifold.map;
     double acceleration = fabs(motion->here.rates.acceleration), time = time_of_change(motion);
     if (acceleration == 0.0 || isinf(time)) {
         return INFINITY;
     }
     double change = acceleration * time / map->speed;
-    return share * time * pow(map->tolerance / change, 1.0 / order);
+    return FIRST_STEP * time * pow(map->tolerance / change, 1.0 / ORDER);
 }
 
 /* Largest transient of the fast states that may be left out, over their scales: its effect on the slow velocity, for as long
@@ -160,7 +159,7 @@ static bool prepare(SlowMotion *motion, double longest, double *h) {
     Visited *here = &motion->here;
     double time = time_of_change(motion), allowed = map->tolerance * map->speed;
     bool placed = here->rates.offset <= FAST_SHARE * map->tolerance;
-    *h = fmin(first_step(motion, FIRST_STEP_5, DORMAND_PRINCE.order), in_beat(motion, 0.0));
+    *h = fmin(first_step(motion), in_beat(motion, 0.0));
     manifold->max_sequences = MAX_SEQUENCES;
     manifold->allowed = FAST_SHARE * map->tolerance;
     motion->other = *here;
@@ -177,11 +176,6 @@ static bool prepare(SlowMotion *motion, double longest, double *h) {
         placed = false;
     }
     return false;
-}
-
-/* Whether a step is so short that fewer evaluations do for its accuracy. */
-static bool is_short(const SlowMotion *motion, double h) {
-    return h <= first_step(motion, FIRST_STEP_3, BOGACKI_SHAMPINE.order);
 }
 
 /* Periods that the next step passes, of `h` that are wanted: a whole number. */
@@ -223,10 +217,9 @@ static SlowPoint integrate(SlowMotion *motion, double longest, double h, double 
         SlowStep step = {.error = INFINITY};
         Visited before = *here;
         double rest = longest - now.t;
-        const RungeKutta *pair = is_short(motion, h) ? &BOGACKI_SHAMPINE : &DORMAND_PRINCE;
         bool is_linear = settles(motion, &now, rest, &step);
         if (is_linear ||
-            (runge_kutta_step(pair, rate_at, motion, &now, h, &step) && step.error <= allowed)) {
+            (runge_kutta_step(rate_at, motion, &now, h, &step) && step.error <= allowed)) {
             double of_step = is_linear ? step.error : step.error / OVERESTIMATE;
             h = step.to.t - now.t;
             *error = error_behind(motion, &step, of_step, h, *error);
@@ -234,7 +227,7 @@ static SlowPoint integrate(SlowMotion *motion, double longest, double h, double 
             *here = motion->other;
         }
         motion->other = before;
-        h *= isfinite(step.error) ? step_growth(pair, step.error, allowed) : ON_KINK;
+        h *= isfinite(step.error) ? step_growth(step.error, allowed) : ON_KINK;
     }
     return now;
 }

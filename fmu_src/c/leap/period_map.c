@@ -143,9 +143,9 @@ bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, 
     Refusal refusal;
     Moment before = *moment;
     Law later = law_after(&map->law, begin * map->period);
-    Visitor visitor = {map, visits};
-    Trace trace = {.first = map->period, .every = map->period, .count = count, .see = see, .observer = &visitor, .mode = NO_MODE};
-    visitor.visits = visits + 1;
+    Visitor visitor = {map, visits + 1};
+    Trace trace = {.first = map->period, .every = map->period, .count = count, .see = see,
+                   .observer = &visitor, .mode = NO_MODE};
     visits[0] = visit_of(map, moment);
     if (!events_trace(&later, &before, count * map->period, &trace, budget, moment, &refusal)) {
         return false;

@@ -1,8 +1,8 @@
 /* The period map: resolved motion of the full device, seen once in each period of the normal load.
  *
  * It is seen at a section: the phase of the drive at which the vibration is fastest forward, where no reversal comes unless
- * sliding is about to end reversing at all. There the slow state is V = W and the position X, with W = X' + r Y' + D / (Mt w) cos(theta) and
- * exactly Mt W' = -F - load. The fast state is the resonator's Y and Y' and, with LuGre friction, the bristle. From
+ * sliding is about to end reversing at all. There the slow state is V = W and the position X, with W = X' + r Y' + D /
+ * (Mt w) cos(theta) and exactly Mt W' = -F - load. The fast state is the resonator's Y and Y' and, with LuGre friction, the bristle. From
  * period to period both change slowly and smoothly (stroboscopic averaging: Calvo, Chartier, Murua, Sanz-Serna 2011). */
 #ifndef SLIDER_PERIOD_MAP_H
 #define SLIDER_PERIOD_MAP_H
@@ -64,8 +64,8 @@ void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_F
                   Moment *moment);
 
 /* Advance a moment at the section, `begin` periods after the inputs of the law began to grow, by `count` periods.
- * `visits` are the count + 1 visits of the section, from the first on, `itinerary` the hash of the contact modes. Return false if the motion is refused or leaves
- * the range of floating point. */
+ * `visits` are the count + 1 visits of the section, from the first on, `itinerary` the hash of the contact modes. Return
+ * false if the motion is refused or leaves the range of floating point. */
 bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, Budget *budget,
                  Visit *visits, uint64_t *itinerary);
 

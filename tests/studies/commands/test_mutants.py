@@ -66,15 +66,17 @@ def test_native_changes_are_listed(native_fmu: Path) -> None:
 @pytest.mark.slow
 def test_a_native_run_counts_what_is_rejected(native_fmu: Path) -> None:
     scenes = ("--scene", "averaged_long_steps", "--scene", "averaged_weak_drive")
-    only = ("--native", "--file", "settling.c", *scenes, "--jobs", "1")
+    only = ("--native", "--file", "runge_kutta.c", *scenes, "--jobs", "1")
     result = call("mutants", native_fmu, *only, "--json")
     assert_public_keys("mutants --native", result.output)
     written = json.loads(result.output)
     assert {c["name"]: c["rejected"] for c in written["changes"]} == {
-        "settled_wide_for_weak_drive": True,
-        "later_settling": False,
+        "runge_kutta_without_error": True,
+        "linear_step_without_decay": False,
+        "linear_travel_of_end": False,
+        "shorter_steps": False,
     }
-    assert written["rate"] == 1.0
+    assert written["rate"] == pytest.approx(1 / 3), "the linear step shows in scenes of leaps alone"
     assert written["false_alarms"] == 0
     assert result.exit_code == 0
 
