@@ -6,7 +6,6 @@
 #include "../base/elementary.h"
 #include "../base/refusal.h"
 #include "../device/device.h"
-#include "../device/fast_vibration.h"
 #include "../device/plant.h"
 #include "mean_friction.h"
 

@@ -1,5 +1,7 @@
 #include "friction_table.h"
 
+#include <string.h>
+
 #include "../base/elementary.h"
 #include "../base/number.h"
 
@@ -13,10 +15,10 @@ enum { MAX_HALVINGS = 24 };
 /* Fills panels from `low` to `high` [rad], which were made by `halvings` of the whole. */
 static void fill(FrictionTable *table, const GaussIntegrals *gauss, double low, double high,
                  int halvings) {
-    double values[MEANS][GAUSS_NODES], size = table->bristle.coefficient, error = 0.0;
+    double values[MEANS][GAUSS_NODES], size = table->key.bristle.coefficient, error = 0.0;
     for (int j = 0; j < GAUSS_NODES; j++) {
         double means[MEANS], turning = 0.5 * (low + high + (high - low) * GAUSS_NODE[j]);
-        friction_means(&table->bristle, &table->fast, table->n, turning, means);
+        friction_means(&table->key.bristle, &table->key.fast, table->key.n, turning, means);
         for (int i = 0; i < MEANS; i++) {
             values[i][j] = means[i];
             size = fmax(size, fabs(means[i]));
@@ -39,27 +41,17 @@ static void fill(FrictionTable *table, const GaussIntegrals *gauss, double low, 
     table->ends[++table->panels] = high;
 }
 
-static bool holds(const FrictionTable *table, const Bristle *bristle, const FastMotion *fast,
-                  double n) {
-    return table->panels > 0 && table->n == n &&
-           table->bristle.coefficient == bristle->coefficient &&
-           table->bristle.stiffness == bristle->stiffness &&
-           table->bristle.damping == bristle->damping &&
-           table->fast.velocity == fast->velocity && table->fast.frequency == fast->frequency;
-}
-
 const FrictionTable *friction_table_of(FrictionTables *tables, const Bristle *bristle,
                                        const FastMotion *fast, double n) {
+    MeansKey key = {*bristle, *fast, n};
     for (int i = 0; i < TABLES; i++) {
-        if (holds(&tables->tables[i], bristle, fast, n)) {
+        if (memcmp(&tables->tables[i].key, &key, sizeof key) == 0) {
             return &tables->tables[i];
         }
     }
     FrictionTable *table = &tables->tables[tables->next];
     tables->next = (tables->next + 1) % TABLES;
-    table->bristle = *bristle;
-    table->fast = *fast;
-    table->n = n;
+    table->key = key;
     table->panels = 0;
     gauss_integrals_prepare(&tables->gauss);
     fill(table, &tables->gauss, 0.0, 0.5 * PI, 0);
@@ -75,7 +67,7 @@ void tabulated_means(const FrictionTable *table, double turning, double means[ME
     }
     double low = table->ends[k], high = table->ends[k + 1], polynomials[GAUSS_NODES + 1];
     legendre((2.0 * angle - low - high) / (high - low), polynomials);
-    double mirrored = fmod(table->n, 2.0) == 0.0 ? -1.0 : 1.0;
+    double mirrored = fmod(table->key.n, 2.0) == 0.0 ? -1.0 : 1.0;
     for (int i = 0; i < MEANS; i++) {
         double sum = 0.0;
         for (int j = 0; j < GAUSS_NODES; j++) {

@@ -15,12 +15,17 @@ enum { MAX_PANELS = 32, TABLES = 4 };
 /* Waves of the normal load over a turn up to which a table takes less time than it saves. */
 #define MAX_WAVES_TABULATED 8.0
 
-/* The means for a bristle, a fast motion and `n` waves of the normal load: Legendre coefficients on panels, which lie
- * between `ends` [k] and [k + 1] and rise from 0 to pi / 2 [rad]. */
+/* What means depend on: the bristle, the fast motion, and `n` waves of the normal load. */
 typedef struct {
     Bristle bristle;
     FastMotion fast;
     double n;
+} MeansKey;
+
+/* The means for a key: Legendre coefficients on panels, which lie
+ * between `ends` [k] and [k + 1] and rise from 0 to pi / 2 [rad]. */
+typedef struct {
+    MeansKey key;
     int panels;
     double ends[MAX_PANELS + 1];
     double panel[MAX_PANELS][MEANS][GAUSS_NODES];

@@ -4,7 +4,7 @@
 
 #include "../base/elementary.h"
 #include "../device/device.h"
-#include "../device/fast_vibration.h"
+#include "../device/plant.h"
 #include "../leap/prediction.h"
 #include "../resolved/motion.h"
 #include "variables.h"

@@ -83,12 +83,9 @@ static double field_number(const Snapshot *snapshot, const Field *field) {
         return *(const bool *)place;
     case LIFECYCLE:
         return *(const Lifecycle *)place;
-    case FINITE:
-    case FINITE_OR_INFINITE:
-    case PHASE:
-        break;
+    default:
+        return *(const double *)place;
     }
-    return *(const double *)place;
 }
 
 static void set_field(Snapshot *snapshot, const Field *field, double number) {
@@ -103,11 +100,8 @@ static void set_field(Snapshot *snapshot, const Field *field, double number) {
     case LIFECYCLE:
         *(Lifecycle *)place = (Lifecycle)(int)number;
         break;
-    case FINITE:
-    case FINITE_OR_INFINITE:
-    case PHASE:
+    default:
         *(double *)place = number;
-        break;
     }
 }
 

@@ -15,6 +15,7 @@
 #include <stdbool.h>
 
 #include "../base/complex_number.h"
+#include "../base/elementary_functions.h"
 #include "../base/refusal.h"
 #include "device.h"
 #include "oscillator.h"
@@ -77,6 +78,25 @@ double held_amplitude(const Device *device);
 
 /* F_T* exp(-i theta_1) of eqs (33)-(34) with the direct drive added [N]. Refuses as above. */
 bool equivalent_force(const Device *device, Complex *force, Refusal *refusal);
+
+/* The steady vibration of slider and resonator without friction (32)-(34). */
+typedef struct {
+    double velocity;      /* amplitude of the slider's velocity, v_q [m/s] */
+    double pair_velocity; /* amplitude of the velocity that the drive force gives to the pair [m/s] */
+    double lag;           /* theta_1 [rad] */
+    Complex resonator;    /* displacement of the resonator, complex amplitude of e [m] */
+} FastVibration;
+
+/* Refuses where undamped resonance leaves no steady vibration. */
+bool fast_vibration_prepare(FastVibration *fast, const Device *device, Refusal *refusal);
+
+/* Displacement [m] and velocity [m/s] of `amplitude` e at drive phase `theta` [rad]. */
+static inline Response steady_swing(Complex amplitude, double theta, double frequency) {
+    SineCosine turn = elementary_sine_cosine(theta);
+    double sine = turn.sine, cosine = turn.cosine;
+    return (Response){amplitude.re * sine + amplitude.im * cosine,
+                      frequency * (amplitude.re * cosine - amplitude.im * sine)};
+}
 
 /* Coefficients of the motion of `device` while `inputs` are held. Refuses at fidelity 0 and 1 where
  * the steady force of the resonator is unbounded. */

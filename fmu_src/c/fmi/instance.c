@@ -12,29 +12,22 @@ static bool gives_memory(const Host *host) {
     return host->allocate != NULL && host->release != NULL;
 }
 
-void *host_allocate(const Host *host, size_t size) {
-    void *memory = gives_memory(host) ? host->allocate(1, size) : calloc(1, size);
+void *host_allocate(const void *host, size_t size) {
+    const Host *own = host;
+    void *memory = gives_memory(own) ? own->allocate(1, size) : calloc(1, size);
     return memory != NULL ? memset(memory, 0, size) : NULL;
 }
 
-void host_free(const Host *host, void *memory) {
+void host_free(const void *host, void *memory) {
+    const Host *own = host;
     if (memory == NULL) {
         return;
     }
-    if (gives_memory(host)) {
-        host->release(memory);
+    if (gives_memory(own)) {
+        own->release(memory);
     } else {
         free(memory);
     }
-}
-
-/* The same for the component, which does not know what a host is. */
-static void *allocate_for(const void *host, size_t size) {
-    return host_allocate(host, size);
-}
-
-static void release_for(const void *host, void *memory) {
-    host_free(host, memory);
 }
 
 static void send_message(const Host *host, const char *name, Status status, const char *text) {
@@ -86,8 +79,7 @@ Instance *instance_create(const Host *host, const char *call, const char *name, 
     enable_all(instance, debugging);
     /* The log is the only place that says why a call failed. */
     instance->enabled[STATUS_ERROR] = instance->enabled[STATUS_FATAL] = true;
-    component_begin(&instance->component,
-                    &(Memory){allocate_for, release_for, &instance->host});
+    component_begin(&instance->component, &(Memory){host_allocate, host_free, &instance->host});
     component_reset(&instance->component);
     return instance;
 }

@@ -41,11 +41,11 @@ typedef struct {
     char name[]; /* ends with 0 */
 } Instance;
 
-/* Zeroed memory from the host's functions, or from calloc if it has none; NULL if out of memory. */
-void *host_allocate(const Host *host, size_t size);
+/* Zeroed memory from the functions of a Host, or from calloc if it has none; NULL if out of memory. */
+void *host_allocate(const void *host, size_t size);
 
 /* Give it back; NULL is ignored. */
-void host_free(const Host *host, void *memory);
+void host_free(const void *host, void *memory);
 
 /* Send the refusal of an instance to the host, even with logging off: the host has no other source
  * for the reason. Return NULL. */

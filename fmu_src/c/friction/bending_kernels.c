@@ -1,5 +1,7 @@
 #include "bending_kernels.h"
 
+#include <string.h>
+
 #include "../base/elementary.h"
 
 static void put(ComplexRow *row, int i, Complex z) {
@@ -86,30 +88,6 @@ static void prepare(BendingKernels *kernels, const GaussIntegrals *gauss, const 
     kernels->end_free = turned[END];
 }
 
-/* Whether the tables are those of this plant, at any normal frequency. */
-static bool fit(const BendingTables *tables, const Plant *plant) {
-    Complex eigenvalue = plant->slip.eigenvalue;
-    return tables->slider_mass == plant->slider_mass &&
-           tables->total_mass == plant->total_mass &&
-           tables->mass_fraction == plant->mass_fraction &&
-           tables->drive_frequency == plant->drive_frequency &&
-           tables->eigenvalue.re == eigenvalue.re && tables->eigenvalue.im == eigenvalue.im;
-}
-
-static void begin_anew(BendingTables *tables, const Plant *plant) {
-    tables->slider_mass = plant->slider_mass;
-    tables->total_mass = plant->total_mass;
-    tables->mass_fraction = plant->mass_fraction;
-    tables->drive_frequency = plant->drive_frequency;
-    tables->normal_frequency = plant->normal_frequency;
-    tables->eigenvalue = plant->slip.eigenvalue;
-    tables->kept_count = tables->oldest = 0;
-    if (!tables->has_gauss) {
-        gauss_integrals_prepare(&tables->gauss);
-        tables->has_gauss = true;
-    }
-}
-
 /* 2^((k + 1) / LENGTHS_PER_OCTAVE) / 2. */
 static const double OCTAVE[LENGTHS_PER_OCTAVE] = {
     0.5452538663326288, 0.5946035575013605, 0.6484197773255048, 0.7071067811865476,
@@ -117,8 +95,12 @@ static const double OCTAVE[LENGTHS_PER_OCTAVE] = {
 };
 
 BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, double length) {
-    if (!fit(tables, plant)) {
-        begin_anew(tables, plant);
+    PlantKey key_of_plant = {plant->slider_mass, plant->total_mass, plant->mass_fraction,
+                             plant->drive_frequency, plant->slip.eigenvalue};
+    if (memcmp(&tables->plant, &key_of_plant, sizeof key_of_plant) != 0) {
+        tables->plant = key_of_plant;
+        tables->kept_count = tables->oldest = 0;
+        gauss_integrals_prepare(&tables->gauss);
     }
     if (tables->normal_frequency != plant->normal_frequency) {
         tables->normal_frequency = plant->normal_frequency;

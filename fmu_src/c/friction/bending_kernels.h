@@ -50,14 +50,19 @@ typedef struct {
 /* Panel lengths per octave, and number of tables kept. */
 enum { LENGTHS_PER_OCTAVE = 8, KEPT_KERNELS = 12 };
 
+/* What kernels depend on, but for the normal frequency. */
+typedef struct {
+    double slider_mass, total_mass, mass_fraction, drive_frequency;
+    Complex eigenvalue;
+} PlantKey;
+
 /* A cache of kernels, which must not move in memory; zeroed memory is an empty cache. A change of the plant
  * empties it; a change of the normal frequency drops only what depends on that. `key` is the place of each length
  * kept in the grid; of `kept_count` kernels `oldest` is the one to be replaced next. */
 typedef struct BendingTables {
-    bool has_gauss;
     GaussIntegrals gauss;
-    double slider_mass, total_mass, mass_fraction, drive_frequency, normal_frequency;
-    Complex eigenvalue;
+    PlantKey plant;
+    double normal_frequency;
     int key[KEPT_KERNELS], kept_count, oldest;
     BendingKernels kept[KEPT_KERNELS];
 } BendingTables;

@@ -8,7 +8,7 @@
 
 #include "../base/refusal.h"
 #include "../device/device.h"
-#include "../device/fast_vibration.h"
+#include "../device/plant.h"
 #include "../device/held.h"
 #include "../device/moment.h"
 #include "bristle.h"

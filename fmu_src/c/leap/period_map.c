@@ -118,11 +118,9 @@ void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_F
 }
 
 static Visit visit_of(const PeriodMap *map, const Moment *moment) {
-    return (Visit){momentum_velocity(map, moment),
-                   moment->position,
-                   {moment->state.displacement, moment->state.rate, moment->bristle},
-                   moment->counts.reversals,
-                   moment->counts.sticks};
+    return (Visit){{momentum_velocity(map, moment), moment->position, moment->counts.reversals,
+                    moment->counts.sticks, moment->state.displacement, moment->state.rate,
+                    moment->bristle}};
 }
 
 /* Where the visits of a sequence are kept. */
@@ -152,8 +150,11 @@ bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, 
     }
     moment->theta = map->section;
     *itinerary = trace.itinerary;
-    const Visit *last = &visits[count];
-    return isfinite(last->velocity + last->position + last->fast[0] + last->fast[1] + last->fast[2]);
+    double sum = 0.0;
+    for (int k = 0; k < VISITED; k++) {
+        sum += visits[count].at[k];
+    }
+    return isfinite(sum);
 }
 
 void apply_resolvent(const PeriodMap *map, int times, double fast[MAX_FAST]) {

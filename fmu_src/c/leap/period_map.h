@@ -11,19 +11,18 @@
 #include <stdint.h>
 
 #include "../device/budget.h"
-#include "../device/fast_vibration.h"
+#include "../device/plant.h"
 #include "../device/moment.h"
 #include "../friction/law.h"
 
 /* Largest number of fast states: Y [m], Y' [m/s], and the bristle's friction per unit load. */
 enum { MAX_FAST = 3 };
 
-/* The motion at a section. */
+/* The motion at a section, as numbers: slow velocity V [m/s], position X [m], counts so far, and the fast states. */
+enum { SLOW_VELOCITY, SLOW_POSITION, REVERSALS, STICKS, FAST_STATES, VISITED = FAST_STATES + MAX_FAST };
+
 typedef struct {
-    double velocity;          /* slow velocity V [m/s] */
-    double position;          /* X [m] */
-    double fast[MAX_FAST];    /* fast states */
-    double reversals, sticks; /* counts so far */
+    double at[VISITED];
 } Visit;
 
 /* The period map under the inputs of `law`, which may grow. An error by `scale` in a fast state is as large as the

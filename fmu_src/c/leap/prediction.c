@@ -73,11 +73,12 @@ static bool change_in_period(Search *search, const double unknowns[UNKNOWNS],
     if (!map_periods(map, 0.0, 1, &moment, &budget, visits, &itinerary)) {
         return false;
     }
-    change[VELOCITY] = (visits[1].velocity - visits[0].velocity) / map->speed;
+    change[VELOCITY] = (visits[1].at[SLOW_VELOCITY] - visits[0].at[SLOW_VELOCITY]) / map->speed;
     for (int i = 0; i < fast_count; i++) {
-        change[FIRST_FAST + i] = (visits[1].fast[i] - visits[0].fast[i]) / map->scale[i];
+        int k = FAST_STATES + i;
+        change[FIRST_FAST + i] = (visits[1].at[k] - visits[0].at[k]) / map->scale[i];
     }
-    *travel = visits[1].position - visits[0].position;
+    *travel = visits[1].at[SLOW_POSITION] - visits[0].at[SLOW_POSITION];
     if (search->blocked) {
         change[FIRST_FAST + fast_count] = *travel / (map->speed * map->period);
     }

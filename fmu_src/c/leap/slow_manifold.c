@@ -1,7 +1,6 @@
 #include "slow_manifold.h"
 
 #include <math.h>
-#include <stddef.h>
 
 #include "../device/device.h"
 
@@ -11,57 +10,51 @@
 /* Largest factor by which corrections shrink. */
 #define SHRINKS 0.5
 
-/* Differences of order 0 to `order` of a number of order + 1 visits, at `offset` in these. */
-static void differences_of(const Visit *visits, size_t offset, int order, double *differences) {
-    for (int j = 0; j <= order; j++) {
-        differences[j] = *(const double *)((const char *)&visits[j] + offset);
-    }
+/* Replace the order + 1 visits of a sequence by their differences, of order 0 to `order`. */
+static void take_differences(Visit *visits, int order) {
     for (int j = 1; j <= order; j++) {
         for (int i = order; i >= j; i--) {
-            differences[i] -= differences[i - 1];
+            for (int k = 0; k < VISITED; k++) {
+                visits[i].at[k] -= visits[i - 1].at[k];
+            }
         }
     }
 }
 
-/* Where a fast state is in a visit. */
-static size_t offset_of_fast(int i) {
-    return offsetof(Visit, fast) + (size_t)i * sizeof(double);
-}
-
-/* Rate per period of a smooth sequence, from its differences: the logarithm of the shift operator. */
-static double rate_of(const double *differences, int order) {
+/* Rate per period of number `k` of a smooth sequence: the logarithm of the shift operator. */
+static double rate_of(const Visit *differences, int order, int k) {
     double rate = 0.0;
     for (int j = order; j >= 1; j--) {
-        rate += (j % 2 == 1 ? differences[j] : -differences[j]) / j;
+        rate += (j % 2 == 1 ? differences[j].at[k] : -differences[j].at[k]) / j;
     }
     return rate;
 }
 
-/* The factor by which differences of an order shrink to the next: the larger of the last two, as either may happen to be next
- * to zero, but not more than the slow motion and the drift allow. */
-static double ratio_of(const PeriodMap *map, const double *differences, int order) {
-    double last = fabs(differences[order] / differences[order - 1]);
-    double before = fabs(differences[order - 1] / differences[order - 2]);
-    return fmin(MAX_RATE * map->share + fabs(map->drift), fmax(last, before));
+/* The factor by which differences of an order shrink to the next: the larger of the last two of the velocity, as either may
+ * happen to be next to zero, but not more than the slow motion and the drift allow. */
+static double ratio_of(const PeriodMap *map, const Visit *differences, int order) {
+    double before = differences[order - 2].at[SLOW_VELOCITY];
+    double middle = differences[order - 1].at[SLOW_VELOCITY];
+    double larger = fmax(fabs(differences[order].at[SLOW_VELOCITY] / middle), fabs(middle / before));
+    return fmin(MAX_RATE * map->share + fabs(map->drift), larger);
 }
 
-/* Size of the next difference after that of an order, if differences shrink by a `ratio`. */
-static double next_difference(const double *differences, int order, double ratio) {
-    return ratio * fmax(fabs(differences[order]), ratio * fabs(differences[order - 1]));
+/* Size of the next difference of number `k` after that of an order, if differences shrink by a `ratio`. */
+static double next_difference(const Visit *differences, int order, double ratio, int k) {
+    double last = fabs(differences[order].at[k]), before = fabs(differences[order - 1].at[k]);
+    return ratio * fmax(last, ratio * before);
 }
 
 /* The correction of the fast states: their differences of the manifold's order must vanish. `missing` is the size of what
  * those differences are on the manifold, estimated from lower orders, as a change of the fast states. */
-static void correction_of(const Manifold *manifold, const Visit *visits, double ratio,
+static void correction_of(const Manifold *manifold, const Visit *differences, double ratio,
                           double correction[MAX_FAST], double *missing) {
     const PeriodMap *map = manifold->map;
     int order = manifold->order;
     double beyond[MAX_FAST];
     for (int i = 0; i < MAX_FAST; i++) {
-        double differences[MAX_ORDER + 1];
-        differences_of(visits, offset_of_fast(i), order, differences);
-        correction[i] = -differences[order];
-        beyond[i] = next_difference(differences, order - 1, ratio);
+        correction[i] = -differences[order].at[FAST_STATES + i];
+        beyond[i] = next_difference(differences, order - 1, ratio, FAST_STATES + i);
     }
     apply_resolvent(map, order, correction);
     apply_resolvent(map, order, beyond);
@@ -76,24 +69,18 @@ static double mean_velocity_of(const PeriodMap *map, double size) {
 }
 
 /* The rates of a sequence of visits. */
-static SlowRates rates_of(const Manifold *manifold, const Visit *visits, double ratio,
+static SlowRates rates_of(const Manifold *manifold, const Visit *differences, double ratio,
                           const double step[MAX_FAST]) {
     int order = manifold->order;
-    double velocities[MAX_ORDER + 1], positions[MAX_ORDER + 1];
-    differences_of(visits, offsetof(Visit, velocity), order, velocities);
-    differences_of(visits, offsetof(Visit, position), order, positions);
-    SlowRates rates = {.acceleration = rate_of(velocities, order),
-                       .travel = rate_of(positions, order),
-                       .jerk = velocities[2] - velocities[3]};
+    double second = differences[2].at[SLOW_VELOCITY], third = differences[3].at[SLOW_VELOCITY];
+    SlowRates rates = {.acceleration = rate_of(differences, order, SLOW_VELOCITY),
+                       .travel = rate_of(differences, order, SLOW_POSITION),
+                       .jerk = second - third};
     for (int i = 0; i < MAX_FAST; i++) {
-        double differences[MAX_ORDER + 1];
-        differences_of(visits, offset_of_fast(i), order, differences);
-        rates.fast_rate[i] = rate_of(differences, order);
-        rates.fast[i] = visits[0].fast[i] + step[i];
+        rates.fast_rate[i] = rate_of(differences, order, FAST_STATES + i);
+        rates.fast[i] = differences[0].at[FAST_STATES + i] + step[i];
     }
-    rates.reversals = visits[order].reversals - visits[order - 1].reversals;
-    rates.sticks = visits[order].sticks - visits[order - 1].sticks;
-    rates.error = next_difference(velocities, order, ratio) / (order + 1);
+    rates.error = next_difference(differences, order, ratio, SLOW_VELOCITY) / (order + 1);
     return rates;
 }
 
@@ -132,14 +119,18 @@ bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
             rates->offset = INFINITY;
             return false;
         }
-        double velocities[MAX_ORDER + 1];
-        differences_of(visits, offsetof(Visit, velocity), manifold->order, velocities);
-        double ratio = ratio_of(map, velocities, manifold->order);
+        Visit *last = &visits[manifold->order];
+        double reversals = last->at[REVERSALS] - last[-1].at[REVERSALS];
+        double sticks = last->at[STICKS] - last[-1].at[STICKS];
+        take_differences(visits, manifold->order);
+        double ratio = ratio_of(map, visits, manifold->order);
         correction_of(manifold, visits, ratio, step, &missing);
         double size = fast_size(map, step);
         offset = i == 0 ? size : offset;
         if (size <= manifold->allowed) {
             *rates = rates_of(manifold, visits, ratio, step);
+            rates->reversals = reversals;
+            rates->sticks = sticks;
             rates->error += map->share * map->speed * (missing + size);
             rates->swing_error = mean_velocity_of(map, missing + size);
             rates->offset = offset;
@@ -154,7 +145,7 @@ bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
         improve(map, steps, i);
         double fast[MAX_FAST];
         for (int j = 0; j < MAX_FAST; j++) {
-            fast[j] = visits[0].fast[j] + step[j];
+            fast[j] = visits[0].at[FAST_STATES + j] + step[j];
         }
         moment_place(map, velocity, fast, moment->psi, moment);
     }

@@ -78,7 +78,7 @@ def test_a_native_run_counts_what_is_rejected(native_fmu: Path) -> None:
     }
     assert written["rate"] == pytest.approx(1 / 3), "the linear step shows in scenes of leaps alone"
     assert written["false_alarms"] == 0
-    assert result.exit_code == 0
+    assert result.exit_code == 1, "the rate is below the one that is asked for"
 
 
 def test_native_runs_that_cannot_start_are_refused(native_fmu: Path, python_fmu: Path) -> None:
