@@ -1,4 +1,4 @@
-"""The work of one communication step: all its parts draw from one budget."""
+"""The work and the time of one communication step."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ from .values import Refusal
 
 @dataclass(slots=True)
 class Budget:
-    """The work of a step of `step_size` [s]; `spent` is the share of it that is spent."""
+    """The work of a step of `step_size` [s]; `spent` is the share of it that is spent.
+
+    All parts of a step draw from one budget.
+    """
 
     step_size: float
     spent: float = 0.0
@@ -34,3 +37,21 @@ class Budget:
             exponent = floor(log10(reached))
             return Refusal(refusal_texts.too_much_work(size, max_count, what, exponent))
         return Refusal(refusal_texts.too_much_work_at_once(size, max_count, what))
+
+
+@dataclass(slots=True)
+class Clock:
+    """Time `elapsed` [s] of a step of `duration` [s], with the rounding error of that sum."""
+
+    duration: float
+    elapsed: float = 0.0
+    carry: float = 0.0
+
+    def advance(self, t: float) -> float:
+        """Advance by `t` [s] and return the time left [s]; two-sum keeps the rounding errors."""
+        before = self.elapsed
+        total = before + t
+        carried = total - before
+        self.carry += (before - (total - carried)) + (t - carried)
+        self.elapsed = total
+        return (self.duration - total) - self.carry

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from math import inf, tau
 
-from .budget import Budget
-from .clock import Clock
+from .budget import Budget, Clock
 from .constants import MAX_STEP_LEGS, PYTHON_SLOWDOWN
 from .contact import LIFTED
 from .coulomb import Coulomb

@@ -18,8 +18,7 @@ from itertools import pairwise
 from math import ceil, exp, expm1, floor, inf, log, pi, sqrt, tau
 from typing import NamedTuple
 
-from .budget import Budget
-from .clock import Clock
+from .budget import Budget, Clock
 from .device import System, Vibration, vibration
 from .dormand_prince import Rates, Step, dormand_prince, step_growth
 from .events import advance

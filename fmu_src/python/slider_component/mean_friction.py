@@ -9,12 +9,9 @@ quadrature. Soft bristles give the paper's slow manifold (17), hard ones Coulomb
 
 from __future__ import annotations
 
-from bisect import bisect_left
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
-from math import acos, cos, exp, expm1, hypot, pi, sin, tau
+from math import acos, cos, exp, expm1, hypot, pi, sin, sqrt, tau
 
 from .device import EPSILON, Device
 from .vibrating_load import VibratingLoad
@@ -36,13 +33,14 @@ MAX_WAVES = 1000
 """Waves of the normal load over a turn of the drive beyond which only its mean counts: what they
 add to the mean friction falls with their number, to less than 1e-3 of full friction."""
 
+SHORTEST_ARC = 1e-12
+HALVINGS = 12
+"""Halvings, on a logarithmic scale from the shortest part of an arc on, that find where it ends."""
+
 SERIES = 1.0
 """Angle [rad] up to which x - sin(x) is summed up as a series."""
 
 _DIVISORS = tuple(2 * k * (2 * k + 1) for k in range(8, 1, -1))
-
-Means = tuple[float, float, float]
-"""Means over a turn of tau of the friction per unit load, times 1, sin(n tau), cos(n tau)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,34 +90,15 @@ class MeanFriction:
         total = load.integral(turning, tau - turning) - load.integral(-turning, turning)
         total *= self.coefficient
         if self.is_expensive:
-            bending = self._bending(turning, load.wave_number, load.kinks)
-            total += sum(load.at(angle) * friction for angle, friction in bending)
+            total += sum(
+                load.at(angle) * friction for angle, friction in self._bending(turning, load)
+            )
         return total / tau
 
-    def means(self, n: int, turning: float) -> Means:
-        """The parts of that under a load N0 + dN sin(n tau + delta), n not 0.
-
-        Per face it is N0 plain + dN (cos(delta) sine + sin(delta) cosine).
-        """
-        mu = self.coefficient
-        waves = 0 if self.is_expensive and abs(n) > MAX_WAVES else n
-        plain, sine = mu * (tau - 4.0 * turning), 0.0
-        cosine = -4.0 * mu * sin(n * turning) / n if waves else 0.0
-        if self.is_expensive:
-            for angle, friction in self._bending(turning, float(waves), lambda begin, end: []):
-                plain += friction
-                if waves:
-                    sine += friction * sin(n * angle)
-                    cosine += friction * cos(n * angle)
-        return plain / tau, sine / tau, cosine / tau
-
-    def _bending(
-        self, turning: float, wave_number: float, kinks: Callable[[float, float], list[float]]
-    ) -> list[tuple[float, float]]:
+    def _bending(self, turning: float, load: VibratingLoad) -> list[tuple[float, float]]:
         """Quadrature over both arcs of what the bristle still lacks of being fully bent.
 
-        Angles [rad], and friction per unit load beyond Coulomb's times a weight. It serves
-        integrands that vary as cos(wave_number tau), with kinks where `kinks` says.
+        Angles [rad], and friction per unit load beyond Coulomb's times a weight.
         """
         mu, stiffness = self.coefficient, self.stiffness or 0.0
         reach = self.fast / self.frequency
@@ -134,8 +113,8 @@ class MeanFriction:
                 continue
             last = arc.bent_after(BENT * mu, stiffness)
             edges = [last * share for share in PANELS]
-            inner = [kink - arc.begin for kink in kinks(arc.begin, arc.begin + last)]
-            for low, high in _panels(edges, inner, wave_number):
+            inner = [kink - arc.begin for kink in load.kinks(arc.begin, arc.begin + last)]
+            for low, high in _panels(edges, inner, load.wave_number):
                 half = 0.5 * (high - low)
                 for node, weight in _RULE:
                     ahead = low + half * (1.0 + node)
@@ -179,13 +158,11 @@ class _Arc:
         """How far ahead in the arc [rad] the path times `stiffness` [1/m] is `full`."""
         if stiffness * self.way(self.length)[1] <= full:
             return self.length
-        low, high = 0.0, self.length
-        for _ in range(60):
-            middle = 0.5 * (low + high)
-            if stiffness * self.way(middle)[1] < full:
-                low = middle
-            else:
-                high = middle
+        low, high = SHORTEST_ARC * self.length, self.length
+        for _ in range(HALVINGS):
+            middle = sqrt(low * high)
+            bent = stiffness * self.way(middle)[1] >= full
+            low, high = (low, middle) if bent else (middle, high)
         return high
 
 
@@ -244,97 +221,3 @@ def _gauss_legendre(count: int) -> tuple[tuple[float, float], ...]:
 
 
 _RULE = _gauss_legendre(NODES)
-
-# Motion asks for the means several times a step, and each costs a quadrature. They are smooth in
-# Theta, with a layer at its ends that gets thinner for harder bristles: Chebyshev series on panels,
-# halved until they hold. Turning Theta into pi - Theta mirrors the motion: half is kept.
-
-TERMS = 9
-"""Terms of each series."""
-
-MAX_ERROR = 1e-8
-"""Error of the means that a panel may have where it is checked, as a share of mu or of the largest
-mean on the panel where that is larger."""
-
-CHECKED = (-0.95, -0.85, -0.5, 0.35)
-"""Places in a panel, which stands for [-1, 1], where a series is compared with the means."""
-
-MAX_HALVINGS = 24
-"""Halvings of a panel after which it is taken as it is, a fraction 6e-8 of the whole."""
-
-MAX_PANELS = 32
-"""Panels after which all are taken as they are: bounds the work. Harder bristles need more of them,
-19 at kappa 1e17."""
-
-MAX_WAVES_TABULATED = 8
-"""Waves of the normal load over a turn up to which a table takes less time than it saves."""
-
-_ANGLES = tuple(pi * (k + 0.5) / TERMS for k in range(TERMS))
-
-
-@lru_cache(maxsize=4)
-def tabulated_means(friction: MeanFriction, n: int) -> Callable[[float], Means]:
-    """The means under n waves of the normal load over a turn, n not 0, to MAX_ERROR."""
-    ends: list[float] = [0.0]
-    panels: list[list[list[float]]] = []
-    todo = [(0, 0.0, 0.5 * pi)]
-    while todo:
-        halvings, low, high = todo.pop()
-        series, error = _series(friction, n, low, high)
-        full = len(panels) + len(todo) + 1 >= MAX_PANELS
-        if error <= MAX_ERROR or halvings == MAX_HALVINGS or full:
-            ends.append(high)
-            panels.append(series)
-        else:
-            middle = 0.5 * (low + high)
-            todo += [(halvings + 1, middle, high), (halvings + 1, low, middle)]
-    mirrored = -1.0 if n % 2 == 0 else 1.0
-
-    def at(turning: float) -> Means:
-        back = turning > 0.5 * pi
-        angle = pi - turning if back else turning
-        index = max(0, bisect_left(ends, angle, 0, len(panels)) - 1)
-        low, high = ends[index], ends[index + 1]
-        x = (2.0 * angle - low - high) / (high - low)
-        plain, sine, cosine = (_chebyshev(c, x) for c in panels[index])
-        return (-plain, mirrored * sine, mirrored * cosine) if back else (plain, sine, cosine)
-
-    return at
-
-
-def _series(
-    friction: MeanFriction, n: int, low: float, high: float
-) -> tuple[list[list[float]], float]:
-    """Chebyshev series of the means on a panel, and their largest relative error where checked."""
-
-    def means(x: float) -> Means:
-        return friction.means(n, 0.5 * (low + high + (high - low) * x))
-
-    at_nodes = [means(cos(angle)) for angle in _ANGLES]
-    series = []
-    for kind in range(3):
-        values = [m[kind] for m in at_nodes]
-        sums = [
-            sum(v * cos(j * angle) for v, angle in zip(values, _ANGLES, strict=True))
-            for j in range(TERMS)
-        ]
-        series.append([sums[0] / TERMS, *(2.0 * s / TERMS for s in sums[1:])])
-    places, stiffness = list(CHECKED), friction.stiffness or 0.0
-    if stiffness > 0.0:
-        # Hard bristles bend where the backward path is about mu / sigma_0 long.
-        length = friction.coefficient * friction.frequency / (stiffness * friction.fast)
-        layer = length ** (1.0 / 3.0)
-        places += [(2.0 * layer - low - high) / (high - low)] if low < layer < high else []
-    error = 0.0
-    for x in places:
-        misses = (abs(_chebyshev(c, x) - m) for c, m in zip(series, means(x), strict=True))
-        error = max(error, *misses)
-    return series, error / max(friction.coefficient, *(abs(v) for m in at_nodes for v in m))
-
-
-def _chebyshev(coefficients: list[float], x: float) -> float:
-    """The value at x of a Chebyshev series, by Clenshaw's recurrence."""
-    value = before = 0.0
-    for c in reversed(coefficients[1:]):
-        value, before = c + 2.0 * x * value - before, value
-    return coefficients[0] + x * value - before

@@ -22,13 +22,7 @@ from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .contact import LIFTED, direction_of
 from .device import Device, System, Vibration, steady_swing, vibration
 from .dormand_prince import dormand_prince, step_growth
-from .mean_friction import (
-    MAX_WAVES,
-    MAX_WAVES_TABULATED,
-    MeanFriction,
-    mean_friction,
-    tabulated_means,
-)
+from .mean_friction import MAX_WAVES, MeanFriction, mean_friction
 from .moment import Moment
 from .vibrating_load import VibratingLoad, turns_to_repeat
 
@@ -41,6 +35,9 @@ TOLERANCE = 2e-10
 
 WAVES = 10.0
 """Number of waves of the normal load over a turn that doubles the cost of a quadrature."""
+
+FEW_WAVES = 8.0
+"""Waves up to which a quadrature costs as much as without."""
 
 MIN_STEPS = 16
 """Lower limit of the number of steps that is accepted."""
@@ -103,34 +100,16 @@ class SlowFriction:
         return self.turns is not None and self.waves == 0.0
 
     @property
-    def takes_quadratures(self) -> bool:
-        """Whether no table serves: each value costs a quadrature."""
-        any_load = self.system.device.lifts or abs(self.waves) > MAX_WAVES_TABULATED
-        return self.law.is_expensive and any_load and not self._counts_by_mean
-
-    @property
-    def _counts_by_mean(self) -> bool:
-        return self.turns is None or self.waves == 0.0
+    def takes_long(self) -> bool:
+        """Whether each value costs a quadrature with kinks or many waves."""
+        many = self.system.device.lifts or abs(self.waves) > FEW_WAVES
+        return self.law.is_expensive and many and self.turns is not None and self.waves != 0.0
 
     def at(self, t: float, velocity: float) -> float:
         """Mean friction [N] of all faces after `t` [s] at a slow velocity [m/s]."""
-        device, law = self.system.device, self.law
-        turning, delta = law.turning(velocity), self.phase + self.drift * t
-        if self._counts_by_mean:
-            load = VibratingLoad(device, self.waves, delta).integral(0.0, tau) / tau
-            return device.friction_faces * load * self._means(1, turning)[0]
-        if device.lifts or self.takes_quadratures:
-            load_at = VibratingLoad(device, self.waves, delta)
-            return device.friction_faces * law.mean(load_at, turning)
-        plain, sine, cosine = self._means(int(self.waves), turning)
-        swing = cos(delta) * sine + sin(delta) * cosine
-        face = device.normal_preload * plain + device.normal_amplitude * swing
-        return device.friction_faces * face
-
-    def _means(self, n: int, turning: float) -> tuple[float, float, float]:
-        if self.law.is_expensive:
-            return tabulated_means(self.law, n)(turning)
-        return self.law.means(n, turning)
+        device, turning = self.system.device, self.law.turning(velocity)
+        load = VibratingLoad(device, self.waves, self.phase + self.drift * t)
+        return device.friction_faces * self.law.mean(load, turning)
 
     def smooth_until(self, t: float, end: float) -> float:
         """The time [s] up to which friction is smooth from `t` on, `end` at most.
@@ -225,7 +204,7 @@ class Averaged:
         max_steps = MAX_SLOW_STEPS // PYTHON_SLOWDOWN
         if self.fast.velocity == 0.0:
             return _unshaken(friction, velocity, duration, max_steps)
-        if friction.takes_quadratures:
+        if friction.takes_long:
             waves = min(abs(self.ratio), MAX_WAVES)
             bought = MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN / (1.0 + waves / WAVES)
             max_steps = max(MIN_STEPS, int(bought))

@@ -15,7 +15,6 @@ from fmu_src.python.slider_component.parameters import Inputs
 from fmu_src.python.slider_component.prediction import first_order
 from slider_resonator.device.device import Device as ReferenceDevice
 from slider_resonator.references.averaged.prediction_validity import prediction_valid
-from tests.problems import STEADY_VELOCITIES
 
 TABLE_1 = Device()
 FAST_VELOCITY = abs(equivalent_force(TABLE_1)) / 1.1 / 3500.0
@@ -47,14 +46,6 @@ def test_load_speed_curve_is_equation_20(phase: float, load: float) -> None:
     )
 
 
-@pytest.mark.parametrize(("ratio", "phase"), STEADY_VELOCITIES)
-def test_integer_ratios(ratio: int, phase: float) -> None:
-    """Averaging errs by 1 / Omega."""
-    theory = first_order(TABLE_1, Inputs(phase, 0.0, float(ratio)), 0.0)
-    expected = STEADY_VELOCITIES[ratio, phase]
-    assert theory.steady_velocity / (0.2 / 1.1) == pytest.approx(expected, abs=1e-3)
-
-
 @pytest.mark.parametrize("ratio", [1.0, 3.0, -1.0, 2.0, 0.0, 1.37])
 @pytest.mark.parametrize("amplitude", [0.7, 2.5])
 def test_mean_friction_by_quadrature(ratio: float, amplitude: float) -> None:
@@ -73,11 +64,6 @@ def test_mean_friction_by_quadrature(ratio: float, amplitude: float) -> None:
 
 def test_lead_of_the_normal_drive_counts_as_phase() -> None:
     assert first_order(TABLE_1, Inputs(0.1), 0.3) == first_order(TABLE_1, Inputs(0.4), 0.0)
-
-
-def test_no_vibration_no_velocity() -> None:
-    still = replace(TABLE_1, base_amplitude=0.0)
-    assert first_order(still, Inputs(0.5, 0.1), 0.0) == first_order(still, Inputs(), 0.0)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
