@@ -105,7 +105,7 @@ def sweep_command(
     _draw(sweep, result, plot, html, provenance)
     for number in result.damaged:
         print_text(
-            f"{journal_path(out)} entry {number}: damaged; its point was computed again", err=True
+            f"{journal_path(out)} entry {number}: damaged; its points were computed again", err=True
         )
     facts = {"points": result.points, "found": result.found, "failed": result.failed}
     facts["unanswered"] = result.unanswered

@@ -22,7 +22,6 @@ from slider_resonator.sweeping.worker import (
     failed_row,
     measure_point,
     prove_points,
-    proved_row,
 )
 
 BATCH = 200
@@ -80,21 +79,19 @@ def run_points(workers: Workers, task: Task, points: Sequence[Point], keep: Keep
 def _prove(
     workers: Workers, task: Task, points: Sequence[Point], keep: Keep
 ) -> list[tuple[Point, Proved]]:
-    """Keep the points of which all is proved, and return the others with what is."""
+    """Keep the rows of batches, and return the points that have none with what is proved."""
     batches = [tuple(points[first : first + BATCH]) for first in range(0, len(points), BATCH)]
     tasks = [(batch, partial(prove_points, task=task, points=batch)) for batch in batches]
     left: list[tuple[Point, Proved]] = []
     with closing(workers.outcomes(tasks)) as outcomes:
         for batch, found, error in outcomes:
-            proved = found if error is None else [{}] * len(batch)
-            rows: list[Row] = []
-            for point, known in zip(batch, proved, strict=True):
-                row = proved_row(task, point, known)
-                if row is None:
-                    left.append((point, known))
-                else:
-                    rows.append(row)
-            keep(rows)
+            done = found if error is None else [{}] * len(batch)
+            left += [
+                (point, one)
+                for point, one in zip(batch, done, strict=True)
+                if not isinstance(one, tuple)
+            ]
+            keep([one for one in done if isinstance(one, tuple)])
     return left
 
 

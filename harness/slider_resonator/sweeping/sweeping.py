@@ -79,7 +79,8 @@ def run_sweep(
         left = [(n, point) for n, point in enumerate(sweep.points) if n not in rows]
 
         def keep(new: Sequence[Row]) -> None:
-            journal.add(new)
+            if new:
+                journal.add([new])
             rows.update((row[0], row) for row in new)
             progress(f"point {len(rows)} of {len(sweep.points)}", len(rows) / len(sweep.points))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import random
 import signal
@@ -34,7 +35,9 @@ def kept_points(out: Path) -> int:
         return 0
     with closing(sqlite3.connect(f"{path.as_uri()}?immutable=1", uri=True)) as file:
         try:
-            return int(file.execute("SELECT count(*) FROM entries").fetchone()[0])
+            return sum(
+                len(json.loads(rows)) for (rows,) in file.execute("SELECT entry FROM entries")
+            )
         except sqlite3.DatabaseError:  # it is being written
             return 0
 
@@ -232,7 +235,9 @@ def test_points_without_an_answer_are_counted(native_fmu: Path, tmp_path: Path) 
     assert (result.points, result.failed, result.unanswered) == (2, 0, 1)
 
 
-def test_a_damaged_entry_costs_its_point_only(grid: Path, native_fmu: Path, tmp_path: Path) -> None:
+def test_a_damaged_entry_costs_its_points_only(
+    grid: Path, native_fmu: Path, tmp_path: Path
+) -> None:
     sweep, out = read_grid(grid), tmp_path / "a.csv"
     run_sweep(sweep, native_fmu, out, workers=1)
     table = out.read_bytes()
@@ -247,8 +252,9 @@ def test_a_damaged_entry_costs_its_point_only(grid: Path, native_fmu: Path, tmp_
     assert f"of {len(sweep.points)} points are kept in {journal_path(out)}" in note
     kept = kept_points(out)
     with closing(sqlite3.connect(journal_path(out))) as file, file:
-        file.execute("UPDATE entries SET entry = '[0,[7.0],null]' WHERE number = 2")
+        (rows,) = file.execute("SELECT entry FROM entries WHERE number = 2").fetchone()
+        file.execute("UPDATE entries SET entry = '[[0,[7.0],null]]' WHERE number = 2")
     result = run_sweep(sweep, native_fmu, out, workers=1)
     assert result.damaged == [2]
-    assert result.found == kept - 1
+    assert result.found == kept - len(json.loads(rows))
     assert out.read_bytes() == table

@@ -4,7 +4,7 @@ import pytest
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.sweeping.measures import Run, Task
-from slider_resonator.sweeping.worker import measure_point, prove_points, proved_row
+from slider_resonator.sweeping.worker import FEW, measure_point, prove_points
 
 TASK = Task(("friction_coefficient",), (), ("steady_velocity",), 20, Run(1, 1, 0))
 BOTH = Task(("phase",), (), ("blocking_force", "velocity.rms"), 20, Run(2, 16, 0))
@@ -23,14 +23,17 @@ def test_a_point_that_fails_is_a_row_with_its_error_and_the_next_is_sound(
 def test_what_is_proved_is_not_searched(instance: Instance) -> None:
     point = (7, (0.4,))
     (proved,) = prove_points(instance, BOTH, [point])
-    assert proved_row(BOTH, point, proved) is None, "a run is to be made"
+    assert isinstance(proved, dict), "a run is to be made"
     number, cells, error = measure_point(instance, BOTH, point, proved)
     assert (number, cells[:2], error) == (7, [proved["blocking_force"], "blocked"], None)
     assert cells[2] == pytest.approx(measure_point(instance, BOTH, point, {})[1][2], rel=0)
 
 
-def test_a_point_that_is_refused_is_not_proved_and_the_next_is(instance: Instance) -> None:
+def test_few_points_that_are_not_proved_are_searched_at_once(instance: Instance) -> None:
     points = [(0, (-1.0,)), (1, (0.1,))]
     refused, sound = prove_points(instance, TASK, points)
-    assert refused == {}
-    assert proved_row(TASK, points[1], sound) == (1, [sound["steady_velocity"], "steady"], None)
+    assert refused == measure_point(instance, TASK, points[0], {})
+    assert sound[2] is None  # type: ignore[index]
+    law = Task(("friction_law",), (), ("steady_velocity",), 20, Run(1, 1, 0))
+    many = [(number, (1.0,)) for number in range(FEW + 1)]
+    assert prove_points(instance, law, many) == [{}] * len(many)
