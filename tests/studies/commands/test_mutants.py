@@ -57,7 +57,7 @@ def test_native_changes_are_listed(native_fmu: Path) -> None:
     result = call("mutants", native_fmu, "--native", "--list", "--file", "lugre.c")
     assert result.exit_code == 0, result.output
     assert "tolerance_ignored [fault]" in result.output
-    assert "looser_series [harmless]" in result.output
+    assert "tighter_series [harmless]" in result.output
     result = call("mutants", native_fmu, "--native", "--list", "--json", "--sample", "5")
     assert_public_keys("mutants --native --list", result.output)
     assert len(json.loads(result.output)["changes"]) == 5
