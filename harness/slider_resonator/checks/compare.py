@@ -14,8 +14,9 @@ from slider_resonator.checks.measures.deviation import mismatch_share, peak, sha
 from slider_resonator.checks.measures.tube import Tube, no_tube
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.tolerance import Tolerance
+from slider_resonator.rounding import beyond_rounding, is_same
 from slider_resonator.scenes.expect_table import ExpectTable
-from slider_resonator.scenes.scene import ScenePoint
+from slider_resonator.scenes.scene import Scene, ScenePoint
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 Value = float | str | None
@@ -103,7 +104,8 @@ def compare(
     quantity = QUANTITIES[comparison.quantity]
     floor = comparison.tolerance.smallest_reference(comparison.quantity, point.scene.device)
     if quantity.kind == "signal":
-        difference = _difference_of_signals(comparison, measured, expected, floor)
+        clock = _clock_rounding(point.scene)
+        difference = _difference_of_signals(comparison, measured, expected, floor, clock)
     else:
         difference = _difference_of_values(comparison, measured.value, expected, floor)
     return Check(
@@ -127,7 +129,8 @@ def _difference_of_values(
         passed = measured is not None and measured == expected
         return _Difference(measured, expected, None, None, passed)
     tolerance = comparison.tolerance
-    deviation = _excess(comparison.against, measured - expected)
+    excess = _excess(comparison.against, measured - expected)
+    deviation = 0.0 if is_same(measured, expected) else excess
     allowed = (tolerance.absolute or 0.0) + tolerance.relative * max(abs(expected), floor)
     return _Difference(measured, expected, deviation, allowed, deviation <= allowed)
 
@@ -142,12 +145,19 @@ def _excess(against: str, difference: float) -> float:
 
 
 def _difference_of_signals(
-    comparison: Comparison, measured: Measurement, expected: Array | Tube, floor: float
+    comparison: Comparison,
+    measured: Measurement,
+    expected: Array | Tube,
+    floor: float,
+    clock: float,
 ) -> _Difference:
-    """Compare two signals; a value that is not finite fails."""
+    """Compare two signals; a value that is not finite fails.
+
+    `clock` is the share of the peak that rounded times account for.
+    """
     quantity, tolerance = QUANTITIES[comparison.quantity], comparison.tolerance
     tube = expected if isinstance(expected, Tube) else no_tube(expected)
-    outside = tube.outside(measured.value)
+    outside = beyond_rounding(tube.outside(measured.value), tube.middle)
     size = peak(tube.middle)
     allowed, scale = tolerance.relative, None
     if quantity.exact:
@@ -158,6 +168,7 @@ def _difference_of_signals(
     else:
         near_zero = tolerance.absolute / allowed if tolerance.absolute else max(0.0, floor - size)
         scale = size + near_zero
+        allowed += clock
         deviation, limit = share_of(peak(outside), scale), allowed * scale
     passed = deviation <= allowed
     first = worst = None
@@ -165,6 +176,18 @@ def _difference_of_signals(
         first, worst = _places(outside, limit, measured.times)
     fmu = peak(measured.value)
     return _Difference(fmu, size, deviation, allowed, passed, first, worst, scale)
+
+
+def _clock_rounding(scene: Scene) -> float:
+    """Return the share of its peak by which rounded times move a signal.
+
+    A clock that starts late is coarse: steps that an FMU cuts in two end beside a communication
+    point by a unit of the clock, each of them.
+    """
+    if not scene.start_time:
+        return 0.0
+    steps = len(scene.schedule().times)
+    return steps * scene.device.drive_frequency * float(np.spacing(abs(scene.start_time)))
 
 
 def _places(error: Array, limit: float, times: Array) -> tuple[float, float]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.natural_scale import fast_velocity
+from slider_resonator.checks.natural_scale import largest_fast_velocity
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 
@@ -22,8 +22,7 @@ def allowed_by_leaps(
     device: Device, held: Sequence[HeldInputs], duration: float
 ) -> Mapping[str, float]:
     """Return the allowed error of both signals, in m/s and m, after a run of `duration` (s)."""
-    fast = max(fast_velocity(inputs.tuned_device(device)) for inputs in held)
-    velocity = MARGIN * device.tolerance * fast
+    velocity = MARGIN * device.tolerance * largest_fast_velocity(device, held)
     return {CENTRE_VELOCITY: velocity, CENTRE: velocity * duration}
 
 

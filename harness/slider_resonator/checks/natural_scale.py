@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import pi
 
 from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
 
 NEAR_ZERO = 0.01
@@ -41,6 +42,13 @@ def _full_friction(device: Device) -> float:
 
 fast_velocity = _vibration(lambda force: force.velocity_amplitude)
 """Amplitude v_q of the fast velocity (m/s) of a device, 0 without vibration."""
+
+
+def largest_fast_velocity(device: Device, held: Sequence[HeldInputs]) -> float:
+    """Return the largest v_q (m/s) of a run that tunes the device."""
+    return max(fast_velocity(inputs.tuned_device(device)) for inputs in held)
+
+
 _displacement = _vibration(lambda force: force.ripple_amplitude)
 _resonator = _vibration(lambda force: force.resonator_amplitude)
 

@@ -9,6 +9,7 @@ from math import isfinite
 from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.progress import Progress, no_progress
+from slider_resonator.rounding import is_same
 from slider_resonator.steady.periodic import (
     Facts,
     FmuPeriodMap,
@@ -91,7 +92,7 @@ def _runaway(facts: Facts) -> Obstacle | None:
 
 def _judge(found: FixedPoint, stick_fraction: float) -> tuple[str, str]:
     """Return status and reason of a motion that repeats."""
-    if found.displacement == 0.0 and stick_fraction == 1.0:
+    if is_same(found.displacement, 0.0) and is_same(stick_fraction, 1.0):
         return "stuck", "the slider sticks throughout: the drive does not overcome friction"
     largest = f"{abs(found.multipliers[0]):.9g}"
     return {

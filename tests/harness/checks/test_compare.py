@@ -83,10 +83,11 @@ def test_a_number_may_deviate_by_the_relative_tolerance(velocity: float, passed:
     assert verdict.deviation == pytest.approx(velocity - 0.1, rel=1e-6)
 
 
-def test_with_a_tolerance_of_0_only_equality_passes() -> None:
-    expect: dict[str, Any] = {"quantity": "steady_velocity", "value": 0.0, "absolute": 0.0}
-    assert judge(steady(0.0), **expect).passed
-    assert not judge(steady(1e-300), **expect).passed
+@pytest.mark.parametrize("value", [0.0, 0.1])
+def test_with_a_tolerance_of_0_only_rounding_passes(value: float) -> None:
+    expect: dict[str, Any] = {"quantity": "steady_velocity", "value": value, "absolute": 0.0}
+    assert judge(steady(float(np.nextafter(value, 1.0))), **expect).passed
+    assert not judge(steady(value + 1e-15), **expect).passed
 
 
 @pytest.mark.parametrize("velocity", [float("nan"), float("inf"), None])

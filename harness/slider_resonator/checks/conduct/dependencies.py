@@ -47,14 +47,18 @@ def dependency_faults(fmu: FmuSide) -> Findings:
         with instance.explained():
             for _ in range(STEPS):
                 instance.step_by(STEP)
-                faults += _after_inputs(instance, in_run)
+                faults += _after_inputs(instance, situation, in_run)
     return Findings.of(list(dict.fromkeys(faults)))
 
 
-def _after_inputs(instance: Instance, declared: Mapping[str, set[str] | None]) -> list[str]:
+def _after_inputs(
+    instance: Instance, set_values: Mapping[str, float], declared: Mapping[str, set[str] | None]
+) -> list[str]:
+    """Change each input from the value that was set, and set it back."""
     faults: list[str] = []
-    before, present = _outputs(instance), instance.read(list(INPUTS))
-    for name, value in present.items():
+    before = _outputs(instance)
+    for name in INPUTS:
+        value = set_values.get(name, VARIABLES[name].start or 0.0)
         instance.set({name: other_value(name, value)})
         faults += _undeclared(instance, name, before, declared, "in a run")
         instance.set({name: value})

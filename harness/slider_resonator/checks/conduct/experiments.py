@@ -10,6 +10,7 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.blocks import call
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.rounding import is_same
 
 STEP, STEPS = 0.01, 6
 """Steps (s) that add up to more than their product, by rounding."""
@@ -61,7 +62,7 @@ def experiment_faults(fmu: FmuSide) -> Findings:
             with instance.explained():
                 known = {n: v for n, v in device.items() if n in instance.fmu.variables}
                 instance.start(known, start_time=EARLY)
-                if instance.value("last_event_time") != EARLY:
+                if not is_same(instance.value("last_event_time"), EARLY):
                     faults.append("last_event_time does not begin at the start time")
                 instance.step_by(size)
         except Refusal as error:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from ctypes import byref, c_char_p, c_double, c_int, c_uint, c_void_p
 from pathlib import Path
@@ -15,7 +15,9 @@ from fmpy.fmi2 import (
     fmi2CoSimulation,
     fmi2ModelExchange,
     fmi2OK,
+    fmi2PendingStatus,
     fmi2ValueReference,
+    fmi2Warning,
 )
 
 from slider_resonator.checks.conduct.event_mode import event_mode_faults
@@ -42,6 +44,9 @@ CATEGORY, FORMAT = "logs of ", "%d"
 OTHER_HOST = 7
 """The componentEnvironment of another host; an FMU must only hand it back."""
 
+STEP = 1.1e-3
+"""Size of a step (s), after which no output is 0."""
+
 MANY = 4096
 """Number of values read in one call, far more than there are variables."""
 
@@ -63,6 +68,7 @@ def host_faults(fmu: FmuSide) -> Findings:
         faults += _instance_faults(instance, slave)
     with instance.explained():
         instance.start({})
+        instance.step_by(STEP)
     faults += _logging_faults(instance)
     if instance.fmu.runs_without_python:
         faults += _other_host_faults(instance, slave)
@@ -175,9 +181,18 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     if instance.fmu.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
         return
     environments: list[int | None] = []
+    wrong: list[str] = []
 
-    def listen(environment: int | None, *_: object) -> None:
+    def listen(
+        environment: int | None, name: bytes, status: int, category: bytes, *_: object
+    ) -> None:
         environments.append(environment)
+        if name != b"beside":
+            wrong.append("with the name of another instance")
+        if status <= fmi2Warning:
+            wrong.append("as a success")
+        if _has_category(instance, EVERYTHING) and not _has_category(instance, category or b""):
+            wrong.append("in a category that is not declared")
 
     messages, callbacks = fmu_log.collect("beside")
     callbacks.logger = fmi2CallbackLoggerTYPE(listen)
@@ -196,14 +211,19 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     fmu_log.forget("beside")
     if messages or instance.messages or set(environments) - {OTHER_HOST}:
         yield "an instance beside another reports to the host of that one"
+    yield from (f"a refusal is logged {how}" for how in dict.fromkeys(wrong))
     if _has_category(instance, EVERYTHING) and not environments:
         yield "without debug logging a refusal is not reported"
 
 
 def _many_values_faults(instance: Instance) -> Iterator[str]:
-    """Read one variable so often in a call that it may be refused, but must not crash."""
+    """Read one variable twice, and so often that it may be refused, but must not crash."""
     reference = instance.fmu.variables["normal_force"].valueReference
     expected, found = instance.value("normal_force"), (c_double * MANY)()
+    load = instance.fmu.variables["load"].valueReference
+    twice = list(instance.slave.getReal([reference, load, reference]))
+    if twice != [expected, instance.value("load"), expected]:
+        yield "normal_force read twice in a call is not the same"
     with suppress(FMICallException):
         references = (c_uint * MANY)(*[reference] * MANY)
         call(instance.slave, "fmi2GetReal", references, MANY, found)
@@ -215,6 +235,10 @@ def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     """Ask for what is offered and for what is lacking, and about a step that was refused."""
     yield from derivative_offer_faults(instance)
     status = c_int(-1)
+    text, number = c_char_p(), c_int()
+    pending = slave.dll.fmi2GetStringStatus(slave.component, fmi2PendingStatus, byref(text))
+    if fmi2OK in (pending, slave.dll.fmi2GetIntegerStatus(slave.component, 0, byref(number))):
+        yield "a status is given of a step that is not pending"
     with suppress(FMICallException):
         call(slave, "fmi2DoStep", instance.time, -1.0, True)
     if slave.dll.fmi2GetStatus(slave.component, 0, byref(status)) == fmi2OK and status.value == 0:
@@ -239,6 +263,7 @@ def derivative_offer_faults(instance: Instance) -> Iterator[str]:
             call(slave, "fmi2GetRealOutputDerivatives", *derivative)
         except FMICallException:
             yield f"maxOutputDerivativeOrder is {order}, but position has no such derivative"
+    yield from _wrong_derivative_faults(instance, order)
     arguments = (position, 1, load, 1, byref(c_double(1.0)), byref(c_double()))
     try:
         call(slave, "fmi2GetDirectionalDerivative", *arguments)
@@ -248,3 +273,31 @@ def derivative_offer_faults(instance: Instance) -> Iterator[str]:
         return
     if not offers.providesDirectionalDerivative:
         yield "fmi2GetDirectionalDerivative is accepted though there are none"
+
+
+def _wrong_derivative_faults(instance: Instance, order: int) -> Iterator[str]:
+    """Ask for derivatives of outputs that there are not, and for two at once."""
+    slave, variables = instance.slave, instance.fmu.variables
+    names = ("position", "velocity")
+    position, velocity = (int(variables[name].valueReference) for name in names)
+    load = int(variables["load"].valueReference)
+
+    def derivatives(references: Sequence[int], order: int) -> list[float]:
+        count = len(references)
+        orders, values = (c_int * count)(*[order] * count), (c_double * count)()
+        asked = (c_uint * count)(*references)
+        call(slave, "fmi2GetRealOutputDerivatives", asked, count, orders, values)
+        return list(values)
+
+    for what, reference, wrong in (
+        (f"order {order + 1}", position, order + 1),
+        ("order 0", position, 0),
+        ("an input", load, 1),
+    ):
+        with suppress(FMICallException):
+            derivatives([reference], wrong)
+            yield f"an output derivative of {what} is given"
+    if order > 0:
+        both = derivatives([position, velocity], 1)
+        if both != [*derivatives([position], 1), *derivatives([velocity], 1)]:
+            yield "derivatives of outputs are others together than one by one"

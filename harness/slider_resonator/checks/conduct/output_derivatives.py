@@ -11,7 +11,10 @@ from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.saved_state import SavedState
 
-OUTPUTS = ("position", "velocity", "resonator_displacement", "resonator_velocity", "normal_force")
+OUTPUTS = (
+    *("position", "velocity", "resonator_displacement", "resonator_velocity"),
+    *("normal_force", "friction_force"),
+)
 """Outputs that are smooth between events."""
 SLOW = "mean_velocity"
 """An output that is smooth, and slow, where motion is averaged to first order."""

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from ctypes import c_double, c_int, c_uint
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import fmi2Discard
+from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Fatal
 
 from slider_resonator.checks.conduct.findings import Findings, differences
 from slider_resonator.checks.conduct.other_values import other_value
@@ -60,6 +62,22 @@ EXPERIMENTS: Mapping[str, tuple[object, ...]] = {
 STEP_SIZES = (0.0, -0.0, -1e-3, math.nan, math.inf, -math.inf)
 DERIVATIVE_ORDERS = (0, 2, -1)
 """Orders of derivatives of inputs that must be refused."""
+ENDING = {fmi2Discard: "Discard", fmi2Fatal: "Fatal"}
+"""Statuses of a refusal that end more than a call; the same numbers in each version of FMI."""
+SMOOTH = (
+    *("position", "velocity", "mean_velocity", "resonator_displacement", "resonator_velocity"),
+    *("normal_force", "friction_force", "reversals", "last_event_time"),
+)
+"""Outputs that show whether a refused call moves anything; predictions would cost too much."""
+_NUMBER = re.compile(r"[-+]?(?:\bnan\b|\binf\b|\d+\.?\d*(?:e[-+]?\d+)?)", re.IGNORECASE)
+SHARPER = ("tolerance",)
+"""Variables that an FMU may make smaller for itself, so that a message has another value."""
+UNKNOWN = 0x7FFFFFFF
+"""The value reference of no variable."""
+BEYOND = 1e3
+"""Size of a step over the time: so large that parts of it are beyond the stop, too."""
+SHOWN_TO = 1e-5
+"""Relative error of a value in a message."""
 JUMPS = (-STEP, -1e-7, 1e-7, 1e-5, STEP, 1e9, math.nan, math.inf)
 """Distances (s) from the present time at which a step cannot begin."""
 
@@ -70,35 +88,68 @@ class Trial:
 
     instance: Instance
     faults: list[str]
+    outputs: Sequence[str] = ()
 
-    def refuses(self, what: str, attempt: Callable[[], object], name: str = "") -> None:
-        """Make a call; it must fail, with a log that has `name`, and change no variable."""
+    def refuses(
+        self,
+        what: str,
+        attempt: Callable[[], object],
+        name: str = "",
+        values: Sequence[float] = (),
+    ) -> None:
+        """Make a call; it must fail and change nothing, with a log that has `name` and `values`."""
         before = self._values()
         del self.instance.messages[:]
         try:
             attempt()
         except FMICallException as error:
-            if error.status == fmi2Discard:  # the same number in each version of FMI
-                status = f"{str(error.function)[: len('fmi2')]}Discard"
+            if error.status in self._ending():
+                version = str(error.function)[: len("fmi2")]
+                status = f"{version}{ENDING[error.status]}"
                 self.faults.append(f"{what} gives {status}, at which hosts end a run")
-            if name and name not in " ".join(self.instance.messages):
+            log = " ".join(self.instance.messages)
+            if name and name not in log:
                 self.faults.append(f"{what} is refused without naming {name}")
-            changed = {n for n, value in self._values().items() if value != before[n]}
+            self.faults += [
+                f"{what} is refused without a message that has {value!r}"
+                for value in values
+                if not shows(log, value)
+            ]
+            after = self._values()
+            changed = {n for n, value in after.items() if value != before[n]}
             if changed:
                 self.faults.append(f"{what} is refused but changes {', '.join(sorted(changed))}")
         else:
             self.faults.append(f"{what} is accepted")
 
+    def _ending(self) -> Sequence[int]:
+        """Return the statuses that no refusal may have; pythonfmu makes each of them Fatal."""
+        return tuple(ENDING) if self.instance.fmu.runs_without_python else (fmi2Discard,)
+
     def _values(self) -> Mapping[str, float]:
         names = [name for name, v in VARIABLES.items() if v.causality != "output"]
-        return self.instance.read([n for n in names if n in self.instance.fmu.variables])
+        known = [n for n in names if n in self.instance.fmu.variables]
+        return self.instance.read([*known, *self.outputs])
 
-    def refuses_values(self, when: str, variables: Iterator[Variable]) -> None:
-        """Set what lies outside the bounds of variables."""
+    def refuses_values(self, when: str, variables: Sequence[Variable]) -> None:
+        """Set what lies outside the bounds of variables, alone and after a good value."""
         for variable in variables:
+            bounds = [b for b in (variable.minimum, variable.maximum) if b is not None]
             for bad in bad_values(variable):
+                nearest = min(bounds, key=lambda bound: abs(bound - bad), default=bad)
+                told = [bad, *([nearest] if math.isfinite(bad) else [])]
+                if variable.name in SHARPER:
+                    told = []
                 what = f"{variable.name} = {bad!r} {when}"
-                self.refuses(what, partial(self._set, variable, bad), variable.name)
+                self.refuses(what, partial(self._set, variable, bad), variable.name, told)
+        for kind in ("Real", "Integer"):
+            alike = [v for v in variables if v.kind == kind][:2]
+            if len(alike) == 2:
+                first, second = alike
+                good = other_value(first.name, first.start or 0.0)
+                both = {first: good, second: bad_values(second)[0]}
+                what = f"{second.name} = {both[second]!r} with another {first.name} {when}"
+                self.refuses(what, partial(self._set_all, both), second.name)
 
     def refuses_all(self, when: str, variables: Iterator[Variable]) -> None:
         """Set variables, which must not be set at all, to other values."""
@@ -127,12 +178,37 @@ class Trial:
                 self.refuses(f"a derivative of {name}", partial(derive, 1, 0.1), name)
                 continue
             for bad in (math.nan, math.inf, -math.inf):
-                self.refuses(f"a derivative of {name} = {bad!r}", partial(derive, 1, bad), name)
+                what = f"a derivative of {name} = {bad!r}"
+                self.refuses(what, partial(derive, 1, bad), name, [bad])
             for order in DERIVATIVE_ORDERS:
                 what = f"a derivative of {name} of order {order}"
-                self.refuses(what, partial(derive, order, 0.1), name)
+                self.refuses(what, partial(derive, order, 0.1), name, [order])
+        load, phase = (self._reference(name) for name in ("load", "phase"))
+        pair = (c_uint * 2)(load, phase), 2, (c_int * 2)(1, 1), (c_double * 2)(0.1, math.nan)
+        self.refuses(
+            "a derivative of phase = nan after one of load",
+            partial(call, self.instance.slave, "fmi2SetRealInputDerivatives", *pair),
+        )
 
-    def accepts_bounds(self, variables: Iterator[Variable]) -> None:
+    def refuses_types(self, present: Sequence[Variable]) -> None:
+        """Read and set variables, of which one is unknown, by the functions of other types."""
+        slave, types = self.instance.slave, {"Real", "Integer"}
+        if isinstance(slave, FMU2Slave):
+            types |= {"Boolean", "String"}
+        good: dict[str, Any] = {"Real": 0.5, "Integer": 1, "Boolean": True, "String": "1"}
+        inputs = [v for v in present if v.causality == "input" or v.kind == "Integer"]
+        references: dict[str, int] = {v.kind: self._reference(v.name) for v in inputs}
+        references[""] = UNKNOWN
+        for kind in sorted(types):
+            read, write = getattr(slave, f"get{kind}"), getattr(slave, f"set{kind}")
+            for own, reference in references.items():
+                if own == kind:
+                    continue
+                what = f"a variable of type {own}" if own else "an unknown reference"
+                self.refuses(f"reading {what} as {kind}", partial(read, [reference]))
+                self.refuses(f"setting {what} as {kind}", partial(write, [reference], [good[kind]]))
+
+    def accepts_bounds(self, variables: Sequence[Variable]) -> None:
         """Set variables to their bounds, which they can have."""
         for variable in variables:
             for bound in (variable.minimum, variable.maximum):
@@ -144,16 +220,31 @@ class Trial:
                     self.faults.append(f"{variable.name} = {bound!r} is refused, a bound")
 
     def _derive(self, variable: Variable, order: int, value: float) -> None:
-        reference = self.instance.fmu.variables[variable.name].valueReference
+        reference = self._reference(variable.name)
         arguments = (c_uint * 1)(reference), 1, (c_int * 1)(order), (c_double * 1)(value)
         call(self.instance.slave, "fmi2SetRealInputDerivatives", *arguments)
 
+    def _reference(self, name: str) -> int:
+        return int(self.instance.fmu.variables[name].valueReference)
+
     def _set(self, variable: Variable, value: float) -> None:
-        reference = [self.instance.fmu.variables[variable.name].valueReference]
-        if variable.kind == "Integer":
-            self.instance.slave.setInteger(reference, [int(value)])
+        self._set_all({variable: value})
+
+    def _set_all(self, values: Mapping[Variable, float]) -> None:
+        """Set variables of one type in one call."""
+        references = [self._reference(variable.name) for variable in values]
+        if next(iter(values)).kind == "Integer":
+            self.instance.slave.setInteger(references, [int(v) for v in values.values()])
         else:
-            self.instance.slave.setReal(reference, [value])
+            self.instance.slave.setReal(references, list(values.values()))
+
+
+def shows(log: str, value: float) -> bool:
+    """Return whether a number in a text is a value, as far as messages round it."""
+    numbers = [float(text) for text in _NUMBER.findall(log)]
+    if math.isnan(value):
+        return any(map(math.isnan, numbers))
+    return any(math.isclose(n, value, rel_tol=SHOWN_TO, abs_tol=1e-300) for n in numbers)
 
 
 def bad_values(variable: Variable) -> list[float]:
@@ -201,16 +292,17 @@ def _try_all(trial: Trial, running: Running, start: Mapping[str, float], start_t
         instance.set_up(running.stop_time, start_time=start_time)
         instance.set(start)
         call(instance.slave, "fmi2EnterInitializationMode")
-    trial.refuses_values("in initialisation mode", iter(settable))
+    trial.outputs = [name for name in SMOOTH if name in instance.fmu.variables]
+    trial.refuses_values("in initialisation mode", settable)
     trial.refuses_calls("in initialisation mode")
     with instance.explained():
         instance.begin()
         running.read()
     for step in range(running.steps):
-        if step in (1, running.steps // 2 + 1):
-            _in_the_run(trial, present)
+        tried = step in (1, running.steps // 2 + 1)
         with instance.explained():
-            running.advance(step)
+            # After derivatives of inputs are set, which a refused call must not drop.
+            running.advance(step, partial(_in_the_run, trial, present) if tried else None)
     beyond = STEP + 1e-3 * abs(running.stop_time)
     trial.refuses("a step beyond the stop", partial(_step, instance, instance.time, beyond))
     with instance.explained():
@@ -225,9 +317,9 @@ def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
         call(instance.slave, "fmi2Reset")
     for what, arguments in EXPERIMENTS.items():
         trial.refuses(what, partial(_set_up_experiment, instance, arguments))
-    trial.refuses_values("before a run", iter(settable))
+    trial.refuses_values("before a run", settable)
     trial.refuses_calls("before a run")
-    trial.accepts_bounds(iter(settable))
+    trial.accepts_bounds(settable)
 
 
 def _set_up_experiment(instance: Instance, arguments: tuple[object, ...]) -> None:
@@ -241,7 +333,8 @@ def _in_the_run(trial: Trial, present: list[Variable]) -> None:
     instance = trial.instance
     anytime = [v for v in present if v.causality == "input" or v.variability == "tunable"]
     fixed = [v for v in present if v.causality == "parameter" and v.variability == "fixed"]
-    trial.refuses_values("in a run", iter(anytime))
+    trial.refuses_values("in a run", anytime)
+    trial.refuses_types(present)
     trial.refuses_all("in a run", iter(fixed))
     trial.refuses_all("from outside", (v for v in present if v.causality == "output"))
     trial.refuses_calls("in a run")
@@ -252,6 +345,8 @@ def _in_the_run(trial: Trial, present: list[Variable]) -> None:
             f"a step of {size!r} s",
             partial(_step, instance, instance.time, size),
         )
+    beyond = BEYOND * (instance.time + STEP)
+    trial.refuses("a step far beyond the stop", partial(_step, instance, instance.time, beyond))
     for jump in JUMPS:
         trial.refuses(
             f"a step {jump!r} s away from the present time",

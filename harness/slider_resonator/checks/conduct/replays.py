@@ -21,6 +21,7 @@ from slider_resonator.fmu.blocks import call
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.run import Running
 from slider_resonator.fmu.saved_state import SavedState
+from slider_resonator.rounding import is_same
 
 Rows = Sequence[Sequence[float]]
 
@@ -197,8 +198,21 @@ def beside_differences(fmu: FmuSide) -> Findings:
                 first.advance(step + late)
             second.advance(step)
         found = plain.of("beside another instance", first.rows)
+        found += _kept("beside another", fmu.instance, plain.parameters)
+        found += _kept("the other instance", other, beside.parameters)
         outputs, times = fmu.instance.fmu.outputs, own.readings()
         return found + differences("the other instance", outputs, times, second.rows, alone)
+
+
+def _kept(what: str, instance: Instance, given: Mapping[str, float]) -> Findings:
+    """Return which fixed parameters are not as they were given."""
+    fixed = {name: value for name, value in given.items() if name not in TUNABLES}
+    wrong = [
+        name
+        for name, value in instance.read(list(fixed)).items()
+        if not is_same(value, fixed[name])
+    ]
+    return Findings.of([f"{what}: {name} is not what was set" for name in wrong])
 
 
 def overwritten_differences(fmu: FmuSide) -> Findings:

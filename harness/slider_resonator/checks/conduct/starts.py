@@ -10,6 +10,7 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fmu.blocks import call
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.rounding import is_same
 
 
 def start_faults(fmu: FmuSide) -> Findings:
@@ -69,5 +70,5 @@ def _one_by_one(instance: Instance, names: Iterable[str]) -> dict[str, float]:
 
 def _unequal(instance: Instance, values: Mapping[str, float], when: str) -> Iterator[str]:
     for name, found in instance.read(list(values)).items():
-        if found != values[name]:
+        if not is_same(found, values[name]):
             yield f"{name} is {found!r} {when}, must be {values[name]!r}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
-from ctypes import byref, c_void_p
+from ctypes import byref, c_char, c_void_p
 
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
@@ -22,6 +22,8 @@ STEP = 1.3e-3
 """Size of a step, s."""
 CHANGED = ("friction_coefficient", "base_amplitude")
 """Parameters that are set after a state is saved."""
+GUID = b"00000000-0000-0000-0000-000000000000"
+"""The GUID of another FMU."""
 DAMAGED = 24
 """Places in a serialised state at which a bit is turned."""
 
@@ -59,19 +61,33 @@ def _overwriting_faults(instance: Instance, slave: FMU2Slave | Fmi3Slave) -> Ite
 
 
 def _damage_faults(instance: Instance, slave: FMU2Slave | Fmi3Slave) -> Iterator[str]:
-    """Read back states with a bit turned or the end cut off, which must be refused.
+    """Read back states with a bit turned, the end cut off or those of another FMU.
 
-    Turned bits may also be of no account: the state is then the one that was written.
+    They must be refused. Turned bits may also be of no account: the state is then the one that was
+    written, and not the present one.
     """
-    time, outputs = instance.time, instance.fmu.outputs
+    outputs = instance.fmu.outputs
     state = slave.getFMUstate()
-    content, before = bytes(slave.serializeFMUstate(state)), instance.read(outputs)
+    content = bytes(slave.serializeFMUstate(state))
+    slave.freeFMUstate(state)
+    instance.step_by(STEP)
+    time, before = instance.time, instance.read(outputs)
+    state = slave.getFMUstate()
     damaged = {f"cut off after {size} bytes": content[:size] for size in (0, len(content) // 2)}
     for number in range(DAMAGED):
         place, bit = (2 * number + 1) * len(content) // (2 * DAMAGED), number % 8
         changed = bytearray(content)
         changed[place] ^= 1 << bit
         damaged[f"with bit {bit} of byte {place} turned"] = bytes(changed)
+    if isinstance(slave, FMU2Slave) and instance.fmu.runs_without_python:
+        few = (c_char * (len(content) - 1))()
+        with suppress(FMICallException):
+            call(slave, "fmi2SerializeFMUstate", state, few, len(few))
+            yield "a state is serialised into too few bytes"
+    damaged["of zeros"] = bytes(len(content))
+    damaged["with something after it"] = content + bytes(8)
+    guid = instance.fmu.description.guid.strip("{}").encode()
+    damaged["of another FMU"] = content.replace(guid, GUID) if guid in content else content[::-1]
     for what, content_then in damaged.items():
         with suppress(FMICallException):
             taken = slave.deSerializeFMUstate(content_then)
@@ -101,6 +117,10 @@ def _freeing_faults(instance: Instance, slave: FMU2Slave | Fmi3Slave) -> Iterato
     if state.value and instance.fmu.runs_without_python:
         yield "the pointer to a state that is freed is not null"
     state.value = None
+    if instance.fmu.runs_without_python:
+        with suppress(FMICallException):
+            call(slave, "fmi2SetFMUstate", state)
+            yield "a null pointer is accepted as a state"
     try:
         call(slave, "fmi2FreeFMUstate", byref(state))
     except FMICallException:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.checks.natural_scale import fast_velocity
+from slider_resonator.checks.natural_scale import largest_fast_velocity
 
 _ESTIMATE = "slow_motion_error"
 WITHIN = 0.1
@@ -22,8 +22,8 @@ def error_over_estimate(fmu: FmuSide) -> float:
     """
     fmu.instance.fmu.variable(_ESTIMATE)
     error = np.abs(fmu.record["mean_velocity"] - fmu.resolved["mean_velocity"])[1:]
-    device = fmu.scene.device
-    counts = error > WITHIN * device.tolerance * fast_velocity(device)
+    device, held = fmu.scene.device, fmu.scene.schedule().held()
+    counts = error > WITHIN * device.tolerance * largest_fast_velocity(device, held)
     with np.errstate(divide="ignore"):
         shares = error[counts] / fmu.record[_ESTIMATE][1:][counts]
     return float(shares.max(initial=0.0))
