@@ -14,7 +14,7 @@ from studies.mutants.trial import BenchPoint, Tried, trial
 from tests.harness import faulty_fmus
 
 Outcome = Callable[[str, str, str], Tried]
-FORCE = "drive = force"
+FORCE = "self.drive, self.arc = force"
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +42,7 @@ def test_the_original_passes_and_does_not_differ(python_fmu: Path, bench: list[B
 
 
 def test_a_failed_check_rejects(outcome: Outcome) -> None:
-    rejection = outcome("device.py", FORCE, "drive = 1.01 * force").rejection
+    rejection = outcome("device.py", FORCE, FORCE.replace("force", "1.01 * force")).rejection
     assert rejection is not None
     assert (rejection.scene, rejection.quantity) == ("short", "position")
     assert "off by" in rejection.reason
@@ -52,7 +52,8 @@ def test_a_failed_check_rejects(outcome: Outcome) -> None:
 def test_small_changes_pass_and_smaller_ones_count_as_none(
     outcome: Outcome, error: float, differs: bool
 ) -> None:
-    assert outcome("device.py", FORCE, f"drive = {1.0 + error!r} * force") == Tried(None, differs)
+    changed = FORCE.replace("force", f"{1.0 + error!r} * force")
+    assert outcome("device.py", FORCE, changed) == Tried(None, differs)
 
 
 @pytest.mark.parametrize(
@@ -72,7 +73,7 @@ def test_a_hang_a_crash_and_an_error_reject(outcome: Outcome, new: str, reason: 
 
 
 def test_an_fmu_that_cannot_be_loaded_is_rejected(outcome: Outcome) -> None:
-    rejection = outcome("clock.py", "class Clock", "1 / 0\nclass Clock").rejection
+    rejection = outcome("budget.py", "class Clock", "1 / 0\nclass Clock").rejection
     assert rejection is not None
     assert not rejection.scene
 
@@ -80,7 +81,7 @@ def test_an_fmu_that_cannot_be_loaded_is_rejected(outcome: Outcome) -> None:
 def test_an_fmu_that_is_rejected_unchanged_is_refused(python_fmu: Path, tmp_path: Path) -> None:
     fmu = read_python_fmu(python_fmu)
     faulty = tmp_path / "faulty.fmu"
-    module = fmu.modules["device.py"].replace(FORCE, "drive = 1.01 * force", 1)
+    module = fmu.modules["device.py"].replace(FORCE, FORCE.replace("force", "1.01 * force"), 1)
     fmu.write(faulty, {fmu.path_of("device.py"): module})
     scene = read_scene(faulty_fmus.scene(tmp_path))
     with pytest.raises(FmuError, match=r"rejected before anything is changed: scene short: pos"):
