@@ -96,10 +96,11 @@ def other_friction(python_fmu: Path, out: Path) -> Path:
     """Copy the Python FMU with 0.1 % more friction than its description says."""
 
     def alter(name: str, content: bytes) -> bytes:
-        if not (name.startswith("resources/") and name.endswith("/variables.py")):
+        if not (name.startswith("resources/slider_component") and name.endswith("/variables.py")):
             return content
-        row, separator, rest = content.partition(b'"friction_coefficient",')
-        return row + separator + rest.replace(b"start=0.1,", b"start=0.1001,", 1)
+        row = b"tunable friction_coefficient 1, start 0.1"
+        assert row in content, "the table of variables must have the row that is altered"
+        return content.replace(row, row + b"001", 1)
 
     return altered(python_fmu, out, alter)
 

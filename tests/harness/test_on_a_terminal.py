@@ -56,7 +56,7 @@ def on_terminal(*arguments: object, interrupt_at: str = "") -> tuple[int, str]:
 SIZED = f"""
 import fcntl, struct, sys, termios
 fcntl.ioctl(1, termios.TIOCSWINSZ, struct.pack("HHHH", 50, {WIDTH}, 0, 0))
-from slider_resonator.cli import main
+from studies.cli import main
 sys.argv[0] = "slider-resonator"
 main()
 """

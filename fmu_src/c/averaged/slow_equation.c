@@ -25,7 +25,7 @@ static const char *const STEPS = "steps of averaged motion";
 /* Change of the velocity up to which its rate may be linear, over the fast velocity; and the share of the tolerance for what
  * that leaves: no step corrects it. */
 #define LINEAR 4e-6
-#define SETTLED 1e-3
+#define SETTLED 1e-2
 
 /* Number of waves of the normal load over a turn that doubles the cost of a quadrature, and number beyond
  * which the load counts with its mean. */

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from importlib import resources
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -120,4 +121,4 @@ def test_the_examples_of_scene_files_pass(native_fmu: Path) -> None:
     examples = Path(str(resources.files("slider_resonator.scenes") / "examples"))
     result = call("validate", "--fmu", native_fmu, "--scene", examples)
     assert result.exit_code == 0, result.output
-    assert "12 of 12 checks passed" in result.stdout
+    assert re.search(r"(\d+) of \1 checks passed", result.stdout)
