@@ -55,6 +55,7 @@ def test_wheel_has_every_file_of_the_package(installed: Path, pattern: str) -> N
     assert {path.relative_to(package) for path in package.rglob(pattern)} == expected
 
 
+@pytest.mark.slow
 def test_folder_with_a_harness_of_its_own(
     installed: Path, native_fmu: Path, tmp_path: Path
 ) -> None:

@@ -35,8 +35,8 @@ def _python_build(folder: Path) -> Path:
     )
     _edit(
         package / "variables.py",
-        'of each face",\n        start=0.1',
-        'of each face",\n        start=0.2',
+        "friction_coefficient 1, start 0.1",
+        "friction_coefficient 1, start 0.2",
     )
     return build_python(folder / "dist", package)
 

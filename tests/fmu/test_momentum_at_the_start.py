@@ -25,6 +25,7 @@ def mean_velocities(instance: Instance) -> list[float]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", [0, 1])
 def test_mean_velocity_from_rest_is_that_of_the_full_device(
     instantiate: Instantiate, law: int

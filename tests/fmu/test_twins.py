@@ -171,6 +171,7 @@ def test_coulomb_devices(
 strong = parameters.filter(lambda values: values["fidelity"] > 0 or values["base_amplitude"] > 1e-4)
 
 
+@pytest.mark.slow
 @quick
 @given(strong, courses, st.sampled_from([50.0, 1e3, 1e5, 1e8]), st.sampled_from([0.0, 10.0]))
 def test_lugre_devices(

@@ -89,6 +89,7 @@ def in_a_shell(line: str, fmu: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "line",
     [
@@ -103,6 +104,7 @@ def test_output_that_cannot_be_written_is_no_verdict(python_fmu: Path, line: str
     assert errors == ["error: standard output: No space left on device", "code 2"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "line",
     [
@@ -124,6 +126,7 @@ def test_an_error_that_cannot_be_printed_exits_with_2(python_fmu: Path) -> None:
     assert shell.stdout == "2\n"
 
 
+@pytest.mark.slow
 def test_a_closed_output_does_not_hide_the_verdict(python_fmu: Path) -> None:
     assert in_a_shell("harness steady $fmu >&-", python_fmu).stderr == "code 0\n"
     line = "harness steady $fmu --set load=0.25 >&-"

@@ -74,6 +74,7 @@ def test_an_error_is_wrapped_between_words() -> None:
     assert all(len(line) <= WIDTH for line in lines(shown)), shown
 
 
+@pytest.mark.slow
 def test_an_interrupted_campaign_says_what_is_kept(native_fmu: Path, tmp_path: Path) -> None:
     out = tmp_path / "campaign.json"
     arguments = ("campaign", native_fmu, "--cases", 1000, "--out", out)
@@ -103,6 +104,7 @@ def test_an_interrupted_loop_says_that_nothing_is_kept(
     assert shown.split("interrupted", 1)[1].split() == ["nothing", "is", "kept"]
 
 
+@pytest.mark.slow
 def test_progress_has_a_number_and_stays_on_its_line(native_fmu: Path) -> None:
     code, shown = on_terminal("campaign", native_fmu, "--cases", 8)
     assert code == 0, shown
@@ -111,6 +113,7 @@ def test_progress_has_a_number_and_stays_on_its_line(native_fmu: Path) -> None:
     assert max(map(len, frames)) <= WIDTH, shown
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "counted"),
     [

@@ -31,6 +31,7 @@ def test_the_fmu_for_all_platforms_has_the_page(
         assert f"documentation/{NAME}" not in archive.namelist()
 
 
+@pytest.mark.slow
 def test_equal_sources_give_equal_bytes(
     page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

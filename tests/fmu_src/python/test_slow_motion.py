@@ -82,6 +82,7 @@ def test_against_the_resolved_device(parameters: dict[str, Any], inputs: Inputs)
     assert slow.theta == pytest.approx(full.theta, abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("device", "periods"), [(TABLE_1, 560), (BRISTLES, 140)])
 def test_error_falls_with_the_drive_frequency(device: Device, periods: int) -> None:
     """At equal fast velocity, slow time scale and kappa, the ratio of path and bristle length."""

@@ -48,6 +48,7 @@ def test_verdicts_do_not_depend_on_the_number_of_processes(
     assert [one.exit_code for one in shared] == [0, 2, 0]
 
 
+@pytest.mark.slow
 def test_progress_grows_to_the_end(native_fmu: Path) -> None:
     reported: list[tuple[str, float]] = []
     validate([native_fmu], SCENES[:2], lambda *one: reported.append(one), jobs=2)

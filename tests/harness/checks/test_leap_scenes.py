@@ -26,6 +26,7 @@ def of_order_1(name: str) -> Scene:
     return scene.with_values({"averaging_order": 1})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", ["leap_table_1", "leap_strong_friction"])
 def test_the_order_decides(native_fmu: Path, scene: str) -> None:
     second = judged(native_fmu, find_scene(scene))

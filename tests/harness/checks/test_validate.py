@@ -66,6 +66,7 @@ def test_a_scene_of_each_kind_passes(python_fmu: Path, scene: str) -> None:
     assert not failed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("build", ["native_fmu", "python_fmu"])
 def test_repeated_validations_of_a_correct_fmu_give_equal_checks(
     request: pytest.FixtureRequest, build: str
@@ -79,6 +80,7 @@ def test_repeated_validations_of_a_correct_fmu_give_equal_checks(
         assert not other.run_failures
 
 
+@pytest.mark.slow
 def test_several_fmus_are_judged_one_by_one(tmp_path: Path, python_fmu: Path) -> None:
     copy = tmp_path / "copy.fmu"
     copy.write_bytes(python_fmu.read_bytes())

@@ -88,6 +88,7 @@ def test_a_refused_scene_does_not_keep_others_from_being_judged(
     assert [(c.scene, c.passed) for c in validation.checks] == [("short", True)]
 
 
+@pytest.mark.slow
 def test_nothing_is_left_behind(
     native_fmu: Path, tmp_path: Path, scene: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -234,6 +234,7 @@ def test_a_device_that_the_fmu_refuses_is_no_answer(instance: Instance) -> None:
         choose_with(instance, scene_of(device + run))
 
 
+@pytest.mark.slow
 def test_the_python_fmu_gets_the_same_answer(native_fmu: Path, python_fmu: Path) -> None:
     scene = table_1("mean_velocity = { rel = 0.05 }", periods=100.0)
     native, python = (choose(scene, fmu) for fmu in (native_fmu, python_fmu))

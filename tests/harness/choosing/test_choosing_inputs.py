@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from slider_resonator.choosing import choose
 from slider_resonator.choosing.choosing import choose_with
 from slider_resonator.fmu.instance import Instance
@@ -54,6 +56,7 @@ def test_a_choice_with_straight_lines_holds_in_the_run_that_applies_it(instance:
     assert abs(found - expected) <= choice.allowed["mean_velocity"]
 
 
+@pytest.mark.slow
 def test_an_fmu_that_takes_no_derivatives_has_straight_lines_held(python_fmu: Path) -> None:
     text = (RAMPED % "true").replace("1e-7", "0.2").replace("stop_time = 1.0", "stop_time = 0.1")
     choice = choose(scene_of(text), python_fmu)

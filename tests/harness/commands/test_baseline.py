@@ -120,6 +120,7 @@ def test_nothing_is_replaced_unasked(native_fmu: Path, baseline: Path, scene: Pa
     assert content(baseline) == before, "the same FMU gives the same bytes"
 
 
+@pytest.mark.slow
 def test_an_edited_scene_must_be_recorded_anew(
     native_fmu: Path, baseline: Path, scene: Path
 ) -> None:
@@ -132,6 +133,7 @@ def test_an_edited_scene_must_be_recorded_anew(
     assert "record it again with --replace" in result.stderr
 
 
+@pytest.mark.slow
 def test_what_cannot_run_exits_with_2(native_fmu: Path, baseline: Path, tmp_path: Path) -> None:
     crash = faulty_fmus.compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
     report = tmp_path / "report.json"
@@ -195,6 +197,7 @@ def test_changes_that_cannot_be_kept_are_shown(other_fmu: Path, baseline: Path) 
     assert "could not be kept for accept" in result.stderr
 
 
+@pytest.mark.slow
 def test_lines_that_an_fmu_cannot_take_do_not_apply(
     native_fmu: Path, python_fmu: Path, tmp_path: Path
 ) -> None:

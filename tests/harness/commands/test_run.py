@@ -74,6 +74,7 @@ def test_a_refusal_of_the_fmu_is_reported_once_without_its_wrapping(python_fmu: 
     assert "exception" not in result.output
 
 
+@pytest.mark.slow
 def test_a_picture_changes_no_digit_of_the_csv(python_fmu: Path, tmp_path: Path) -> None:
     alone, beside = tmp_path / "alone.csv", tmp_path / "beside.csv"
     assert call("run", python_fmu, "table_1", "--out", alone).exit_code == 0

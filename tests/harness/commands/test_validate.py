@@ -46,6 +46,7 @@ def test_a_failure_exits_with_1(native_fmu: Path, tmp_path: Path) -> None:
     assert "data:image/png" in (tmp_path / "report.html").read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fault", faulty_fmus.BROKEN)
 def test_run_failures_exit_with_2_and_all_reports(
     native_fmu: Path, tmp_path: Path, fault: str
@@ -85,6 +86,7 @@ def test_a_folder_of_scenes(native_fmu: Path, tmp_path: Path) -> None:
     assert "with scene files" in call("validate", native_fmu, "--scene", empty).stderr
 
 
+@pytest.mark.slow
 def test_the_public_keys_of_several_fmus_stay(native_fmu: Path, tmp_path: Path) -> None:
     crash = faulty_fmus.compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
     scene = faulty_fmus.scene(tmp_path)

@@ -60,6 +60,7 @@ def test_progress_is_reported(instance: Instance) -> None:
     assert shares == sorted(shares)
 
 
+@pytest.mark.slow
 def test_lines_are_passed_on_where_the_fmu_takes_derivatives(instance: Instance) -> None:
     line = {"load": ramp([(0.0, 0.0), (10 * PERIOD, 2.0)])}
     fine = run(instance, {}, schedule(10 * PERIOD, PERIOD / 200, **line))

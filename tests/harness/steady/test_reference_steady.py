@@ -26,6 +26,7 @@ def test_blocking_force_of_table_1() -> None:
     assert reference_blocking_force(TABLE_1, 0.0, 1.0) == pytest.approx(0.0851861, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_what_never_repeats_has_no_steady_motion() -> None:
     assert reference_steady_velocity(TABLE_1, 0.0, 0.0, 1.001) is None
     assert reference_blocking_force(TABLE_1, 0.0, 1.001) is None

@@ -40,6 +40,7 @@ def blocking_force(device: Device, phase: float, guess: float) -> float:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fidelity", [1, 2])
 def test_long_run_converges_to_the_steady_motion(fidelity: int) -> None:
     """Strong friction, so that 250 drive periods forget the start."""

@@ -18,6 +18,7 @@ ENDLESS = Case("steps", "far too many", Model(2, 0), {}, (Hold(1.0, 100_000),))
 LEAPING = replace(QUICK, model=Model(0, 0, 2))
 
 
+@pytest.mark.slow
 def test_a_hang_costs_one_case(native_fmu: Path) -> None:
     shares: list[float] = []
     result = run_cases(native_fmu, [ENDLESS, QUICK], lambda _, share: shares.append(share), 2.0)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from slider_resonator.sweeping.measures import Run, Task
 from slider_resonator.sweeping.running import Workers, run_points
 from slider_resonator.sweeping.worker import Row
@@ -20,6 +22,7 @@ def rows_of(fmu: Path, time_limit: float, measure: str = "velocity.rms") -> list
     return sorted(kept)
 
 
+@pytest.mark.slow
 def test_points_that_crash_every_process_have_an_error(native_fmu: Path, tmp_path: Path) -> None:
     fmu = compiled(native_fmu, tmp_path / "f.fmu", "IN_STEP=CRASH", "VALUE=1.0")
     for _, cells, error in rows_of(fmu, 60.0):
@@ -46,6 +49,7 @@ def test_a_process_that_dies_once_costs_no_point(native_fmu: Path, tmp_path: Pat
     assert all(row[2] is None for row in rows_of(fmu, 60.0))
 
 
+@pytest.mark.slow
 def test_predictions_that_hang_are_left_to_the_single_points(
     native_fmu: Path, tmp_path: Path
 ) -> None:

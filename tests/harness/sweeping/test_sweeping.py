@@ -59,6 +59,7 @@ def test_one_and_two_workers_write_the_same_table(
     assert not journal_path(tmp_path / "one.parquet").exists()
 
 
+@pytest.mark.slow
 def test_finished_points_are_found_and_not_computed_again(
     grid: Path, native_fmu: Path, tmp_path: Path
 ) -> None:
@@ -192,6 +193,7 @@ def test_velocities_are_those_of_the_command_steady_up_to_rounding(
             assert result.columns["steady_velocity_status"][index] == alone.status
 
 
+@pytest.mark.slow
 def test_the_table_of_another_grid_is_replaced_only_when_asked(
     grid: Path, native_fmu: Path, tmp_path: Path
 ) -> None:
@@ -235,6 +237,7 @@ def test_points_without_an_answer_are_counted(native_fmu: Path, tmp_path: Path) 
     assert (result.points, result.failed, result.unanswered) == (2, 0, 1)
 
 
+@pytest.mark.slow
 def test_a_damaged_entry_costs_its_points_only(
     grid: Path, native_fmu: Path, tmp_path: Path
 ) -> None:

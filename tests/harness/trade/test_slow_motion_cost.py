@@ -24,6 +24,7 @@ def test_a_fast_drive_gains_most(native_fmu: Path) -> None:
     assert found.ratio > 30.0, "80 on a quiet machine"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stiffness", ["1e4", "1e5", "1e7"])
 def test_leaps_gain_on_bristles(native_fmu: Path, stiffness: str) -> None:
     with open_fmu(native_fmu) as fmu:

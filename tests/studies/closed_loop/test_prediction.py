@@ -33,6 +33,7 @@ PLACE = b'<ssv:Parameter name="slider.fidelity">'
 ORDER_1 = b'<ssv:Parameter name="slider.averaging_order"><ssv:Integer value="1"/></ssv:Parameter>'
 
 
+@pytest.mark.slow
 def test_errors_are_of_the_order_of_the_averages(closed_loop_package: Path, tmp_path: Path) -> None:
     first = changed(closed_loop_package, tmp_path / "first.ssp", PLACE, ORDER_1 + PLACE)
     per_radian, fast = 2.0 * 0.1 * 1.0 / (1.1 * 3500.0), 0.2366
@@ -55,6 +56,7 @@ def errors_of(package: Path) -> tuple[float, float]:
     return error, np.abs(design.velocity - proof.velocity)[design.times > 0.81].max()
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("brief")
 def test_the_device_is_that_of_the_package(closed_loop_package: Path, tmp_path: Path) -> None:
     first = changed(closed_loop_package, tmp_path / "first.ssp", PLACE, ORDER_1 + PLACE)
@@ -70,6 +72,7 @@ def test_the_device_is_that_of_the_package(closed_loop_package: Path, tmp_path: 
     assert rough > 1.5 * usual, "three times the friction takes more velocity in a period"
 
 
+@pytest.mark.slow
 def test_averaged_motion_that_does_not_do_has_no_error(
     closed_loop_package: Path, tmp_path: Path
 ) -> None:

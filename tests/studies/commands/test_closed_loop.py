@@ -28,6 +28,7 @@ def changed(package: Path, target: Path, old: str, new: str, sets: str = ".ssv")
     return faulty_fmus.altered(package, target, alter)
 
 
+@pytest.mark.slow
 def test_the_velocity_is_held_at_both_fidelities_and_they_agree(
     closed_loop_package: Path, tmp_path: Path
 ) -> None:
@@ -56,6 +57,7 @@ def brief(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(prediction, "FIRST", 1)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("brief")
 def test_a_controller_without_integral_does_not_hold(
     closed_loop_package: Path, tmp_path: Path
@@ -67,6 +69,7 @@ def test_a_controller_without_integral_does_not_hold(
     assert "never" in done.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("brief")
 def test_another_device_is_a_proof_that_disagrees(
     closed_loop_package: Path, tmp_path: Path

@@ -22,6 +22,7 @@ def others(python_fmu: Path, native_3_fmu: Path) -> tuple[str | Path, ...]:
     return "--python-fmu", python_fmu, "--fmi3-fmu", native_3_fmu
 
 
+@pytest.mark.slow
 def test_the_reference_agrees_with_itself(
     native_fmu: Path, others: tuple[str | Path, ...], tmp_path: Path
 ) -> None:
@@ -106,6 +107,7 @@ def test_bad_arguments_are_refused(
     assert reported in done.stderr
 
 
+@pytest.mark.slow
 def test_what_is_installed_runs_and_the_rest_is_listed(
     native_fmu: Path, others: tuple[str | Path, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -123,6 +125,7 @@ def test_what_is_installed_runs_and_the_rest_is_listed(
     assert "fmpy" in done.stdout
 
 
+@pytest.mark.slow
 def test_the_fmus_of_the_installation_run_where_nothing_is_built(
     native_fmu: Path,
     others: tuple[str | Path, ...],

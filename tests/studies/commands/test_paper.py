@@ -11,6 +11,7 @@ from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 
 
+@pytest.mark.slow
 def test_figures_are_written_and_listed_as_json(native_fmu: Path, tmp_path: Path) -> None:
     arguments = ["--out", tmp_path, "--only", "figure_7", "--fmu", native_fmu, "--json"]
     result = call("paper", *arguments)

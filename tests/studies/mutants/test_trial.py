@@ -56,6 +56,7 @@ def test_small_changes_pass_and_smaller_ones_count_as_none(
     assert outcome("device.py", FORCE, changed) == Tried(None, differs)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("new", "reason"),
     [

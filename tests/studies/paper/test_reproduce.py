@@ -28,6 +28,7 @@ def test_an_unknown_name_is_refused(native_fmu: Path, tmp_path: Path) -> None:
         reproduce(native_fmu, tmp_path, ("figure_6",), _quiet)
 
 
+@pytest.mark.slow
 def test_a_part_is_written_beside_existing_files(native_fmu: Path, tmp_path: Path) -> None:
     outcome = reproduce(native_fmu, tmp_path, ("figure_3",), _quiet)
     assert outcome.run == ["figure_3"]

@@ -58,6 +58,7 @@ def test_processes_share_the_tasks_and_keep_the_order(native_fmu: Path) -> None:
 ABORT, REFUSED = tasks_of_tests.abort, tasks_of_tests.refused
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "faults",
     [

@@ -83,6 +83,7 @@ def test_error_falls_with_the_drive_frequency(name: str) -> None:
     assert errors[1] < 0.4 * errors[0], f"errors {errors} must fall as 1 / Omega"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("device", [COULOMB, BRISTLES], ids=["Coulomb", "LuGre"])
 def test_input_changes_act_at_once(device: Device) -> None:
     device = replace(

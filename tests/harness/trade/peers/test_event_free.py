@@ -134,6 +134,7 @@ def test_the_limit_of_zero_width_is_coulomb_friction() -> None:
     assert errors[-1] < 1e-3 * np.abs(exact.position).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["DOP853", "LSODA", "Radau"])
 def test_it_creeps_where_friction_should_hold(method: str) -> None:
     width, stop = 1e-3, 0.1
