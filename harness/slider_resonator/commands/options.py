@@ -257,7 +257,7 @@ def _device(_: click.Context, __: click.Option, name_or_file: str | None) -> dic
     return values
 
 
-_device_option = click.option(
+device_option = click.option(
     "--device",
     metavar="NAME|FILE",
     callback=_device,
@@ -272,7 +272,7 @@ def set_option(command: Callable[..., Any]) -> Callable[..., Any]:
     def with_device(device: dict[str, float], settings: dict[str, float], **others: Any) -> Any:
         return command(settings={**device, **settings}, **others)
 
-    return _device_option(_set_option(with_device))
+    return device_option(_set_option(with_device))
 
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")

@@ -10,6 +10,7 @@ import click
 from slider_resonator.commands.options import (
     Target,
     default_fmu,
+    device_option,
     fmu_option,
     jobs_option,
     json_option,
@@ -34,6 +35,7 @@ from slider_resonator.sweeping.table import SUFFIXES
 @click.option("--out", type=Target(SUFFIXES), required=True, help="Table to write or complete.")
 @click.option("--plot", type=Target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")
 @click.option("--html", type=Target([".html"]), help="One page with plots to point at.")
+@device_option
 @fmu_option
 @jobs_option
 @click.option("--dask", metavar="ADDRESS", help="Run on the cluster of this scheduler.")
@@ -48,6 +50,7 @@ def sweep_command(
     out: Path,
     plot: Path | None,
     html: Path | None,
+    device: dict[str, float],
     fmu: Path | None,
     jobs: int | None,
     dask: str | None,
@@ -80,13 +83,13 @@ def sweep_command(
     \b
     Examples:
       slider-resonator sweep grid.toml --out table.parquet --plot map.png
-      slider-resonator sweep grid.toml --out table.csv --jobs 4
+      slider-resonator sweep grid.toml --out table.csv --device mine.toml --jobs 4
       slider-resonator sweep grid.toml --out table.csv --html sweep.html
       slider-resonator sweep grid.toml --out table.parquet --dask tcp://192.0.2.1:8786
     """
     sources = {"the grid": grid} | ({} if fmu is None else {"the FMU": fmu})
     distinct({"--out": out, "--plot": plot, "--html": html}, sources)
-    sweep = read_grid(grid)
+    sweep = read_grid(grid, device)
     _check_drawable(sweep, plot, html)
     path = default_fmu(fmu)
     provenance = provenance_of(path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from importlib import resources
 from math import pi
@@ -13,6 +14,7 @@ from slider_resonator.device.interface import PARAMETERS, VARIABLES
 from slider_resonator.device.units import si_value, with_unit
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import SceneError, unknown_name
+from slider_resonator.scenes.device_keys import HAS_UNIT
 from slider_resonator.scenes.toml_file import read_toml
 from slider_resonator.scenes.toml_text import toml_value
 
@@ -39,6 +41,29 @@ def refuse_other_kinds(content: Mapping[str, Any], source: str, expected: str) -
     if found != expected:
         use = _USES[found].format(file=source)
         raise SceneError(f"{source}: is a {found} file; must be a {expected} file. Use it in {use}")
+
+
+def with_si_device(content: Mapping[str, Any], source: str) -> Mapping[str, Any]:
+    """Return the content of a file with the texts of [device] as numbers in SI units.
+
+    Raises SceneError with key, value and requirement.
+    """
+    table = content.get("device")
+    if not isinstance(table, Mapping):
+        return content
+    values = dict(table)
+    for name, value in table.items():
+        if isinstance(value, str) and name in PARAMETERS and _has_unit(name, value):
+            try:
+                values[name] = si_value(name, value)
+            except ValueError as error:
+                raise SceneError(f"{source}: device.{error}") from error
+    return {**content, "device": values}
+
+
+def _has_unit(name: str, text: str) -> bool:
+    """Whether a text may be a value with a unit: any other is refused as what is no number."""
+    return VARIABLES[name].kind == "Real" and re.search(HAS_UNIT, text) is not None
 
 
 def example_devices() -> dict[str, Path]:

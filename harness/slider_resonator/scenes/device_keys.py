@@ -7,6 +7,9 @@ from typing import Any
 
 from slider_resonator.device.interface import PARAMETERS, VARIABLES
 
+HAS_UNIT = "[A-DF-Za-df-zµμ°%]"
+"""A character that a text has which is a number with a unit, and one without does not have."""
+
 PARAMETER_MEANINGS: Mapping[str, str] = {
     "slider_mass": "mass of the slider, M",
     "resonator_mass": "mass of the resonator, m",
@@ -45,8 +48,13 @@ def device_schema() -> dict[str, Any]:
 def _property(name: str, meaning: str) -> dict[str, Any]:
     variable = VARIABLES[name]
     bounds = {"minimum": variable.minimum, "maximum": variable.maximum}
+    is_integer = variable.kind == "Integer"
     return {
-        "type": "integer" if variable.kind == "Integer" else "number",
+        **(
+            {"type": "integer"}
+            if is_integer
+            else {"type": ["number", "string"], "pattern": HAS_UNIT}
+        ),
         "description": meaning,
         "unit": variable.unit,
         "default": variable.start,

@@ -17,6 +17,7 @@ from slider_resonator.device.signal import Signal, constant, ramp, steps
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.scenes.csv_signal import csv_points
+from slider_resonator.scenes.device_file import refuse_other_kinds, with_si_device
 from slider_resonator.scenes.expansion import variants
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.explanations import explanations
@@ -239,8 +240,10 @@ def only_scene(scenes: Sequence[Scene], source: str) -> Scene:
 
 
 def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
+    if "name" not in content:
+        refuse_other_kinds(content, source, "scene")
     try:
-        table = SceneTable.model_validate(content)
+        table = SceneTable.model_validate(with_si_device(content, source))
     except ValidationError as error:
         raise SceneError("\n".join(explanations(source, error, content))) from error
     tables = _tables_of(table.inputs)

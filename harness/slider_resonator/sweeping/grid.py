@@ -13,6 +13,7 @@ from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import HarnessError, unknown_name
+from slider_resonator.scenes.device_file import device_values, refuse_other_kinds
 from slider_resonator.scenes.toml_file import read_toml
 from slider_resonator.sweeping.axes import (
     AxisError,
@@ -25,7 +26,7 @@ from slider_resonator.sweeping.axes import (
 )
 from slider_resonator.sweeping.measures import Run, Task, check_measure
 
-KEYS = ("title", "measures", "max_denominator", "fixed", "grid", "list", "random", "run")
+KEYS = ("title", "measures", "max_denominator", "device", "fixed", "grid", "list", "random", "run")
 RUN_KEYS = ("drive_periods", "steps_per_period", "skip_periods")
 RUN_DEFAULTS = {"drive_periods": 100, "steps_per_period": 16, "skip_periods": 0}
 
@@ -46,20 +47,28 @@ class Sweep:
     logarithmic: frozenset[str] = frozenset()
 
 
-def read_grid(path: Path) -> Sweep:
-    """Read a grid file; raises HarnessError with file, key, value and requirement."""
-    return grid_from(read_toml(path), str(path))
+def read_grid(path: Path, device: Mapping[str, float] | None = None) -> Sweep:
+    """Read a grid file; raises HarnessError with file, key, value and requirement.
+
+    `device` has parameters that its own [device], [fixed] and what varies leave out.
+    """
+    content = read_toml(path)
+    refuse_other_kinds(content, str(path), "grid")
+    return grid_from(content, str(path), device)
 
 
-def grid_from(content: Mapping[str, Any], source: str) -> Sweep:
+def grid_from(
+    content: Mapping[str, Any], source: str, device: Mapping[str, float] | None = None
+) -> Sweep:
     """Return the sweep of parsed TOML, or data of the same form; HarnessError with `source`."""
     try:
-        return _sweep(content)
+        _table(content, "device")
+        return _sweep(content, {**(device or {}), **device_values(content, source)})
     except AxisError as error:
         raise HarnessError(f"{source}: {error}") from error
 
 
-def _sweep(content: Mapping[str, Any]) -> Sweep:
+def _sweep(content: Mapping[str, Any], device: Mapping[str, float]) -> Sweep:
     _known("key", content, KEYS)
     parts = (
         grid_points(_table(content, "grid")),
@@ -69,7 +78,7 @@ def _sweep(content: Mapping[str, Any]) -> Sweep:
     names = [name for own, _ in parts for name in own]
     if not names:
         raise AxisError("nothing is varied; must have any of [grid], [list] and [random]")
-    fixed = _table(content, "fixed")
+    fixed = dict(_table(content, "fixed"))
     for name in [*names, *fixed]:
         if name not in PARAMETERS and name not in INPUTS:
             raise AxisError(unknown_name("parameter or input", name, [*PARAMETERS, *INPUTS]))
@@ -82,6 +91,9 @@ def _sweep(content: Mapping[str, Any]) -> Sweep:
         _check(name, {point[column] for point in points})
     for name, value in fixed.items():
         _check(name, [value])
+    for name, value in device.items():
+        if name not in names:
+            fixed.setdefault(name, value)
     task = Task(
         names=tuple(names),
         fixed=tuple((name, float(value)) for name, value in fixed.items()),

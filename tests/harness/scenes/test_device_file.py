@@ -14,8 +14,8 @@ from slider_resonator.scenes.device_file import (
     read_device,
     to_toml,
 )
-
-ROOT = Path(__file__).parents[3]
+from slider_resonator.scenes.scene import read_scene, scene_from
+from slider_resonator.sweeping.grid import read_grid
 
 
 def written(folder: Path, text: str) -> str:
@@ -71,6 +71,26 @@ def test_bad_file_is_explained(tmp_path: Path, text: str, said: str) -> None:
         read_device(path)
     assert said in str(error.value)
     assert path in str(error.value)
+
+
+def test_scenes_take_units_and_other_files_are_named(tmp_path: Path) -> None:
+    content = {"name": "a", "title": "a", "device": {"drive_frequency": "20 kHz"}}
+    assert scene_from(content, "a").parameters["drive_frequency"] == pytest.approx(4e4 * pi)
+    with pytest.raises(SceneError, match=r"device\.drive_frequency = '20 kg': not in rad/s"):
+        scene_from({**content, "device": {"drive_frequency": "20 kg"}}, "a")
+    with pytest.raises(SceneError, match="is a device file; must be a scene file"):
+        read_scene(Path(written(tmp_path, "[device]\nslider_mass = 1.0\n")))
+    with pytest.raises(SceneError, match="is a grid file; must be a scene file"):
+        read_scene(Path(written(tmp_path, "[grid]\nphase = [0.0, 1.0]\n")))
+    with pytest.raises(SceneError, match="is a scene file; must be a grid file"):
+        read_grid(Path(written(tmp_path, 'name = "a"\n[run]\nstop_time = 1.0\n')))
+
+
+def test_grids_have_a_device_whose_parameters_may_vary(tmp_path: Path) -> None:
+    text = '[device]\nslider_mass = "50 g"\nresonator_mass = "5 g"\n[grid]\nslider_mass = [1, 2]\n'
+    sweep = read_grid(Path(written(tmp_path, text)), {"damping_ratio": 0.1, "resonator_mass": 1.0})
+    assert dict(sweep.task.fixed) == {"damping_ratio": 0.1, "resonator_mass": pytest.approx(5e-3)}
+    assert sweep.points == ((1.0,), (2.0,))
 
 
 @pytest.mark.parametrize(
