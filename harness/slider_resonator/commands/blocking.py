@@ -47,5 +47,7 @@ def blocking_command(
         progress("searching the blocking force", 0.0)
         blocking = isolated.run(search, progress)
     found = blocking.blocking_force
-    code = print_search_result(blocking, "blocking force", found, "N", as_json, provenance)
+    code = print_search_result(
+        blocking, "blocking force", found, "N", as_json, provenance, settings
+    )
     context.exit(code)

@@ -9,6 +9,7 @@ from slider_resonator.commands.results import print_json, print_table, print_tex
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.units import with_unit
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.output.terminal import escaped
 from slider_resonator.scenes.device_file import (
@@ -93,7 +94,7 @@ def _explain(name_or_file: str, as_json: bool) -> None:
 
 
 def _derived(device: Device) -> list[str]:
-    faces = f"{device.friction_faces} {'face' if device.friction_faces == 1 else 'faces'}"
+    faces = number_of(device.friction_faces, "face")
     friction = with_unit("load", device.mean_friction)
     lines = [f"friction of {faces} at the mean normal load: {friction}"]
     if device.normal_amplitude > device.normal_preload:

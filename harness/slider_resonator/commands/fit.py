@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -30,6 +30,9 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line
+
+if TYPE_CHECKING:
+    from slider_resonator.fitting.fit import Fit
 
 
 class _Quantity(click.ParamType[float]):
@@ -201,7 +204,7 @@ def fit_command(
     click.get_current_context().exit(1 if found.open_directions else 0)
 
 
-def _document(found: Any, written: Sequence[Path]) -> dict[str, Any]:
+def _document(found: Fit, written: Sequence[Path]) -> dict[str, Any]:
     return {
         "parameters": found.parameters,
         "device": found.device,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from slider_resonator.commands.options import (
@@ -13,6 +13,7 @@ from slider_resonator.commands.options import (
     time_limit_option,
 )
 from slider_resonator.commands.results import print_result
+from slider_resonator.device.device import Device
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.output.readable import number_of, readable
@@ -36,10 +37,16 @@ def print_search_result(
     unit: str,
     as_json: bool,
     provenance: Provenance,
+    settings: Mapping[str, float],
 ) -> int:
     """Print the result of a search and return the exit code, 1 when there is no value."""
     (fmu,) = provenance.fmus
-    text = f"{_sentences(result, what, value, unit)}\nFMU              {one_line(fmu.fmu)}"
+    faces = int(settings.get("friction_faces", Device().friction_faces))
+    text = (
+        f"{_sentences(result, what, value, unit)}\n"
+        f"friction         on {number_of(faces, 'face')} (friction_faces)\n"
+        f"FMU              {one_line(fmu.fmu)}"
+    )
     print_result(result, text, as_json=as_json, provenance=provenance)
     return 1 if value is None else 0
 

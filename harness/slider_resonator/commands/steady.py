@@ -50,5 +50,7 @@ def steady_command(
         progress("searching the steady velocity", 0.0)
         motion = isolated.run(search, progress)
     found = motion.steady_velocity
-    code = print_search_result(motion, "steady velocity", found, "m/s", as_json, provenance)
+    code = print_search_result(
+        motion, "steady velocity", found, "m/s", as_json, provenance, settings
+    )
     context.exit(code)

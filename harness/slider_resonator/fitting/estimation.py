@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
-from scipy.optimize import least_squares
+from scipy.optimize import brentq, least_squares
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import VARIABLES
@@ -23,10 +23,11 @@ from slider_resonator.fmu.instance import Instance
 NO_MOTION = 10.0
 """Residual, in root mean squares of the quantity, of a point at which the FMU has no motion."""
 DIFFERENCE = 1e-4
-"""Step of central differences, in units of a parameter: error 1e-8, rounding of outputs 1e-7."""
+"""Step of central differences, in units of a parameter: error 1e-8, of rounding 1e-6."""
 PROFILE_ACCURACY = 0.02
-"""Share to which the end of a profile interval meets its quantile."""
-MAX_PROFILE_STEPS = 6
+"""Share of the width of an interval to which its end is found."""
+MAX_DISTANCE = 1e6
+"""Distance of an end from the estimate, in units of a parameter, beyond which it is not sought."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,10 @@ class Free:
         value = float(np.exp(internal)) if self.is_relative else internal * self._scale
         return min(max(value, self.low), self.high)
 
+    def slope(self, value: float) -> float:
+        """Return the change of the parameter by that of the internal number, at a value."""
+        return value if self.is_relative else self._scale
+
     @property
     def _scale(self) -> float:
         return abs(self.start) or VARIABLES[self.name].nominal or 1.0
@@ -70,9 +75,7 @@ class Problem:
     def residuals(self, instance: Instance) -> Callable[[Array], Array]:
         """Return the function from internal parameters (p,) to weighted residuals (n,)."""
         measured, scales = self.measurements.measured, self.measurements.scales
-        spread = np.ones_like(scales)
-        if self.measurements.knows_deviations:  # no motion counts in terms of the measured values
-            spread = np.maximum(np.abs(measured), np.sqrt(np.mean(measured**2))) / scales
+        no_motion = NO_MOTION * self.measurements.sizes / scales
 
         def at(internal: Array) -> Array:
             values = {
@@ -81,7 +84,7 @@ class Problem:
             }
             found = predict(instance, {**self.parameters, **values}, self.measurements)
             weighted = (found - measured) / scales
-            return np.where(np.isfinite(weighted), weighted, NO_MOTION * spread)
+            return np.where(np.isfinite(weighted), weighted, no_motion)
 
         return at
 
@@ -119,7 +122,7 @@ def minimise(instance: Instance, problem: Problem, start: Array) -> Minimum:
     found = least_squares(
         residuals,
         inside,
-        partial(_slopes, residuals),
+        partial(_slopes, residuals, low, high),
         bounds=(low, high),
         x_scale="jac",
         xtol=1e-10,
@@ -131,10 +134,12 @@ def minimise(instance: Instance, problem: Problem, start: Array) -> Minimum:
     return Minimum(found.x, found.fun, np.asarray(found.jac), evaluations)
 
 
-def _slopes(residuals: Callable[[Array], Array], at: Array) -> Array:
-    """Return the slopes by central differences, (n, p)."""
-    steps = DIFFERENCE * np.eye(len(at))
-    columns = [(residuals(at + one) - residuals(at - one)) / (2.0 * DIFFERENCE) for one in steps]
+def _slopes(residuals: Callable[[Array], Array], low: Array, high: Array, at: Array) -> Array:
+    """Return the slopes between two points beside `at`, within the bounds, (n, p)."""
+    columns = []
+    for step in DIFFERENCE * np.eye(len(at)):
+        before, after = np.maximum(at - step, low), np.minimum(at + step, high)
+        columns.append((residuals(after) - residuals(before)) / (after - before).sum())
     return np.column_stack(columns)
 
 
@@ -149,33 +154,32 @@ def profile_end(
     """
     one = problem.free[index]
     covariance = np.linalg.pinv(best.jacobian.T @ best.jacobian)
-    along = covariance[:, index] / covariance[index, index]
-    others = np.delete(np.arange(len(best.internal)), index)
-    begin = float(best.internal[index])
-    inner, outer = 0.0, float("inf")
-    distance = abs(change)
-    for _ in range(MAX_PROFILE_STEPS):
-        internal = begin + np.copysign(distance, change)
-        value = one.value(internal)
-        rest = problem.without(index, value)
-        if len(others):
-            start = best.internal[others] + (internal - begin) * along[others]
+    along = np.delete(covariance[:, index] / covariance[index, index], index)
+    others = np.delete(best.internal, index)
+
+    def value(distance: float) -> float:
+        return one.value(float(best.internal[index]) + np.copysign(distance, change))
+
+    @cache
+    def beyond(distance: float) -> float:
+        """Return how far the sum of squares is above the end, as its root and in its units."""
+        if distance == 0.0:
+            return -1.0
+        rest = problem.without(index, value(distance))
+        if rest.free:
+            start = others + np.copysign(distance, change) * along
             found = minimise(instance, rest, start).sum_of_squares
         else:
             residuals = rest.residuals(instance)(np.empty(0))
             found = float(residuals @ residuals)
-        reached = np.sqrt(max(found - best.sum_of_squares, 0.0) / excess)
-        if abs(reached - 1.0) < PROFILE_ACCURACY:
-            return value
-        if reached < 1.0:
-            inner = distance
-            if value in (one.low, one.high):
-                return value
-        else:
-            outer = distance
-        scaled = distance / max(reached, 0.2)
-        distance = scaled if inner < scaled < outer else 0.5 * (inner + min(outer, 3.0 * distance))
-    return one.value(begin + np.copysign(distance, change))
+        return float(np.sqrt(max(found - best.sum_of_squares, 0.0) / excess)) - 1.0
+
+    outer = abs(change)
+    while beyond(outer) < 0.0:
+        if value(outer) in (one.low, one.high) or outer > MAX_DISTANCE:
+            return value(outer)
+        outer *= 1.5
+    return value(float(brentq(beyond, 0.0, outer, rtol=PROFILE_ACCURACY, xtol=1e-15)))
 
 
 @dataclass(frozen=True)

@@ -171,41 +171,26 @@ def fit(
     known = measurements.knows_deviations
     scale = (best.sum_of_squares / spare) ** 0.5 if spare else None
     unit = 1.0 if known else scale
-    directions = open_directions(problem, best, 0.0 if unit is None else unit)
+    directions = open_directions(problem, best, unit or 0.0)
     left_open = {name for one in directions for name in one.factors}
     covariance = np.linalg.pinv(best.jacobian.T @ best.jacobian)
     deviations = np.sqrt(np.diag(covariance))
-    sides: list[tuple[int, float]] = []
-    if unit:
-        quantile = float(ndtri(0.5 + LEVEL / 2) if known else stdtrit(spare, 0.5 + LEVEL / 2))
-        indices = [i for i, one in enumerate(free) if one.name not in left_open]
-        sides = [(i, sign * quantile * unit * deviations[i]) for i in indices for sign in (-1, 1)]
-        excess = (quantile * unit) ** 2
-        ends = run(
-            "bounding",
-            [
-                partial(
-                    profile_end,
-                    problem=problem,
-                    best=best,
-                    index=index,
-                    change=change,
-                    excess=excess,
-                )
-                for index, change in sides
-            ],
-        )
-    else:
-        ends = []
-    intervals = {sides[k][0]: sorted((ends[k], ends[k + 1])) for k in range(0, len(sides), 2)}
+    bounded = [i for i, one in enumerate(free) if unit and one.name not in left_open]
+    quantile = float(ndtri(0.5 + LEVEL / 2) if known else stdtrit(max(spare, 1), 0.5 + LEVEL / 2))
+    width = quantile * (unit or 0.0)
+    end_of = partial(profile_end, problem=problem, best=best, excess=width**2)
+    sides = [(i, sign * width * deviations[i]) for i in bounded for sign in (-1, 1)]
+    ends = run("bounding", [partial(end_of, index=i, change=change) for i, change in sides])
+    intervals = dict(zip(bounded, zip(ends[::2], ends[1::2], strict=True), strict=True))
     fitted = []
     for index, one in enumerate(free):
         value = one.value(float(best.internal[index]))
         low, high = intervals.get(index, (None, None))
-        slope = value if one.is_relative else one.value(1.0)
-        deviation = None if low is None or not unit else abs(slope) * unit * deviations[index]
-        is_open = one.name in left_open
+        deviation = None
+        if unit and index in intervals:
+            deviation = float(one.slope(value) * unit * deviations[index])
         unit_name = VARIABLES[one.name].unit
+        is_open = one.name in left_open
         fitted.append(
             FittedParameter(one.name, unit_name, one.start, value, deviation, low, high, is_open)
         )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -17,6 +16,7 @@ from slider_resonator.device.schedule import Schedule, in_order
 from slider_resonator.device.signal import steps
 from slider_resonator.device.units import si_value
 from slider_resonator.errors import HarnessError, unknown_name
+from slider_resonator.scenes.csv_signal import csv_number, csv_rows
 
 STEADY = ("steady_velocity", "blocking_force")
 """What can be measured without a run, by the outputs of the FMU."""
@@ -30,6 +30,8 @@ _ALIASES = {
 """Other names of the columns of a table; those of a run are the outputs themselves."""
 _HEADING = re.compile(r"\s*(?P<name>\w+?)(?P<std>_std)?\s*(?:[\[(](?P<unit>[^\])]*)[\])])?\s*")
 MAX_ROWS = 100_000
+TIME = "last_event_time"
+"""A variable with the unit of a column `time`."""
 
 
 @dataclass(frozen=True)
@@ -78,10 +80,36 @@ class Measurements:
         return names
 
     @property
+    def deviations(self) -> Array:
+        """Standard deviations, shape (n,), NaN where they are not known."""
+        points = [np.nan if p.deviation is None else p.deviation for p in self.points]
+        runs = [
+            run.deviations.get(name, np.full(len(column), np.nan))[np.isfinite(column)]
+            for run in self.runs
+            for name, column in run.outputs.items()
+        ]
+        return np.concatenate([points, *runs])
+
+    @property
     def knows_deviations(self) -> bool:
-        """Whether each number has its standard deviation."""
-        points = all(point.deviation is not None for point in self.points)
-        return points and all(run.outputs.keys() <= run.deviations.keys() for run in self.runs)
+        """Whether the numbers have their standard deviations; HarnessError if only some have."""
+        known = np.isfinite(self.deviations)
+        if known.any() and not known.all():
+            raise HarnessError(
+                f"{np.count_nonzero(known)} of {len(known)} numbers have a standard deviation; "
+                "must be all or none"
+            )
+        return bool(known.all())
+
+    @property
+    def sizes(self) -> Array:
+        """Root mean square of the quantity of each number, shape (n,)."""
+        measured, quantities = self.measured, np.array(self.quantities)
+        sizes = np.empty(len(measured))
+        for name in set(self.quantities):
+            own = quantities == name
+            sizes[own] = np.sqrt(np.mean(measured[own] ** 2)) or 1.0
+        return sizes
 
     @property
     def scales(self) -> Array:
@@ -90,17 +118,7 @@ class Measurements:
         Without any, the numbers of one quantity err alike, and by the same share of their root mean
         square as those of another.
         """
-        measured, quantities = self.measured, np.array(self.quantities)
-        scales = np.empty(len(measured))
-        for name in set(self.quantities):
-            own = quantities == name
-            scales[own] = np.sqrt(np.mean(measured[own] ** 2)) or 1.0
-        if self.knows_deviations:
-            known = [np.array([point.deviation or 0.0 for point in self.points])]
-            for run in self.runs:
-                known += [run.deviations[n][np.isfinite(c)] for n, c in run.outputs.items()]
-            scales = np.concatenate(known)
-        return scales
+        return self.deviations if self.knows_deviations else self.sizes
 
     def under(self, inputs: Mapping[str, float]) -> Measurements:
         """Return the same with inputs of the points that do not say them."""
@@ -125,60 +143,58 @@ def read_measurements(path: Path) -> Measurements:
 def _columns(path: Path) -> dict[str, Array]:
     """Return the columns by name in SI units, empty cells as NaN."""
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            rows = [row for row in csv.reader(file) if any(cell.strip() for cell in row)]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise HarnessError(f"{path}: cannot be read as CSV: {reason}") from error
-    if len(rows) < 2 or len(rows) > MAX_ROWS:
-        raise HarnessError(f"{path}: {len(rows)} lines; must be a heading and up to {MAX_ROWS}")
-    is_run = any(heading.split("[")[0].split("(")[0].strip() == "time" for heading in rows[0])
-    columns: dict[str, Array] = {}
-    for index, heading in enumerate(rows[0]):
-        name, factor = _column(path, heading, is_run)
-        if name in columns:
-            raise HarnessError(f"{path}: two columns {name}; must be one")
-        cells = [row[index].strip() if index < len(row) else "" for row in rows[1:]]
-        columns[name] = factor * np.array(
-            [_number(path, line, heading, cell) for line, cell in enumerate(cells, start=2)]
-        )
+        header, lines = csv_rows(path)
+        rows = [(line, row) for line, row in lines if any(cell.strip() for cell in row)]
+        if not 1 <= len(rows) <= MAX_ROWS:
+            raise ValueError(f"{path}: {len(rows)} rows below the header; must be 1 to {MAX_ROWS}")
+        is_run = any(_heading(heading)["name"] == "time" for heading in header)
+        columns: dict[str, Array] = {}
+        for index, heading in enumerate(header):
+            name, factor = _column(heading, is_run)
+            if name in columns:
+                raise ValueError(f"{path}: two columns {name}; must be one")
+            cells = (_cell(line, heading, row, index) for line, row in rows)
+            columns[name] = factor * np.array(list(cells))
+    except ValueError as error:
+        said = str(error)
+        raise HarnessError(said if str(path) in said else f"{path}: {said}") from error
     return columns
 
 
-def _column(path: Path, heading: str, is_run: bool) -> tuple[str, float]:
-    """Return the name that a heading stands for, and the factor to SI units."""
+def _heading(heading: str) -> Mapping[str, str]:
+    """Return name, std and unit of a heading; the last two are empty if it does not have them."""
     match = _HEADING.fullmatch(heading)
+    return match.groupdict("") if match else {"name": heading, "std": "", "unit": ""}
+
+
+def _column(heading: str, is_run: bool) -> tuple[str, float]:
+    """Return the name that a heading stands for, and the factor to SI units.
+
+    Raises ValueError with the heading and what it must be.
+    """
+    parts = _heading(heading)
     outputs = [name for name, one in VARIABLES.items() if one.causality == "output"]
     measured = outputs if is_run else [*STEADY]
-    allowed = [*INPUTS, *(TUNABLES if is_run else PARAMETERS), *measured]
-    name = match["name"] if match else heading.strip()
-    if not is_run:
-        name = _ALIASES.get(name, name)
-    if is_run and name == "time":
-        return name, 1.0
-    if match is None or name not in allowed or (match["std"] and name not in measured):
-        kind = "column of a run" if is_run else "column"
-        stated = name + ((match["std"] or "") if match else "")
-        raise HarnessError(f"{path}: {unknown_name(kind, stated, [*allowed, 'time'])}")
+    allowed = [*INPUTS, *(TUNABLES if is_run else PARAMETERS), *measured, "time"]
+    name = parts["name"] if is_run else _ALIASES.get(parts["name"], parts["name"])
+    if name not in allowed or (parts["std"] and name not in measured):
+        raise ValueError(unknown_name("column", name + parts["std"], allowed))
     try:
-        factor = si_value(name, f"1 {match['unit']}") if match["unit"] else 1.0
+        of_unit = TIME if name == "time" else name
+        factor = si_value(of_unit, f"1 {parts['unit']}") if parts["unit"] else 1.0
     except ValueError as error:
-        raise HarnessError(f"{path}: heading {heading!r}: {error}") from error
-    return name + (match["std"] or ""), factor
+        raise ValueError(f"heading {heading!r}: {error}") from error
+    return name + parts["std"], factor
 
 
-def _number(path: Path, line: int, heading: str, text: str) -> float:
-    if not text:
+def _cell(line: int, heading: str, row: Sequence[str], index: int) -> float:
+    """Return the number of a cell, NaN of an empty one; ValueError with line, heading and text."""
+    if index >= len(row) or not row[index].strip():
         return float("nan")
     try:
-        number = float(text)
-    except ValueError:
-        number = float("inf")
-    if not isfinite(number):
-        raise HarnessError(
-            f"{path} line {line}: {heading.strip()} = {text!r}: must be a finite number, or empty"
-        )
-    return number
+        return csv_number(heading, row, index)
+    except ValueError as error:
+        raise ValueError(f"line {line}: {error}, or empty") from error
 
 
 def _table(path: Path, columns: Mapping[str, Array]) -> Measurements:

@@ -18,6 +18,7 @@ from slider_resonator.fmu.provenance_text import provenance_html
 from slider_resonator.output.atomic import replacing, write_text
 from slider_resonator.output.html_page import rendered, write_page
 from slider_resonator.output.plot_style import COLOURS, png_data_uri, save, style
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.device_file import to_toml
 
@@ -44,9 +45,7 @@ def sentences(fit: Fit) -> list[str]:
     """Return what there is to say beside the table."""
     count, free = len(fit.measured), len(fit.parameters)
     lines = [f"{count} numbers, {free} free parameters"]
-    faces = fit.device.friction_faces
-    rub = "1 face that rubs" if faces == 1 else f"{faces} faces that rub"
-    lines.append(f"with {rub} (friction_faces)")
+    lines.append(f"friction on {number_of(fit.device.friction_faces, 'face')} (friction_faces)")
     if fit.scale is None:
         lines.append("as many parameters as numbers: solved, without intervals")
     elif fit.measurements.knows_deviations:
@@ -56,7 +55,7 @@ def sentences(fit: Fit) -> list[str]:
         )
     for quantity in dict.fromkeys(fit.measurements.quantities):
         own = np.array(fit.measurements.quantities) == quantity
-        off = float(np.sqrt(np.mean((fit.predicted - fit.measured)[own] ** 2)))
+        off = float(np.sqrt(np.nanmean((fit.predicted - fit.measured)[own] ** 2)))
         lines.append(f"{quantity} is off by {off:.3g} {VARIABLES[quantity].unit} (rms)")
     missing = int(np.count_nonzero(~np.isfinite(fit.predicted)))
     if missing:

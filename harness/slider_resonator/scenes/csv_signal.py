@@ -1,4 +1,4 @@
-"""Read the points of an input from a CSV file."""
+"""Read CSV files: their rows, and the points of an input."""
 
 from __future__ import annotations
 
@@ -11,27 +11,37 @@ SEPARATORS = (";", "\t", "|")
 """What other programs write for the comma between two columns."""
 
 
-def csv_points(path: Path, column: str) -> list[tuple[float, float]]:
-    """Return (time, value) of a CSV file with the columns `time` and `column`, or `value`.
+def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    """Return the header of a CSV file, and its other rows with their line numbers.
 
-    Raises ValueError naming the file, the line and what is wrong.
+    Raises ValueError naming the file and what is wrong.
     """
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
-            rows = list(csv.reader(file))
+            reader = csv.reader(file)
+            rows = [(reader.line_num, row) for row in reader]
     except OSError as error:
         raise ValueError(f"csv {path} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise ValueError(f"csv {path}: {error}; must be UTF-8 text") from error
     except csv.Error as error:
         raise ValueError(f"csv {path}: {error}; must be lines of numbers") from error
-    header = [name.strip() for name in rows[0]] if rows else []
+    header = [name.strip() for name in rows[0][1]] if rows else []
     found = [one for one in SEPARATORS if any(one in name for name in header)]
     if found:
         raise ValueError(
-            f"csv {path}: the header is {rows[0]}: a comma must be between two columns, not "
+            f"csv {path}: the header is {rows[0][1]}: a comma must be between two columns, not "
             f"{found[0]!r}"
         )
+    return header, rows[1:]
+
+
+def csv_points(path: Path, column: str) -> list[tuple[float, float]]:
+    """Return (time, value) of a CSV file with the columns `time` and `column`, or `value`.
+
+    Raises ValueError naming the file, the line and what is wrong.
+    """
+    header, rows = csv_rows(path)
     if not header or header[0] != "time":
         raise ValueError(
             f"csv {path}: the header is {header}: it must begin with 'time', then the values"
@@ -43,15 +53,16 @@ def csv_points(path: Path, column: str) -> list[tuple[float, float]]:
         raise ValueError(f"csv {path}: {header.count(name)} columns {name!r}; must be one")
     index = header.index(name)
     points = []
-    for line, row in enumerate(rows[1:], start=2):
+    for line, row in rows:
         try:
-            points.append((_number("time", row, 0), _number(name, row, index)))
+            points.append((csv_number("time", row, 0), csv_number(name, row, index)))
         except ValueError as error:
             raise ValueError(f"csv {path} line {line}: {error}") from error
     return points
 
 
-def _number(name: str, row: Sequence[str], index: int) -> float:
+def csv_number(name: str, row: Sequence[str], index: int) -> float:
+    """Return the number in a column of a row; ValueError with name and text for any other."""
     text = row[index].strip() if index < len(row) else ""
     try:
         number = float(text)

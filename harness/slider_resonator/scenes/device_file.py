@@ -115,17 +115,16 @@ def device_content(path: Path) -> dict[str, Any]:
 def device_values(content: Mapping[str, Any], source: str) -> dict[str, float]:
     """Return the parameters below [device] in SI units; SceneError with key, value, requirement."""
     values: dict[str, float] = {}
-    for name, value in content.get("device", {}).items():
+    for name, value in with_si_device(content, source).get("device", {}).items():
         if name not in PARAMETERS:
             raise SceneError(f"{source}: device: {unknown_name('parameter', name, PARAMETERS)}")
         try:
-            number = si_value(name, value) if isinstance(value, str) else value
-            if isinstance(number, bool):
-                raise ValueError(f"{name} = {str(number).lower()}: must be a number")
-            check_value(name, number)
+            if isinstance(value, bool):
+                raise ValueError(f"{name} = {str(value).lower()}: must be a number")
+            check_value(name, value)
         except ValueError as error:
             raise SceneError(f"{source}: device.{error}") from error
-        values[name] = number
+        values[name] = value
     return values
 
 

@@ -28,7 +28,7 @@ def test_a_fit_writes_the_device_to_go_on_with(
     device = ("--device", "ultrasonic_slider", "--fmu", native_fmu)
     ran = call("fit", data, *device, "--free", "damping_ratio", "--starts", 1, "--out", tmp_path)
     assert ran.exit_code == 0, ran.output
-    assert "1 face that rubs" in ran.stdout
+    assert "friction on 1 face (friction_faces)" in ran.stdout
     assert sr.read_device(tmp_path / "device.toml").damping_ratio == pytest.approx(0.03, rel=1e-4)
     assert {path.name for path in tmp_path.iterdir()} == {
         *("device.toml", "fit.html", "fit.png", "residuals.csv")

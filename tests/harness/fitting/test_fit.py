@@ -11,6 +11,7 @@ import pytest
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import HarnessError
+from slider_resonator.fitting.estimation import Problem, minimise
 from slider_resonator.fitting.fit import Fit, fit, free_parameters
 from slider_resonator.fitting.measurements import Measurements, Point, Run, datasheet
 from slider_resonator.fitting.prediction import predict
@@ -112,6 +113,17 @@ def test_known_deviations_are_used(instance: Instance) -> None:
         assert one.high is not None
         widths.append(one.high - one.low)
     assert widths[1] / widths[0] == pytest.approx(2.0, rel=0.1)
+
+
+def test_slopes_at_a_bound_are_those_inside(instance: Instance) -> None:
+    """A difference that the bound cuts off is over what is left, not half the slope."""
+    data = measured(instance, TRUE, POINTS)
+    slopes = []
+    for bounds in ({}, {"damping_ratio": (0.08, 0.2)}):
+        free = free_parameters(["damping_ratio"], TRUE, bounds)
+        start = np.array([free[0].internal(0.08)])
+        slopes.append(minimise(instance, Problem(TRUE, free, data), start).jacobian)
+    assert np.abs(slopes[1] - slopes[0]).max() < 1e-3 * np.abs(slopes[0]).max()
 
 
 @pytest.mark.parametrize(

@@ -31,11 +31,13 @@ def test_a_table_has_units_other_names_and_gaps(tmp_path: Path) -> None:
     assert first.measured == pytest.approx(0.047)
     assert first.deviation == pytest.approx(5e-4)
     assert (second.quantity, second.measured, second.deviation) == ("blocking_force", 0.2, None)
-    assert not data.knows_deviations
+    with pytest.raises(HarnessError, match="1 of 2 numbers have a standard deviation; must be all"):
+        _ = data.knows_deviations
 
 
 def test_a_run_begins_at_zero_and_may_lack_values(tmp_path: Path) -> None:
-    data = read(tmp_path, "time,load [mN],velocity,position [um]\n1,0,0.1,1\n2,50,,2\n4,50,0.3,3\n")
+    text = "time [ms],load [mN],velocity,position [um]\n1000,0,0.1,1\n\n2000,50,,2\n4000,50,0.3,3\n"
+    data = read(tmp_path, text)
     (run,) = data.runs
     assert run.schedule.times.tolist() == [0.0, 1.0, 3.0]
     assert run.schedule.sampled()[:, 1].tolist() == [0.0, 0.05, 0.05]
@@ -47,7 +49,9 @@ def test_a_run_begins_at_zero_and_may_lack_values(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("", "0 lines; must be a heading"),
+        ("", "0 rows below the header; must be 1 to"),
+        ("phase;load\n1;2\n", "a comma must be between two columns, not ';'"),
+        ("time [N],velocity\n0,1\n1,2\n", "heading 'time [N]'"),
         ("phase,velocity\n0.1,x\n", "line 2: velocity = 'x': must be a finite number, or empty"),
         ("phase\n0.1\n", "measures nothing; must have a column"),
         ("phse,velocity\n0,1\n", "unknown column 'phse'; did you mean 'phase'?"),
