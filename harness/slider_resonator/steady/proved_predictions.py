@@ -18,8 +18,12 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.common_period import common_period
+from slider_resonator.device.device import Device
+from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.references.resolved.equations import steady_vibration
+from slider_resonator.steady.periodic import STATE
 from slider_resonator.steady.shooting import NEUTRAL
 
 Quantity = Literal["steady_velocity", "blocking_force"]
@@ -43,7 +47,6 @@ DEVICE = (
     *("friction_law", "fidelity", "averaging_order"),
 )
 PREDICTIONS = ("steady_velocity", "blocking_force", "prediction_valid")
-STATE = ("velocity", "resonator_displacement", "resonator_velocity")
 INITIAL = tuple(f"initial_{name}" for name in STATE)
 READ = (*STATE, "position", "stick_fraction")
 
@@ -151,21 +154,17 @@ def _candidate(
     )
 
 
-def _vibration(device: Mapping[str, float]) -> tuple[complex, complex]:
+def _vibration(values: Mapping[str, float]) -> tuple[complex, complex]:
     """Return the complex amplitudes of resonator displacement (m) and slider velocity (m/s).
 
-    Those of the steady vibration without friction, whose drive is the imaginary part of
-    exp(i theta), from (26)-(27); 0 for an undamped resonator at its resonance.
+    Those of the steady vibration without friction; 0 where there is none.
     """
-    drive, mass = device["drive_frequency"], device["slider_mass"]
-    natural, share = device["resonator_frequency"], device["resonator_mass"] / mass
-    spring = natural**2 + 2j * device["damping_ratio"] * natural * drive
-    stiffness = spring * (1.0 + share) - drive**2
-    if stiffness == 0.0:
+    try:
+        device = Device.from_mapping({name: values[name] for name in PARAMETERS if name in values})
+        displacement, force = steady_vibration(device)
+        return displacement, force / (1j * device.drive_frequency * device.total_mass)
+    except (ValueError, ArithmeticError):
         return 0j, 0j
-    push = device["tangential_force"] / mass
-    displacement = (device["base_amplitude"] * drive**2 - push) / stiffness
-    return displacement, (share * spring * displacement + push) / (1j * drive)
 
 
 def _run(instance: Instance, one: _Candidate) -> list[list[float]]:

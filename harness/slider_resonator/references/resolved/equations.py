@@ -205,7 +205,7 @@ def equations_of(device: Device) -> Equations:
     }
     frequency = device.drive_frequency
     if device.fidelity == 1:
-        resonator, force = _steady_resonator(device)
+        resonator, force = steady_vibration(device)
         return Equations(
             drive_frequency=frequency,
             inertia=device.total_mass,
@@ -235,7 +235,7 @@ def initial_state(device: Device) -> State:
     `equations_of` does.
     """
     if device.fidelity == 1:
-        amplitude, _ = _steady_resonator(device)
+        amplitude, _ = steady_vibration(device)
         momentum = device.total_mass * device.initial_velocity
         momentum += device.resonator_mass * device.initial_resonator_velocity
         momentum -= device.resonator_mass * device.drive_frequency * amplitude.real
@@ -248,8 +248,12 @@ def initial_state(device: Device) -> State:
     )
 
 
-def _steady_resonator(device: Device) -> tuple[complex, complex]:
-    """Return the complex amplitudes of the resonator (m), (32), and of the force (N) in (33)."""
+def steady_vibration(device: Device) -> tuple[complex, complex]:
+    """Return the complex amplitudes of the resonator (m), (32), and of the force (N) in (33).
+
+    The drive is the imaginary part of exp(i theta), and friction does not act. Raises ValueError
+    for an undamped resonator at its slipping resonance.
+    """
     frequency = device.drive_frequency
     base_acceleration = device.base_amplitude * frequency**2
     mobility = 1.0 / (1.0 - device.mass_ratio)
