@@ -165,7 +165,6 @@ def run_cases(
             fmu,
             tasks,
             time_limit,
-            name=lambda case: case.name,
             meanwhile=report,
             outcomes=(FmuDied,),
             jobs=jobs,

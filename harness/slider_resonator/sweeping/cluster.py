@@ -14,7 +14,7 @@ from distributed import CancelledError, Client, KilledWorker, Worker, WorkerPlug
 
 from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.isolation.process import TIME_LIMIT, FmuDied, Task
+from slider_resonator.fmu.isolation.process import FmuDied, Task
 from slider_resonator.fmu.isolation.processes import Outcome, Runner
 from slider_resonator.sweeping.running import Workers
 
@@ -30,9 +30,7 @@ class FmuPlugin(WorkerPlugin):
     Raises HarnessError on a worker with another version of this package: its rows could differ.
     """
 
-    def __init__(
-        self, digest: str, file_name: str, content: bytes, time_limit: float = TIME_LIMIT
-    ) -> None:
+    def __init__(self, digest: str, file_name: str, content: bytes, time_limit: float) -> None:
         self.name = f"slider-resonator-{digest}"
         self.version = __version__
         self.digest = digest

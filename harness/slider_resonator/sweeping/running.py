@@ -55,7 +55,6 @@ class Workers:
             self.fmu,
             tasks,
             self.time_limit,
-            name=lambda item: str(id(item)),  # each has a name of its own
             outcomes=(HarnessError,),
             jobs=self.jobs,
             processes=self.processes(),

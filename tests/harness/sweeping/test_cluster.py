@@ -63,7 +63,7 @@ def test_a_scheduler_that_is_not_there_is_named(
 
 
 def test_a_worker_of_another_version_refuses(native_fmu: Path, tmp_path: Path) -> None:
-    plugin = cluster.FmuPlugin("digest", native_fmu.name, native_fmu.read_bytes())
+    plugin = cluster.FmuPlugin("digest", native_fmu.name, native_fmu.read_bytes(), 60.0)
     plugin.version = "0.0"
     worker = SimpleNamespace(address="tcp://192.0.2.7:1", local_directory=str(tmp_path))
     with pytest.raises(HarnessError, match=r"worker tcp://192\.0\.2\.7:1 has .*must be 0\.0"):

@@ -55,8 +55,8 @@ def run_tasks(
     depend on their number, for an FMU in which each run is independent of those before. After a
     crash or an exceeded limit the other items of that `name` are left out. All remaining items are
     left out after an exceeded limit of time, memory or processes, after `max_crashes` crashes, and
-    after crashes that took `time_limit` (s) together; with None for `max_crashes` the run always
-    goes on.
+    after crashes that took `time_limit` (s) together; with None for `max_crashes` no item is ever
+    left out.
     """
     processes = processes or LocalProcesses(fmu, time_limit, jobs)
     submitted: dict[int, Future[Outcome]] = {}
@@ -86,7 +86,7 @@ def run_tasks(
             if not outcome.is_open:
                 yield Finished(None, error=outcome.error)
                 return
-            if isinstance(outcome.error, FmuDied):
+            if isinstance(outcome.error, FmuDied) and max_crashes is not None:
                 crashed.add(name(item))
                 crashes += 1
                 wasted += time_limit if outcome.error.over_limit else outcome.seconds
@@ -108,7 +108,6 @@ def run_all_tasks(
     tasks: Sequence[tuple[Item, Task]],
     time_limit: float,
     *,
-    name: Callable[[Item], str],
     meanwhile: Callable[[Item], None] = lambda item: None,
     outcomes: tuple[type[HarnessError], ...],
     jobs: int = 1,
@@ -123,7 +122,7 @@ def run_all_tasks(
         fmu,
         tasks,
         time_limit,
-        name=name,
+        name=lambda item: "",  # none is left out
         meanwhile=meanwhile,
         max_crashes=None,
         jobs=jobs,
