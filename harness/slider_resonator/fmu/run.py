@@ -33,9 +33,7 @@ def run(
     """
     running = Running(instance, schedule, outputs)
     began, began_cpu = time.perf_counter(), time.process_time()
-    instance.start(
-        {**parameters, **running.first}, running.stop_time, start_time=schedule.start_time
-    )
+    running.start(parameters)
     start_cpu = time.process_time() - began_cpu
     running.check_steps()
     stepping_cpu = time.process_time()
@@ -91,6 +89,11 @@ class Running:
         """Time (s) of the end as the FMU gets it."""
         return float(self._schedule.start_time + self._times[-1])
 
+    def start(self, parameters: Mapping[str, float]) -> None:
+        """Start the instance with parameters and `first`; raises as `Instance.start` does."""
+        values = {**parameters, **self.first}
+        self.instance.start(values, self.stop_time, start_time=self._schedule.start_time)
+
     def check_steps(self) -> None:
         """Raise FmuError as `Instance.check_steps` does."""
         self.instance.check_steps(self._schedule.start_time + self._schedule.times[1:])
@@ -127,6 +130,11 @@ class Running:
         else:
             self.instance.step_to(target)
         self.read()
+
+    def finish(self, step: int = 0) -> None:
+        """Advance from a step on to the end."""
+        for index in range(step, self.steps):
+            self.advance(index)
 
     def _set_values(self, step: int) -> None:
         self.instance.set_inputs(self.inputs[step].tolist())

@@ -100,14 +100,12 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     description = Path(instance.fmu.folder, "modelDescription.xml").read_bytes()
     logs = b"<LogCategories" in description
     guid = instance.fmu.description.guid
-    kinds = {"model exchange": fmi2ModelExchange}
-    if instance.fmu.description.modelExchange is not None:
-        kinds = {}
     wrong = {
         "of another GUID": ("other", fmi2CoSimulation, OTHER_GUID),
         "without a name": ("", fmi2CoSimulation, guid),
-        **{f"for {what}": ("other", kind, guid) for what, kind in kinds.items()},
     }
+    if instance.fmu.description.modelExchange is None:
+        wrong["for model exchange"] = ("other", fmi2ModelExchange, guid)
     folder = Path(instance.fmu.folder, "resources").as_uri()
     for what, (name, kind, token) in wrong.items():
         messages, callbacks = fmu_log.collect(name)

@@ -38,8 +38,7 @@ def rate_differences(fmu: FmuSide) -> Findings:
     found = NOTHING
     for what, set_inputs in WAYS.items():
         running = Running(instance, schedule)
-        values = {**fmu.scene.parameters, **running.first}
-        instance.start(values, running.stop_time, start_time=schedule.start_time)
+        running.start(fmu.scene.parameters)
         with instance.explained():
             running.read()
             for step in range(running.steps):
@@ -56,8 +55,7 @@ def _kept(fmu: FmuSide, plain: Record) -> Findings:
     instance, schedule = fmu.instance, fmu.scene.schedule()
     rates = schedule.rates()
     running = Running(instance, schedule, ["position"])
-    values = {**fmu.scene.parameters, **running.first}
-    instance.start(values, running.stop_time, start_time=schedule.start_time)
+    running.start(fmu.scene.parameters)
     with instance.explained():
         running.read()
         for step in range(running.steps):

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from slider_resonator.checks.conduct.findings import NOTHING, Findings, differences
 from slider_resonator.checks.conduct.other_values import other_value
+from slider_resonator.checks.conduct.replays import plain_rows
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import PARAMETERS, VARIABLES
-from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import Refusal
-from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.run import Running
 
 
 def other_device_differences(fmu: FmuSide) -> Findings:
@@ -23,7 +19,7 @@ def other_device_differences(fmu: FmuSide) -> Findings:
     renews = not instance.fmu.description.coSimulation.canBeInstantiatedOnlyOncePerProcess
     if renews:
         instance.recreate()
-    plain = _rows(instance, schedule, given)
+    plain = plain_rows(instance, given, schedule)
     found = NOTHING
     for name in PARAMETERS:
         if name not in instance.fmu.variables or name in schedule.tuning:
@@ -32,23 +28,10 @@ def other_device_differences(fmu: FmuSide) -> Findings:
         if renews:
             instance.recreate()  # for the other device to be the first one that is prepared
         try:
-            _rows(instance, schedule, {**given, name: other_value(name, value)})
+            plain_rows(instance, {**given, name: other_value(name, value)}, schedule)
         except Refusal:
             continue
-        rows = _rows(instance, schedule, given)
+        rows = plain_rows(instance, given, schedule)
         what = f"after a device of another {name}"
         found += differences(what, instance.fmu.outputs, schedule.readings(), rows, plain)
     return found
-
-
-def _rows(
-    instance: Instance, schedule: Schedule, parameters: Mapping[str, float]
-) -> list[list[float]]:
-    running = Running(instance, schedule)
-    values = {**parameters, **running.first}
-    instance.start(values, running.stop_time, start_time=schedule.start_time)
-    with instance.explained():
-        running.read()
-        for step in range(running.steps):
-            running.advance(step)
-    return running.rows

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from ctypes import byref, c_double, c_int
+from math import tau
 
 from fmpy.fmi2 import FMU2Slave, fmi2OK, fmi2ValueReference
 
@@ -28,8 +29,6 @@ SHORT = 1e-6
 ALLOWED = 1e-3
 """Share of a derivative, or of the output's change over a radian of the drive, that a quotient may
 differ by: far more than the third derivative adds over the steps."""
-
-
 SMALL = 1e-3
 """Share of the peak of an output, over a radian of the drive, in whose units its derivative may be
 off by `ALLOWED`: what rounding leaves of an output next to zero is far less."""
@@ -49,7 +48,7 @@ def derivative_faults(
     offered = instance.fmu.description.coSimulation.maxOutputDerivativeOrder or 0
     if isinstance(slave, Fmi3Slave) or offered < 1:
         return []
-    step = SHORT * 6.283185307179586 / frequency
+    step = SHORT * tau / frequency
     outputs = (*OUTPUTS, SLOW) if _is_averaged(instance) else OUTPUTS
     held = [name for name in HELD if name not in outputs]
     variables = instance.fmu.variables

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from ctypes import c_double, c_int, c_uint
 from dataclasses import dataclass
 from functools import partial
@@ -15,6 +15,7 @@ from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Fatal
 
 from slider_resonator.checks.conduct.findings import Findings, differences
 from slider_resonator.checks.conduct.other_values import other_value
+from slider_resonator.checks.conduct.replays import plain_rows
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES, Variable
 from slider_resonator.errors import Refusal
@@ -151,7 +152,7 @@ class Trial:
                 what = f"{second.name} = {both[second]!r} with another {first.name} {when}"
                 self.refuses(what, partial(self._set_all, both), second.name)
 
-    def refuses_all(self, when: str, variables: Iterator[Variable]) -> None:
+    def refuses_all(self, when: str, variables: Iterable[Variable]) -> None:
         """Set variables, which must not be set at all, to other values."""
         for variable in variables:
             value = 0.5
@@ -262,13 +263,9 @@ def bad_values(variable: Variable) -> list[float]:
 def refusal_faults(fmu: FmuSide) -> Findings:
     """Try what must be refused before, in and after the run of the scene; the run goes on."""
     instance, schedule = fmu.instance, fmu.scene.schedule()
-    quiet, running = Running(instance, schedule), Running(instance, schedule)
-    start = {**fmu.scene.parameters, **quiet.first}
-    with instance.explained():
-        instance.start(start, quiet.stop_time, start_time=schedule.start_time)
-        quiet.read()
-        for step in range(quiet.steps):
-            quiet.advance(step)
+    expected = plain_rows(instance, fmu.scene.parameters, schedule)
+    running = Running(instance, schedule)
+    start = {**fmu.scene.parameters, **running.first}
     trial = Trial(instance, [])
     try:
         _try_all(trial, running, start, schedule.start_time)
@@ -278,7 +275,7 @@ def refusal_faults(fmu: FmuSide) -> Findings:
         return Findings.of([*trial.faults, f"and then {error}"])
     what = "a run with refused calls"
     outputs, times = instance.fmu.outputs, schedule.readings()
-    found = differences(what, outputs, times, running.rows, quiet.rows)
+    found = differences(what, outputs, times, running.rows, expected)
     return Findings.of(trial.faults) + found
 
 
@@ -335,16 +332,13 @@ def _in_the_run(trial: Trial, present: list[Variable]) -> None:
     fixed = [v for v in present if v.causality == "parameter" and v.variability == "fixed"]
     trial.refuses_values("in a run", anytime)
     trial.refuses_types(present)
-    trial.refuses_all("in a run", iter(fixed))
+    trial.refuses_all("in a run", fixed)
     trial.refuses_all("from outside", (v for v in present if v.causality == "output"))
     trial.refuses_calls("in a run")
     if instance.fmu.interpolates:
         trial.refuses_derivatives(present)
     for size in STEP_SIZES:
-        trial.refuses(
-            f"a step of {size!r} s",
-            partial(_step, instance, instance.time, size),
-        )
+        trial.refuses(f"a step of {size!r} s", partial(_step, instance, instance.time, size))
     beyond = BEYOND * (instance.time + STEP)
     trial.refuses("a step far beyond the stop", partial(_step, instance, instance.time, beyond))
     for jump in JUMPS:

@@ -42,7 +42,7 @@ class _Comparison:
         self.instance = fmu.instance
         self.schedule = fmu.scene.schedule()
         self.parameters = fmu.scene.parameters
-        self.rows = _plain(self.instance, self.parameters, self.schedule)
+        self.rows = plain_rows(self.instance, self.parameters, self.schedule)
         self._times = self.schedule.readings()
 
     def of(self, what: str, rows: Rows, *, begin: int = 0) -> Findings:
@@ -54,23 +54,18 @@ class _Comparison:
 def _started(instance: Instance, parameters: Mapping[str, float], schedule: Schedule) -> Running:
     """Return a run that has been started, with its first reading."""
     running = Running(instance, schedule)
-    values = {**parameters, **running.first}
-    instance.start(values, running.stop_time, start_time=schedule.start_time)
+    running.start(parameters)
     running.check_steps()
     running.read()
     return running
 
 
-def _plain(instance: Instance, parameters: Mapping[str, float], schedule: Schedule) -> Rows:
+def plain_rows(instance: Instance, parameters: Mapping[str, float], schedule: Schedule) -> Rows:
+    """Return the rows of a run from the given parameters."""
     with instance.explained():
         running = _started(instance, parameters, schedule)
-        _finish(running, 0)
+        running.finish()
     return running.rows
-
-
-def _finish(running: Running, step: int) -> None:
-    for index in range(step, running.steps):
-        running.advance(index)
 
 
 @contextmanager
@@ -87,14 +82,14 @@ def reset_differences(fmu: FmuSide) -> Findings:
         fmu.instance.recreate()
     first = _Comparison(fmu)
     instance, schedule = fmu.instance, first.schedule
-    again = _plain(instance, first.parameters, schedule)
+    again = plain_rows(instance, first.parameters, schedule)
     found = first.of("after a reset", again)
     with instance.explained():
         running = _started(instance, first.parameters, schedule)
         for step in range(running.steps // 2):
             running.advance(step)
         instance.terminate()
-    again = _plain(instance, first.parameters, schedule)
+    again = plain_rows(instance, first.parameters, schedule)
     return found + first.of("after a run that was terminated and reset", again)
 
 
@@ -132,7 +127,7 @@ def restored_differences(fmu: FmuSide) -> Findings:
                 state.restore()
                 running.rows = []
                 running.read()
-                _finish(running, step)
+                running.finish(step)
                 what = f"restored after step {step}"
                 found += plain.of(what, running.rows, begin=rows - 1)
         finally:
@@ -171,7 +166,7 @@ def transferred_differences(fmu: FmuSide) -> Findings:
                     state.free()
                 taken.rows = []
                 taken.read()
-                _finish(taken, step)
+                taken.finish(step)
                 what = f"in another instance from step {step} on"
                 found += plain.of(what, taken.rows, begin=len(running.rows) - 1)
             running.advance(step)
@@ -187,7 +182,7 @@ def beside_differences(fmu: FmuSide) -> Findings:
     phase, load, ratio = in_order(beside.signals)
     own = replace(plain.schedule, phase=phase, load=load, frequency_ratio=ratio, tuning={})
     with _another(fmu.instance) as other, fmu.instance.explained(), other.explained():
-        alone = _plain(other, beside.parameters, own)
+        alone = plain_rows(other, beside.parameters, own)
         first = _started(fmu.instance, plain.parameters, plain.schedule)
         late = min(1, first.steps)
         for step in range(late):
