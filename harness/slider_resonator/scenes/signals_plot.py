@@ -99,7 +99,7 @@ def _columns(window: tuple[float, float]) -> Array:
 def envelope(
     times: Array, values: Array, window: tuple[float, float], period: float
 ) -> tuple[Array, Array, Array, Array]:
-    """Return the beginnings of the columns, and least, mean and greatest value in each, (n,).
+    """Return the beginnings of the columns, and lowest, mean and highest value in each, (n,).
 
     `times` (s) and `values` have shape (m,). The mean is that of the period at the beginning;
     extremes are those of all points of the column. Columns without two points are left out.
@@ -114,8 +114,8 @@ def envelope(
             span = times[first][-1] - times[first][0]
             mean = np.trapezoid(values[first], times[first]) / span
             rows.append((times[left], values[left:right].min(), mean, values[left:right].max()))
-    start, least, mean, greatest = np.array(rows).T
-    return start, least, mean, greatest
+    start, lowest, mean, highest = np.array(rows).T
+    return start, lowest, mean, highest
 
 
 def plot_signals(
@@ -163,8 +163,8 @@ def _panel(
     for index, (one, inside, curve) in enumerate(zip(runs, windows, curves, strict=True)):
         times = one.record.times[inside]
         if enveloped:
-            times, least, curve, greatest = envelope(times, curve, window, scene.drive_period)
-            band = (time_factor * times, factor * least, factor * greatest)
+            times, lowest, curve, highest = envelope(times, curve, window, scene.drive_period)
+            band = (time_factor * times, factor * lowest, factor * highest)
             axes.fill_between(*band, color=COLOURS[index % len(COLOURS)], alpha=0.25, linewidth=0.0)
         axes.plot(
             time_factor * times,

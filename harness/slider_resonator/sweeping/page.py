@@ -50,7 +50,7 @@ def check_page(sweep: Sweep, option: str) -> None:
 
 
 def write_sweep_page(path: Path, sweep: Sweep, columns: Columns, provenance: Provenance) -> None:
-    """Write the page of a sweep over one or two variables; HarnessError when that is impossible."""
+    """Write the page of a sweep over one or two variables."""
     failed = sum(error is not None for error in columns["error"])
     counts = f"<p>{number_of(len(sweep.points), 'point')}, {failed} of them failed.</p>"
     parts = [counts, rendered(_setup(sweep))]

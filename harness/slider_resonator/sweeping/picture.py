@@ -37,6 +37,7 @@ def draw_sweep(sweep: Sweep, columns: Columns, path: Path) -> None:
     """Draw every measure over what was varied; the suffix of `path` chooses the format."""
     names = sweep.task.names
     values = {name: np.array(columns[name], dtype=np.float64) for name in names}
+    lines = split_into_lines(sweep, values)
     with style():
         count = len(sweep.task.measures)
         figure = Figure(figsize=(6.4, 3.9 * count), layout="constrained")
@@ -46,7 +47,6 @@ def draw_sweep(sweep: Sweep, columns: Columns, path: Path) -> None:
             axes = figure.add_subplot(count, 1, index + 1)
             result = np.array(columns[measure], dtype=np.float64)  # None becomes NaN: a gap
             label = measure_label(measure)
-            lines = split_into_lines(sweep, values)
             if lines is not None:
                 abscissa, groups = lines
                 for name, chosen in groups:

@@ -79,10 +79,10 @@ def test_a_long_vibration_is_drawn_as_its_envelope() -> None:
     phase = 2.0 * pi / scene.drive_period * times
     sampled = np.sin(2.0 * pi / scene.drive_period * np.linspace(*window, 8000))
     assert np.ptp(sampled) > 1.9, "what would be drawn without an envelope"
-    start, least, mean, greatest = envelope(times, 0.3 + np.sin(phase), window, scene.drive_period)
+    start, lowest, mean, highest = envelope(times, 0.3 + np.sin(phase), window, scene.drive_period)
     assert len(start) == COLUMNS
-    assert np.abs(least + 0.7).max() < 0.02
-    assert np.abs(greatest - 1.3).max() < 0.02
+    assert np.abs(lowest + 0.7).max() < 0.02
+    assert np.abs(highest - 1.3).max() < 0.02
     assert np.abs(mean - 0.3).max() < 1e-3
 
 

@@ -172,8 +172,8 @@ def _memory_of_all(processes: Sequence[int], enough: int) -> int:
 
     To find what forks share, the kernel walks all their pages: only where it matters.
     """
-    most = sum(map(_memory, processes))
-    return most if most <= enough else sum(map(_share, processes))
+    memory = sum(map(_memory, processes))
+    return memory if memory <= enough else sum(map(_share, processes))
 
 
 def _share(process: int) -> int:
