@@ -34,15 +34,14 @@ RESOLVED_TOLERANCE = 1e-10
 class FmuSide:
     """Run, steady motion and blocking force of one FMU instance in one scene.
 
-    The run has the `PREDICTIONS` where the scene expects one of the `PREDICTED`, or with
-    `predictions`.
+    The run has the `PREDICTIONS` where the scene expects one of the `PREDICTED`.
     """
 
-    def __init__(self, instance: Instance, scene: Scene, *, predictions: bool = False) -> None:
+    def __init__(self, instance: Instance, scene: Scene) -> None:
         self.instance = instance
         self.scene = scene
         expected = any(expect.quantity in PREDICTED for expect in scene.expect)
-        self._unread = () if predictions or expected else PREDICTIONS
+        self._unread = () if expected else PREDICTIONS
 
     @cached_property
     def record(self) -> Record:
