@@ -5,7 +5,8 @@ from __future__ import annotations
 import tomllib
 from pathlib import Path
 
-from slider_resonator.scenes.scene import Scene, read_scene, scene_from
+from slider_resonator.scenes.scene import Scene, scene_from
+from slider_resonator.scenes.scene_files import find_scene
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 
@@ -15,6 +16,11 @@ def scene_file(folder: Path, text: str) -> Path:
     path = folder / "mine.toml"
     path.write_text(HEAD + text)
     return path
+
+
+def read_scene(path: Path) -> Scene:
+    """Return the only scene of a file."""
+    return find_scene(str(path))
 
 
 def scene_read(folder: Path, text: str) -> Scene:

@@ -214,14 +214,6 @@ def read_scenes(path: Path, name: str | None = None) -> tuple[Scene, ...]:
     return tuple(replace(scene, files=(path, *scene.files)) for scene in scenes)
 
 
-def read_scene(path: Path, values: Mapping[str, float] | None = None) -> Scene:
-    """Read a file of one scene; `values` replace those in it as in `Scene.with_values`.
-
-    Raises SceneError with file, key, value and what is allowed.
-    """
-    return only_scene(read_scenes(path), str(path)).with_values(values or {})
-
-
 def scene_from(content: Mapping[str, Any], source: str, folder: Path = Path()) -> Scene:
     """Return the scene of parsed TOML, or data of the same form, whose CSV files are in `folder`.
 

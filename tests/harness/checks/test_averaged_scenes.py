@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.checks.validate import validate
-from slider_resonator.scenes.scene import read_scene
 from slider_resonator.scenes.scene_files import find_scene
+from tests.harness.scene_text import read_scene
 
 SCENE = """
 name = "scene"

@@ -9,9 +9,9 @@ import pytest
 
 from slider_resonator.checks.validate import Validation, validate
 from slider_resonator.fmu.isolation.tasks import MAX_CRASHES
-from slider_resonator.scenes.scene import read_scene
 from tests.harness import faulty_fmus
 from tests.harness.faulty_fmus import compiled
+from tests.harness.scene_text import read_scene
 
 
 def judged(fmu: Path, *scenes: Path, time_limit: float = 60.0) -> Validation:

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.checks.validate import Validation, validate
-from slider_resonator.scenes.scene import read_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
 from tests.harness import faulty_fmus
 from tests.harness.foreign_fmus import foreign
+from tests.harness.scene_text import read_scene
 
 STEADY = """
 [[expect]]

@@ -14,8 +14,9 @@ from slider_resonator.scenes.device_file import (
     read_device,
     to_toml,
 )
-from slider_resonator.scenes.scene import read_scene, scene_from
+from slider_resonator.scenes.scene import scene_from
 from slider_resonator.sweeping.grid import read_grid
+from tests.harness.scene_text import read_scene
 
 
 def written(folder: Path, text: str) -> str:

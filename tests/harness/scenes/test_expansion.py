@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes.scene import Scene, read_scene, read_scenes, scene_from
+from slider_resonator.scenes.scene import Scene, read_scenes, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes
 from slider_resonator.scenes.toml_text import toml_text
 from tests.harness.calling import call
-from tests.harness.scene_text import scene_read
+from tests.harness.scene_text import read_scene, scene_read
 
 FAMILY = """
 title = "Shared"

@@ -7,9 +7,8 @@ from typing import NamedTuple
 
 import pytest
 
-from slider_resonator.scenes.scene import read_scene
 from tests.harness.calling import refused
-from tests.harness.scene_text import HEAD
+from tests.harness.scene_text import HEAD, read_scene
 
 RUN = "[run]\nstop_time = 0.1\nstep_size = 0.01\n"
 

@@ -7,9 +7,9 @@ import pytest
 from slider_resonator.device.interface import TUNABLES
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.input_tables import TuningTable
-from slider_resonator.scenes.scene import read_scene, scene_from
+from slider_resonator.scenes.scene import scene_from
 from slider_resonator.scenes.scene_files import find_scene
-from tests.harness.scene_text import scene_file
+from tests.harness.scene_text import read_scene, scene_file
 
 RUN = "[run]\ndrive_periods = 10\nsteps_per_period = 4\n"
 

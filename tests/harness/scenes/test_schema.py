@@ -6,8 +6,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes.scene import read_scene
-from tests.harness.scene_text import scene_file
+from tests.harness.scene_text import read_scene, scene_file
 
 STEPS = "[inputs]\nload = { steps = [[0, 0], [1, 1]] }\n"
 STEADY = 'quantity = "steady_velocity"\nvalue = 0.1\nrelative = 1e-6\nwhy = "test"\n'

@@ -7,7 +7,6 @@ import pytest
 from rich.console import Console
 
 from slider_resonator.errors import FmuError, HarnessError
-from slider_resonator.scenes.scene import read_scene
 from slider_resonator.scenes.scene_files import find_scene
 from studies.mutants import judging
 from studies.mutants.archive import read_python_fmu
@@ -21,6 +20,7 @@ from studies.mutants.runs import run_changes, run_mutants
 from studies.mutants.verdict import EQUIVALENT, REJECTED, SURVIVED, MutationRun, Verdict
 from studies.mutants.workshop import read_native_sources
 from tests.harness import faulty_fmus
+from tests.harness.scene_text import read_scene
 
 MUTANTS = source_mutants("a.py", "p/a.py", "def f(a, b):\n    return a < b * 2.0 + 1\n")
 SEEN = (REJECTED, "stuck", "velocity", "off")

@@ -7,11 +7,11 @@ from threading import Event
 import pytest
 
 from slider_resonator.errors import FmuError
-from slider_resonator.scenes.scene import read_scene
 from studies.mutants.archive import PythonFmu, read_python_fmu
 from studies.mutants.bench import Judging, bench_of
 from studies.mutants.trial import BenchPoint, Tried, trial
 from tests.harness import faulty_fmus
+from tests.harness.scene_text import read_scene
 
 Outcome = Callable[[str, str, str], Tried]
 FORCE = "self.drive, self.arc = force"

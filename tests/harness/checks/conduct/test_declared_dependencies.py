@@ -11,8 +11,8 @@ from slider_resonator.checks.conduct.dependencies import dependency_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.scenes.scene import read_scene
 from tests.harness.faulty_fmus import DESCRIPTION, altered, scene
+from tests.harness.scene_text import read_scene
 
 LEFT_OUT = (
     ("Outputs", "steady_velocity", "phase", "in a run"),
