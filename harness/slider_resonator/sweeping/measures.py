@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import tau
-from types import MappingProxyType
 
 import numpy as np
 
@@ -99,10 +98,7 @@ def unit(measure: str) -> str:
 
 
 def measure(
-    instance: Instance,
-    task: Task,
-    point: tuple[float, ...],
-    proved: Mapping[str, float] = MappingProxyType({}),
+    instance: Instance, task: Task, point: tuple[float, ...], proved: Mapping[str, float]
 ) -> list[Cell]:
     """Return the cells of the measures at a point, in the order of the columns.
 

@@ -98,22 +98,22 @@ def _measure(sweep: Sweep, columns: Columns, measure: str) -> list[str]:
     found = np.flatnonzero(np.isfinite(result))
     missing = np.flatnonzero(np.isnan(result))
     x, y = (values[name] for name in names)
-    series = [
-        Series(
-            *(title, x[found].tolist(), y[found].tolist(), colours[len(found) // 2], "●"),
+    series = []
+    if found.size:
+        colour = colours[len(found) // 2]
+        answers = Series(
+            *(title, x[found].tolist(), y[found].tolist(), colour, "●"),
             notes=[notes[i] for i in found],
             colours=colours,
             cells=sweep.is_grid,
         )
-        for _ in found[:1]
-    ]
-    series += [
-        Series(
+        series.append(answers)
+    if missing.size:
+        none = Series(
             *(NO_ANSWER, x[missing].tolist(), y[missing].tolist(), GREY, "✖"),
             notes=[notes[i] for i in missing],
         )
-        for _ in missing[:1]
-    ]
+        series.append(none)
     plot = HoverPlot(title, _axis(sweep, names[0]), _axis(sweep, names[1]), series)
     return [plot_html(plot), scale]
 
