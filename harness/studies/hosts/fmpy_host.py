@@ -14,31 +14,16 @@ from studies.hosts.job import Description, Job, Rows, describe, serve
 def run(job: Job) -> Rows:
     """Step the FMU through its slave."""
     description = describe(job.fmu)
-    return _run_3(job, description) if description.version == "3.0" else _run_2(job, description)
-
-
-def _run_2(job: Job, description: Description) -> Rows:
+    is_3 = description.version == "3.0"
     folder = extract(job.fmu)
     try:
-        slave = FMU2Slave(
+        slave = (FMU3Slave if is_3 else FMU2Slave)(
             instanceName="slider",
             guid=description.guid,
             modelIdentifier=description.identifier,
             unzipDirectory=folder,
         )
-        slave.instantiate(loggingOn=True)
-        slave.setupExperiment(startTime=0.0)
-        for name, value in job.first().items():
-            setter = slave.setInteger if isinstance(value, int) else slave.setReal
-            setter(description.refer([name]), [value])
-        slave.enterInitializationMode()
-        slave.exitInitializationMode()
-        inputs, outputs = description.refer(list(job.inputs)), description.refer(job.outputs)
-        rows = []
-        for index in range(job.steps):
-            slave.setReal(inputs, [values[index] for values in job.inputs.values()])
-            slave.doStep(index * job.step, job.step)
-            rows.append([float(value) for value in slave.getReal(outputs)])
+        rows = (_run_3 if is_3 else _run_2)(slave, job, description)
         slave.terminate()
         slave.freeInstance()
         return rows
@@ -46,40 +31,45 @@ def _run_2(job: Job, description: Description) -> Rows:
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def _run_3(job: Job, description: Description) -> Rows:
+def _run_2(slave: FMU2Slave, job: Job, description: Description) -> Rows:
+    slave.instantiate(loggingOn=True)
+    slave.setupExperiment(startTime=0.0)
+    for name, value in job.first().items():
+        setter = slave.setInteger if isinstance(value, int) else slave.setReal
+        setter(description.refer([name]), [value])
+    slave.enterInitializationMode()
+    slave.exitInitializationMode()
+    inputs, outputs = description.refer(list(job.inputs)), description.refer(job.outputs)
+    rows = []
+    for index in range(job.steps):
+        slave.setReal(inputs, [values[index] for values in job.inputs.values()])
+        slave.doStep(index * job.step, job.step)
+        rows.append([float(value) for value in slave.getReal(outputs)])
+    return rows
+
+
+def _run_3(slave: FMU3Slave, job: Job, description: Description) -> Rows:
     """Step an FMU of FMI 3.0 in event mode: to each event, and on to the end of the step."""
-    folder = extract(job.fmu)
-    try:
-        slave = FMU3Slave(
-            instanceName="slider",
-            guid=description.guid,
-            modelIdentifier=description.identifier,
-            unzipDirectory=folder,
-        )
-        slave.instantiate(loggingOn=True, eventModeUsed=True, earlyReturnAllowed=True)
-        for name, value in job.first().items():
-            setter = slave.setInt32 if isinstance(value, int) else slave.setFloat64
-            setter(description.refer([name]), [value])
-        slave.enterInitializationMode(startTime=0.0)
-        slave.exitInitializationMode()
-        _leave_event_mode(slave)
-        inputs, outputs = description.refer(list(job.inputs)), description.refer(job.outputs)
-        rows, time = [], 0.0
-        for index in range(job.steps):
-            slave.setFloat64(inputs, [values[index] for values in job.inputs.values()])
-            end = (index + 1) * job.step
-            while time < end:
-                event, _, early, reached = slave.doStep(time, end - time)
-                time = reached if early else end
-                if event:
-                    slave.enterEventMode()
-                    _leave_event_mode(slave)
-            rows.append([float(value) for value in slave.getFloat64(outputs)])
-        slave.terminate()
-        slave.freeInstance()
-        return rows
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
+    slave.instantiate(loggingOn=True, eventModeUsed=True, earlyReturnAllowed=True)
+    for name, value in job.first().items():
+        setter = slave.setInt32 if isinstance(value, int) else slave.setFloat64
+        setter(description.refer([name]), [value])
+    slave.enterInitializationMode(startTime=0.0)
+    slave.exitInitializationMode()
+    _leave_event_mode(slave)
+    inputs, outputs = description.refer(list(job.inputs)), description.refer(job.outputs)
+    rows, time = [], 0.0
+    for index in range(job.steps):
+        slave.setFloat64(inputs, [values[index] for values in job.inputs.values()])
+        end = (index + 1) * job.step
+        while time < end:
+            event, _, early, reached = slave.doStep(time, end - time)
+            time = reached if early else end
+            if event:
+                slave.enterEventMode()
+                _leave_event_mode(slave)
+        rows.append([float(value) for value in slave.getFloat64(outputs)])
+    return rows
 
 
 def _leave_event_mode(slave: FMU3Slave) -> None:
