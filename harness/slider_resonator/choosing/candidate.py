@@ -42,11 +42,6 @@ class Model:
         return self.averaging_order == 2 or (self.friction_law == LUGRE and self.fidelity > 0)
 
     @property
-    def any_step(self) -> bool:
-        """Whether its motion is the same in steps of any size, to rounding: closed forms."""
-        return self.fidelity > 0 and self.friction_law == COULOMB
-
-    @property
     def tolerances(self) -> tuple[float, ...]:
         """The tolerances to choose from, descending."""
         return TOLERANCES if self.uses_tolerance else (START_TOLERANCE,)

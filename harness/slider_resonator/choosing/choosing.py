@@ -36,7 +36,7 @@ TIGHTER = {0: 2, 1: 0, 2: 0}
 """By fidelity, tolerances below the largest one that serves which may cost less: leaps differ."""
 ROUNDING = 1e-9
 """Share of a step that is rounding."""
-DEARER = 5.0
+MAX_COST_RATIO = 5.0
 """Cost of resolved motion by its beginning, over that of another model, beyond which all of it is
 not run: the beginning, in which the resonator rings, can cost some times more than the rest."""
 NEAR = 2.0
@@ -197,7 +197,7 @@ class _Choosing:
                 cost += self.probe.head_cost(start)
             except FmuError:
                 return
-        if cost > DEARER * best:
+        if cost > MAX_COST_RATIO * best:
             raise _RuledOutError(f"costs about {cost:.3g} s, another one {best:.3g} s")
 
     def _own_step(self, steps: Sequence[float | None]) -> int:

@@ -178,10 +178,10 @@ def test_of_equal_costs_the_model_that_leaves_out_least_is_taken() -> None:
     def evaluation(model: Model, tolerance: float, cost: float) -> Evaluation:
         return Evaluation(Candidate(model, tolerance, 1.0), {}, {}, cost, "whole")
 
-    averages, dear = evaluation(Model(0, 0, 1), 1e-8, 1.0), evaluation(Model(2, 0), 1e-8, 1.06)
+    averages, expensive = evaluation(Model(0, 0, 1), 1e-8, 1.0), evaluation(Model(2, 0), 1e-8, 1.06)
     fine, rough = (evaluation(Model(0, 0, 2), tolerance, 1.02) for tolerance in (1e-6, 1e-4))
-    assert cheapest([averages, dear]) is averages
-    assert cheapest([averages, fine, rough, dear]) is rough
+    assert cheapest([averages, expensive]) is averages
+    assert cheapest([averages, fine, rough, expensive]) is rough
     resolved = evaluation(Model(2, 0), 1e-8, 1.04)
     assert cheapest([averages, rough, resolved]) is resolved
 
