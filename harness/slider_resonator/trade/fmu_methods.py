@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from math import ceil
 from time import process_time
 from typing import Any, Protocol
@@ -18,7 +18,7 @@ from slider_resonator.fmu.run import run
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.search_result import SearchResult
 from slider_resonator.steady.steady_velocity import find_steady
-from slider_resonator.trade.method import Label, Method, SteadyAnswer, SteadyMethod
+from slider_resonator.trade.method import Label, Method, SteadyAnswer, SteadyMethod, timed
 from slider_resonator.trade.problem import Problem
 from slider_resonator.trade.result import AVERAGED, RESOLVED
 from slider_resonator.trade.solution import Solution
@@ -83,15 +83,11 @@ class FmuMethods:
         self.build = build
         self.fmu = fmu
         self._cpu = 0.0
-        self._orders: tuple[int | None, ...] | None = None
-        self._interpolates: bool | None = None
 
-    @property
+    @cached_property
     def orders(self) -> tuple[int | None, ...]:
         """The orders of averages from which the FMU has a choice, highest first; else None."""
-        if self._orders is None:
-            self._orders = AVERAGING_ORDERS if self.fmu.run(_has_orders) else (None,)
-        return self._orders
+        return AVERAGING_ORDERS if self.fmu.run(_has_orders) else (None,)
 
     def _clock(self) -> float:
         """Return the CPU time (s) that the FMU has taken so far, in its own process."""
@@ -124,12 +120,10 @@ class FmuMethods:
             for order in self.orders:
                 yield self._prediction(quantity, order)
 
-    @property
+    @cached_property
     def interpolates(self) -> bool:
         """Whether the FMU takes derivatives of inputs."""
-        if self._interpolates is None:
-            self._interpolates = bool(self.fmu.run(_takes_derivatives))
-        return self._interpolates
+        return bool(self.fmu.run(_takes_derivatives))
 
     def _schedule(self, periods: int, step: float) -> Schedule:
         """Return the inputs in steps (s): straight lines as derivatives where it takes them."""
@@ -232,9 +226,7 @@ def _timed(
     task: Callable[..., Any], arguments: Sequence[Any], instance: Instance
 ) -> tuple[float, Any]:
     """Return the CPU time (s) of a task and its result, in the process of the FMU."""
-    began = process_time()
-    result = task(instance, *arguments)
-    return process_time() - began, result
+    return timed(lambda: task(instance, *arguments), process_time)
 
 
 def _has_orders(instance: Instance) -> bool:

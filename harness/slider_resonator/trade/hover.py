@@ -5,7 +5,15 @@ from __future__ import annotations
 from math import isfinite
 
 from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, look
-from slider_resonator.trade.result import FLOOR, Row, Trade, curve, families, front
+from slider_resonator.trade.result import (
+    Row,
+    Trade,
+    cost_label,
+    curve,
+    drawn_error,
+    families,
+    front,
+)
 from slider_resonator.trade.solution import QUANTITIES
 from slider_resonator.trade.summary import duration
 
@@ -25,11 +33,9 @@ def work_precision_plot(trade: Trade, quantity: str) -> HoverPlot:
             if others:
                 label = f"{family}: not on its front"
                 series.append(_series(label, others, quantity, colour, marker))
-    answers = bool(drawn) and all(row.answer != "run" for row in drawn)
-    per = "answer" if answers else "simulated second"
     return HoverPlot(
         f"{quantity.replace('_', ' ')}: error over cost",
-        Axis(f"CPU time per {per} [s]", log=True),
+        Axis(cost_label(drawn), log=True),
         Axis(f"error: {QUANTITIES[quantity]}", log=True),
         series,
         height=460,
@@ -48,7 +54,7 @@ def _series(
     return Series(
         label=label,
         x=[row.cost for row in rows],
-        y=[max(row.errors[quantity], FLOOR) for row in rows],
+        y=[drawn_error(row, quantity) for row in rows],
         colour=colour,
         marker=marker,
         width=width,

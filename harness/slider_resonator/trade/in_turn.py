@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from slider_resonator.output.progress import Progress, counted
+from slider_resonator.output.progress import Progress, counted, no_progress
 
 
 @dataclass(frozen=True)
@@ -17,9 +17,7 @@ class Timed:
     repeats: int
 
 
-def in_turn(
-    everything: Sequence[Timed], progress: Progress = lambda name, share: None
-) -> list[list[float]]:
+def in_turn(everything: Sequence[Timed], progress: Progress = no_progress) -> list[list[float]]:
     """Return the seconds of each; in every round, each with repeats left is timed once.
 
     `progress` receives the name of the work and the share of the repeats that is done.

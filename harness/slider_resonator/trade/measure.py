@@ -13,7 +13,7 @@ from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.output.progress import Progress, counted
 from slider_resonator.trade.fmu_methods import FmuMethods, TaskRunner
 from slider_resonator.trade.in_turn import Timed, in_turn
-from slider_resonator.trade.method import Label, Method, SteadyMethod, cpu_seconds
+from slider_resonator.trade.method import Label, Method, SteadyMethod, timed
 from slider_resonator.trade.peer_methods import peer_answers, peer_methods
 from slider_resonator.trade.problem import Problem
 from slider_resonator.trade.reference import Reference, find_reference
@@ -89,12 +89,12 @@ def _measured(
         progress(f"{problem.name}: {label}", 0.4 + 0.2 * index / len(answers))
         candidates += _answer(problem, reference, answer, budget, notes)
     notes.answers_of(methods)
-    timed = [
+    works = [
         Timed(c.row.method, c.seconds, min(repeats, int(budget / max(c.estimate, 1e-9))))
         for c in candidates
     ]
     seconds = in_turn(
-        timed, lambda name, share: progress(f"{problem.name}: {name}", 0.6 + 0.4 * share)
+        works, lambda name, share: progress(f"{problem.name}: {name}", 0.6 + 0.4 * share)
     )
     return Trade(
         scene=problem.name,
@@ -197,9 +197,7 @@ def _expected(problem: Problem, reference: Reference) -> list[str]:
 
 
 def _timed_run(method: Method, periods: int) -> tuple[float, Solution]:
-    began = method.clock()
-    solution = method.run(periods)
-    return method.clock() - began, solution
+    return timed(lambda: method.run(periods), method.clock)
 
 
 def _answer(
@@ -216,9 +214,7 @@ def _answer(
         notes.add(answer.label, answer.quantity, reason)
         return []
     try:
-        began = answer.clock()
-        found = answer.find(budget)
-        taken = answer.clock() - began
+        taken, found = timed(lambda: answer.find(budget), answer.clock)
     except FmuDied:
         raise
     except _FAILURES as error:
@@ -231,7 +227,7 @@ def _answer(
     row = _row(problem, answer.label, answer.quantity, found.periods, errors_found)
 
     def seconds() -> float:
-        return cpu_seconds(lambda: answer.find(inf), answer.clock)
+        return timed(lambda: answer.find(inf), answer.clock)[0]
 
     return [_Candidate(row, seconds, 1.0, taken)]
 

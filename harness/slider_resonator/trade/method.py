@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from time import process_time
+from typing import TypeVar
 
 from slider_resonator.trade.solution import Solution
+
+Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
@@ -66,8 +69,8 @@ class SteadyMethod:
     clock: Callable[[], float] = process_time
 
 
-def cpu_seconds(work: Callable[[], object], clock: Callable[[], float]) -> float:
-    """Return the CPU time (s) that some work takes, by its clock."""
+def timed(work: Callable[[], Result], clock: Callable[[], float]) -> tuple[float, Result]:
+    """Return the CPU time (s) that some work takes, by its clock, and the result."""
     began = clock()
-    work()
-    return clock() - began
+    result = work()
+    return clock() - began, result

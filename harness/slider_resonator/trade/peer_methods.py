@@ -9,7 +9,7 @@ from time import process_time
 
 import numpy as np
 
-from slider_resonator.trade.method import Label, Method, SteadyMethod
+from slider_resonator.trade.method import Label, Method, SteadyMethod, timed
 from slider_resonator.trade.peers.peer import Peer
 from slider_resonator.trade.peers.registry import peers
 from slider_resonator.trade.problem import Problem
@@ -57,6 +57,5 @@ def _run(problem: Problem, peer: Peer, periods: int) -> Solution:
 
 
 def _seconds(problem: Problem, peer: Peer, periods: int) -> float:
-    began = process_time()
-    solution = _run(problem, peer, periods)
-    return process_time() - began - (solution.start_cpu or 0.0)
+    taken, solution = timed(lambda: _run(problem, peer, periods), process_time)
+    return taken - (solution.start_cpu or 0.0)

@@ -12,11 +12,12 @@ from matplotlib.figure import Figure
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.trade.result import (
     AVERAGED,
-    FLOOR,
     PEER,
     Row,
     Trade,
+    cost_label,
     curve,
+    drawn_error,
     families,
     front,
 )
@@ -94,10 +95,8 @@ def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look
             label=family,
             zorder=3,
         )
-    answers = all(row.answer != "run" for row in drawn)
-    per = "answer" if answers else "simulated second"
     axes.margins(y=0.14)
-    axes.set(xscale="log", yscale="log", xlabel=f"CPU time per {per} [s]")
+    axes.set(xscale="log", yscale="log", xlabel=cost_label(drawn))
 
 
 def _name_ours(axes: Axes, rows: Sequence[Row], quantity: str) -> None:
@@ -107,7 +106,7 @@ def _name_ours(axes: Axes, rows: Sequence[Row], quantity: str) -> None:
         build = family.split()[0]
         axes.annotate(
             family.replace(" FMU, fidelity ", " "),
-            (cheapest.cost, _shown(cheapest, quantity)),
+            (cheapest.cost, drawn_error(cheapest, quantity)),
             xytext=(0, NAME_HEIGHTS.get((cheapest.fidelity or 0, build), NAME_HEIGHT[build])),
             textcoords="offset points",
             fontsize=8,
@@ -115,13 +114,9 @@ def _name_ours(axes: Axes, rows: Sequence[Row], quantity: str) -> None:
         )
 
 
-def _shown(row: Row, quantity: str) -> float:
-    return max(row.errors[quantity], FLOOR)
-
-
 def _points(rows: Sequence[Row], quantity: str) -> tuple[list[float], list[float]]:
     """Return costs and errors."""
-    return [row.cost for row in rows], [_shown(row, quantity) for row in rows]
+    return [row.cost for row in rows], [drawn_error(row, quantity) for row in rows]
 
 
 def _our_colour(family: str) -> str:

@@ -102,6 +102,17 @@ def front(rows: Iterable[Row], quantity: str) -> list[Row]:
     return best
 
 
+def drawn_error(row: Row, quantity: str) -> float:
+    """Return the error of a quantity as it is drawn: not below FLOOR."""
+    return max(row.errors[quantity], FLOOR)
+
+
+def cost_label(rows: Sequence[Row]) -> str:
+    """Return the label of the axis of costs: of answers, or of simulated seconds."""
+    answers = bool(rows) and all(row.answer != "run" for row in rows)
+    return f"CPU time per {'answer' if answers else 'simulated second'} [s]"
+
+
 def curve(own: Sequence[Row], quantity: str) -> list[Row]:
     """Return the rows of a family that a line joins, by cost: its Pareto front, or all of them.
 
