@@ -32,14 +32,6 @@ def _vibration(pick: Callable[[EquivalentForce], float]) -> Callable[[Device], f
     return size
 
 
-def _largest_normal_force(device: Device) -> float:
-    return device.normal_preload + device.normal_amplitude
-
-
-def _full_friction(device: Device) -> float:
-    return device.friction_faces * device.friction_coefficient * _largest_normal_force(device)
-
-
 fast_velocity = _vibration(lambda force: force.velocity_amplitude)
 """Amplitude v_q of the fast velocity (m/s) of a device, 0 without vibration."""
 
@@ -60,11 +52,11 @@ _SCALES: Mapping[str, Callable[[Device], float]] = {
     "mean_velocity_in_run": fast_velocity,
     "last_step_velocity": fast_velocity,
     "velocity": fast_velocity,
-    "blocking_force": _full_friction,
-    "predicted_blocking_force": _full_friction,
-    "predicted_blocking_force_in_run": _full_friction,
-    "friction_force": _full_friction,
-    "normal_force": _largest_normal_force,
+    "blocking_force": lambda device: device.max_friction,
+    "predicted_blocking_force": lambda device: device.max_friction,
+    "predicted_blocking_force_in_run": lambda device: device.max_friction,
+    "friction_force": lambda device: device.max_friction,
+    "normal_force": lambda device: device.max_normal_force,
     "position": _displacement,
     "slow_displacement": _displacement,
     "ripple_amplitude": _displacement,

@@ -100,8 +100,8 @@ def check_magnitudes(scene: Scene) -> None:
 def scales_of(scene: Scene) -> Scales:
     """Return the scales of a scene, inputs and tuned parameters as they start."""
     device = scene.device
-    period = 2.0 * pi / device.drive_frequency
-    friction = device.friction_faces * device.friction_coefficient * device.normal_preload
+    period = scene.drive_period
+    friction = device.mean_friction
     ratio = scene.signals["frequency_ratio"].at(0.0)
     detuning = abs(ratio - round(ratio))
     fast = _fast_velocity(device)

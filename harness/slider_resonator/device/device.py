@@ -118,6 +118,16 @@ class Device:
         return self.friction_faces * self.friction_coefficient * self.normal_preload
 
     @property
+    def max_normal_force(self) -> float:
+        """Largest normal load, N."""
+        return self.normal_preload + self.normal_amplitude
+
+    @property
+    def max_friction(self) -> float:
+        """Friction of all faces at the largest normal load, N."""
+        return self.friction_faces * self.friction_coefficient * self.max_normal_force
+
+    @property
     def amplitude_ratio(self) -> float:
         """Amplitude over mean of the normal load, alpha below (2)."""
         return self.normal_amplitude / self.normal_preload

@@ -80,10 +80,8 @@ def reference_blocking_force(
     if period_map is None:
         return None
     # Without preload the load varies alone and friction is of the order of its amplitude.
-    normal = device.normal_preload + device.normal_amplitude
-    friction = device.friction_faces * device.friction_coefficient * normal
     warm = period_map.warm_up(0.0, guess)
-    found = blocked_point(period_map, warm, guess, friction, tolerance=tolerance)
+    found = blocked_point(period_map, warm, guess, device.max_friction, tolerance=tolerance)
     return found.load if isinstance(found, FixedPoint) else None
 
 

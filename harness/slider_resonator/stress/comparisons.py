@@ -11,7 +11,6 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.checks.leap_error import MARGIN, allowed_by_leaps, centre_signals
 from slider_resonator.checks.natural_scale import fast_velocity
-from slider_resonator.device.device import Device
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.taylor import simulate
@@ -209,7 +208,7 @@ def _allowed(case: Case, signals: Signals, share: float) -> dict[str, float]:
     w = device.drive_frequency
     position, velocity, swing, rate = (float(np.abs(signals[name]).max()) for name in SIGNALS)
     swing = max(swing, rate / w)
-    friction = _max_friction(device)
+    friction = device.max_friction
     slip = device.friction_law * friction / (device.total_mass * w)
     velocity += device.mass_ratio * w * swing + slip
     scales = (max(position, velocity / w), velocity, swing + slip / w, w * swing + slip)
@@ -224,11 +223,6 @@ def _allowed(case: Case, signals: Signals, share: float) -> dict[str, float]:
         name: share * scale + floor
         for name, scale, floor in zip(SIGNALS, scales, floors, strict=True)
     }
-
-
-def _max_friction(device: Device) -> float:
-    max_normal = device.normal_preload + device.normal_amplitude
-    return device.friction_faces * device.friction_coefficient * max_normal
 
 
 def _largest(name: str, own: Signals, other: Signals, allowed: Mapping[str, float]) -> BoundCheck:

@@ -57,7 +57,7 @@ def _phase(case: Case, seen: Observation, psi: Exact) -> BoundCheck:
     swing = device.normal_amplitude * np.sin(psi + held)
     expected = np.maximum(0.0, (device.normal_preload + swing).astype(float))
     angle = np.abs(psi).astype(float) + np.abs(held)
-    bound = BOUND * (device.normal_preload + device.normal_amplitude)
+    bound = BOUND * device.max_normal_force
     allowed = bound + 4.0 * ROUNDING * angle * device.normal_amplitude
     return _largest("phase of the normal load", seen.outputs["normal_force"] - expected, allowed)
 
@@ -69,10 +69,9 @@ def _friction_bound(case: Case, seen: Observation) -> BoundCheck:
     """
     device = case.device
     normal = seen.outputs["normal_force"]
-    max_normal = device.normal_preload + device.normal_amplitude
     averaged = case.model.first_order
     if averaged:
-        normal = np.full_like(normal, max_normal)
+        normal = np.full_like(normal, device.max_normal_force)
     share = np.full_like(normal, device.friction_coefficient)
     if device.friction_law == 1:
         velocity = np.abs(seen.outputs["velocity"])
@@ -80,7 +79,7 @@ def _friction_bound(case: Case, seen: Observation) -> BoundCheck:
             velocity = np.abs(seen.outputs["mean_velocity"]) + fast_velocity(device)
         share += 2.0 * device.bristle_damping * velocity
     force = np.abs(seen.outputs["friction_force"])
-    allowed = BOUND * device.friction_faces * share * max_normal
+    allowed = BOUND * device.friction_faces * share * device.max_normal_force
     return _largest(
         "friction bound", np.maximum(0.0, force - device.friction_faces * share * normal), allowed
     )
@@ -99,8 +98,6 @@ def _momentum(case: Case, seen: Observation, theta: Exact) -> BoundCheck:
     body = device.total_mass * seen.outputs["velocity"]
     resonator = device.resonator_mass * seen.outputs["resonator_velocity"]
     slack = 0.0
-    max_normal = device.normal_preload + device.normal_amplitude
-    max_friction = device.friction_faces * device.friction_coefficient * max_normal
     if device.fidelity == 2 or case.model.second_order:
         momentum = body + resonator - drive * (1.0 - np.cos(theta)).astype(float)
         if case.model.second_order:
@@ -113,7 +110,7 @@ def _momentum(case: Case, seen: Observation, theta: Exact) -> BoundCheck:
         else:
             slack = 2.0 * float(np.abs(body - momentum).max())
     load = np.concatenate([[0.0], np.cumsum(case.inputs[:, 1] * case.sizes)])
-    friction = max_friction * case.times
+    friction = device.max_friction * case.times
     change = np.abs(momentum - momentum[0] + load)
     sizes = abs(drive) + (np.abs(body) + np.abs(resonator)).max() + np.abs(load) + friction
     rounding = (BOUND + 4.0 * ROUNDING * theta.astype(float)) * sizes
@@ -147,7 +144,7 @@ def _energy(case: Case, seen: Observation) -> BoundCheck:
 def _stored_in_bristles(device: Device) -> float:
     """Energy in J that bristles bent to mu / s0 give back."""
     bent = 0.5 * device.friction_coefficient**2 / device.bristle_stiffness
-    return device.friction_faces * (device.normal_preload + device.normal_amplitude) * bent
+    return device.friction_faces * device.max_normal_force * bent
 
 
 def _share(seen: Observation) -> BoundCheck:

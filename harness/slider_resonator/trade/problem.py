@@ -66,8 +66,7 @@ class Problem:
     @property
     def steady(self) -> bool:
         """Whether the inputs allow a steady motion, and friction draws the slider into it."""
-        device = self.device
-        rubs = device.friction_coefficient * (device.normal_preload + device.normal_amplitude) > 0.0
+        rubs = self.device.max_friction > 0.0
         periodic = common_period(self.inputs["frequency_ratio"]) is not None
         return rubs and self.constant and periodic
 
