@@ -12,7 +12,7 @@ from slider_resonator.references.averaged import uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from studies.paper import labels
 from studies.paper.figure import SHADES, Data, PaperFigure, curve, panels
-from studies.paper.mapping import coulomb_case, lugre_case
+from studies.paper.mapping import coulomb_case, lugre_case, stiffness_of
 from studies.paper.measure import steady_velocity
 
 PHASE, AMPLITUDE_RATIO = 1.0, 0.8
@@ -22,17 +22,13 @@ LUGRE_FREQUENCIES = tuple(np.geomspace(30.0, 3000.0, 7).tolist())
 KAPPAS = (0.25, 2.5, 25.0)
 
 
-def _stiffness(kappa: float, frequency: float) -> float:
-    return kappa * CASE.friction_coefficient * frequency / CASE.strength
-
-
 def _measure(instance: Instance) -> Data:
     cases = {
         "Coulomb": [coulomb_case(1.0, w, AMPLITUDE_RATIO, PHASE) for w in COULOMB_FREQUENCIES],
     }
     for kappa in KAPPAS:
         cases[f"LuGre {kappa:g}"] = [
-            lugre_case(CASE, w, _stiffness(kappa, w)) for w in LUGRE_FREQUENCIES
+            lugre_case(CASE, w, stiffness_of(kappa, CASE, w)) for w in LUGRE_FREQUENCIES
         ]
     return {
         name: curve(
@@ -52,7 +48,7 @@ def errors(data: Data) -> dict[str, tuple[Array, Array]]:
             average = closed_forms.steady_velocity(1.0, AMPLITUDE_RATIO, PHASE)
         else:
             # At a given kappa the average does not depend on the frequency.
-            stiffness = _stiffness(float(name.split()[1]), 1000.0)
+            stiffness = stiffness_of(float(name.split()[1]), CASE, 1000.0)
             average = uniform_average.steady_velocity(CASE, stiffness, 1000.0)
         result[name] = frequencies, np.abs(np.array(points["v"]) - average)
     return result

@@ -11,7 +11,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from studies.paper.claim import Claim, ClaimGroup, claim, labelled, near
-from studies.paper.mapping import lugre_case
+from studies.paper.mapping import lugre_case, stiffness_of
 from studies.paper.measure import blocking_force, steady_velocity
 
 FREQUENCY = 1000.0
@@ -79,7 +79,7 @@ def _over_kappa(instance: Instance) -> Iterator[Claim]:
     numbers = {"formula": averaged_lugre.blocking_load(LugreCase())}
     worst = 0.0
     for kappa in KAPPAS:
-        stiffness = kappa * 0.4 * FREQUENCY
+        stiffness = stiffness_of(kappa, LugreCase(), FREQUENCY)
         direct = _blocking(instance, stiffness, 1.0, 0.4)
         uniform = uniform_average.blocking_load(LugreCase(), stiffness, FREQUENCY)
         numbers |= {f"fmu_kappa_{kappa:g}": direct, f"uniform_kappa_{kappa:g}": uniform}

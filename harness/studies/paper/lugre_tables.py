@@ -9,7 +9,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from slider_resonator.references.closed_forms import equivalent_force
-from studies.paper.mapping import lugre_case
+from studies.paper.mapping import lugre_case, stiffness_of
 from studies.paper.measure import blocking_force, steady_velocity
 from studies.paper.table import PaperTable, rows_over
 
@@ -20,7 +20,7 @@ TABLE_1 = Device(friction_law=1)
 
 
 def _blocking_row(instance: Instance, kappa: float) -> dict[str, float]:
-    stiffness = kappa * CASE.friction_coefficient * FREQUENCY / CASE.strength
+    stiffness = stiffness_of(kappa, CASE, FREQUENCY)
     direct = blocking_force(instance, lugre_case(CASE, FREQUENCY, stiffness))
     uniform = uniform_average.blocking_load(CASE, stiffness, FREQUENCY)
     paper = averaged_lugre.blocking_load(CASE)

@@ -40,6 +40,11 @@ def coulomb_case(
     }
 
 
+def stiffness_of(kappa: float, case: LugreCase, frequency: float) -> float:
+    """Return sigma_0 of an averaged case for kappa = sigma_0 q / (mu Omega)."""
+    return kappa * case.friction_coefficient * frequency / case.strength
+
+
 def lugre_case(case: LugreCase, frequency: float, stiffness: float) -> Values:
     """Return the FMU values of (9) for an averaged case at Omega and sigma_0."""
     return {

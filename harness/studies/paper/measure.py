@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import FmuError
@@ -14,7 +15,6 @@ from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.search_result import SearchResult
 from slider_resonator.steady.steady_velocity import find_steady
 
-INPUTS = {"phase", "load", "frequency_ratio"}
 SIGNALS = ("position", "velocity")
 
 

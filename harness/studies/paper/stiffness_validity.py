@@ -15,7 +15,7 @@ from slider_resonator.references.averaged import averaged_lugre, uniform_average
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from studies.paper import labels
 from studies.paper.figure import SHADES, Data, PaperFigure, curve, markers, panels
-from studies.paper.mapping import lugre_case
+from studies.paper.mapping import lugre_case, stiffness_of
 from studies.paper.measure import blocking_force, steady_velocity
 
 FREQUENCY = 1000.0
@@ -23,13 +23,8 @@ CASE = LugreCase()
 KAPPAS = tuple(np.geomspace(0.01, 1000.0, 11).tolist())
 
 
-def stiffness_of(kappa: float) -> float:
-    """Return sigma_0 of the case for kappa = sigma_0 q / (mu Omega)."""
-    return kappa * CASE.friction_coefficient * FREQUENCY / CASE.strength
-
-
 def _measure(instance: Instance) -> Data:
-    cases = [lugre_case(CASE, FREQUENCY, stiffness_of(kappa)) for kappa in KAPPAS]
+    cases = [lugre_case(CASE, FREQUENCY, stiffness) for stiffness in _stiffnesses(KAPPAS)]
     return {
         "velocity": curve(KAPPAS, [steady_velocity(instance, values) for values in cases]),
         "blocking": curve(KAPPAS, [blocking_force(instance, values) for values in cases]),
@@ -54,7 +49,7 @@ def _draw(data: Data) -> Drawing:
     error.plot(KAPPAS, uniform, color=SHADES[2], label="uniform against FMU")
     error.set(yscale="log", ylabel="error of $V$ [$x_0 \\omega_0$]")
 
-    blocked = [uniform_average.blocking_load(CASE, stiffness_of(k), FREQUENCY) for k in fine]
+    blocked = [uniform_average.blocking_load(CASE, s, FREQUENCY) for s in _stiffnesses(fine)]
     paper = averaged_lugre.blocking_load(CASE)
     hard = CASE.friction_coefficient * closed_forms.blocking_load(1.0, pi / 2)
     blocking.plot(fine, blocked, color=SHADES[2], label="uniform average")
@@ -68,8 +63,12 @@ def _draw(data: Data) -> Drawing:
     return drawing
 
 
+def _stiffnesses(kappas: Iterable[float]) -> list[float]:
+    return [stiffness_of(kappa, CASE, FREQUENCY) for kappa in kappas]
+
+
 def _uniform_velocity(kappas: Iterable[float]) -> Array:
-    stiffnesses = map(stiffness_of, kappas)
+    stiffnesses = _stiffnesses(kappas)
     return np.array([uniform_average.steady_velocity(CASE, s, FREQUENCY) for s in stiffnesses])
 
 

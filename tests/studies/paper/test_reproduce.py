@@ -15,8 +15,9 @@ from slider_resonator.references.closed_forms import equivalent_force
 from studies.paper.average_error import errors, slope
 from studies.paper.claim import statements
 from studies.paper.figure_8 import PHASES
+from studies.paper.mapping import stiffness_of
 from studies.paper.reproduce import FIGURES, NAMES, TABLES, reproduce
-from studies.paper.stiffness_validity import CASE, stiffness_of
+from studies.paper.stiffness_validity import CASE
 
 
 def _quiet(label: str, share: float) -> None:
@@ -68,7 +69,7 @@ def test_the_whole_paper_is_confirmed(native_fmu: Path, tmp_path: Path) -> None:
 
     points = results("stiffness_validity")["velocity"]
     for kappa, velocity in zip(points["x"], points["v"], strict=True):
-        average = uniform_average.steady_velocity(CASE, stiffness_of(kappa), 1000.0)
+        average = uniform_average.steady_velocity(CASE, stiffness_of(kappa, CASE, 1000.0), 1000.0)
         assert velocity == pytest.approx(average, abs=2e-3), f"uniform average at kappa {kappa}"
 
     force = equivalent_force(Device())
