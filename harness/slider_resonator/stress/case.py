@@ -70,6 +70,12 @@ class Model:
         return f"{law}, fidelity {self.fidelity}{order}"
 
     @property
+    def parameters(self) -> dict[str, float]:
+        """The FMU parameters that make it."""
+        order = {"averaging_order": self.averaging_order} if self.fidelity == 0 else {}
+        return {"fidelity": self.fidelity, "friction_law": self.friction_law, **order}
+
+    @property
     def second_order(self) -> bool:
         """Whether it leaps over periods, by averages of second order."""
         return self.fidelity == 0 and self.averaging_order == 2
@@ -127,11 +133,8 @@ class Case:
     @property
     def settings(self) -> dict[str, float]:
         """All parameters that are set in the FMU."""
-        chosen = {"fidelity": self.model.fidelity, "friction_law": self.model.friction_law}
-        if self.model.fidelity == 0:
-            chosen["averaging_order"] = self.model.averaging_order
         usual = {"tolerance": LEAP_TOLERANCE} if self.model.second_order else {}
-        return {**usual, **self.parameters, **chosen}
+        return {**usual, **self.parameters, **self.model.parameters}
 
     @property
     def device(self) -> Device:

@@ -50,10 +50,7 @@ def random_case(seed: int, number: int) -> Case:
     """Return a case of a seed; `number` counts from 0."""
     random = Random(f"{seed} {number}")
     model = IN_TURN[number % len(IN_TURN)]
-    values = random_device(random) | {"fidelity": model.fidelity}
-    values["friction_law"] = model.friction_law
-    if model.fidelity == 0:
-        values["averaging_order"] = model.averaging_order
+    values = random_device(random) | model.parameters
     if model.second_order:
         values |= _light_friction(random, values)
     if model.friction_law == 1:
