@@ -153,11 +153,9 @@ def accept(fmu: Path, folder: Path, names: Sequence[str]) -> tuple[str, ...]:
     waiting = {path.name: path for path in recorded_scenes(folder / CHANGED)}
     for name in names:
         if name not in waiting:
-            reason = (
-                unknown_name("changed scene", name, waiting)
-                if waiting
-                else (f"{name}: nothing has changed since the last check, or there was none")
-            )
+            reason = f"{name}: nothing has changed since the last check, or there was none"
+            if waiting:
+                reason = unknown_name("changed scene", name, waiting)
             raise HarnessError(f"{folder}: {reason}")
     chosen = tuple(dict.fromkeys(names)) or tuple(waiting)
     if not chosen:

@@ -19,6 +19,7 @@ from slider_resonator.commands.results import print_text
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.terminal import one_line
 from slider_resonator.scenes.scene_files import find_scenes
 
@@ -78,7 +79,7 @@ def record_command(
         names, run_failures = record(
             fmu, found, folder, progress, replace=replace, time_limit=time_limit
         )
-    print_text(f"recorded {len(names)} scene{'s' * (len(names) != 1)} in {one_line(str(folder))}")
+    print_text(f"recorded {number_of(len(names), 'scene')} in {one_line(str(folder))}")
     print_run_failures(str(fmu), run_failures)
     context.exit(2 if run_failures else 0)
 

@@ -154,11 +154,11 @@ def mutants_command(
         mutants = sample(made, count, seed)
         listed = {"mutants": [mutant_as_plain(mutant) for mutant in mutants]}
         judge, min_rate = partial(run_mutants, path, original, mutants, len(made)), MIN_RATE
-    if only_list and as_json:
-        print_json(listed)
-    elif only_list:
-        print_variants(output(), changes if native else mutants)
     if only_list:
+        if as_json:
+            print_json(listed)
+        else:
+            print_variants(output(), changes if native else mutants)
         return
     provenance = provenance_of(path)
     with noting_on_interrupt(lambda: _kept(journal)), progress_bar() as progress:
