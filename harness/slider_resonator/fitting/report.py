@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 from math import exp, isfinite
 from pathlib import Path
@@ -15,7 +14,7 @@ from slider_resonator.fitting.fit import Fit, FittedParameter
 from slider_resonator.fitting.measurements import Point
 from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.fmu.provenance_text import provenance_html
-from slider_resonator.output.atomic import replacing, write_text
+from slider_resonator.output.atomic import write_csv, write_text
 from slider_resonator.output.html_page import rendered, write_page
 from slider_resonator.output.plot_style import COLOURS, png_data_uri, save, style
 from slider_resonator.output.readable import number_of
@@ -149,12 +148,10 @@ def write_report(fit: Fit, folder: Path, title: str, provenance: Provenance) -> 
     write_text(device, note + to_toml(fit.device, title))
     figure = draw(fit)
     save(figure, picture)
-    with replacing(table) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["quantity", "measured", "predicted", "residual_over_deviation"])
-        numbers_of = (fit.measured, fit.predicted, fit.residuals)
-        columns = (column.tolist() for column in numbers_of)
-        writer.writerows(zip(fit.measurements.quantities, *columns, strict=True))
+    header = ("quantity", "measured", "predicted", "residual_over_deviation")
+    numbers_of = (fit.measured, fit.predicted, fit.residuals)
+    columns = (column.tolist() for column in numbers_of)
+    write_csv(table, header, zip(fit.measurements.quantities, *columns, strict=True))
     said = "".join(f"<li>{line}</li>" for line in sentences(fit))
     parts = [
         rendered(parameter_table(fit)),

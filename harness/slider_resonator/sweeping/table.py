@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.output.atomic import replacing
+from slider_resonator.output.atomic import replacing, write_csv
 from slider_resonator.output.targets import writable
 from slider_resonator.sweeping.measures import Task
 from slider_resonator.sweeping.worker import Row
@@ -79,18 +79,11 @@ def _read_parquet(path: Path) -> Columns:
 
 def write_table(path: Path, task: Task, columns: Columns) -> None:
     """Write the table; the suffix chooses the format. Numbers come back to the last digit."""
+    if path.suffix.lower() == ".csv":
+        write_csv(path, columns, zip(*columns.values(), strict=True))
+        return
     with replacing(path) as temporary:
-        if path.suffix.lower() == ".csv":
-            _write_csv(temporary, columns)
-        else:
-            _write_parquet(temporary, task, columns)
-
-
-def _write_csv(path: Path, columns: Columns) -> None:
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(zip(*columns.values(), strict=True))
+        _write_parquet(temporary, task, columns)
 
 
 def _write_parquet(path: Path, task: Task, columns: Columns) -> None:

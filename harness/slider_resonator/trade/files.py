@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from slider_resonator.output.atomic import replacing
+from slider_resonator.output.atomic import write_csv
 from slider_resonator.trade.result import Row, Trade
 from slider_resonator.trade.solution import QUANTITIES
 
@@ -24,7 +23,7 @@ what a method does not have or does not report is empty."""
 
 def write_rows(path: Path, trades: Sequence[Trade]) -> None:
     """Write all rows; HarnessError when that is impossible."""
-    _write(path, COLUMNS, (_cells(row) for trade in trades for row in trade.rows))
+    write_csv(path, COLUMNS, (_cells(row) for trade in trades for row in trade.rows))
 
 
 def write_omissions(path: Path, trades: Sequence[Trade]) -> None:
@@ -34,7 +33,7 @@ def write_omissions(path: Path, trades: Sequence[Trade]) -> None:
         for trade in trades
         for omission in trade.omissions
     ]
-    _write(path, ("scene", "method", "quantity", "reason"), lines)
+    write_csv(path, ("scene", "method", "quantity", "reason"), lines)
 
 
 def _cells(row: Row) -> list[Any]:
@@ -45,10 +44,3 @@ def _cells(row: Row) -> list[Any]:
         *(row.start_cpu, row.steps, row.evaluations, row.events),
         *(row.errors.get(quantity) for quantity in QUANTITIES),
     ]
-
-
-def _write(path: Path, head: Sequence[str], lines: Iterable[Sequence[Any]]) -> None:
-    with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(head)
-        writer.writerows(lines)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -16,7 +15,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, finished_path
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.atomic import replacing
+from slider_resonator.output.atomic import write_csv
 from slider_resonator.output.console import nothing_kept, noting_on_interrupt
 from slider_resonator.output.progress import counted, part_of
 from slider_resonator.output.progress_bar import progress_bar
@@ -125,10 +124,7 @@ def _write_csv(path: Path, records: Sequence[LoopRecord], duty: Duty) -> None:
         run = f"{record.host} fidelity {record.fidelity}"
         header += [f"{run} {name}" for name in ("load [N]", "mean_velocity [m/s]", "phase [rad]")]
         columns += [record.load, record.velocity, record.phase]
-    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(header)
-        writer.writerows(zip(*(column.tolist() for column in columns), strict=True))
+    write_csv(path, header, zip(*(column.tolist() for column in columns), strict=True))
 
 
 def _print(held: Sequence[IntervalResult], agreements: Sequence[Agreement]) -> None:
