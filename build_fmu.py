@@ -33,6 +33,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for build in _builds(options):
             fmu = build()
             print(f"{fmu}: {fmu.stat().st_size} bytes, SHA-256 {_sha256(fmu)}", flush=True)
+        if options.only is None and options.platform == [HOST]:
+            print("Native FMUs for this machine; without --platform: all platforms and the page")
     except BuildError as error:
         print(f"build_fmu.py: {error}", file=sys.stderr)
         return 2
@@ -62,7 +64,8 @@ def _builds(options: argparse.Namespace) -> Iterator[Callable[[], Path]]:
         controller = options.out / f"{controller_fmu.MODEL}.fmu"
         yield lambda: build_controller(options.out, **native)
         yield lambda: build_closed_loop(options.out, slider, controller)
-    if options.only == "page" or (options.only is None and options.compiler is None):
+    for_all = not options.platform and options.compiler is None
+    if options.only == "page" or (options.only is None and for_all):
         yield lambda: build_page(options.out, progress=_progress)
 
 
@@ -96,8 +99,8 @@ def _parser() -> argparse.ArgumentParser:
         action="append",
         default=[],
         choices=(*PLATFORMS_3, HOST),
-        help="platform of the native FMUs; may be given more than once (default: all; those of FMI "
-        f"2.0 are {', '.join(PLATFORMS)})",
+        help="platform of the native FMUs; may be given more than once (default: all, and the "
+        f"page; those of FMI 2.0 are {', '.join(PLATFORMS)})",
     )
     parser.add_argument(
         "--compiler",

@@ -121,7 +121,7 @@ def test_linux_exports_the_standard(inside: dict[str, bytes]) -> None:
     assert elf_exports(inside[path]) == fmi_3_functions(), "nothing but FMI is shown"
 
 
-@pytest.mark.slow
+@pytest.mark.interop
 def test_platforms(tmp_path: Path) -> None:
     with zipfile.ZipFile(build_native_3(tmp_path)) as archive:
         binaries = {n: archive.read(n) for n in archive.namelist() if n.startswith("binaries/")}
