@@ -102,9 +102,8 @@ def trade_command(
     measured. The reference is always the scene's full device, at whatever fidelity the scene runs.
     FMUs with canInterpolateInputs get the derivatives of inputs that are straight lines; others and
     peers hold inputs over each step. Scenes with constant inputs run for at least 1000 drive
-    periods. Needs heyoka, and scikit-sundae for CVODE (pip install 'slider-resonator[peers]'). Exit
-    code: 0, or 2 when it could not run, an FMU crashed or exceeded the time limit; the tables of
-    the scenes before are kept.
+    periods. Needs heyoka (pip install 'slider-resonator[taylor]'). Exit code: 0, or 2 when it could
+    not run, an FMU crashed or exceeded the time limit; the tables of the scenes before are kept.
 
     \b
     Examples:

@@ -50,7 +50,7 @@ def _explanation() -> str:
         "steps take for heyoka in one call, since it cannot start at rest. A method that would "
         "exceed its budget is followed over fewer drive periods, as listed. Peers hold "
         "inputs that vary over the scene's own communication step (FMUs over theirs), and cost "
-        "what they cost a user of Python: heyoka compiles its equations, scipy and CVODE call them "
+        "what they cost a user of Python: heyoka compiles its equations, scipy calls them "
         "in Python, and Moreau-Jean is a loop in Python. Steps are an FMU's communication steps "
         "or an integrator's own; events are those that were located, else reversals.</p>"
     )

@@ -14,9 +14,9 @@ from slider_resonator.references.resolved import located_events, lugre_scipy, ta
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import Simulate
-from slider_resonator.trade.peers import event_free, located_cvode, moreau_jean
-from slider_resonator.trade.peers.one_call import cvode_in_one_call, heyoka_in_one_call
+from slider_resonator.trade.peers import event_free, moreau_jean
 from slider_resonator.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, solution_of
+from slider_resonator.trade.peers.switching_taylor import heyoka_in_one_call
 from slider_resonator.trade.problem import Problem
 from slider_resonator.trade.solution import Solution
 
@@ -31,7 +31,7 @@ def peers(problem: Problem) -> list[Peer]:
 
 def _coulomb() -> Iterator[Peer]:
     for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
-        yield heyoka_in_one_call("heyoka at its fastest", "path", taylor.simulate, tolerance)
+        yield heyoka_in_one_call("heyoka at its fastest", taylor.simulate, tolerance)
     for tolerance in (1e-6, 1e-12):
         simulate: Simulate = partial(taylor.simulate, tolerance=tolerance)
         yield _at("heyoka, events located outside", tolerance, simulate)
@@ -49,9 +49,6 @@ def _coulomb() -> Iterator[Peer]:
                 steps_per_period=4,
             )
             yield _at(f"{method} with located events", tolerance, simulate)
-    for tolerance in (1e-5, 1e-7, 1e-9, 1e-11):
-        simulate = partial(located_cvode.simulate, tolerance=tolerance)
-        yield _at("CVODE with root finding", tolerance, simulate)
     for atol in (1e-4, 1e-6, 1e-8, 1e-10):
         simulate = partial(event_free.simulate_sgn, atol=atol, max_evaluations=MAX_EVALUATIONS)
         yield _trajectory(
@@ -73,10 +70,9 @@ def _coulomb() -> Iterator[Peer]:
 
 
 def _lugre() -> Iterator[Peer]:
-    for bristle in ("path", "state"):
-        for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
-            family = f"heyoka at its fastest, bristle {'from' if bristle == 'path' else 'as'} "
-            yield heyoka_in_one_call(family + bristle, bristle, simulate_lugre, tolerance)
+    for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
+        family = "heyoka at its fastest, bristle from path"
+        yield heyoka_in_one_call(family, simulate_lugre, tolerance)
     for method, tolerances in (
         ("LSODA", (1e-4, 1e-6, 1e-8, 1e-10)),
         ("Radau", (1e-4, 1e-6)),
@@ -88,8 +84,6 @@ def _lugre() -> Iterator[Peer]:
             )
             family = f"{method}, bristle as state"
             yield _at(family, tolerance, simulate, located=False)
-    for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
-        yield cvode_in_one_call(tolerance)
 
 
 def _regularised(

@@ -1,25 +1,30 @@
-"""heyoka at its fastest on a slider that never sticks: the peer for measurements of cost.
+"""heyoka at its fastest on a slider that never sticks: a motion under constant inputs in one call.
 
 One compiled system per friction law; the direction of sliding is a runtime parameter that an event
-callback reverses where the velocity is zero, so that a whole run is one call. It covers neither
-sticking nor flight: `simulate_sliding` refuses devices that lift, and a start at rest.
+callback reverses where the velocity is zero. With LuGre friction the bristle deflection follows
+from the path since the last reversal. It covers neither sticking nor flight: `simulate_sliding`
+refuses devices that lift, and a start at rest.
 """
 
 from __future__ import annotations
 
 import importlib
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any, Literal
+from time import process_time
+from typing import Any
 
 import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-
-Form = Literal["coulomb", "path", "state"]
+from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
+from slider_resonator.steady.reference_steady import Simulate
+from slider_resonator.trade.peers.peer import NOT_SHOT, Peer, solution_of
+from slider_resonator.trade.solution import Solution
 
 _PARAMETERS = (
     *(
@@ -36,21 +41,66 @@ _PARAMETERS = (
     *("bristle_rate", "drag", "reversed_at", "stretch"),
 )
 _PLACE = {name: index for index, name in enumerate(_PARAMETERS)}
-_LAST: dict[Form, str] = {"coulomb": "direction", "path": "stretch", "state": "drag"}
+_LAST = ("direction", "stretch")
+"""The last parameter in use, by friction law."""
+
+
+def heyoka_in_one_call(family: str, first: Simulate, tolerance: float) -> Peer:
+    """Return heyoka in one call; it starts where `first` is after one drive period."""
+
+    def follow(device: Device, held: Sequence[HeldInputs], times: Array) -> Solution:
+        if len(held) != 1:
+            raise ValueError("inputs vary, which it does not cover")
+        (inputs,) = held
+        begin = min(2.0 * np.pi / device.drive_frequency, inputs.stop)
+        early = times[times <= begin]
+        began = process_time()
+        start = first(device, [replace(inputs, stop=begin)], np.append(early, begin))
+        started = process_time() - began
+        if begin == inputs.stop:
+            return replace(
+                solution_of(start, located=False),
+                times=early,
+                position=start.position[:-1],
+                velocity=start.velocity[:-1],
+            )
+        if start.contact_mode[-1] == 0:
+            raise ValueError("the slider sticks after a drive period, which it does not cover")
+        moving = device_at(device, start, -1)
+        later = times[times > begin]
+        rest = simulate_sliding(moving, inputs, later, tolerance=tolerance, start=begin)
+        return Solution(
+            times,
+            position=np.concatenate([start.position[:-1], rest.samples[:, 0]]),
+            velocity=np.concatenate([start.velocity[:-1], rest.samples[:, 1]]),
+            steps=rest.steps,
+            events=rest.reversals,
+            start_cpu=started,
+        )
+
+    missing = {"event_times": "the times of reversals are not reported", **NOT_SHOT}
+    setting = f"tol {tolerance:.0e}"
+    return Peer(family, setting, tolerance, follow, cannot_stick=True, missing=missing)
+
+
+def device_at(device: Device, run: Trajectory, index: int) -> Device:
+    """Return the device that starts in the state of a trajectory at one of its samples."""
+    names = ("position", "velocity", "resonator_displacement", "resonator_velocity")
+    state: dict[str, Any] = {f"initial_{name}": float(getattr(run, name)[index]) for name in names}
+    bent = run.bristle_deflection[index] if isinstance(run, LugreTrajectory) else 0.0
+    return replace(device, **state, initial_bristle_deflection=float(bent))
 
 
 @dataclass(frozen=True)
 class SlidingRun:
     """States `samples` (n, 4): position, velocity, resonator displacement and velocity.
 
-    `reversals`, `steps` and `evaluations` of the right hand side count over the run, 0 where a
-    method does not report them.
+    `reversals` and `steps` count over the run.
     """
 
     samples: Array
-    reversals: int = 0
-    steps: int = 0
-    evaluations: int = 0
+    reversals: int
+    steps: int
 
 
 def simulate_sliding(
@@ -59,23 +109,20 @@ def simulate_sliding(
     times: Array,
     *,
     tolerance: float,
-    bristle: Literal["path", "state"] = "path",
     start: float | None = None,
 ) -> SlidingRun:
     """Follow a moving slider to the stop of `inputs` (s), theta = psi = 0 at their start.
 
     The initial state is that at `start` (s), by default the start of the inputs. `times` (s, shape
-    (n,)) ascend from there. `tolerance` is the relative one of a Taylor step. With LuGre friction
-    `bristle` says whether its deflection is taken from the path or integrated. The first call with
-    a `tolerance` compiles. Raises ValueError for what is not covered; RuntimeError when heyoka
-    fails; ModuleNotFoundError without heyoka.
+    (n,)) ascend from there. `tolerance` is the relative one of a Taylor step. The first call with a
+    `tolerance` compiles. Raises ValueError for what is not covered; RuntimeError when heyoka fails;
+    ModuleNotFoundError without heyoka.
     """
     if device.normal_amplitude > device.normal_preload:
         raise ValueError("normal_amplitude above normal_preload: the contact lifts")
     if device.initial_velocity == 0.0 or device.fidelity != 2 or device.resonator_mass == 0.0:
         raise ValueError("only full devices with initial_velocity not 0 are covered")
-    form: Form = "coulomb" if device.friction_law == 0 else bristle
-    run = _compiled(form, tolerance)
+    run = _compiled(device.friction_law, tolerance)
     integrator, counter = run.integrator, run.counter
     _set(integrator, device, inputs)
     counter.reversals = 0
@@ -85,9 +132,9 @@ def simulate_sliding(
     state += [device.initial_resonator_displacement, device.initial_resonator_velocity]
     stretch = device.bristle_stiffness * device.initial_bristle_deflection
     stretch /= device.friction_coefficient
-    if form == "path":
+    if device.friction_law == 1:
         integrator.pars[_PLACE["stretch"]] = stretch
-    integrator.state[:] = [*state, stretch] if form == "state" else state
+    integrator.state[:] = state
     grid = np.union1d(times - inputs.start, [integrator.time, inputs.stop - inputs.start])
     outcome, *_, steps, _, states = integrator.propagate_grid(grid.tolist())
     if "time_limit" not in str(outcome):
@@ -108,27 +155,24 @@ class _Compiled:
 
 
 @cache
-def _compiled(form: Form, tolerance: float) -> _Compiled:
+def _compiled(friction_law: int, tolerance: float) -> _Compiled:
     try:
         hy = importlib.import_module("heyoka")
     except ModuleNotFoundError as error:
         raise ModuleNotFoundError(
             "the Taylor reference needs heyoka: pip install 'slider-resonator[taylor]'"
         ) from error
-    x, v, y, u, z = hy.make_vars("x", "v", "y", "u", "z")
+    x, v, y, u = hy.make_vars("x", "v", "y", "u")
     par = {name: hy.par[index] for name, index in _PLACE.items()}
     angle = par["frequency"] * hy.time
     normal = par["preload"] + par["amplitude"] * hy.sin(
         par["normal_frequency"] * hy.time + par["phase"]
     )
     rate = par["bristle_rate"]
-    if form == "coulomb":
-        share = par["direction"]
-    else:
-        stretch = z
-        if form == "path":
-            fade = hy.exp(-rate * par["direction"] * (x - par["reversed_at"]))
-            stretch = par["direction"] - (par["direction"] - par["stretch"]) * fade
+    share = par["direction"]
+    if friction_law == 1:
+        fade = hy.exp(-rate * par["direction"] * (x - par["reversed_at"]))
+        stretch = par["direction"] - (par["direction"] - par["stretch"]) * fade
         # sigma_1 z' / mu, with z the stretch s0 z / mu: sigma_1 v (1 - direction z) / mu.
         share = stretch + par["drag"] * v * (1.0 - par["direction"] * stretch)
     acceleration = (
@@ -144,14 +188,12 @@ def _compiled(form: Form, tolerance: float) -> _Compiled:
         - acceleration
     )
     system = [(x, v), (v, acceleration), (y, u), (u, swing)]
-    if form == "state":
-        system.append((z, rate * v * (1.0 - par["direction"] * z)))
     counter = _Counter()
 
     def reverse(integrator: Any, sign: int) -> bool:
         pars = integrator.pars
         direction, position = pars[_PLACE["direction"]], integrator.state[0]
-        if form == "path":
+        if friction_law == 1:
             moved = position - pars[_PLACE["reversed_at"]]
             lacking = direction - pars[_PLACE["stretch"]]
             fade = math.exp(-pars[_PLACE["bristle_rate"]] * direction * moved)
@@ -165,7 +207,7 @@ def _compiled(form: Form, tolerance: float) -> _Compiled:
     integrator = hy.taylor_adaptive(
         system,
         [0.0] * len(system),
-        pars=[0.0] * (_PLACE[_LAST[form]] + 1),
+        pars=[0.0] * (_PLACE[_LAST[friction_law]] + 1),
         tol=tolerance,
         t_events=[event],
     )
