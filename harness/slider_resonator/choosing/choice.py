@@ -6,9 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
 
-from slider_resonator.choosing.candidate import Candidate, Model
+from slider_resonator.choosing.candidate import Candidate, uses_tolerance
 from slider_resonator.choosing.errors import ErrorEstimate
 from slider_resonator.choosing.scales import Scales
+from slider_resonator.device.model import Model
 from slider_resonator.scenes.scene import Scene
 
 MARGIN = 0.99
@@ -68,7 +69,7 @@ def cheapest(evaluations: Sequence[Evaluation]) -> Evaluation:
 
     def rank(one: Evaluation) -> tuple[float, int, float]:
         model = one.candidate.model
-        kept = 1.5 if model.averaging_order == 2 else model.fidelity
+        kept = 1.5 if model.leaps else model.fidelity
         return -kept, -model.friction_law, -one.candidate.tolerance
 
     return min((one for one in evaluations if one.cost <= most), key=rank)
@@ -145,7 +146,7 @@ class Choice:
 
     @property
     def _step(self) -> str:
-        tolerance = f", tolerance {self.tolerance:g}" if self.model.uses_tolerance else ""
+        tolerance = f", tolerance {self.tolerance:g}" if uses_tolerance(self.model) else ""
         if self.step is None:
             return f"none, nothing is run{tolerance}"
         periods = self.step / self.scales.period

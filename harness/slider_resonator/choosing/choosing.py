@@ -10,12 +10,10 @@ from math import inf
 from pathlib import Path
 
 from slider_resonator.choosing.candidate import (
-    COULOMB,
-    LUGRE,
     START_TOLERANCE,
     Candidate,
-    Model,
     models,
+    tolerances,
 )
 from slider_resonator.choosing.choice import Choice, Evaluation, RuledOut, cheapest
 from slider_resonator.choosing.errors import Estimates
@@ -24,6 +22,7 @@ from slider_resonator.choosing.reference import FINEST_TOLERANCE, MAX_PERIODS
 from slider_resonator.choosing.scales import check_magnitudes
 from slider_resonator.choosing.search import coarsest
 from slider_resonator.choosing.steady_need import SteadyValue, find, steady_error
+from slider_resonator.device.model import COULOMB, LUGRE, Model
 from slider_resonator.errors import FmuError, SceneError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu
@@ -77,7 +76,7 @@ def candidates(instance: Instance, scene: Scene) -> list[Candidate]:
     return [
         Candidate(model, tolerance, step)
         for model in choosing.models()
-        for tolerance in model.tolerances
+        for tolerance in tolerances(model)
         for step in choosing.steps(model)
     ]
 
@@ -157,7 +156,7 @@ class _Choosing:
         """
         if model.fidelity == 0 and "event_times" in self.needs:
             raise _RuledOutError("averaged motion has no events")
-        tolerances, steps = model.tolerances, self.steps(model)
+        choices, steps = tolerances(model), self.steps(model)
         refused = ""
 
         def excess(tolerance: float, step: float | None) -> float:
@@ -169,18 +168,18 @@ class _Choosing:
                 return inf
 
         self._check_cost(model, best)
-        tight, own = tolerances[-1], self._own_step(steps) if self.probe.varying else 0
+        tight, own = choices[-1], self._own_step(steps) if self.probe.varying else 0
         at = coarsest(lambda i: excess(tight, steps[i]), len(steps), 2.0, fine=own)
         if at is None:
             raise _RuledOutError(self._why_not(model, refused))
         # Errors that change sign may vanish at a larger step.
         step = next(steps[i] for i in range(at + 1) if excess(tight, steps[i]) <= 1.0)
-        first = tolerances.index(FIRST_TOLERANCE) if FIRST_TOLERANCE in tolerances else 0
-        index = coarsest(lambda i: excess(tolerances[i], step), len(tolerances), 10.0, first)
+        first = choices.index(FIRST_TOLERANCE) if FIRST_TOLERANCE in choices else 0
+        index = coarsest(lambda i: excess(choices[i], step), len(choices), 10.0, first)
         if index is None:
             raise _RuledOutError(self._why_not(model, refused))
-        found = [self._evaluate(Candidate(model, tolerances[index], step))]
-        for tolerance in tolerances[index + 1 : index + 1 + TIGHTER[model.fidelity]]:
+        found = [self._evaluate(Candidate(model, choices[index], step))]
+        for tolerance in choices[index + 1 : index + 1 + TIGHTER[model.fidelity]]:
             if excess(tolerance, step) >= found[-1].excess:
                 break  # nothing is leapt over
             found.append(self._evaluate(Candidate(model, tolerance, step)))
@@ -192,7 +191,7 @@ class _Choosing:
             return
         cost = sum(self._find(name, self.finest).seconds for name in self.probe.steady_needs)
         if self.probe.run_needs:
-            start = Candidate(model, model.tolerances[0], self.steps(model)[0])
+            start = Candidate(model, tolerances(model)[0], self.steps(model)[0])
             try:
                 cost += self.probe.head_cost(start)
             except FmuError:

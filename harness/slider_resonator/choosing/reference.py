@@ -8,10 +8,11 @@ from functools import cached_property
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.choosing.candidate import Candidate, Model
+from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.errors import Compared, Estimates
 from slider_resonator.choosing.exact_inputs import exact_schedule, must_hold
 from slider_resonator.choosing.timed_run import timed_run
+from slider_resonator.device.model import Model
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record

@@ -6,8 +6,8 @@ from dataclasses import asdict, dataclass
 from itertools import pairwise
 from math import inf, pi
 
-from slider_resonator.choosing.candidate import Model
 from slider_resonator.device.device import Device
+from slider_resonator.device.model import Model
 from slider_resonator.device.signal import Signal
 from slider_resonator.errors import SceneError
 from slider_resonator.references.closed_forms import equivalent_force
@@ -73,7 +73,7 @@ class Scales:
                 f"the resonator starts from rest and remembers {self.memory:.2g} drive periods, "
                 f"r_m is {self.mass_ratio:.2g}"
             )
-        if model.fidelity == 0 and model.averaging_order != 2 and self.averaging_error is not None:
+        if model.averages and self.averaging_error is not None:
             return f"averaging errs by the order of {self.averaging_error:.1g} m/s"
         return ""
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from slider_resonator.choosing.candidate import COULOMB
+from slider_resonator.device.model import COULOMB
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance

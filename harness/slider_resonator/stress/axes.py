@@ -10,8 +10,9 @@ from random import Random
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS
+from slider_resonator.device.model import Model
 from slider_resonator.references.closed_forms import device_blocking_force
-from slider_resonator.stress.case import MODELS, Case, Hold, Limit, Model
+from slider_resonator.stress.case import MODELS, Case, Hold, Limit
 
 TABLE_1 = Device()
 W = TABLE_1.drive_frequency
@@ -40,7 +41,7 @@ BEYOND_NUMBERS = (
 STEADY = {
     Model(2, 0): 0.12666700,
     Model(1, 0): 0.1266646,
-    Model(0, 0): 0.126731,
+    Model(0, 0, 1): 0.126731,
     Model(0, 0, 2): 0.12666700,
 }
 """Steady velocity of table 1, m/s, found without long runs."""
@@ -52,7 +53,7 @@ COULOMB = tuple(model for model in MODELS if model.friction_law == 0)
 LUGRE = tuple(model for model in MODELS if model.friction_law == 1)
 COULOMB_RESOLVED, LUGRE_RESOLVED = (Model(2, 0), Model(1, 0)), (Model(2, 1), Model(1, 1))
 CHEAP_LUGRE = tuple(model for model in CHEAP if model in LUGRE)
-COULOMB_AVERAGE = Model(0, 0)
+COULOMB_AVERAGE = Model(0, 0, 1)
 
 Settings = Mapping[str, float]
 """Parameters, and inputs of all steps, that differ from table 1."""
@@ -67,7 +68,7 @@ def usual_steps(model: Model, period: float = PERIOD) -> Sequence[Hold]:
     resolved reference.
     """
     if model.fidelity == 0:
-        return [Hold(120.0 * period, 4) if model.second_order else Hold(10.0 * period, 100)]
+        return [Hold(120.0 * period, 4) if model.leaps else Hold(10.0 * period, 100)]
     return [Hold(period / 32.0, 160)]
 
 
@@ -276,14 +277,14 @@ def _beats(model: Model, value: str) -> list[Hold]:
     """Return steps in all of whose stages the phase of the normal load is the same."""
     beats = BEATS[value]
     # Averages of second order resolve beats: more of them take more work than a step may.
-    count = 8 if beats > 1.0 or model.second_order else 24
+    count = 8 if beats > 1.0 or model.leaps else 24
     size = min(beats, 90.0 if model.fidelity == 0 else 3.0) * BEAT
     return [Hold(size, count)]
 
 
 def _long(model: Model, first_order: float, second_order: float) -> float:
     """Return periods of a long step that a reference can follow."""
-    return first_order if model.first_order else second_order if model.second_order else 10.0
+    return first_order if model.averages else second_order if model.leaps else 10.0
 
 
 def _steps_of_late_jump(model: Model, value: str) -> list[Hold]:

@@ -13,6 +13,7 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import FULL, Device
 from slider_resonator.device.held_inputs import TunedInputs
+from slider_resonator.device.model import Model
 
 SUBSTEPS = 3
 """Substeps per step in the second partition of a case, for steps that do not repeat."""
@@ -54,42 +55,15 @@ class Hold:
         return self.size * self.count
 
 
-@dataclass(frozen=True)
-class Model:
-    """Degrees of freedom that are resolved, friction law, and the order of averages."""
-
-    fidelity: int
-    friction_law: int
-    averaging_order: int = 1
-
-    @property
-    def name(self) -> str:
-        """The model in words."""
-        law = "LuGre" if self.friction_law else "Coulomb"
-        order = ", order 2" if self.second_order else ""
-        return f"{law}, fidelity {self.fidelity}{order}"
-
-    @property
-    def parameters(self) -> dict[str, float]:
-        """The FMU parameters that make it."""
-        order = {"averaging_order": self.averaging_order} if self.fidelity == 0 else {}
-        return {"fidelity": self.fidelity, "friction_law": self.friction_law, **order}
-
-    @property
-    def second_order(self) -> bool:
-        """Whether it leaps over periods, by averages of second order."""
-        return self.fidelity == 0 and self.averaging_order == 2
-
-    @property
-    def first_order(self) -> bool:
-        """Whether it is the averaged motion of first order."""
-        return self.fidelity == 0 and self.averaging_order == 1
-
-
 MODELS = (
-    *(Model(2, 0), Model(1, 0), Model(0, 0), Model(0, 0, 2)),
-    *(Model(2, 1), Model(1, 1), Model(0, 1), Model(0, 1, 2)),
+    *(Model(2, 0), Model(1, 0), Model(0, 0, 1), Model(0, 0, 2)),
+    *(Model(2, 1), Model(1, 1), Model(0, 1, 1), Model(0, 1, 2)),
 )
+
+
+def name_of(model: Model) -> str:
+    """Return a model as the names of cases have it."""
+    return f"{model.law}, {model.resolution.removesuffix(', order 1')}"
 
 
 @dataclass(frozen=True)
@@ -123,7 +97,7 @@ class Case:
     @property
     def name(self) -> str:
         """Axis, value and model."""
-        return f"{self.axis}: {self.value}: {self.model.name}"
+        return f"{self.axis}: {self.value}: {name_of(self.model)}"
 
     @property
     def is_random(self) -> bool:
@@ -133,7 +107,7 @@ class Case:
     @property
     def settings(self) -> dict[str, float]:
         """All parameters that are set in the FMU."""
-        usual = {"tolerance": LEAP_TOLERANCE} if self.model.second_order else {}
+        usual = {"tolerance": LEAP_TOLERANCE} if self.model.leaps else {}
         return {**usual, **self.parameters, **self.model.parameters}
 
     @property
@@ -144,7 +118,7 @@ class Case:
     @property
     def reference_device(self) -> Device:
         """The device of the reference: leaps are judged by resolved motion of the full device."""
-        return replace(self.device, fidelity=FULL) if self.model.second_order else self.device
+        return replace(self.device, fidelity=FULL) if self.model.leaps else self.device
 
     @property
     def period(self) -> float:

@@ -49,7 +49,7 @@ GAVE_UP = (RuntimeError, ValueError, ArithmeticError)
 def equalities(case: Case, seen: Observation) -> Iterator[BoundCheck]:
     """Yield the checks against other runs of the same motion, and of limit cases."""
     own = {name: seen.outputs[name] for name in SIGNALS}
-    left_out = LEFT_OUT if case.model.second_order else 0.0
+    left_out = LEFT_OUT if case.model.leaps else 0.0
     allowed = _allowed(case, own, _numerics(case) + left_out)
     last = {name: signal[-1:] for name, signal in own.items()}
     for name, other in (("other steps", seen.other), ("from time 0", seen.from_zero)):
@@ -78,7 +78,7 @@ def is_sensitive(case: Case, found: float) -> bool:
 
     `found` is the deviation of an FMU, in units of the allowed one.
     """
-    by = _numerics(case) + (REFERENCE_ERROR if case.model.first_order else 0.0)
+    by = _numerics(case) + (REFERENCE_ERROR if case.model.averages else 0.0)
     tuned = {name for hold in case.holds for name, _ in hold.tuned}
     moved = dict(case.settings)
     for name in ("initial_velocity", "initial_resonator_velocity", "base_amplitude"):
@@ -100,7 +100,7 @@ def has_reference(case: Case) -> bool:
         return True
     if case.model.fidelity == 0 and not _has_mean_friction(case):
         return False
-    return case.model.first_order or _is_short(case)
+    return case.model.averages or _is_short(case)
 
 
 def _has_mean_friction(case: Case) -> bool:
@@ -132,7 +132,7 @@ def _is_short(case: Case) -> bool:
     decay = device.damping_ratio * device.resonator_frequency / slider
     if decay > MAX_DECAY * device.drive_frequency or case.sizes.min() < 1e-9:
         return False
-    max_turns = MAX_LEAPT_TURNS if case.model.second_order else MAX_TURNS
+    max_turns = MAX_LEAPT_TURNS if case.model.leaps else MAX_TURNS
     return case.duration * fastest <= math.tau * max_turns
 
 
@@ -142,7 +142,7 @@ def _expected(case: Case) -> Signals:
     Raises what that does, and ArithmeticError where they leave the range of numbers.
     """
     device, held, times = case.reference_device, case.held, case.times
-    if case.model.first_order:
+    if case.model.averages:
         motion = simulate_averaged(device, held, times)
         return _compared(case, {name: getattr(motion, name) for name in MEAN})
     with np.errstate(over="ignore", invalid="ignore"):
@@ -156,9 +156,9 @@ def _expected(case: Case) -> Signals:
 
 def _compared(case: Case, outputs: Signals) -> Signals:
     """Return what is compared: leaps move slider and resonator as one mass."""
-    if case.model.second_order:
+    if case.model.leaps:
         return centre_signals(case.device, outputs)
-    if case.model.first_order:
+    if case.model.averages:
         # Before the first step there is no mean over a period.
         return {name: outputs[name][name == "mean_velocity" :] for name in MEAN}
     return {name: outputs[name] for name in SIGNALS}
@@ -174,22 +174,20 @@ def _numerics(case: Case) -> float:
     ratios = np.maximum(1.0, np.abs(case.inputs[:, 2]))
     angle = float((device.drive_frequency * ratios * case.sizes).sum())
     rounding = 4.0 * float(np.finfo(float).eps) * angle
-    if model.first_order:
+    if model.averages:
         return AVERAGED + rounding
-    return (
-        EXACT + rounding + device.tolerance * (MARGIN if model.second_order else model.friction_law)
-    )
+    return EXACT + rounding + device.tolerance * (MARGIN if model.leaps else model.friction_law)
 
 
 def _allowed_of_reference(case: Case, expected: Signals) -> dict[str, float]:
     """Return the allowed deviation of each signal that is compared with a reference."""
     device = case.device
     peaks = {name: float(np.abs(signal).max()) for name, signal in expected.items()}
-    if case.model.second_order:
+    if case.model.leaps:
         own = EXACT + device.tolerance * device.friction_law
         leaps = allowed_by_leaps(device, case.held, case.duration)
         return {name: leaps[name] + own * peak for name, peak in peaks.items()}
-    if case.model.first_order:
+    if case.model.averages:
         fast = fast_velocity(device)
         floors = {"mean_velocity": fast, "position": fast / device.drive_frequency}
         share = REFERENCE_ERROR + _numerics(case)

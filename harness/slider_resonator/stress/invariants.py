@@ -69,7 +69,7 @@ def _friction_bound(case: Case, seen: Observation) -> BoundCheck:
     """
     device = case.device
     normal = seen.outputs["normal_force"]
-    averaged = case.model.first_order
+    averaged = case.model.averages
     if averaged:
         normal = np.full_like(normal, device.max_normal_force)
     share = np.full_like(normal, device.friction_coefficient)
@@ -98,9 +98,9 @@ def _momentum(case: Case, seen: Observation, theta: Exact) -> BoundCheck:
     body = device.total_mass * seen.outputs["velocity"]
     resonator = device.resonator_mass * seen.outputs["resonator_velocity"]
     slack = 0.0
-    if device.fidelity == 2 or case.model.second_order:
+    if device.fidelity == 2 or case.model.leaps:
         momentum = body + resonator - drive * (1.0 - np.cos(theta)).astype(float)
-        if case.model.second_order:
+        if case.model.leaps:
             slack = MARGIN * device.tolerance * device.total_mass * fast_velocity(device)
     else:
         momentum = device.total_mass * seen.outputs["mean_velocity"]

@@ -51,7 +51,7 @@ def observe(instance: Instance, case: Case) -> Observation:
     """
     try:
         if case.is_random:
-            names = MEAN if case.model.first_order else SIGNALS
+            names = MEAN if case.model.averages else SIGNALS
             return Observation(_Run(instance, case, names).outputs)
         return _observe(instance, case)
     except Refusal as refusal:

@@ -21,7 +21,7 @@ from slider_resonator.output.hover_plot import (
 from slider_resonator.output.html_page import escaped, rendered, section, write_page
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict_so_far
-from slider_resonator.stress.case import MODELS, RANDOM
+from slider_resonator.stress.case import MODELS, RANDOM, name_of
 from slider_resonator.stress.picture import FAILED_COLOUR, FAR, NEAR, SHADES, colour, margin
 from slider_resonator.stress.run import StressResult
 from slider_resonator.stress.verdict import FAILED, MEANINGS, PASSED, SENSITIVE, Verdict
@@ -116,16 +116,16 @@ def _nearest(result: StressResult) -> Table:
 
 def _plot(result: StressResult) -> HoverPlot:
     series = []
-    for index, model in enumerate(MODELS):
+    for index, name in enumerate(map(name_of, MODELS)):
         ink, marker, _ = look(index)
         for label, sign, shown, passed in (
-            (model.name, marker, ink, True),
-            (f"{model.name}: not passed", "✖", FAILED_COLOUR, False),
+            (name, marker, ink, True),
+            (f"{name}: not passed", "✖", FAILED_COLOUR, False),
         ):
             group = [
                 (float(place), one)
                 for place, one in enumerate(result.verdicts, start=1)
-                if one.model == model.name and (one.verdict == PASSED) == passed
+                if one.model == name and (one.verdict == PASSED) == passed
             ]
             if group:
                 places, notes = [place for place, _ in group], [_note(one) for _, one in group]
@@ -153,7 +153,7 @@ def _note(one: Verdict) -> str:
 
 def _grid(axis: str, cases: Sequence[Verdict]) -> str:
     """Return a table of values over models, each cell with its checks as its title."""
-    models = [m.name for m in MODELS if any(one.model == m.name for one in cases)]
+    models = [name for name in map(name_of, MODELS) if any(one.model == name for one in cases)]
     by_place = {(one.value, one.model): one for one in cases}
     head = "".join(f'<th scope="col">{escaped(name)}</th>' for name in models)
     rows = "\n".join(

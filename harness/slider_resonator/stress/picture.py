@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from slider_resonator.output.plot_style import save, style
-from slider_resonator.stress.case import MODELS, RANDOM
+from slider_resonator.stress.case import MODELS, RANDOM, name_of
 from slider_resonator.stress.run import StressResult
 from slider_resonator.stress.verdict import FAILED, PASSED, REFUSED, Verdict
 
@@ -28,12 +28,12 @@ def draw_map(result: StressResult, path: Path) -> None:
     """Write the picture of all axes; the suffix of `path` chooses the format."""
     cases = [one for one in result.verdicts if one.axis != RANDOM]
     rows = list(dict.fromkeys((one.axis, one.value) for one in cases))
-    columns = [model.name for model in MODELS]
+    columns = [name_of(model) for model in MODELS]
     colours = np.ones((len(rows), len(columns), 4))
     for one in cases:
         place = rows.index((one.axis, one.value)), columns.index(one.model)
         colours[place] = to_rgba(colour(one))
-    heads = [f"{'LC'[m.friction_law == 0]}{m.fidelity}{'*' * m.second_order}" for m in MODELS]
+    heads = [f"{'LC'[m.friction_law == 0]}{m.fidelity}{'*' * m.leaps}" for m in MODELS]
     passed = sum(one.verdict == PASSED for one in cases)
     with style():
         figure = Figure(figsize=(16.0, 2.0 + 0.04 * len(rows)), layout="constrained")

@@ -15,12 +15,13 @@ from random import Random
 import numpy as np
 
 from slider_resonator.device.device import Device
+from slider_resonator.device.model import Model
 from slider_resonator.device.random_device import decades, random_device
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.stress.case import RANDOM, Case, Hold, Model
+from slider_resonator.stress.case import RANDOM, Case, Hold
 
 IN_TURN = (
-    *(Model(2, 0), Model(1, 0), Model(0, 0), Model(2, 1), Model(1, 1), Model(0, 1)),
+    *(Model(2, 0), Model(1, 0), Model(0, 0, 1), Model(2, 1), Model(1, 1), Model(0, 1, 1)),
     *(Model(0, 0, 2), Model(0, 1, 2)),
 )
 RESOLVED_PERIODS = (0.3, 30.0)
@@ -51,7 +52,7 @@ def random_case(seed: int, number: int) -> Case:
     random = Random(f"{seed} {number}")
     model = IN_TURN[number % len(IN_TURN)]
     values = random_device(random) | model.parameters
-    if model.second_order:
+    if model.leaps:
         values |= _light_friction(random, values)
     if model.friction_law == 1:
         values |= _bristles(random, values)
@@ -93,11 +94,11 @@ def _bristles(random: Random, values: Mapping[str, float]) -> dict[str, float]:
 
 def _duration(random: Random, device: Device, model: Model) -> float:
     """Return the length of a run, s."""
-    low, high = AVERAGED_PERIODS if model.first_order else RESOLVED_PERIODS
-    if model.second_order:
+    low, high = AVERAGED_PERIODS if model.averages else RESOLVED_PERIODS
+    if model.leaps:
         low, high = SECOND_ORDER_PERIODS
     duration = tau / device.drive_frequency * decades(random, log10(low), log10(high))
-    if model.first_order and model.friction_law == 1:
+    if model.averages and model.friction_law == 1:
         fast = equivalent_force(device).velocity_amplitude
         longest = MAX_LUGRE_RELAXATIONS * device.total_mass * fast / device.mean_friction
         duration = min(duration, longest)
@@ -107,7 +108,7 @@ def _duration(random: Random, device: Device, model: Model) -> float:
 def _times(random: Random, duration: float, model: Model) -> list[float]:
     """Return the communication points (s), at random or in equal steps with a shorter last one."""
     count = random.randint(1, 60)
-    if model.second_order and random.random() < 0.5:
+    if model.leaps and random.random() < 0.5:
         count = random.randint(1, SECOND_ORDER_STEPS)
     inside = sorted(random.uniform(0.0, 1.0) for _ in range(count - 1))
     if random.random() < 0.5:

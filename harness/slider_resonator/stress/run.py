@@ -120,7 +120,7 @@ def applicable(fmu: Path, cases: Sequence[Case]) -> list[Case]:
     chosen = [
         case
         for case in cases
-        if not ("averaging_order" in lacks and case.model.second_order)
+        if not ("averaging_order" in lacks and case.model.leaps)
         and not (equal_only and len({hold.size for hold in case.holds}) > 1)
     ]
     if not chosen:

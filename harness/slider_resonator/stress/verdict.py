@@ -7,7 +7,7 @@ import shlex
 from dataclasses import dataclass
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
-from slider_resonator.stress.case import Case
+from slider_resonator.stress.case import Case, name_of
 
 PASSED = "passed"
 REFUSED = "refused by name"
@@ -88,7 +88,7 @@ class Verdict:
 
 def verdict_on(case: Case, verdict: str, reason: str = "") -> Verdict:
     """Return a verdict on a case without checks: a refusal, a crash, an exceeded limit."""
-    return Verdict(case.axis, case.value, case.model.name, verdict, reason)
+    return Verdict(case.axis, case.value, name_of(case.model), verdict, reason)
 
 
 def refused_by_name(case: Case, text: str) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import cached_property, partial
 from math import ceil
 from time import process_time
@@ -11,6 +11,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from slider_resonator.device.model import LUGRE, Model
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
@@ -35,37 +36,12 @@ LEAP_STEP = 1000.0
 LEAP_TOLERANCES = (1e-5, 1e-6, 1e-7)
 """Of motion that leaps, besides the usual one."""
 AVERAGING_ORDERS = (2, 1)
-LAWS = ("Coulomb", "LuGre")
 OUTPUTS = ("position", "velocity", "mean_velocity")
 SHORTEST = 2e-3
 """Shortest CPU time (s) of a measurement; shorter runs are repeated up to MAX_RUNS times."""
 MAX_RUNS = 20
 
 _UNRESOLVED = {"event_times": "averaged motion has no events"}
-
-
-@dataclass(frozen=True)
-class Model:
-    """A fidelity and, of averages, the order; None where there are none, or no choice."""
-
-    fidelity: int
-    order: int | None = None
-
-    @property
-    def name(self) -> str:
-        """The model in words."""
-        return f"fidelity {self.fidelity}" + (f", order {self.order}" if self.order else "")
-
-    @property
-    def parameters(self) -> dict[str, float]:
-        """The FMU parameters that make it."""
-        order = {"averaging_order": self.order} if self.order else {}
-        return {"fidelity": self.fidelity, **order}
-
-    @property
-    def leaps(self) -> bool:
-        """Whether it is motion that leaps over periods, to a tolerance under any friction law."""
-        return self.fidelity == 0 and self.order == 2
 
 
 class TaskRunner(Protocol):
@@ -102,21 +78,25 @@ class FmuMethods:
     def methods(self) -> Iterator[Method]:
         """Yield every setting; the other friction law as a model of the same device."""
         own = self.problem.device.friction_law
-        for model in (Model(2), Model(1), *(Model(0, order) for order in self.orders)):
+        for model in self._models():
             for step in STEPS:
-                yield self._method(model, own, step, USUAL_TOLERANCE)
-            yield self._method(model, 1 - own, USUAL_STEP, USUAL_TOLERANCE)
-            for tolerance in TOLERANCES if own == 1 and model.fidelity else ():
-                yield self._method(model, own, USUAL_STEP, tolerance)
+                yield self._method(model, step, USUAL_TOLERANCE)
+            yield self._method(replace(model, friction_law=1 - own), USUAL_STEP, USUAL_TOLERANCE)
+            for tolerance in TOLERANCES if own == LUGRE and model.fidelity else ():
+                yield self._method(model, USUAL_STEP, tolerance)
             for tolerance in LEAP_TOLERANCES if model.leaps else ():
-                yield self._method(model, own, LEAP_STEP, tolerance)
+                yield self._method(model, LEAP_STEP, tolerance)
+
+    def _models(self) -> list[Model]:
+        """Return the models under the friction law of the device."""
+        own = self.problem.device.friction_law
+        return [Model(2, own), Model(1, own), *(Model(0, own, order) for order in self.orders)]
 
     def answers(self) -> Iterator[SteadyMethod]:
         """Yield the searches for steady motion and blocking force, and the outputs of theory."""
-        own = self.problem.device.friction_law
         for quantity in ("steady_velocity", "blocking_force"):
-            for model in (Model(2), Model(1), *(Model(0, order) for order in self.orders)):
-                yield self._search(quantity, model, own)
+            for model in self._models():
+                yield self._search(quantity, model)
             for order in self.orders:
                 yield self._prediction(quantity, order)
 
@@ -130,27 +110,26 @@ class FmuMethods:
         inputs = self.problem.interpolated if self.interpolates else self.problem.schedule
         return inputs(periods, step)
 
-    def _values(self, model: Model, law: int, tolerance: float) -> dict[str, float]:
-        own = {**model.parameters, "friction_law": law}
-        return {**self.problem.parameters, **own, "tolerance": tolerance}
+    def _values(self, model: Model, tolerance: float) -> dict[str, float]:
+        return {**self.problem.parameters, **model.parameters, "tolerance": tolerance}
 
-    def _label(self, model: Model, law: int, tolerance: float, step: float | None) -> Label:
-        own = self.problem.device.friction_law
-        family = f"{self.build} FMU, {model.name}"
-        if law != own:
-            family += f", {LAWS[law]} instead"
+    def _label(self, model: Model, tolerance: float, step: float | None) -> Label:
+        family = f"{self.build} FMU, {model.resolution}"
+        if model.friction_law != self.problem.device.friction_law:
+            family += f", {model.law} instead"
         name = family
         if step is not None:
             name += f", steps of {step:g} period{'s' if step != 1.0 else ''}"
-        has_tolerance = law == 1 or model.leaps
+        has_tolerance = model.friction_law == LUGRE or model.leaps
         if has_tolerance and tolerance != USUAL_TOLERANCE:
             name += f", tol {tolerance:.0e}"
         kind = RESOLVED if model.fidelity else AVERAGED
         used = tolerance if has_tolerance else None
-        return Label(kind, family, name, law, model.fidelity, step, used, model.order)
+        about = (model.friction_law, model.fidelity, step, used, model.averaging_order)
+        return Label(kind, family, name, *about)
 
-    def _method(self, model: Model, law: int, step: float, tolerance: float) -> Method:
-        values = self._values(model, law, tolerance)
+    def _method(self, model: Model, step: float, tolerance: float) -> Method:
+        values = self._values(model, tolerance)
         size = step * self.problem.period
 
         def follow(periods: int) -> Solution:
@@ -164,7 +143,7 @@ class FmuMethods:
             return sum(taken) / len(taken)
 
         return Method(
-            self._label(model, law, tolerance, step),
+            self._label(model, tolerance, step),
             follow,
             seconds,
             min_periods=ceil(step),
@@ -194,8 +173,8 @@ class FmuMethods:
             start_cpu=record.start_cpu,
         )
 
-    def _search(self, quantity: str, model: Model, law: int) -> SteadyMethod:
-        values = {**self._values(model, law, USUAL_TOLERANCE), **self.problem.inputs}
+    def _search(self, quantity: str, model: Model) -> SteadyMethod:
+        values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
 
         def find(_: float) -> SteadyAnswer:
             search: SearchResult
@@ -206,13 +185,14 @@ class FmuMethods:
                 search = self._run(find_blocking, free)
             return SteadyAnswer(getattr(search, quantity), search.reason, search.periods)
 
-        label = self._label(model, law, USUAL_TOLERANCE, None)
+        label = self._label(model, USUAL_TOLERANCE, None)
         return SteadyMethod(label, quantity, find, self._clock)
 
     def _prediction(self, quantity: str, order: int | None) -> SteadyMethod:
         """Return the value of an output that predicts, at the start of a run at fidelity 2."""
         law = self.problem.device.friction_law
-        values = {**self._values(Model(2, order), law, USUAL_TOLERANCE), **self.problem.inputs}
+        model = Model(2, law, order)
+        values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
         family = f"{self.build} FMU, output {quantity}" + (f", order {order}" if order else "")
 
         def find(_: float) -> SteadyAnswer:

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from slider_resonator.device.model import LAWS
 from slider_resonator.errors import HarnessError
 from slider_resonator.output import html_page, markdown
 from slider_resonator.output.marked_text import write_marked
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.trade.fmu_methods import LAWS
 from slider_resonator.trade.result import PEER, Row, Trade, cheapest
 from slider_resonator.trade.summary import duration
 

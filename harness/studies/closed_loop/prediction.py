@@ -10,9 +10,10 @@ from pathlib import Path
 
 from fmpy.ssp.ssd import read_ssd
 
-from slider_resonator.choosing.candidate import START_TOLERANCE, Candidate, Model
+from slider_resonator.choosing.candidate import START_TOLERANCE, Candidate
 from slider_resonator.choosing.choosing import TIME_LIMIT
 from slider_resonator.choosing.probe import Probe
+from slider_resonator.device.model import Model
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
-from slider_resonator.choosing.candidate import COULOMB, LUGRE, Candidate, Model, models
+from slider_resonator.choosing.candidate import Candidate, models, tolerances
+from slider_resonator.device.model import COULOMB, LUGRE, Model
 
 
 def test_orders_of_averaging_are_models_of_their_own() -> None:
@@ -18,6 +19,8 @@ def test_an_fmu_without_orders_is_not_asked_for_one() -> None:
 
 
 def test_leaps_have_a_tolerance_and_other_averages_none() -> None:
-    found = {(m.friction_law, m.averaging_order): len(m.tolerances) for m in models((0, 1), (1, 2))}
+    found = {
+        (m.friction_law, m.averaging_order): len(tolerances(m)) for m in models((0, 1), (1, 2))
+    }
     assert found[LUGRE, 2] == found[COULOMB, 2] == found[LUGRE, None] > 1
     assert found[COULOMB, 1] == found[COULOMB, None] == found[LUGRE, 1] == 1

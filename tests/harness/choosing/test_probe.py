@@ -8,8 +8,9 @@ import pytest
 
 from slider_resonator.choosing import probe as probes
 from slider_resonator.choosing import reference
-from slider_resonator.choosing.candidate import Candidate, Model
+from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.probe import CAUTION, Probe
+from slider_resonator.device.model import Model
 from slider_resonator.fmu.instance import Instance
 from tests.harness.scene_text import scene_of
 

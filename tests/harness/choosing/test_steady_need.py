@@ -4,8 +4,9 @@ from math import inf
 
 import pytest
 
-from slider_resonator.choosing.candidate import Candidate, Model
+from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.steady_need import SteadyValue, find, steady_error
+from slider_resonator.device.model import Model
 from slider_resonator.fmu.instance import Instance
 
 

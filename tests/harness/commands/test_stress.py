@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.commands import extremes, stress
-from slider_resonator.stress.case import Case, Hold, Limit, Model
+from slider_resonator.device.model import Model
+from slider_resonator.stress.case import Case, Hold, Limit
 from tests.harness.calling import call
 from tests.harness.faulty_fmus import without_later_variables
 from tests.harness.public_json import assert_public_keys

@@ -47,7 +47,7 @@ def cases_in_part(every: int, of_second_order: int) -> list[Case]:
         case
         for model in MODELS
         for case in [one for one in axis_cases() if one.model == model][
-            :: of_second_order if model.second_order else every
+            :: of_second_order if model.leaps else every
         ]
     ]
 

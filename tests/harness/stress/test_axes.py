@@ -4,8 +4,9 @@ from collections import Counter
 
 import pytest
 
+from slider_resonator.device.model import Model
 from slider_resonator.stress.axes import CHEAP, axis_cases
-from slider_resonator.stress.case import MODELS, Case, Hold, Model
+from slider_resonator.stress.case import MODELS, Case, Hold
 
 AXES = {
     "Omega": {f"1e{n}" for n in range(1, 8)},

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from slider_resonator.device.model import Model
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.stress.axes import axis_cases
-from slider_resonator.stress.case import Case, Hold, Model
+from slider_resonator.stress.case import Case, Hold
 from slider_resonator.stress.comparisons import REFERENCE_ERROR, has_reference
 from slider_resonator.stress.judge import MAX_RELATIVE_COST, judge
 from slider_resonator.stress.observe import Observation, observe
@@ -112,7 +113,7 @@ def test_the_phase_is_followed_through_changes_of_ratio(instance: Instance) -> N
     assert np.isfinite(verdict.cost_ratio)
 
 
-AVERAGED = Case("table 1", "averaged", Model(0, 0), {}, (Hold(0.01, 20, load=0.02),))
+AVERAGED = Case("table 1", "averaged", Model(0, 0, 1), {}, (Hold(0.01, 20, load=0.02),))
 LEAPS = Case("table 1", "order 2", Model(0, 0, 2), {}, (Hold(0.25, 4, load=0.02),))
 
 
@@ -145,7 +146,7 @@ def test_a_slow_motion_that_is_slightly_off_fails(
 
 
 def test_averages_of_first_order_are_no_leaps(instance: Instance) -> None:
-    first = observe(instance, replace(LEAPS, model=Model(0, 0)))
+    first = observe(instance, replace(LEAPS, model=Model(0, 0, 1)))
     verdict = judge(LEAPS, replace(observe(instance, LEAPS), outputs=first.outputs))
     assert verdict.verdict == FAILED
     assert "reference: centre velocity" in verdict.reason
@@ -155,7 +156,7 @@ def test_averages_of_first_order_are_no_leaps(instance: Instance) -> None:
     ("models", "share", "axes"),
     [
         (
-            {Model(0, 0), Model(0, 1)},
+            {Model(0, 0, 1), Model(0, 1, 1)},
             0.8,
             {"Omega", "xi", "critical damping", "frequency ratio", "blocking load"},
         ),

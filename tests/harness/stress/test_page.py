@@ -3,7 +3,8 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from slider_resonator.stress.case import RANDOM, Model
+from slider_resonator.device.model import Model
+from slider_resonator.stress.case import RANDOM, name_of
 from slider_resonator.stress.page import write_stress_page
 from slider_resonator.stress.run import StressResult
 from slider_resonator.stress.verdict import (
@@ -19,7 +20,7 @@ from slider_resonator.stress.verdict import (
 from tests.harness.known_provenance import PROVENANCE
 from tests.html_pages import Page, without_spans
 
-RESOLVED, SLOW = Model(2, 0).name, Model(0, 1, 2).name
+RESOLVED, SLOW = name_of(Model(2, 0)), name_of(Model(0, 1, 2))
 CHECKS = (BoundCheck("momentum", 1e-3), BoundCheck(REFERENCE, 0.5))
 FAR = (BoundCheck(REFERENCE, float("inf"), "velocity off"),)
 VERDICTS = (

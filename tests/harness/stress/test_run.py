@@ -5,9 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator.device.model import Model
 from slider_resonator.errors import FmuError
 from slider_resonator.output.progress import no_progress
-from slider_resonator.stress.case import RANDOM, Case, Hold, Model
+from slider_resonator.stress.case import RANDOM, Case, Hold
 from slider_resonator.stress.listing import sentences
 from slider_resonator.stress.run import StressResult, applicable, run_cases
 from slider_resonator.stress.verdict import FAILED, PASSED, REFUSED, Verdict
