@@ -6,13 +6,37 @@ experiment when initialisation mode begins; FMI 2.0 does so before.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from ctypes import byref, c_bool, c_double
 from typing import Any
 
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Error, fmi2OK, fmi2Warning
 from fmpy.fmi3 import FMU3Slave
+
+
+_FUNCTIONS = {
+    "fmi2ExitInitializationMode": "fmi3ExitInitializationMode",
+    "fmi2Reset": "fmi3Reset",
+    "fmi2Terminate": "fmi3Terminate",
+    "fmi2GetFMUstate": "fmi3GetFMUState",
+    "fmi2SetFMUstate": "fmi3SetFMUState",
+    "fmi2FreeFMUstate": "fmi3FreeFMUState",
+}
+"""Functions of FMI 2.0 whose arguments are those of a function of FMI 3.0."""
+_METHODS = {
+    "getReal": "getFloat64",
+    "setReal": "setFloat64",
+    "getInteger": "getInt32",
+    "setInteger": "setInt32",
+    "getFMUstate": "getFMUState",
+    "setFMUstate": "setFMUState",
+    "freeFMUstate": "freeFMUState",
+    "serializeFMUstate": "serializeFMUState",
+    "deSerializeFMUstate": "deserializeFMUState",
+    "terminate": "terminate",
+    "freeInstance": "freeInstance",
+}
+"""Methods of fmpy's FMU2Slave, with those of its FMU3Slave that do the same."""
 
 
 class Fmi3Slave:
@@ -51,6 +75,14 @@ class Fmi3Slave:
             raise FMICallException(function=name, status=status)
         return status
 
+    def __getattr__(self, name: str) -> Any:
+        """Return what FMI 3.0 only calls otherwise."""
+        if name in _FUNCTIONS:
+            return lambda _, *arguments: self._call(_FUNCTIONS[name], *arguments)
+        if name in _METHODS:
+            return getattr(self._slave, _METHODS[name])
+        raise AttributeError(name)
+
     def fmi2GetReal(self, _: Any, references: Any, size: int, values: Any) -> int:
         """See FMI 2.0."""
         return self._call("fmi3GetFloat64", references, size, values, size)
@@ -68,10 +100,6 @@ class Fmi3Slave:
         """See FMI 2.0."""
         return self._call("fmi3EnterInitializationMode", *self._experiment)
 
-    def fmi2ExitInitializationMode(self, _: Any) -> int:
-        """See FMI 2.0."""
-        return self._call("fmi3ExitInitializationMode")
-
     def fmi2DoStep(self, _: Any, time: float, size: float, no_state_set: bool) -> int:
         """See FMI 2.0; an end before the end of the step is a failure, too."""
         status = self._call("fmi3DoStep", time, size, no_state_set, *self._answered)
@@ -80,67 +108,3 @@ class Fmi3Slave:
             self._messages.append(f"the step to {time + size!r} s ended at {reached.value!r} s")
             raise FMICallException(function="fmi3DoStep", status=fmi2Error)
         return status
-
-    def fmi2Reset(self, _: Any) -> int:
-        """See FMI 2.0."""
-        return self._call("fmi3Reset")
-
-    def fmi2Terminate(self, _: Any) -> int:
-        """See FMI 2.0."""
-        return self._call("fmi3Terminate")
-
-    def fmi2GetFMUstate(self, _: Any, state: Any) -> int:
-        """See FMI 2.0."""
-        return self._call("fmi3GetFMUState", state)
-
-    def fmi2SetFMUstate(self, _: Any, state: Any) -> int:
-        """See FMI 2.0."""
-        return self._call("fmi3SetFMUState", state)
-
-    def fmi2FreeFMUstate(self, _: Any, state: Any) -> int:
-        """See FMI 2.0."""
-        return self._call("fmi3FreeFMUState", state)
-
-    def getReal(self, references: Sequence[int]) -> list[float]:
-        """See fmpy."""
-        return list(self._slave.getFloat64(references))
-
-    def setReal(self, references: Sequence[int], values: Sequence[float]) -> None:
-        """See fmpy."""
-        self._slave.setFloat64(references, values)
-
-    def getInteger(self, references: Sequence[int]) -> list[int]:
-        """See fmpy."""
-        return list(self._slave.getInt32(references))
-
-    def setInteger(self, references: Sequence[int], values: Sequence[int]) -> None:
-        """See fmpy."""
-        self._slave.setInt32(references, values)
-
-    def getFMUstate(self) -> Any:
-        """See fmpy."""
-        return self._slave.getFMUState()
-
-    def setFMUstate(self, state: Any) -> None:
-        """See fmpy."""
-        self._slave.setFMUState(state)
-
-    def freeFMUstate(self, state: Any) -> None:
-        """See fmpy."""
-        self._slave.freeFMUState(state)
-
-    def serializeFMUstate(self, state: Any) -> bytes:
-        """See fmpy."""
-        return bytes(self._slave.serializeFMUState(state))
-
-    def deSerializeFMUstate(self, data: bytes) -> Any:
-        """See fmpy."""
-        return self._slave.deserializeFMUState(data)
-
-    def terminate(self) -> None:
-        """See fmpy."""
-        self._slave.terminate()
-
-    def freeInstance(self) -> None:
-        """See fmpy."""
-        self._slave.freeInstance()

@@ -25,20 +25,16 @@ _CALLS: Mapping[str, str] = {
 }
 """Function of `fmu.instance` and `fmu.blocks` to the FMI functions that it calls."""
 
-_CALLS_3: Mapping[str, str] = {
-    "step_to": "fmi3DoStep",
-    "step_by": "fmi3DoStep",
-    "read": "fmi3GetFloat64",
-    "write": "fmi3SetFloat64",
-    "value": "fmi3GetFloat64 or fmi3GetInt32",
-    "start": "initialisation",
-    "instantiate": "fmi3InstantiateCoSimulation",
-    "end": "fmi3Terminate or fmi3FreeInstance",
+_IN_FMI_3 = {
+    "fmi2": "fmi3",
+    "Real": "Float64",
+    "Integer": "Int32",
+    "Instantiate": "InstantiateCoSimulation",
 }
-"""The same for an FMU of FMI 3.0."""
+"""What is called otherwise in FMI 3.0."""
 
 _FRAME = re.compile(r'File ".*[\\/]fmu[\\/](?:instance|blocks)\.py", line \d+ in (\w+)')
-_FRAME_3 = re.compile(r'File ".*[\\/]fmu[\\/]fmi3_slave\.py", line')
+_FRAME_3 = re.compile(r'File ".*[\\/](?:fmu[\\/]fmi3_slave|fmpy[\\/]fmi3)\.py", line')
 _LIMIT_MISSED = "Timeout ("
 
 
@@ -55,8 +51,10 @@ def crash_report(printed: str, trace: str, ending: Ending, limit: float) -> str:
     `printed` is the end of what it wrote to standard error, `trace` the traceback of the call that
     it was in, `limit` its time limit (s).
     """
-    calls = _CALLS_3 if _FRAME_3.search(trace) else _CALLS
-    call = next((calls[name] for name in _FRAME.findall(trace) if name in calls), "")
+    call = next((_CALLS[name] for name in _FRAME.findall(trace) if name in _CALLS), "")
+    if _FRAME_3.search(trace):
+        for name, name_3 in _IN_FMI_3.items():
+            call = call.replace(name, name_3)
     where = f" in {call}" if call else ""
     if ending.memory is not None:
         report = (
