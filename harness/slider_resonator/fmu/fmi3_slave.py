@@ -13,7 +13,6 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Error, fmi2OK, fmi2Warning
 from fmpy.fmi3 import FMU3Slave
 
-
 _FUNCTIONS = {
     "fmi2ExitInitializationMode": "fmi3ExitInitializationMode",
     "fmi2Reset": "fmi3Reset",

@@ -92,7 +92,8 @@ def hover_scripts() -> tuple[str, ...]:
 def hover_style() -> str:
     """Return the style sheet of the plots of a page."""
     folder = files("slider_resonator.output")
-    return (folder / "vendor" / "uPlot.min.css").read_text(encoding="utf-8") + _STYLE
+    sheets = (folder / "vendor" / "uPlot.min.css", folder / "hover_plot.css")
+    return "".join(sheet.read_text(encoding="utf-8") for sheet in sheets)
 
 
 def _data(plot: HoverPlot) -> str:
@@ -107,18 +108,3 @@ def _printable(value: object) -> object:
     if isinstance(value, dict):
         return {key: _printable(item) for key, item in value.items()}
     return [_printable(item) for item in value] if isinstance(value, list) else value
-
-
-_STYLE = """
-figure { margin: 1rem 0 } figcaption { font-weight: 600 } .plot { min-height: 12rem }
-.u-legend { font-size: 12px; text-align: left } .u-legend .u-label { font-weight: 400; color: #222 }
-.sample { position: relative; display: inline-block; min-width: 2em; text-align: center;
-  margin-right: .4em }
-.sample i { position: absolute; left: 0; right: 0; top: 50%; transform: translateY(-50%) }
-.u-over { touch-action: pan-y pinch-zoom } .u-over:focus-visible { outline: 2px solid #1f5f8b }
-.tip { position: absolute; z-index: 2; pointer-events: none; white-space: pre-line;
-  max-width: 26rem; padding: .3rem .5rem; font-size: 12px; background: #fffffff0;
-  border: 1px solid #90a4ae }
-.scale { display: flex; gap: .5rem; align-items: center; font-size: 12px }
-.scale i { width: 12rem; height: .8rem }
-"""

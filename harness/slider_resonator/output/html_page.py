@@ -7,54 +7,12 @@ import re
 from collections.abc import Sequence
 from hashlib import sha256
 from html import escape
+from importlib.resources import files
 from pathlib import Path
 
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.printable import printable
 from slider_resonator.output.table import Cell, Column, Style, Table
-
-_STYLE = """
-:root { color-scheme: light dark; --ink: #222; --paper: #fff; --quiet: #666; --line: #ddd;
-  --code: #f6f6f6; --pass: #1a7f37; --fail: #b3261e; --shade: #0003 }
-body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem; padding: 0 1rem;
-  color: var(--ink); background: var(--paper); overflow-wrap: break-word }
-table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums }
-th, td { text-align: left; vertical-align: top; overflow-wrap: normal; padding: .2rem .6rem;
-  border-bottom: 1px solid var(--line) }
-.n { text-align: right } .n, .lines { white-space: nowrap }
-.pass { color: var(--pass) } .fail { color: var(--fail); font-weight: 600 }
-.note { color: var(--quiet) } .heading { font-weight: 600 } [style*=background] { color: #222 }
-.wide { overflow-x: auto; margin: .8rem 0; background:
-  linear-gradient(to right, var(--paper) 50%, transparent) local 0/2rem 100% no-repeat,
-  linear-gradient(to left, var(--paper) 50%, transparent) local 100%/2rem 100% no-repeat,
-  linear-gradient(to right, var(--shade), transparent) 0/.6rem 100% no-repeat,
-  linear-gradient(to left, var(--shade), transparent) 100%/.6rem 100% no-repeat }
-@media screen and (max-width: 50rem) {
-  th, td { padding: .2rem .35rem } th.n { white-space: normal }
-  .wide:not(.stacks) td:first-child:not(.n) { overflow-wrap: anywhere }
-  .wide:not(.stacks) td:first-child:nth-last-child(-n+3):not(.n) { min-width: 4.8rem }
-  .wide:not(.stacks) :is(th, td):first-child { position: sticky; left: 0;
-    background: var(--paper) }
-  .stacks thead { display: none } .stacks :is(table, tbody) { display: block }
-  .stacks tr { display: grid; grid-template-columns: repeat(auto-fill, minmax(6.6rem, 1fr));
-    border-bottom: 1px solid var(--line); padding: .4rem 0 }
-  .stacks td { display: block; border: 0; padding: .1rem .6rem .1rem 0; text-align: left;
-    overflow-wrap: anywhere; white-space: normal }
-  .stacks :is(td:first-child, .long) { grid-column: 1 / -1 }
-  .stacks td::before { content: attr(data-heading); display: block; color: var(--quiet);
-    font-size: 11px }
-  .stacks td:empty { display: none }
-  .stacks td:is(:first-child, [data-heading=""])::before { display: none } }
-img { max-width: 100% } summary { cursor: pointer; margin: 1rem 0 }
-summary > h3 { display: inline }
-pre { background: var(--code); padding: .6rem; overflow-x: auto; font-size: 12px }
-@media screen and (prefers-color-scheme: dark) {
-  :root { --ink: #ddd; --paper: #121212; --quiet: #999; --line: #383838; --code: #1e1e1e;
-    --pass: #6cc785; --fail: #ff8a80; --shade: #fff3 }
-  img, .plot, .scale { filter: invert(.93) hue-rotate(180deg) } }
-"""
-"""In the dark, pictures and plots are turned over: light becomes dark, and each hue stays."""
-
 
 MAX_WIDTH = 44
 """Characters, with one between columns, of a row that fits on a phone; wider rows become cards."""
@@ -110,12 +68,13 @@ def write_page(
     """
     images = "data: 'self' file:" if images_beside else "data:"
     policy = f"default-src 'none'; img-src {images}; style-src 'unsafe-inline'{_allowed(scripts)}"
+    own_style = (files("slider_resonator.output") / "page.css").read_text(encoding="utf-8")
     page = [
         '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width">',
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
         '<link rel="icon" href="data:,">',
-        f"<title>{escaped(title)}</title><style>{_STYLE}{style}</style></head><body>",
+        f"<title>{escaped(title)}</title><style>{own_style}{style}</style></head><body>",
         f"<h1>{escaped(title)}</h1>",
         *parts,
         *(f"<script>{script}</script>" for script in scripts),

@@ -28,13 +28,6 @@ from slider_resonator.stress.verdict import FAILED, MEANINGS, PASSED, SENSITIVE,
 
 MAX_SHOWN = 1e6
 """Deviation over its bound above which a point is drawn at this value."""
-STYLE = """
-.matrix { width: auto } .matrix th { font-weight: 400; vertical-align: bottom }
-.matrix thead th:not(:first-child) { text-align: center; width: 4.5rem; font-size: 12px }
-.matrix tbody th { white-space: nowrap }
-.matrix td { text-align: center; padding: .1rem .3rem; min-width: 3rem !important; height: 1.1rem;
-  border: 1px solid #fff; cursor: help }
-"""
 
 
 def write_stress_page(path: Path, results: Sequence[StressResult], provenance: Provenance) -> None:
@@ -42,7 +35,7 @@ def write_stress_page(path: Path, results: Sequence[StressResult], provenance: P
     parts = [_overview(results), _legend(results), _scale()]
     parts += [part for result in results for part in _of_one_fmu(result)]
     parts.append(provenance_html(provenance))
-    write_page(path, "Stress test", parts, hover_scripts(), hover_style() + STYLE)
+    write_page(path, "Stress test", parts, hover_scripts(), hover_style())
 
 
 def _overview(results: Sequence[StressResult]) -> str:
