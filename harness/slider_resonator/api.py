@@ -28,15 +28,14 @@ from slider_resonator.choosing import choose as choose_model
 from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS, PARAMETERS
-from slider_resonator.device.units import si_value
-from slider_resonator.device.values import check_value
+from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fitting.fit import STARTS, Fit, isolated
 from slider_resonator.fitting.fit import fit as fit_parameters
 from slider_resonator.fitting.measurements import Measurements, read_measurements
 from slider_resonator.fmu.finished import fmu_path
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
-from slider_resonator.fmu.isolation.processes import available_cores
+from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run as run_schedule
 from slider_resonator.scenes.device_file import read_device as read_device_file

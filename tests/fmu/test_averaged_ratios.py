@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from slider_resonator.checks.measures.frequency import dominant_frequency
+from slider_resonator.checks.measures import dominant_frequency
 from slider_resonator.device.device import Device
 from slider_resonator.references.averaged.averaged_coulomb import mean_friction, phase_to_force
 from slider_resonator.references.closed_forms import equivalent_force

@@ -15,11 +15,9 @@ from selenium.webdriver.common.actions.pointer_input import PointerInput
 from selenium.webdriver.remote.webelement import WebElement
 from selenium.webdriver.support.wait import WebDriverWait
 
-from slider_resonator.checks.reports.html_report import write_html
-from slider_resonator.checks.reports.scene_sections import MAX_UNFOLDED
+from slider_resonator.checks.reports.html_report import MAX_UNFOLDED, write_html
 from slider_resonator.checks.validate import Validation, validate
-from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.fmu.provenance_text import provenance_html
+from slider_resonator.fmu.provenance import provenance_html, provenance_of
 from slider_resonator.output.hover_plot import (
     Axis,
     HoverPlot,

@@ -1,20 +1,88 @@
-"""The changes since golden results were recorded, as checks like those of `validate`."""
+"""The golden results of an FMU in a scene, and the changes since they were recorded."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 
-from slider_resonator.baseline.golden import SIGNALS, Golden, order
-from slider_resonator.checks.compare import Check, Comparison, compare
-from slider_resonator.checks.measuring import Measurement
-from slider_resonator.checks.tolerance import Tolerance
+from slider_resonator.checks.compare import Check, Comparison, Tolerance, compare
+from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.checks.measuring import Measurement, measure
 from slider_resonator.checks.validate import Curves, curves_of
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.scene import ScenePoint
 from slider_resonator.scenes.vocabulary import QUANTITIES
+
+MAX_POINTS = 48
+"""Points that are kept of a run, evenly spaced over its communication points."""
+
+SIGNALS = (
+    *("position", "velocity", "resonator_displacement", "resonator_velocity"),
+    *("normal_force", "friction_force", "contact_mode", "event_times"),
+)
+"""Signals kept at those points; `event_times` is the last event before each."""
+OF_A_RUN = (
+    *("mean_velocity", "stick_fraction", "reversals", "ripple_amplitude", "ripple_frequency"),
+)
+"""Numbers kept of a run as a whole, or of its last drive periods."""
+OF_CONSTANT_INPUTS = (
+    *("steady_status", "steady_velocity", "predicted_velocity"),
+    *("blocking_status", "blocking_force", "predicted_blocking_force"),
+)
+"""Numbers and words found by shooting, and predicted by the FMU."""
+NUMBERS_AND_WORDS = (*OF_CONSTANT_INPUTS, *OF_A_RUN)
+"""All recorded quantities besides the signals, in the order of the files."""
+
+Golden = Mapping[str, Measurement]
+"""Quantity to its measurement; signals at few points."""
+
+
+def measure_golden(fmu: FmuSide) -> Golden:
+    """Measure all quantities that the scene allows: a ripple needs enough points per period.
+
+    Raises FmuError and Refusal as the FMU does, NotApplicable where it cannot run the scene.
+    """
+    if fmu.scene.interpolates:
+        fmu.instance.fmu.require("canInterpolateInputs")
+    found = {}
+    for name in _quantities(fmu):
+        try:
+            measured = measure(name, fmu)
+        except SceneError:
+            continue
+        if not measured.applicable:
+            continue
+        found[name] = _decimated(measured) if name in SIGNALS else measured
+    if "ripple_amplitude" not in found:  # too few points to see a ripple
+        found.pop("ripple_frequency", None)
+    return found
+
+
+def _quantities(fmu: FmuSide) -> Iterator[str]:
+    if fmu.scene.stop_time is not None:
+        yield from (*SIGNALS, *OF_A_RUN)
+    if all(signal.times == (0.0,) for signal in fmu.scene.signals.values()):
+        yield from OF_CONSTANT_INPUTS
+
+
+def _decimated(measured: Measurement) -> Measurement:
+    assert measured.times is not None
+    count = len(measured.times)
+    kept = np.unique(np.rint(np.linspace(0, count - 1, min(count, MAX_POINTS))).astype(int))
+    return replace(measured, value=measured.value[kept], times=measured.times[kept])
+
+
+def order(name: str) -> int:
+    """Return the place of a quantity in files and tables."""
+    return (*NUMBERS_AND_WORDS, *SIGNALS).index(name)
+
+
+def unit(name: str) -> str:
+    """Return the unit of a quantity."""
+    return QUANTITIES[name].unit
+
 
 TOLERANCE = 1e-8
 """Relative change that passes: other platforms and compilers round differently."""

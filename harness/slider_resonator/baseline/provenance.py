@@ -14,7 +14,7 @@ import fmpy
 import numpy as np
 
 from slider_resonator import __version__
-from slider_resonator.baseline.golden import MAX_POINTS
+from slider_resonator.baseline.judge import MAX_POINTS
 from slider_resonator.fmu.opening import Fmu
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import built_in_scenes

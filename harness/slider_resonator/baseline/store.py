@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from slider_resonator.baseline.golden import NUMBERS_AND_WORDS, SIGNALS, Golden, order, unit
+from slider_resonator.baseline.judge import NUMBERS_AND_WORDS, SIGNALS, Golden, order, unit
 from slider_resonator.baseline.provenance import Provenance
 from slider_resonator.checks.compare import Value
 from slider_resonator.checks.measuring import Measurement

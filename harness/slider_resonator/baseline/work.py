@@ -9,8 +9,7 @@ from itertools import count
 from pathlib import Path
 from time import perf_counter
 
-from slider_resonator.baseline.golden import Golden, measure_golden
-from slider_resonator.baseline.judge import TOLERANCE, compare_golden
+from slider_resonator.baseline.judge import TOLERANCE, Golden, compare_golden, measure_golden
 from slider_resonator.baseline.provenance import (
     BUILT_IN,
     FMU_DIGEST,
@@ -30,7 +29,7 @@ from slider_resonator.baseline.store import (
     write_recorded,
 )
 from slider_resonator.checks.compare import Check
-from slider_resonator.checks.measure_points import measure_points
+from slider_resonator.checks.fmu_side import measure_points
 from slider_resonator.checks.validate import Curves, NotApplied, RunFailure, Validation
 from slider_resonator.errors import HarnessError, NotApplicable, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT

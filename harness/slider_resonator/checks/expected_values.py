@@ -1,4 +1,8 @@
-"""Expected values of scenes: on demand in this process, or ahead in processes of their own."""
+"""Expected values of scenes: on demand in this process, or ahead in processes of their own.
+
+Such a process, `python -m slider_resonator.checks.expected_values`, reads scenes from its standard
+input and writes a message for each to its standard output, both pickled, until the input ends.
+"""
 
 from __future__ import annotations
 
@@ -6,11 +10,12 @@ import os
 import pickle
 import subprocess
 import sys
+import traceback
 from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from queue import SimpleQueue
-from typing import Any
+from typing import Any, BinaryIO
 
 from slider_resonator.checks.expecting import expected_value
 from slider_resonator.checks.reference_side import ReferenceSide
@@ -104,7 +109,7 @@ class _Worker:
     def __init__(self) -> None:
         search = os.pathsep.join(filter(None, [PACKAGE_PATH, os.environ.get("PYTHONPATH", "")]))
         self._process = subprocess.Popen(
-            [sys.executable, "-P", "-m", "slider_resonator.checks.expected_worker"],
+            [sys.executable, "-P", "-m", "slider_resonator.checks.expected_values"],
             env={**os.environ, "PYTHONPATH": search},
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -138,3 +143,32 @@ class _Worker:
             assert stream is not None
             with suppress(OSError):  # what was not yet sent
                 stream.close()
+
+
+def main() -> None:
+    """Answer each scene with a `Result`, or with a `Failure`."""
+    os.nice(5)  # an FMU of Python takes longer than its references: it comes first
+    scenes, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what a library prints is no answer
+    while True:
+        try:
+            scene = pickle.load(scenes)
+        except EOFError:
+            return
+        _answer(scene, answers)
+
+
+def _answer(scene: Scene, answers: BinaryIO) -> None:
+    message: Result | Failure
+    try:
+        message = Result(values_in(scene))
+    except HarnessError as error:
+        message = Failure(error)
+    except Exception:
+        message = Failure(RuntimeError(f"scene {scene.name}:\n{traceback.format_exc()}"))
+    pickle.dump(message, answers)
+    answers.flush()
+
+
+if __name__ == "__main__":
+    main()

@@ -8,9 +8,7 @@ from typing import Any
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.coincidence import beside_events
-from slider_resonator.checks.measures.slow import slow_displacement
-from slider_resonator.checks.measures.tube import Tube, no_tube
+from slider_resonator.checks.measures import Tube, no_tube, slow_displacement
 from slider_resonator.checks.period_means import (
     DriveTurns,
     last_events,
@@ -18,7 +16,7 @@ from slider_resonator.checks.period_means import (
     reversal_counts,
     stick_fractions,
 )
-from slider_resonator.checks.reference_side import ReferenceSide
+from slider_resonator.checks.reference_side import ReferenceSide, beside_events
 from slider_resonator.errors import SceneError
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.scenes.expect_table import ExpectTable

@@ -15,10 +15,10 @@ from slider_resonator.checks.conduct.experiments import experiment_faults
 from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.conduct.host_calls import host_faults
 from slider_resonator.checks.conduct.input_rates import rate_differences
-from slider_resonator.checks.conduct.other_devices import other_device_differences
 from slider_resonator.checks.conduct.refusals import refusal_faults
 from slider_resonator.checks.conduct.replays import (
     beside_differences,
+    other_device_differences,
     overwritten_differences,
     reading_differences,
     reset_differences,
@@ -29,13 +29,38 @@ from slider_resonator.checks.conduct.replays import (
 from slider_resonator.checks.conduct.starts import start_faults
 from slider_resonator.checks.conduct.states import state_faults
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
-from slider_resonator.checks.measures.ripple import ripple_amplitude
-from slider_resonator.checks.measures.slow import last_step_velocity, slow_displacement
-from slider_resonator.checks.measures.slow_error import error_over_estimate
+from slider_resonator.checks.measures import (
+    NoOscillation,
+    dominant_frequency,
+    last_step_velocity,
+    ripple_amplitude,
+    slow_displacement,
+)
+from slider_resonator.checks.natural_scale import largest_fast_velocity
 from slider_resonator.errors import NotApplicable, SceneError
 from slider_resonator.fmu.interface_check import description_faults
 from slider_resonator.scenes.vocabulary import QUANTITIES
+
+_ESTIMATE = "slow_motion_error"
+WITHIN = 0.1
+"""Share of the error that `tolerance` allows up to which an error counts as none."""
+
+
+def error_over_estimate(fmu: FmuSide) -> float:
+    """Return the largest error of the mean velocity over the estimate of it at the same point.
+
+    The error is that against the run of the same FMU at fidelity 2. An estimate must hold at each
+    moment, also after a larger one. The start is left out: there is no mean yet. So are errors far
+    below `tolerance` times v_q: nothing estimates rounding.
+    NotApplicable for an FMU without estimate.
+    """
+    fmu.instance.fmu.variable(_ESTIMATE)
+    error = np.abs(fmu.record["mean_velocity"] - fmu.resolved["mean_velocity"])[1:]
+    device, held = fmu.scene.device, fmu.scene.schedule().held()
+    counts = error > WITHIN * device.tolerance * largest_fast_velocity(device, held)
+    with np.errstate(divide="ignore"):
+        shares = error[counts] / fmu.record[_ESTIMATE][1:][counts]
+    return float(shares.max(initial=0.0))
 
 
 @dataclass(frozen=True)

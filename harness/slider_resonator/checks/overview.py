@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.compare import Check
-from slider_resonator.checks.measures.tube import Tube
+from slider_resonator.checks.measures import Tube
 from slider_resonator.checks.measuring import Measurement
 
 SLOW = ("mean_velocity_in_run", "slow_displacement", "position")

@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.measures.tube import Tube
+from slider_resonator.checks.measures import Tube
 from slider_resonator.references.resolved.contact import STICK
 from slider_resonator.references.resolved.trajectory import Trajectory
 

@@ -13,8 +13,8 @@ from typing import Any
 from slider_resonator.arrays import Array
 from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.expected_values import ExpectedValues
-from slider_resonator.checks.measure_points import measure_points
-from slider_resonator.checks.measures.tube import Tube
+from slider_resonator.checks.fmu_side import measure_points
+from slider_resonator.checks.measures import Tube
 from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.overview import Overview, overview_of
 from slider_resonator.errors import SceneError

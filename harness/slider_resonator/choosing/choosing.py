@@ -17,10 +17,10 @@ from slider_resonator.choosing.candidate import (
 )
 from slider_resonator.choosing.choice import Choice, Evaluation, RuledOut, cheapest
 from slider_resonator.choosing.errors import Estimates
+from slider_resonator.choosing.ladder import coarsest
 from slider_resonator.choosing.probe import Probe
 from slider_resonator.choosing.reference import FINEST_TOLERANCE, MAX_PERIODS
 from slider_resonator.choosing.scales import check_magnitudes
-from slider_resonator.choosing.search import coarsest
 from slider_resonator.choosing.steady_need import SteadyValue, find, steady_error
 from slider_resonator.device.model import COULOMB, LUGRE, Model
 from slider_resonator.errors import FmuError, SceneError

@@ -9,14 +9,12 @@ from math import ceil, inf
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.choosing.beat import lacking_beat, unseen_beat
 from slider_resonator.choosing.candidate import Candidate
-from slider_resonator.choosing.errors import ErrorEstimate, Estimates
-from slider_resonator.choosing.exact_inputs import vary
+from slider_resonator.choosing.errors import ErrorEstimate, Estimates, lacking_beat, unseen_beat
 from slider_resonator.choosing.ladder import SIGNAL_NEEDS, step_ladder
-from slider_resonator.choosing.reference import HEAD_PERIODS, Readings, Reference
+from slider_resonator.choosing.reference import HEAD_PERIODS, Readings, Reference, vary
 from slider_resonator.choosing.scales import scales_of
-from slider_resonator.choosing.timed_run import timed_run
+from slider_resonator.choosing.steady_need import timed_run
 from slider_resonator.device.model import Model
 from slider_resonator.device.schedule import communication_points
 from slider_resonator.fmu.instance import Instance

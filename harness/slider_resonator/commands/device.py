@@ -8,7 +8,7 @@ from slider_resonator.commands.options import json_option
 from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.device.units import with_unit
+from slider_resonator.device.values import with_unit
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.output.terminal import escaped

@@ -21,11 +21,11 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.device.interface import PARAMETERS, VARIABLES
-from slider_resonator.device.units import si_value
+from slider_resonator.device.values import si_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.fitting.measurements import datasheet, read_measurements
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
-from slider_resonator.fmu.isolation.processes import available_cores
+from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.targets import make_folder

@@ -12,8 +12,7 @@ from typing import Any, TypeVar
 import click
 
 from slider_resonator.device.interface import INPUTS, PARAMETERS
-from slider_resonator.device.units import si_value
-from slider_resonator.device.values import check_value
+from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fmu import finished
 from slider_resonator.output.targets import writable

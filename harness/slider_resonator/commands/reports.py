@@ -18,9 +18,8 @@ from slider_resonator.checks.validate import RunFailure, Validation
 from slider_resonator.checks.verdict import place
 from slider_resonator.commands.options import Target
 from slider_resonator.output.console import output
-from slider_resonator.output.fitting_text import fitting, terminal_width
 from slider_resonator.output.targets import distinct
-from slider_resonator.output.terminal import indented
+from slider_resonator.output.terminal import fitting, indented, terminal_width
 
 PRINTED = Path("-")
 """The value of `--json` without a file."""

@@ -30,8 +30,7 @@ from slider_resonator.commands.results import print_result
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.fmu.record import Record
-from slider_resonator.fmu.record_csv import write_csv
+from slider_resonator.fmu.record import Record, write_csv
 from slider_resonator.fmu.run import run
 from slider_resonator.output.progress import Progress, labelled
 from slider_resonator.output.progress_bar import progress_bar

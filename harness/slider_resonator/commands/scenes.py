@@ -19,8 +19,7 @@ from slider_resonator.scenes.json_schema import scene_schema
 from slider_resonator.scenes.page import example_text, scene_page
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import find_scene, find_scenes, is_core
-from slider_resonator.scenes.toml_file import read_toml
-from slider_resonator.scenes.toml_text import toml_text
+from slider_resonator.scenes.toml_file import read_toml, toml_text
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 

@@ -20,7 +20,7 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.commands.results import print_result
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.isolation.processes import available_cores
+from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import part_of

@@ -18,16 +18,15 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.commands.results import print_result, print_text
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
-from slider_resonator.fmu.isolation.processes import available_cores
+from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.provenance import Provenance, provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
 from slider_resonator.sweeping.grid import Sweep, read_grid
-from slider_resonator.sweeping.kept_points import journal_path
 from slider_resonator.sweeping.sweeping import SweepResult, run_sweep
-from slider_resonator.sweeping.table import SUFFIXES
+from slider_resonator.sweeping.table import SUFFIXES, journal_path
 
 
 @click.command("sweep")

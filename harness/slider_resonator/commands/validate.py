@@ -18,7 +18,7 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.reports import Reports, print_verdicts, report_options
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
-from slider_resonator.fmu.isolation.processes import available_cores
+from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.scenes.scene_files import find_scenes
 

@@ -1,9 +1,12 @@
-"""Checks of parameters and inputs that hold for every FMU with this interface."""
+"""Values of parameters and inputs: what the interface allows, and text with a unit."""
 
 from __future__ import annotations
 
+import re
+from functools import cache
 from math import inf, isfinite
 from numbers import Real
+from typing import TYPE_CHECKING, Any
 
 from slider_resonator.device.interface import VARIABLES
 
@@ -31,3 +34,73 @@ def check_integer(name: str, value: float) -> None:
         raise ValueError(f"{name} = {value!r}: must be an integer")
     if abs(value) > LARGEST_INTEGER:
         raise ValueError(f"{name} = {value!r}: must be an integer up to {LARGEST_INTEGER}")
+
+
+if TYPE_CHECKING:
+    import pint
+
+_UNIT = r"[A-Za-zµμ°%]+(?:(?:\^|\*\*)-?\d)?"
+_TEXT = re.compile(
+    rf"\s*(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
+    rf"\s*(?P<unit>(?:1\s*/\s*)?{_UNIT}(?:\s*[*/]\s*{_UNIT})*)\s*"
+)
+"""A number with a unit: what the library evaluates is no more than that."""
+_SHOWN = {"rad/s": "Hz", "rad": "deg"}
+"""For an SI unit, the one in which engineers state such a value."""
+_EXAMPLES = {
+    "kg": "5 g",
+    "rad/s": "20 kHz",
+    "rad": "30 deg",
+    "N": "200 mN",
+    "m": "1 um",
+    "m/s": "3 mm/s",
+    "1": "2 %",
+    "1/m": "0.1 1/um",
+    "s/m": "10 s/m",
+}
+
+
+@cache
+def _registry() -> pint.UnitRegistry[Any]:
+    import pint  # takes half a second: only where a text is read or shown
+
+    registry: pint.UnitRegistry[Any] = pint.UnitRegistry()
+    # A frequency in Hz counts periods; those of the interface are angular.
+    registry.define("hertz = 2 * pi * radian / second = Hz")
+    return registry
+
+
+def si_value(name: str, text: str) -> float:
+    """Return the value of a parameter or input in its SI unit from a number with a unit.
+
+    Hz, kHz and rpm give rad/s. Raises ValueError with name, text and what it must be.
+    """
+    try:
+        return float(text)
+    except ValueError:
+        match = _TEXT.fullmatch(text)
+    unit = VARIABLES[name].unit
+    must = f"must be a number in {unit}, or a text with a unit such as {_EXAMPLES.get(unit, '1')!r}"
+    if match is None:
+        raise ValueError(f"{name} = {text!r}: {must}")
+    number = float(match["number"])
+    import pint
+
+    try:
+        scale = _registry().Quantity(1.0, match["unit"].replace(" ", ""))
+        return number * float(scale.to("dimensionless" if unit == "1" else unit).magnitude)
+    except pint.UndefinedUnitError as error:
+        raise ValueError(f"{name} = {text!r}: unknown unit {match['unit']!r}; {must}") from error
+    except (pint.PintError, ArithmeticError, AssertionError, TypeError, ValueError) as error:
+        raise ValueError(f"{name} = {text!r}: not in {unit}; {must}") from error
+
+
+def with_unit(name: str, value: float) -> str:
+    """Return a value in the unit that engineers state it in: Hz, deg, um, g, mm/s, mN."""
+    unit = VARIABLES[name].unit
+    if unit in ("1", "1/m", "s/m") or not isfinite(value):
+        return f"{value:.6g}" if unit == "1" else f"{value:.6g} {unit}"
+    quantity: Any = _registry().Quantity(float(value), unit).to(_SHOWN.get(unit, unit))
+    if value and unit != "rad":
+        quantity = quantity.to_compact()
+    return f"{quantity:.6g~P}".replace("µ", "u")

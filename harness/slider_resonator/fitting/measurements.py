@@ -14,7 +14,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS, PARAMETERS, TUNABLES, VARIABLES
 from slider_resonator.device.schedule import Schedule, in_order
 from slider_resonator.device.signal import steps
-from slider_resonator.device.units import si_value
+from slider_resonator.device.values import si_value
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.scenes.csv_signal import csv_number, csv_rows
 

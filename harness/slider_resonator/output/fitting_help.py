@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 import click
 
-from slider_resonator.output.fitting_text import fitting
+from slider_resonator.output.terminal import fitting
 
 _EXAMPLE = re.compile(r"\s*(slider-resonator|python|pip) ")
 _OPTION_AND_VALUE = re.compile(r"(?:--?\S+ (?!-)|> )?\S+")

@@ -13,7 +13,7 @@ from importlib.resources import files
 
 from slider_resonator.output.html_page import escaped
 from slider_resonator.output.json_output import plain
-from slider_resonator.output.printable import printable
+from slider_resonator.output.readable import printable
 
 COLOURS = (
     *("#1f5f8b", "#c8553d", "#2e7d32", "#8e24aa", "#b8860b", "#00838f", "#5d4037", "#ad1457"),

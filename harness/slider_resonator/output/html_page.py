@@ -11,7 +11,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from slider_resonator.output.atomic import replacing
-from slider_resonator.output.printable import printable
+from slider_resonator.output.readable import printable
 from slider_resonator.output.table import Cell, Column, Style, Table
 
 MAX_WIDTH = 44

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from slider_resonator.output.printable import printable
+from slider_resonator.output.readable import printable
 from slider_resonator.output.table import Cell, Style, Table
 
 _MARKUP = re.compile(r"[\\`*|~$]|(?<![^\W_])_|_(?![^\W_])|(?<=\])\(")

@@ -1,12 +1,202 @@
-"""Tables and foreign text for a terminal or the log of a CI job."""
+"""Tables and foreign text that fit a terminal, or the log of a CI job: no name is split."""
 
 from __future__ import annotations
 
+import os
 import re
+import sys
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
-from slider_resonator.output.fitting_table import FittingTable
-from slider_resonator.output.printable import printable
-from slider_resonator.output.table import Cell, Table
+import rich.table
+from rich import box
+from rich.cells import cell_len
+from rich.console import Console, ConsoleOptions, RenderResult
+from rich.text import Text
+
+from slider_resonator.output.readable import printable
+from slider_resonator.output.table import Cell, Column, Style, Table
+
+_LABELLED = re.compile(r"\s*\S+(?: \S+)* {2,}(?=\S)")
+"""The beginning of a line such as "cost     43 drive periods", up to its text."""
+
+
+def terminal_width(*, err: bool = False) -> int | None:
+    """Return the columns of the terminal that output or errors go to, None where it is none."""
+    stream = sys.stderr if err else sys.stdout
+    try:
+        return os.get_terminal_size(stream.fileno()).columns if stream.isatty() else None
+    except (AttributeError, OSError, ValueError):  # a closed stream, or one without a number
+        return None
+
+
+def fitting(text: str, width: int | None) -> str:
+    """Return the text with lines of at most `width` columns, if it is given and words permit."""
+    if width is None:
+        return text
+    return "\n".join(_wrapped(line, width) for line in text.splitlines())
+
+
+def _wrapped(line: str, width: int) -> str:
+    if len(line) <= width:
+        return line
+    label = _LABELLED.match(line)
+    start = len(label[0]) if label else 0
+    if not 0 < start <= width // 2:
+        start = len(line) - len(line.lstrip()) + len(INDENT)
+    return words(line, width, " " * start)
+
+
+STYLES: Mapping[Style, str] = {
+    Style.PLAIN: "",
+    Style.PASS: "green",
+    Style.FAIL: "bold red",
+    Style.HEADING: "bold",
+    Style.NOTE: "dim",
+}
+MIN_PROSE = 20
+"""Columns of a text below which it is not wrapped further."""
+BETWEEN = 2
+"""Columns between two columns of a table: padding and divider."""
+INDENT = "  "
+_UNIT = r"(?:[num]?s|min|h|[um]?m|[um]?m/s|m?N|N/s|kg|rad|rad/s|deg|k?Hz|1/m|s/m|[kM]B|[kMG]iB|%)"
+_BEFORE_UNIT = re.compile(
+    rf"(?<=\d) (?=(?:{_UNIT}|drive periods?)(?![\w/]))|(?<=\d drive) (?=periods?\b)"
+)
+"""The spaces between a number and its unit."""
+_NO_BREAK = "\N{NO-BREAK SPACE}"
+
+
+@dataclass(frozen=True)
+class FittingTable:
+    """A table whose cells hold no foreign control characters, shown in the width there is.
+
+    Text is wrapped between words. Where that is not enough, each row becomes a block: the first
+    cell and those without a heading on a line, all others with their headings below.
+    """
+
+    table: Table
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        """Yield what rich prints."""
+        widths = _fitted(self.table, options.max_width)
+        if widths is None:
+            yield from _blocks(self.table, options.max_width)
+        else:
+            yield _columns(self.table, widths)
+
+
+def words(text: str, width: int, indent: str = "") -> str:
+    """Return the text wrapped between words; one that is too long stays whole.
+
+    A number and its unit are one word.
+    """
+    lines = text.splitlines() or [""]
+    wrapped = "\n".join(
+        textwrap.fill(
+            _BEFORE_UNIT.sub(_NO_BREAK, line),
+            max(width, 1),
+            subsequent_indent=indent,
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
+        for line in lines
+    )
+    return wrapped.replace(_NO_BREAK, " ")
+
+
+def aligned(table: Table) -> Iterator[Text]:
+    """Yield the rows of a small table without headings, indented, columns under each other."""
+    columns = list(zip(*table.cells, strict=True))
+    widths = [_width([cell.text for cell in cells]) for cells in columns]
+    for row in table.cells:
+        line = Text(INDENT)
+        for cell, column, width in zip(row, table.columns, widths, strict=True):
+            space = " " * (width - cell_len(cell.text))
+            line.append(space if column.numeric else "").append_text(_text(cell))
+            line.append(("" if column.numeric else space) + INDENT)
+        line.rstrip()
+        yield line
+
+
+def _fitted(table: Table, available: int) -> list[int] | None:
+    """Return the width of each column, None where they do not fit."""
+    full = [row for row in table.cells if len(row) == len(table.columns)]
+    alone = [row[0] for row in table.cells if len(row) != len(table.columns)]
+    columns = [list(cells) for cells in zip(*full, strict=True)] or [[] for _ in table.columns]
+    columns[0] += [cell for cell in alone if cell.style is Style.HEADING]
+    columns[0] += [Cell(word) for cell in alone for word in cell.text.split()]
+    both = list(zip(table.columns, columns, strict=True))
+    widths = [_width([column.heading, *(c.text for c in cells)]) for column, cells in both]
+    min_widths = [
+        width if column.numeric else min(width, max(MIN_PROSE, _longest_word(column, cells)))
+        for width, (column, cells) in zip(widths, both, strict=True)
+    ]
+    excess = sum(widths) + BETWEEN * len(widths) - available
+    for index in sorted(range(len(widths)), key=lambda i: min_widths[i] - widths[i]):
+        cut = min(widths[index] - min_widths[index], max(excess, 0))
+        widths[index] -= cut
+        excess -= cut
+    return widths if excess <= 0 else None
+
+
+def _width(texts: Sequence[str]) -> int:
+    return max(cell_len(line) for text in texts for line in (text.splitlines() or [""]))
+
+
+def _longest_word(column: Column, cells: Sequence[Cell]) -> int:
+    texts = (column.heading, *(cell.text for cell in cells))
+    every = (word for text in texts for word in _BEFORE_UNIT.sub("_", text).split())
+    return max(map(cell_len, every), default=0)
+
+
+def _columns(table: Table, widths: Sequence[int]) -> rich.table.Table:
+    shown = rich.table.Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
+    for column, width in zip(table.columns, widths, strict=True):
+        justify = "right" if column.numeric else "left"
+        shown.add_column(Text(column.heading), justify=justify, min_width=width, max_width=width)  # type: ignore[arg-type]
+    for row in table.cells:
+        if row[0].style is Style.HEADING:
+            shown.add_section()
+        shown.add_row(
+            *(
+                _text(replace(cell, text=words(cell.text, width)))
+                for cell, width in zip(row, widths[: len(row)], strict=True)
+            )
+        )
+    return shown
+
+
+def _blocks(table: Table, width: int) -> Iterator[Text]:
+    for row in table.cells:
+        if len(row) < len(table.columns):
+            blank = "\n" if row[0].style is Style.HEADING else ""
+            yield Text(blank + words(row[0].text, width), STYLES[row[0].style])
+        else:
+            yield from _block(table.columns, row, width)
+
+
+def _block(columns: Sequence[Column], row: Sequence[Cell], width: int) -> Iterator[Text]:
+    bare = [c for c, column in zip(row[1:], columns[1:], strict=True) if not column.heading]
+    first = [_text(row[0]), *(_text(cell) for cell in bare if cell.text)]
+    yield Text("  ").join(first)
+    line = ""
+    for cell, column in zip(row[1:], columns[1:], strict=True):
+        if not column.heading or not cell.text:
+            continue
+        pair = f"{column.heading} {' '.join(cell.text.split())}"
+        if line and cell_len(line) + len(INDENT) + cell_len(pair) + len(INDENT) > width:
+            yield Text(words(INDENT + line, width, INDENT * 2))
+            line = ""
+        line += f"{INDENT if line else ''}{pair}"
+    if line:
+        yield Text(words(INDENT + line, width, INDENT * 2))
+
+
+def _text(cell: Cell) -> Text:
+    return Text(cell.text, STYLES[cell.style])
+
 
 _WORKFLOW_COMMAND = re.compile(r"(?<!\S):(?=:)|##(?=\[)")
 """Where GitHub Actions may find a command in a log: `::name::` at the start of a line, which may be

@@ -11,12 +11,10 @@ from typing import Any
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import PARAMETERS, VARIABLES
-from slider_resonator.device.units import si_value, with_unit
-from slider_resonator.device.values import check_value
+from slider_resonator.device.values import check_value, si_value, with_unit
 from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.scenes.device_keys import HAS_UNIT
-from slider_resonator.scenes.toml_file import read_toml
-from slider_resonator.scenes.toml_text import toml_value
+from slider_resonator.scenes.toml_file import read_toml, toml_value
 
 _TEXTS = ("name", "title", "description")
 _MARKS: Mapping[str, tuple[str, ...]] = {

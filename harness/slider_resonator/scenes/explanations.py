@@ -22,7 +22,7 @@ from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
 from slider_resonator.scenes.expansion import with_bundles
 from slider_resonator.scenes.key_table import NAMED
 from slider_resonator.scenes.schema import RunTable, SceneTable
-from slider_resonator.scenes.toml_text import toml_value
+from slider_resonator.scenes.toml_file import toml_value
 
 _REQUIREMENTS: Mapping[str, str] = {
     "dict_type": "a table of keys and values",

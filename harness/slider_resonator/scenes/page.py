@@ -23,7 +23,7 @@ from slider_resonator.scenes.input_tables import (
 from slider_resonator.scenes.key_table import KeyTable
 from slider_resonator.scenes.need_table import AllowedTable, NeedTable
 from slider_resonator.scenes.schema import RunTable, SceneTable, SweepTable
-from slider_resonator.scenes.toml_text import toml_value
+from slider_resonator.scenes.toml_file import toml_value
 from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES, Quantity
 
 TABLES: dict[str, type[KeyTable]] = {

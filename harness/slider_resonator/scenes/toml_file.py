@@ -1,14 +1,134 @@
-"""Read a TOML file that a user has written: a scene or the grid of a sweep."""
+"""TOML: files, their mistakes explained with line and remedy, and values as text."""
 
 from __future__ import annotations
 
+import json
+import re
 import tomllib
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 from zipfile import is_zipfile
 
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes.toml_mistakes import toml_mistake
+
+
+def toml_value(value: object) -> str:
+    """Return a number, text, list or mapping as a TOML value on one line."""
+    if isinstance(value, Mapping):
+        return f"{{ {', '.join(f'{key} = {toml_value(v)}' for key, v in value.items())} }}"
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return f"[{', '.join(map(toml_value, value))}]"
+    return json.dumps(value, ensure_ascii=False)
+
+
+def toml_text(content: Mapping[str, Any]) -> str:
+    """Return the content of a scene as the text of its file, a heading for each table."""
+    tables = {key: value for key, value in content.items() if isinstance(value, Mapping)}
+    blocks: list[tuple[str, Mapping[str, Any]]]
+    blocks = [("", {key: v for key, v in content.items() if key not in {*tables, "expect"}})]
+    blocks += [(f"[{key}]\n", table) for key, table in tables.items()]
+    blocks += [("[[expect]]\n", table) for table in content.get("expect", ())]
+    return "\n".join(
+        heading + "".join(f"{key} = {toml_value(value)}\n" for key, value in table.items())
+        for heading, table in blocks
+    )
+
+
+_LINE = re.compile(r"\(at line (\d+), column \d+\)$")
+
+MAX_SHOWN = 60
+"""Characters of the line that are shown."""
+
+_NAME_AND_VALUE = "must be key = value, or a heading such as [run]"
+
+_NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
+_HABITS: tuple[tuple[str, str], ...] = (
+    (
+        r"=\s*([-+]?\d{1,3}),(\d{3})\s*(#.*)?$",
+        r"a number has no mark but its decimal point: write \1\2 or \1.\2",
+    ),
+    (r"=\s*([-+]?\d+)'(\d+)\s*(#.*)?$", r"a number has no mark but its decimal point: write \1\2"),
+    (r"=\s*([-+]?)0+(\d+\.?\d*)\s*(#.*)?$", r"a number has no leading zero: write \1\2"),
+    (r"=\s*([-+]?\d+(?:\.\d+)?)\s*%\s*(#.*)?$", r"a share is a number: write \1e-2"),
+    (r"=\s*([-+]?\d+),(\d+)\s*(#.*)?$", r"a number has a decimal point: write \1.\2"),
+    (r"^(;|//|--|%|/\*)", "a comment begins with #"),
+    (r"=[^\[{]*[^\[{,;\s]\s*([,;])\s*(#.*)?$", r"nothing follows a value: delete the \1"),
+    (r"([“”„‘’«»])", 'quotes are straight: write "'),
+    (r"([−–])\s*[\d.]", "a minus sign is -"),
+    (r"=\s*([-+]?)(\.\d\S*)", r"a number begins with a digit: write \g<1>0\2"),
+    (r"=\s*([-+]?\d+\.)\s*(#.*)?$", r"a number ends with a digit: write \g<1>0"),
+    (r"=\s*(?i:true|yes|on)\s*(#.*)?$", "write true"),
+    (r"=\s*(?i:false|no|off)\s*(#.*)?$", "write false"),
+    (rf"=\s*({_NUMBER})\s*[A-Za-z°µμ/]+\s*(#.*)?$", r"a number stands without its unit: write \1"),
+    (r"=\s*[\w.()]+\s*[*/^+-]\s*[-+\w.(]", "nothing is computed: write the number, such as 1e-3"),
+    (r"^([A-Za-z]\w*) +(\w+)\s*=", r"a key has no blanks: did you mean \1_\2?"),
+    (r"=\s*(?i:null|none|nil)\s*(#.*)?$", "delete the line: a key without a value is left out"),
+    (r"=\s*-?(?i:pi|tau)\s*(#.*)?$", "nothing is computed: write the number, such as 3.14159"),
+    (r"\[\s*\(", "a pair has square brackets, as in [[0.0, 0.0], [0.05, 0.04]]"),
+    (rf"(?:\]\s*\[|{_NUMBER}\s+{_NUMBER})", "a comma must be between two values"),
+    (r"=\s*\{\s*\"?(\w+)\"?\s*:", r"must be key = value: write { \1 = ... }"),
+    (
+        r"=\s*(\".*\"|'.*')[^#]*[\w\"'][^#]*$",
+        "a text with quotes in it has the other kind around it, \"...\" or '...'",
+    ),
+    (r"=\s*\{\s*(#.*)?$", "a table in braces is on one line: close the brace there"),
+)
+"""What other notations have at this place, as a pattern of the line; the remedy."""
+
+
+def toml_mistake(text: str, error: str) -> str:
+    """Return where and what is wrong in `text`, and the remedy, for the error of `tomllib`."""
+    lines = text.splitlines() or [""]
+    found = _LINE.search(error)
+    number = min(int(found[1]), len(lines)) if found else _unclosed(lines)
+    line = lines[number - 1].strip()
+    shown = line if len(line) <= MAX_SHOWN else f"{line[:MAX_SHOWN]}..."
+    wrong = _LINE.sub("", error).removesuffix("(at end of document)").strip()
+    return f"line {number}: {shown}: not TOML: {wrong}; {_remedy(error, line)}"
+
+
+def _unclosed(lines: list[str]) -> int:
+    """Return the number of the last line that opens more brackets than it closes."""
+    opens = [n for n, line in enumerate(lines, 1) if _opened(line) > 0]
+    return opens[-1] if opens else len(lines)
+
+
+def _opened(line: str) -> int:
+    return sum(line.count(c) for c in "[{") - sum(line.count(c) for c in "]}")
+
+
+_REMEDIES: tuple[tuple[Callable[[str, str], bool], str], ...] = (
+    (
+        lambda error, _: "overwrite" in error or "twice" in error or "mutate" in error,
+        "must be there once: delete one",
+    ),
+    (lambda error, _: "declaration" in error, "close the bracket, as in [run] or [[expect]]"),
+    (
+        lambda error, line: "\\" in line and ("hex value" in error or "Unescaped" in error),
+        "a path in quotes is written with /",
+    ),
+    (lambda error, _: "Unclosed inline table" in error, "close the brace with }"),
+    (lambda error, line: "Unclosed" in error or _opened(line) > 0, "close the bracket"),
+    (
+        lambda error, line: "Illegal character" in error or line.count('"') % 2 == 1,
+        "close the quotes",
+    ),
+    (
+        lambda error, line: "Invalid value" in error and bool(re.search(r"=\s*[A-Za-z]", line)),
+        'a text needs quotes, as in "my_step"',
+    ),
+    (lambda error, _: "Invalid value" in error, "must be a number, a text in quotes or a list"),
+)
+"""Whether a remedy is the one for an error and its line."""
+
+
+def _remedy(error: str, line: str) -> str:
+    for habit, remedy in _HABITS:
+        found = re.search(habit, line)
+        if found:
+            return found.expand(remedy)
+    return next((text for fits, text in _REMEDIES if fits(error, line)), _NAME_AND_VALUE)
 
 
 def read_toml(path: Path) -> dict[str, Any]:

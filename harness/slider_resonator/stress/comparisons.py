@@ -9,8 +9,12 @@ from dataclasses import replace
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.leap_error import MARGIN, allowed_by_leaps, centre_signals
-from slider_resonator.checks.natural_scale import fast_velocity
+from slider_resonator.checks.natural_scale import (
+    MARGIN,
+    allowed_by_leaps,
+    centre_signals,
+    fast_velocity,
+)
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.taylor import simulate

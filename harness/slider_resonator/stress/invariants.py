@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.leap_error import MARGIN
-from slider_resonator.checks.natural_scale import fast_velocity
+from slider_resonator.checks.natural_scale import MARGIN, fast_velocity
 from slider_resonator.device.device import Device
 from slider_resonator.stress.case import Case
 from slider_resonator.stress.observe import Observation

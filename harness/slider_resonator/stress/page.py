@@ -7,8 +7,7 @@ from pathlib import Path
 
 from matplotlib.colors import to_hex
 
-from slider_resonator.fmu.provenance import Provenance
-from slider_resonator.fmu.provenance_text import provenance_html
+from slider_resonator.fmu.provenance import Provenance, provenance_html
 from slider_resonator.output.hover_plot import (
     Axis,
     HoverPlot,

@@ -15,7 +15,7 @@ from distributed import CancelledError, Client, KilledWorker, Worker, WorkerPlug
 from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import FmuDied, Task
-from slider_resonator.fmu.isolation.processes import Outcome, Runner
+from slider_resonator.fmu.isolation.tasks import Outcome, Runner
 from slider_resonator.sweeping.running import Workers
 
 CONNECT_SECONDS = 30

@@ -12,13 +12,13 @@ from typing import Any, TypeVar
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.process import Task as FmuTask
-from slider_resonator.fmu.isolation.processes import Processes
-from slider_resonator.fmu.isolation.tasks import run_all_tasks
-from slider_resonator.sweeping.measures import SEARCHED, Task
-from slider_resonator.sweeping.worker import (
+from slider_resonator.fmu.isolation.tasks import Processes, run_all_tasks
+from slider_resonator.sweeping.measures import (
+    SEARCHED,
     Point,
     Proved,
     Row,
+    Task,
     failed_row,
     measure_point,
     prove_points,

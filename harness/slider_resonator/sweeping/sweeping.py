@@ -17,16 +17,17 @@ from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.sweeping.grid import Sweep
-from slider_resonator.sweeping.kept_points import open_journal, rows_of
+from slider_resonator.sweeping.measures import Row
 from slider_resonator.sweeping.running import Workers, run_points
 from slider_resonator.sweeping.table import (
     Columns,
     check_replaceable,
     check_writer,
+    open_journal,
+    rows_of,
     table_columns,
     write_table,
 )
-from slider_resonator.sweeping.worker import Row
 
 
 @dataclass(frozen=True)

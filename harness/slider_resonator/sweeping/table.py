@@ -1,4 +1,7 @@
-"""The table of a sweep: Parquet or CSV, the same bytes for the same rows."""
+"""The table of a sweep: Parquet or CSV, the same bytes for the same rows.
+
+A journal beside it keeps the finished points until it is written.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +13,9 @@ from typing import Any
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.atomic import replacing, write_csv
+from slider_resonator.output.journal import Journal
 from slider_resonator.output.targets import writable
-from slider_resonator.sweeping.measures import Task
-from slider_resonator.sweeping.worker import Row
+from slider_resonator.sweeping.measures import Row, Task
 
 SUFFIXES = (".parquet", ".csv")
 
@@ -93,3 +96,33 @@ def _write_parquet(path: Path, task: Task, columns: Columns) -> None:
     types = {int: pa.int64(), float: pa.float64(), str: pa.string()}
     schema = pa.schema([(name, types[kind]) for name, kind in task.columns])
     parquet.write_table(pa.table(dict(columns), schema=schema), path)
+
+
+def journal_path(table: Path) -> Path:
+    """Return where the journal of a table is."""
+    return table.with_name(f"{table.name}.journal")
+
+
+def open_journal(table: Path, digest: str, *, restart: bool = False) -> Journal:
+    """Open the journal of a table, whose entries are lists of rows.
+
+    Raises HarnessError as `Journal` does.
+    """
+    remedy = "move the file away, or discard it with --restart"
+    return Journal(journal_path(table), "sweep", digest, remedy, restart=restart)
+
+
+def rows_of(journal: Journal) -> dict[int, Row]:
+    """Return the rows by number of the point; HarnessError for an entry that is none."""
+    rows: dict[int, Row] = {}
+    for number, entry in journal.entries.items():
+        for row in entry if isinstance(entry, list) else [entry]:
+            match row:
+                case [int(point), list(cells), None | str() as failure]:
+                    rows[point] = (point, cells, failure)
+                case _:
+                    raise HarnessError(
+                        f"{journal.path} entry {number}: is no point of a sweep; must be number, "
+                        "results and error; --restart discards the file"
+                    )
+    return rows

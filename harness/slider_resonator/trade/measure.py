@@ -1,4 +1,7 @@
-"""Measure the errors and the time of each method on a problem, within its budget."""
+"""Measure the errors and the time of each method on a problem, within its budget.
+
+Methods are timed in turn, so that a busy moment of the machine affects all of them.
+"""
 
 from __future__ import annotations
 
@@ -10,15 +13,41 @@ from typing import Any
 
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
-from slider_resonator.output.progress import Progress, counted
+from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.trade.fmu_methods import FmuMethods, TaskRunner
-from slider_resonator.trade.in_turn import Timed, in_turn
 from slider_resonator.trade.method import Label, Method, SteadyMethod, timed
 from slider_resonator.trade.peer_methods import peer_answers, peer_methods
 from slider_resonator.trade.problem import Problem
 from slider_resonator.trade.reference import Reference, find_reference
 from slider_resonator.trade.result import Omission, Row, Trade
 from slider_resonator.trade.solution import QUANTITIES, Solution, errors
+
+
+@dataclass(frozen=True)
+class Timed:
+    """Work to be timed `repeats` times: `seconds` does it once and returns the time taken."""
+
+    name: str
+    seconds: Callable[[], float]
+    repeats: int
+
+
+def in_turn(everything: Sequence[Timed], progress: Progress = no_progress) -> list[list[float]]:
+    """Return the seconds of each; in every round, each with repeats left is timed once.
+
+    `progress` receives the name of the work and the share of the repeats that is done.
+    """
+    seconds: list[list[float]] = [[] for _ in everything]
+    total = sum(work.repeats for work in everything)
+    done = 0
+    for turn in range(max((work.repeats for work in everything), default=0)):
+        for work, taken in zip(everything, seconds, strict=True):
+            if turn < work.repeats:
+                progress(counted(work.name, done, total), done / total)
+                taken.append(work.seconds())
+                done += 1
+    return seconds
+
 
 BUDGET = 1.0
 """CPU time (s) for the longest run or search of a method, and as much again for repeats."""

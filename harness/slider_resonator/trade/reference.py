@@ -7,15 +7,15 @@ from math import inf
 
 import numpy as np
 
-from slider_resonator.checks.measures.deviation import peak, share_of
+from slider_resonator.checks.measures import peak, share_of
 from slider_resonator.errors import HarnessError
 from slider_resonator.references.resolved import taylor
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import Simulate
+from slider_resonator.trade.peer_methods import shoot
 from slider_resonator.trade.peers.peer import solution_of
 from slider_resonator.trade.problem import REFERENCE_STEPS, Problem
-from slider_resonator.trade.shooting import shoot
 from slider_resonator.trade.solution import WindowReadings, windows
 
 SHOOTING = 1e-10

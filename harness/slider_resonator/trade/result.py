@@ -1,10 +1,15 @@
-"""The data of a trade: rows, omissions, and the cheapest method at an error."""
+"""The data of a trade: rows, omissions, the cheapest method at an error; and its CSV files."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from statistics import median
+from typing import Any
+
+from slider_resonator.output.atomic import write_csv
+from slider_resonator.trade.solution import QUANTITIES
 
 AVERAGED, RESOLVED, PEER = "averaged", "resolved", "peer"
 """Kinds of method: our averaged motion, our resolved one, and all others."""
@@ -137,3 +142,39 @@ def paired_ratio(row: Row, against: Row) -> tuple[float, float, float]:
 def families(rows: Sequence[Row]) -> list[str]:
     """Return the families in the order in which they appear."""
     return list(dict.fromkeys(row.family for row in rows))
+
+
+COLUMNS = (
+    *("scene", "answer", "kind", "family", "method", "fidelity", "averaging_order"),
+    "friction_law",
+    *("step_periods", "tolerance", "periods", "repeats", "cpu_median_s", "cpu_min_s", "cpu_max_s"),
+    *("start_cpu_s", "steps", "evaluations", "events"),
+    *(f"error_{quantity}" for quantity in QUANTITIES),
+)
+"""Columns of the data; CPU times are per simulated second where `answer` is `run`, else per answer;
+what a method does not have or does not report is empty."""
+
+
+def write_rows(path: Path, trades: Sequence[Trade]) -> None:
+    """Write all rows; HarnessError when that is impossible."""
+    write_csv(path, COLUMNS, (_cells(row) for trade in trades for row in trade.rows))
+
+
+def write_omissions(path: Path, trades: Sequence[Trade]) -> None:
+    """Write the omissions with their reasons; HarnessError when that is impossible."""
+    lines = [
+        (omission.scene, omission.method, omission.quantity, omission.reason)
+        for trade in trades
+        for omission in trade.omissions
+    ]
+    write_csv(path, ("scene", "method", "quantity", "reason"), lines)
+
+
+def _cells(row: Row) -> list[Any]:
+    return [
+        *(row.scene, row.answer, row.kind, row.family, row.method),
+        *(row.fidelity, row.averaging_order, row.friction_law),
+        *(row.step, row.tolerance, row.periods, len(row.cpu), row.cost, min(row.cpu), max(row.cpu)),
+        *(row.start_cpu, row.steps, row.evaluations, row.events),
+        *(row.errors.get(quantity) for quantity in QUANTITIES),
+    ]

@@ -8,9 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.measures.deviation import peak, share_of
-from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
-from slider_resonator.checks.measures.slow import slow_displacement
+from slider_resonator.checks.measures import (
+    NoOscillation,
+    dominant_frequency,
+    peak,
+    share_of,
+    slow_displacement,
+)
 from slider_resonator.device.schedule import nearest
 from slider_resonator.trade.problem import Problem
 

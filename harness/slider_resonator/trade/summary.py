@@ -1,9 +1,16 @@
-"""The figures at the top: the cost of averaged motion, resolved motion and peers at an error."""
+"""The figures at the top, and the tables that lead from need to model to cost."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
+from slider_resonator.device.model import LAWS
+from slider_resonator.errors import HarnessError
+from slider_resonator.output import html_page, markdown
+from slider_resonator.output.atomic import write_marked
+from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.trade.result import (
     AVERAGED,
     PEER,
@@ -85,3 +92,106 @@ def duration(seconds: float) -> str:
         if seconds >= ROUNDS_UP * size:
             return f"{seconds / size:.3g} {unit}"
     return f"{seconds / 1e-9:.3g} ns"
+
+
+BEGIN, END = "<!-- trade -->", "<!-- end of trade -->"
+SUFFIXES = (".md", ".html")
+NEEDS = (
+    ("steady_velocity", 1e-2),
+    ("steady_velocity", 1e-6),
+    ("blocking_force", 1e-2),
+    ("blocking_force", 1e-6),
+    ("beat_frequency", 1e-2),
+    ("mean_velocity", 1e-2),
+    ("mean_velocity", 1e-6),
+    ("position", 1e-2),
+    ("position", 1e-4),
+    ("position", 1e-9),
+    ("event_times", 1e-6),
+)
+"""Quantity and error; a scene without the quantity has no such row."""
+COLUMNS = (
+    *(*texts("need"), *numbers("within"), *texts("model")),
+    *(*numbers("error", "native FMU", "Python FMU"), *texts("cheapest peer")),
+)
+
+
+@dataclass(frozen=True)
+class CheapestRows:
+    """The cheapest rows that meet a need, None where no method does.
+
+    `python` is the same model in the Python FMU, None where it does not meet the need there: that
+    FMU holds inputs over each step.
+    """
+
+    quantity: str
+    error: float
+    native: Row | None
+    python: Row | None
+    peer: Row | None
+
+
+def choices(trade: Trade) -> list[CheapestRows]:
+    """Return the cheapest method for every need of a scene; the native FMU decides the model."""
+    found = []
+    for quantity, error in NEEDS:
+        rows = trade.candidates(quantity)
+        if not rows:
+            continue
+        native = cheapest([r for r in rows if r.family.startswith("native")], quantity, error)
+        twins = [
+            row
+            for row in rows
+            if native is not None and row.method == native.method.replace("native", "Python", 1)
+        ]
+        peer = cheapest([row for row in rows if row.kind == PEER], quantity, error)
+        found.append(CheapestRows(quantity, error, native, cheapest(twins, quantity, error), peer))
+    return found
+
+
+def write_choices(path: Path, trades: Sequence[Trade]) -> None:
+    """Write the tables of all scenes between the marks of a page, Markdown or HTML by its suffix.
+
+    Raises HarnessError when the file cannot be written, or has marks that are no pair.
+    """
+    if path.suffix not in SUFFIXES:
+        allowed = " or ".join(SUFFIXES)
+        raise HarnessError(f"{path}: the suffix is {path.suffix!r}; must be {allowed}")
+    part = _markdown if path.suffix == ".md" else _html
+    write_marked(path, "\n".join(part(trade) for trade in trades), BEGIN, END)
+
+
+def title(trade: Trade) -> str:
+    """Return the title of a table."""
+    return f"{trade.title} (scene {trade.scene}, {LAWS[trade.friction_law]} friction)"
+
+
+def cells(choice: CheapestRows) -> tuple[str, ...]:
+    """Return a row of the table, in the order of `COLUMNS`."""
+    rows = (choice.native, choice.python, choice.peer)
+    native, python, peer = ("not reached" if row is None else _cost(row) for row in rows)
+    if choice.peer is not None:
+        peer += f" ({choice.peer.method})"
+    model, error = "none", ""
+    if choice.native is not None:
+        model = choice.native.method.removeprefix("native FMU, ")
+        error = f"{choice.native.errors[choice.quantity]:.0e}"
+    quantity = choice.quantity.replace("_", " ")
+    return (quantity, f"{choice.error:.0e}", model, error, native, python, peer)
+
+
+def _cost(row: Row) -> str:
+    return duration(row.cost) + (" / s" if row.answer == "run" else "")
+
+
+def _table(trade: Trade) -> Table:
+    return Table(COLUMNS, [cells(choice) for choice in choices(trade)])
+
+
+def _markdown(trade: Trade) -> str:
+    return f"\n**{markdown.escaped(title(trade))}**\n\n{markdown.rendered(_table(trade))}\n"
+
+
+def _html(trade: Trade) -> str:
+    heading = html_page.escaped(title(trade))
+    return f"<h3>{heading}</h3>\n{html_page.rendered(_table(trade))}"

@@ -20,7 +20,7 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.results import print_json
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
-from slider_resonator.fmu.isolation.processes import available_cores
+from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import nothing_kept, noting_on_interrupt, output
 from slider_resonator.output.progress_bar import progress_bar

@@ -9,8 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from slider_resonator.checks.expected_values import ExpectedValues
-from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.checks.measure_points import measure_points
+from slider_resonator.checks.fmu_side import FmuSide, measure_points
 from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.validate import points_to_check
 from slider_resonator.errors import FmuError, SceneError

@@ -8,11 +8,9 @@ from typing import Any
 from rich.console import Console
 from rich.text import Text
 
-from slider_resonator.output.fitting_table import STYLES
-from slider_resonator.output.fitting_text import fitting, terminal_width
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Row, Style, Table, numbers, texts
-from slider_resonator.output.terminal import escaped, rendered
+from slider_resonator.output.terminal import STYLES, escaped, fitting, rendered, terminal_width
 from studies.mutants.changes import Change
 from studies.mutants.mutant import KINDS, Mutant
 from studies.mutants.verdict import STATUSES, MutationRun, Variant, Verdict

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from slider_resonator.checks.compare import Comparison, compare
-from slider_resonator.checks.measure_points import measure_points
+from slider_resonator.checks.fmu_side import measure_points
 from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.verdict import place, sentence
 from slider_resonator.fmu.isolation.tasks import Finished

@@ -7,7 +7,7 @@ from math import pi
 
 import numpy as np
 
-from slider_resonator.checks.measures.ripple import ripple_amplitude
+from slider_resonator.checks.measures import ripple_amplitude
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references import closed_forms
 from studies.paper.claim import Claim, ClaimGroup, claim, labelled, near

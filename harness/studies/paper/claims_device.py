@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import pi
 
-from slider_resonator.checks.measures.ripple import ripple_amplitude
+from slider_resonator.checks.measures import ripple_amplitude
 from slider_resonator.device.device import Device
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.closed_forms import device_blocking_force, equivalent_force

@@ -7,7 +7,7 @@ from math import ceil, pi
 
 import numpy as np
 
-from slider_resonator.checks.measures.frequency import dominant_frequency
+from slider_resonator.checks.measures import dominant_frequency
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import averaged_coulomb
 from slider_resonator.references.closed_forms import equivalent_force

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from slider_resonator.baseline.golden import SIGNALS
+from slider_resonator.baseline.judge import SIGNALS
 from slider_resonator.baseline.store import (
     DIGITS,
     Recorded,

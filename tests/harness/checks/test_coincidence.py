@@ -2,9 +2,8 @@ from __future__ import annotations
 
 import pytest
 
-from slider_resonator.checks.coincidence import beside_events
 from slider_resonator.checks.period_means import last_events, reversal_counts
-from slider_resonator.checks.reference_side import ReferenceSide
+from slider_resonator.checks.reference_side import ReferenceSide, beside_events
 from slider_resonator.references.resolved.contact import LIFTED
 from tests.harness.scene_text import scene_of
 

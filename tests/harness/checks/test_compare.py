@@ -13,7 +13,7 @@ import pytest
 from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.expecting import expected_value
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.checks.measures.tube import Tube, no_tube
+from slider_resonator.checks.measures import Tube, no_tube
 from slider_resonator.checks.measuring import measure
 from slider_resonator.checks.natural_scale import smallest_reference
 from slider_resonator.checks.reference_side import ReferenceSide

@@ -5,11 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from slider_resonator.checks.measures.deviation import mismatch_share, peak, share_of
-from slider_resonator.checks.measures.frequency import dominant_frequency
-from slider_resonator.checks.measures.ripple import ripple_amplitude
-from slider_resonator.checks.measures.slow import last_step_velocity, slow_displacement
-from slider_resonator.checks.measures.tube import Tube, no_tube
+from slider_resonator.checks.measures import (
+    Tube,
+    dominant_frequency,
+    last_step_velocity,
+    mismatch_share,
+    no_tube,
+    peak,
+    ripple_amplitude,
+    share_of,
+    slow_displacement,
+)
 
 PERIOD = 0.002
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.compare import Check
-from slider_resonator.checks.measures.tube import no_tube
+from slider_resonator.checks.measures import no_tube
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.overview import MAX_POINTS, overview_of
 from tests.harness.verdicts import PASSED, SIGNAL

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.checks.measures.slow_error import WITHIN, error_over_estimate
+from slider_resonator.checks.measuring import WITHIN, error_over_estimate
 from slider_resonator.checks.natural_scale import fast_velocity
 from slider_resonator.errors import NotApplicable
 from slider_resonator.fmu.instance import Instance

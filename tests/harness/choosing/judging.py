@@ -12,12 +12,12 @@ from math import inf
 
 import numpy as np
 
-from slider_resonator.checks.measures.frequency import NoOscillation, dominant_frequency
+from slider_resonator.checks.measures import NoOscillation, dominant_frequency
 from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.choice import Choice
 from slider_resonator.choosing.choosing import candidates
-from slider_resonator.choosing.exact_inputs import exact_schedule
-from slider_resonator.choosing.timed_run import timed_run
+from slider_resonator.choosing.reference import exact_schedule
+from slider_resonator.choosing.steady_need import timed_run
 from slider_resonator.device.schedule import nearest
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance

@@ -2,9 +2,8 @@ from __future__ import annotations
 
 import pytest
 
-from slider_resonator.choosing.beat import unseen_beat
 from slider_resonator.choosing.choosing import choose_with
-from slider_resonator.choosing.errors import ErrorEstimate
+from slider_resonator.choosing.errors import ErrorEstimate, unseen_beat
 from slider_resonator.choosing.scales import scales_of
 from slider_resonator.fmu.instance import Instance
 from tests.harness.scene_text import scene_of

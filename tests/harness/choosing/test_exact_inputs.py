@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from slider_resonator.choosing.exact_inputs import exact_schedule, vary
+from slider_resonator.choosing.reference import exact_schedule, vary
 from slider_resonator.scenes.scene import Scene
 from tests.harness.scene_text import scene_of
 

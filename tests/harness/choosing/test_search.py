@@ -5,7 +5,7 @@ from math import inf
 from hypothesis import given
 from hypothesis import strategies as st
 
-from slider_resonator.choosing.search import coarsest
+from slider_resonator.choosing.ladder import coarsest
 
 
 @given(st.integers(1, 30), st.floats(1e-8, 1e8), st.sampled_from([2.0, 10.0]), st.data())

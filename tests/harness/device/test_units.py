@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from slider_resonator.device.interface import PARAMETERS, VARIABLES
-from slider_resonator.device.units import si_value, with_unit
+from slider_resonator.device.values import si_value, with_unit
 
 
 @pytest.mark.parametrize(

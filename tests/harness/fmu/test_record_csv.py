@@ -5,8 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from slider_resonator.fmu.record import Record
-from slider_resonator.fmu.record_csv import write_csv
+from slider_resonator.fmu.record import Record, write_csv
 
 
 def test_every_digit_is_written_under_quoted_names(tmp_path: Path) -> None:

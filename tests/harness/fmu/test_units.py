@@ -8,7 +8,7 @@ import pytest
 from fmpy.model_description import BaseUnit, DisplayUnit, Unit
 
 from slider_resonator.device.interface import INPUTS, OUTPUTS, PARAMETERS
-from slider_resonator.fmu.units import DIMENSIONS, unit_problems
+from slider_resonator.fmu.interface_check import DIMENSIONS, unit_problems
 
 NEWTON = {"kg": 1, "m": 1, "s": -2}
 

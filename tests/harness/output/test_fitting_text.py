@@ -7,9 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.console import Console
 
-from slider_resonator.output.fitting_text import fitting, terminal_width
 from slider_resonator.output.table import Table, texts
-from slider_resonator.output.terminal import rendered
+from slider_resonator.output.terminal import fitting, rendered, terminal_width
 
 COST = "cost     43 drive periods in 3 iterations, a common period is 1 of them"
 SENTENCE = "  nearest to the bound: 0.36 of it in mean_velocity, case 5"

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.output.marked_text import write_marked
+from slider_resonator.output.atomic import write_marked
 
 BEGIN, END = "<!-- part -->", "<!-- end of part -->"
 

@@ -9,7 +9,7 @@ import pytest
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.scene import Scene, read_scenes, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes
-from slider_resonator.scenes.toml_text import toml_text
+from slider_resonator.scenes.toml_file import toml_text
 from tests.harness.calling import call
 from tests.harness.scene_text import read_scene, scene_read
 

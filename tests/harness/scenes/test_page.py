@@ -18,7 +18,7 @@ from slider_resonator.scenes.page import TABLES, example_text, scene_page
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import built_in_scenes
 from slider_resonator.scenes.schema import SceneTable
-from slider_resonator.scenes.toml_text import toml_value
+from slider_resonator.scenes.toml_file import toml_value
 from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES
 from tests.harness.scenes.test_mistakes import MISTAKES
 from tests.processes import ROOT

@@ -12,8 +12,7 @@ import pytest
 from slider_resonator.output.progress import no_progress
 from slider_resonator.stress.axes import axis_cases
 from slider_resonator.stress.case import MODELS, Case
-from slider_resonator.stress.judge import MAX_RELATIVE_COST
-from slider_resonator.stress.run import StressResult, run_cases
+from slider_resonator.stress.run import MAX_RELATIVE_COST, StressResult, run_cases
 from slider_resonator.stress.verdict import FAILED, REFERENCE, REFUSED
 
 EVERY, EVERY_OF_SECOND_ORDER = 17, 41

@@ -10,8 +10,8 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.stress.axes import axis_cases
 from slider_resonator.stress.case import Case, Hold
 from slider_resonator.stress.comparisons import REFERENCE_ERROR, has_reference
-from slider_resonator.stress.judge import MAX_RELATIVE_COST, judge
 from slider_resonator.stress.observe import Observation, observe
+from slider_resonator.stress.run import MAX_RELATIVE_COST, judge
 from slider_resonator.stress.verdict import FAILED, PASSED, REFERENCE, REFUSED
 
 TABLE_1 = Case("table 1", "as it is", Model(2, 0), {}, (Hold(1e-4, 60),))

@@ -9,11 +9,10 @@ import pytest
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.opening import Fmu
 from slider_resonator.stress import comparisons
-from slider_resonator.stress.judge import judge
 from slider_resonator.stress.listing import sentences
 from slider_resonator.stress.observe import Observation, observe
 from slider_resonator.stress.random_cases import IN_TURN, random_case
-from slider_resonator.stress.run import run_cases
+from slider_resonator.stress.run import judge, run_cases
 from slider_resonator.stress.verdict import FAILED, NO_REFERENCE, PASSED, SENSITIVE
 from tests.fmus import both_fmus
 

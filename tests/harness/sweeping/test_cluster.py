@@ -15,8 +15,8 @@ from distributed import LocalCluster, Worker
 from slider_resonator.errors import HarnessError
 from slider_resonator.sweeping import cluster, sweeping
 from slider_resonator.sweeping.grid import read_grid
-from slider_resonator.sweeping.kept_points import journal_path
 from slider_resonator.sweeping.sweeping import run_sweep
+from slider_resonator.sweeping.table import journal_path
 
 
 @pytest.fixture

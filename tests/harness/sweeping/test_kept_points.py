@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.sweeping.kept_points import journal_path, open_journal, rows_of
-from slider_resonator.sweeping.worker import Row
+from slider_resonator.sweeping.measures import Row
+from slider_resonator.sweeping.table import journal_path, open_journal, rows_of
 
 ROWS: list[Row] = [
     (0, [0.1 + 0.2, "steady"], None),

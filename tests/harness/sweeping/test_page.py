@@ -9,9 +9,9 @@ import pytest
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.sweeping.grid import grid_from
+from slider_resonator.sweeping.measures import Row
 from slider_resonator.sweeping.page import MAX_POINTS, check_page, write_sweep_page
 from slider_resonator.sweeping.table import table_columns
-from slider_resonator.sweeping.worker import Row
 from tests.harness.known_provenance import PROVENANCE
 from tests.html_pages import Page
 

@@ -9,9 +9,9 @@ from matplotlib.figure import Figure
 from slider_resonator.errors import HarnessError
 from slider_resonator.sweeping import picture
 from slider_resonator.sweeping.grid import grid_from, read_grid
+from slider_resonator.sweeping.measures import Row
 from slider_resonator.sweeping.picture import check_picture, draw_sweep
 from slider_resonator.sweeping.table import table_columns
-from slider_resonator.sweeping.worker import Row
 
 AXIS = "{ from = 0.0, to = 1.0, count = 8 }"
 

@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.sweeping.measures import Run, Task
+from slider_resonator.sweeping.measures import Row, Run, Task
 from slider_resonator.sweeping.running import Workers, run_points
-from slider_resonator.sweeping.worker import Row
 from tests.harness.faulty_fmus import compiled
 
 POINTS = [(number, (0.1 * (1 + number),)) for number in range(3)]

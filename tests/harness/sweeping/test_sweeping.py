@@ -21,8 +21,8 @@ from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.steady.steady_velocity import find_steady
 from slider_resonator.sweeping.grid import read_grid
-from slider_resonator.sweeping.kept_points import journal_path, open_journal
 from slider_resonator.sweeping.sweeping import run_sweep
+from slider_resonator.sweeping.table import journal_path, open_journal
 
 DEADLINE = 120.0
 """Seconds after which a sweep of seconds counts as hanging."""

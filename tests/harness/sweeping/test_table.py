@@ -8,9 +8,8 @@ from pyarrow import parquet
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.sweeping import table
-from slider_resonator.sweeping.measures import Run, Task
+from slider_resonator.sweeping.measures import Row, Run, Task
 from slider_resonator.sweeping.table import check_writer, table_columns, write_table
-from slider_resonator.sweeping.worker import Row
 
 TASK = Task(("fidelity", "phase"), (), ("steady_velocity",), 20, Run(1, 1, 0))
 POINTS = ((0.0, 0.1), (2.0, 0.1 + 0.2))

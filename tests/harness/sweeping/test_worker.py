@@ -3,8 +3,7 @@ from __future__ import annotations
 import pytest
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.sweeping.measures import Run, Task
-from slider_resonator.sweeping.worker import FEW, measure_point, prove_points
+from slider_resonator.sweeping.measures import FEW, Run, Task, measure_point, prove_points
 
 TASK = Task(("friction_coefficient",), (), ("steady_velocity",), 20, Run(1, 1, 0))
 BOTH = Task(("phase",), (), ("blocking_force", "velocity.rms"), 20, Run(2, 16, 0))

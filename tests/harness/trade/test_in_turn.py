@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from slider_resonator.trade.in_turn import Timed, in_turn
+from slider_resonator.trade.measure import Timed, in_turn
 
 
 def test_each_work_is_timed_once_in_each_round() -> None:

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.trade.needs import (
+from slider_resonator.trade.result import AVERAGED, PEER, RESOLVED, Row, Trade
+from slider_resonator.trade.summary import (
     BEGIN,
     COLUMNS,
     END,
@@ -19,7 +20,6 @@ from slider_resonator.trade.needs import (
     choices,
     write_choices,
 )
-from slider_resonator.trade.result import AVERAGED, PEER, RESOLVED, Row, Trade
 from tests.harness.trade.test_result import row
 
 REPOSITORY = Path(__file__).parents[3]

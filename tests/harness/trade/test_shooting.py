@@ -7,7 +7,7 @@ from math import inf
 import pytest
 
 from slider_resonator.references.resolved import taylor
-from slider_resonator.trade.shooting import shoot
+from slider_resonator.trade.peer_methods import shoot
 from tests.harness.trade.problems import TABLE_1, problem
 
 

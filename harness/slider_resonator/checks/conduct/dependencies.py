@@ -6,8 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from fmpy.model_description import Unknown
 
-from slider_resonator.checks.conduct.findings import Findings
-from slider_resonator.checks.conduct.other_values import other_value
+from slider_resonator.checks.conduct.findings import Findings, other_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.fmu.instance import Instance

@@ -1,4 +1,4 @@
-"""What is found wrong with the conduct of an FMU."""
+"""What is found wrong with the conduct of an FMU, and other values to try it with."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from slider_resonator.arrays import Array
+from slider_resonator.device.interface import INPUTS, VARIABLES
 
 SHOWN = 3
 """Findings that a text names; the others are counted."""
@@ -62,3 +63,23 @@ def differences(
     if lengths:
         shown.append(f"{what}: {len(rows)} readings, expected {len(expected)}")
     return Findings(len(places) + lengths, tuple(shown[:SHOWN]))
+
+
+SHARE = 0.37
+"""Change of a value in units of its nominal one."""
+
+
+def other_value(name: str, value: float) -> float:
+    """Return another value that the variable can have, of the same order of magnitude."""
+    variable = VARIABLES[name]
+    if variable.kind == "Integer":
+        low, high = variable.minimum or 0.0, variable.maximum or 0.0
+        return low if value != low else high
+    if variable.maximum is not None:
+        return 0.5 * (value + variable.maximum)
+    return value + SHARE * (abs(value) or variable.nominal or 1.0)
+
+
+def other_inputs(values: Sequence[float]) -> list[float]:
+    """Return other values of the inputs, in the order of the interface."""
+    return [other_value(name, value) for name, value in zip(INPUTS, values, strict=True)]

@@ -13,8 +13,7 @@ from typing import Any
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Fatal
 
-from slider_resonator.checks.conduct.findings import Findings, differences
-from slider_resonator.checks.conduct.other_values import other_value
+from slider_resonator.checks.conduct.findings import Findings, differences, other_value
 from slider_resonator.checks.conduct.replays import plain_rows
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES, Variable

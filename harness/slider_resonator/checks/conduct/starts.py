@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from slider_resonator.checks.conduct.findings import Findings
-from slider_resonator.checks.conduct.other_values import other_value
+from slider_resonator.checks.conduct.findings import Findings, other_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fmu.blocks import call

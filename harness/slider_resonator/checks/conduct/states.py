@@ -9,8 +9,7 @@ from ctypes import byref, c_char, c_void_p
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
-from slider_resonator.checks.conduct.findings import Findings
-from slider_resonator.checks.conduct.other_values import other_value
+from slider_resonator.checks.conduct.findings import Findings, other_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fmu.blocks import call

@@ -20,7 +20,7 @@ from typing import BinaryIO
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance, instantiate
-from slider_resonator.fmu.isolation.layout import TRACEBACK, WORK
+from slider_resonator.fmu.isolation.child_environment import TRACEBACK, WORK
 from slider_resonator.fmu.isolation.messages import (
     Failure,
     Message,

@@ -1,4 +1,4 @@
-"""Environment variables of the processes that the harness starts."""
+"""Environment and temporary folder of the processes that the harness starts."""
 
 from __future__ import annotations
 
@@ -19,3 +19,11 @@ def child_environment(folder: str, *search_path: str) -> dict[str, str]:
     own = dict.fromkeys(("TMPDIR", "TEMP", "TMP", FOLDER), folder)
     search = os.pathsep.join([PACKAGE_PATH, *filter(None, search_path)])
     return {**os.environ, **own, "PYTHONPATH": search}
+
+
+WORK = "work"
+"""The folder that the FMU runs in."""
+PRINTED = "printed.txt"
+"""What the FMU has printed."""
+TRACEBACK = "traceback.txt"
+"""The calls that the FMU was in at its end."""

@@ -5,19 +5,19 @@ from __future__ import annotations
 import os
 import pickle
 import queue
+import select
 import subprocess
 import sys
 import threading
 from collections.abc import Callable
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from time import monotonic
 from typing import IO, Any
 
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.isolation.child_environment import child_environment
+from slider_resonator.fmu.isolation.child_environment import PRINTED, TRACEBACK, child_environment
 from slider_resonator.fmu.isolation.crash_report import crash_report, missed_limit
-from slider_resonator.fmu.isolation.layout import PRINTED, TRACEBACK
 from slider_resonator.fmu.isolation.messages import (
     Failure,
     Message,
@@ -27,10 +27,43 @@ from slider_resonator.fmu.isolation.messages import (
     Result,
     Started,
 )
-from slider_resonator.fmu.isolation.request_pipe import RequestPipe
 from slider_resonator.fmu.isolation.supervised import Supervised
 from slider_resonator.output.progress import Progress as ReportProgress
 from slider_resonator.output.temporary import temporary_folder
+
+
+class RequestPipe:
+    """A pipe whose writer does not wait for ever for a reader that has stopped."""
+
+    def __init__(self, pipe: IO[bytes]) -> None:
+        self._pipe = pipe
+        if sys.platform != "win32":
+            os.set_blocking(pipe.fileno(), False)
+
+    def __enter__(self) -> RequestPipe:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        with suppress(OSError):  # the process has closed its end of the pipe
+            self.close()
+
+    def close(self) -> None:
+        """Say that there are no more requests."""
+        self._pipe.close()
+
+    def write(self, content: bytes, seconds: float) -> None:
+        """Write all; OSError where the reader has ended or does not read for that long."""
+        if sys.platform == "win32":
+            self._pipe.write(content)
+            self._pipe.flush()
+            return
+        left, deadline = memoryview(content), monotonic() + seconds
+        while left:
+            _, ready, _ = select.select([], [self._pipe], [], max(0.0, deadline - monotonic()))
+            if not ready:
+                raise TimeoutError("the process does not read")
+            left = left[os.write(self._pipe.fileno(), left[: select.PIPE_BUF]) :]
+
 
 TIME_LIMIT = 120.0
 """Default time limit of a task, s; the slowest built-in scene takes a few."""

@@ -19,7 +19,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.equations import Equations
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.trade.peers.without_events import RunWithoutEvents
+from slider_resonator.trade.peers.event_free import RunWithoutEvents
 
 _SAME_INSTANT = 1e-9
 """Share of a step by which rounding may exceed a whole number of steps."""

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from slider_resonator.checks.conduct.other_values import other_inputs, other_value
+from slider_resonator.checks.conduct.findings import other_inputs, other_value
 from slider_resonator.device.interface import VARIABLES
 
 SETTABLE = [variable for variable in VARIABLES.values() if variable.start is not None]

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from slider_resonator.checks.overview import Overview
-from slider_resonator.checks.reports.html_report import write_html
-from slider_resonator.checks.reports.scene_sections import MAX_UNFOLDED
+from slider_resonator.checks.reports.html_report import MAX_UNFOLDED, write_html
 from slider_resonator.checks.validate import Validation
 from tests.harness.verdicts import BAD, BROKEN, GOOD, PASSED, SIGNAL, SLOWER, TIMES
 from tests.html_pages import Page

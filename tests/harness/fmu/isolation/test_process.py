@@ -12,8 +12,7 @@ import pytest
 
 from slider_resonator.errors import FmuError, Refusal
 from slider_resonator.fmu.isolation import process
-from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
-from slider_resonator.fmu.isolation.request_pipe import RequestPipe
+from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, RequestPipe
 from tests.harness.fmu.isolation import tasks_of_tests as tasks
 from tests.processes import has_ended
 

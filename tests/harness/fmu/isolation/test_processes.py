@@ -13,7 +13,7 @@ import pytest
 
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.isolation import processes, tasks
+from slider_resonator.fmu.isolation import tasks
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.isolation.tasks import run_tasks
 from tests.harness.fmu.isolation import tasks_of_tests
@@ -37,7 +37,7 @@ def opened(monkeypatch: pytest.MonkeyPatch) -> list[float]:
         times.append(monotonic())
         return IsolatedFmu(*arguments)
 
-    monkeypatch.setattr(processes, "IsolatedFmu", isolated)
+    monkeypatch.setattr(tasks, "IsolatedFmu", isolated)
     return times
 
 
@@ -95,7 +95,7 @@ def test_an_fmu_that_runs_only_once_at_a_time_is_run_by_one_process(
         opened.append(IsolatedFmu(*arguments))
         return opened[0]
 
-    monkeypatch.setattr(processes, "IsolatedFmu", licensed)
+    monkeypatch.setattr(tasks, "IsolatedFmu", licensed)
     finished = list(
         run_tasks(native_fmu, [(name, SLOW) for name in "abcd"], 60.0, name=str, jobs=2)
     )

@@ -1,1 +1,0 @@
-"""Measures of sampled signals: slow displacement, ripple, dominant frequency, deviation, tubes."""
