@@ -8,18 +8,24 @@
 
 Keywords are parameters and inputs of the FMU, numbers in SI units or texts such as "20 kHz"; all
 others keep the value of the device, by default that of table 1. A device is a `Device`, a device
-file, or the name of an example of `slider-resonator device`. A scene is the name of one that is
-built in, a file, data of the same form, or the result of `read_scene`. Without an FMU the native
-one of this installation is used. Every error is a `HarnessError`, whose text is what the command
-would print.
+file, the name of an example of `slider-resonator device`, or its parameters by name. A scene is the
+name of one that is built in, a file, data of the same form, or the result of `read_scene`. Data may
+have numpy arrays and ranges for lists. Without an FMU the native one of this installation is used.
+Every error is a `HarnessError`, whose text is what the command would print.
+
+The `repr` of a result says what was found, on a screen at most. `to_pandas()` gives its table,
+`plot()` its picture.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from functools import partial
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial, wraps
+from numbers import Integral, Real
 from pathlib import Path
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
+
+import numpy as np
 
 from slider_resonator.checks.validate import Validation
 from slider_resonator.checks.validate import validate as validate_scenes
@@ -38,13 +44,14 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run as run_schedule
+from slider_resonator.scenes.device_file import device_values, to_toml
 from slider_resonator.scenes.device_file import read_device as read_device_file
-from slider_resonator.scenes.device_file import to_toml
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes
+from slider_resonator.scenes.scene_record import SceneRecord
 from slider_resonator.steady.blocking_force import Blocking, find_blocking
 from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
-from slider_resonator.sweeping.grid import Sweep, grid_from, read_grid
+from slider_resonator.sweeping.grid import grid_from, read_grid
 from slider_resonator.sweeping.sweeping import SweepResult, run_sweep
 
 __all__ = [
@@ -71,9 +78,24 @@ __all__ = [
 ]
 
 SceneLike = str | Path | Mapping[str, Any] | Scene
-DeviceLike = str | Path | Device
-Value = float | str
+Value = float | np.number[Any] | str
 """A number in SI units, or a text with a unit."""
+DeviceLike = str | Path | Device | Mapping[str, Value]
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def _plain_errors(function: Callable[P, R]) -> Callable[P, R]:
+    """Raise a HarnessError without the errors of other libraries that it was made from."""
+
+    @wraps(function)
+    def call(*args: P.args, **kwargs: P.kwargs) -> R:
+        try:
+            return function(*args, **kwargs)
+        except HarnessError as error:
+            raise error from None
+
+    return call
 
 
 class OpenFmu:
@@ -100,7 +122,12 @@ class OpenFmu:
         """Free the FMU and end its process."""
         self._isolated.close()
 
-    def run(self, scene: SceneLike, **values: Value) -> Record:
+    def __repr__(self) -> str:
+        """Return the path of the FMU."""
+        return f"OpenFmu({str(self.path)!r})"
+
+    @_plain_errors
+    def run(self, scene: SceneLike, **values: Value) -> SceneRecord:
         """Run a scene and return inputs and outputs at all its communication points.
 
         The device that the FMU was opened with replaces what the scene says of these parameters.
@@ -108,23 +135,28 @@ class OpenFmu:
         read = read_scene(scene, **{**self._device, **values})
         task = partial(run_schedule, parameters=read.parameters, schedule=read.schedule())
         record: Record = self._isolated.run(task)
-        return record
+        return SceneRecord(**vars(record), scene=read)
 
+    @_plain_errors
     def steady(self, *, max_denominator: int = MAX_DENOMINATOR, **values: Value) -> SteadyMotion:
         """Find the steady motion by shooting; its `status` says why there is none."""
         checked = {**self._device, **_checked(values)}
-        search = partial(find_steady, values=checked, max_denominator=max_denominator)
+        largest = _whole("max_denominator", max_denominator)
+        search = partial(find_steady, values=checked, max_denominator=largest)
         motion: SteadyMotion = self._isolated.run(search)
         return motion
 
+    @_plain_errors
     def blocking(self, *, max_denominator: int = MAX_DENOMINATOR, **values: Value) -> Blocking:
         """Find the load that stops the slider; its `status` says why there is none."""
         checked = {**self._device, **_checked(values)}
-        search = partial(find_blocking, values=checked, max_denominator=max_denominator)
+        largest = _whole("max_denominator", max_denominator)
+        search = partial(find_blocking, values=checked, max_denominator=largest)
         blocking: Blocking = self._isolated.run(search)
         return blocking
 
 
+@_plain_errors
 def open_fmu(
     fmu: str | Path | None = None,
     *,
@@ -132,19 +164,23 @@ def open_fmu(
     time_limit: float = TIME_LIMIT,
 ) -> OpenFmu:
     """Open an FMU for a `with` block; what it computes is for `device` unless values say else."""
-    return OpenFmu(_fmu(fmu), time_limit, _differing(device))
+    return OpenFmu(_fmu(fmu), _seconds(time_limit), _differing(device))
 
 
+@_plain_errors
 def read_device(device: DeviceLike) -> Device:
-    """Return a device: of a file, of an example by name, or as it is.
+    """Return a device: of a file, of an example by name, of parameters, or as it is.
 
     Raises SceneError with file, key, value and requirement.
     """
     if isinstance(device, Device):
-        return device
+        return Device.from_mapping(_checked(vars(device)))
+    if isinstance(device, Mapping):
+        return Device.from_mapping(device_values({"device": _plain(device)}, "device"))
     return Device.from_mapping(read_device_file(str(device)))
 
 
+@_plain_errors
 def read_scene(scene: SceneLike, **values: Value) -> Scene:
     """Return a scene, its parameters and inputs replaced by `values`.
 
@@ -154,11 +190,12 @@ def read_scene(scene: SceneLike, **values: Value) -> Scene:
     if isinstance(scene, Scene):
         return scene.with_values(checked)
     if isinstance(scene, Mapping):
-        named = {"name": "scene", "title": "scene", **scene}
+        named = {"name": "scene", "title": "scene", **_plain(scene)}
         return scene_from(named, str(named["name"])).with_values(checked)
     return find_scene(str(scene), checked)
 
 
+@_plain_errors
 def validate(
     *fmus: str | Path,
     scenes: str | Path | Sequence[str | Path] | None = None,
@@ -176,14 +213,18 @@ def validate(
         raise SceneError("scenes = []: must be at least one scene; leave it out to run all")
     found = find_scenes([str(scene) for scene in named or ()])
     paths = [Path(fmu) for fmu in fmus] or [fmu_path("native")]
-    return validate_scenes(paths, found, time_limit=time_limit, jobs=jobs or available_cores())
+    return validate_scenes(
+        paths, found, time_limit=_seconds(time_limit), jobs=_processes("jobs", jobs)
+    )
 
 
+@_plain_errors
 def choose(scene: SceneLike, fmu: str | Path | None = None, **values: Value) -> Choice:
     """Choose the cheapest fidelity, friction law, tolerance and step that meet a scene's needs."""
     return choose_model(read_scene(scene, **values), _fmu(fmu))
 
 
+@_plain_errors
 def sweep(
     grid: str | Path | Mapping[str, Any],
     out: str | Path,
@@ -199,20 +240,21 @@ def sweep(
     each core. `columns` of the result are the table. Finished points are kept beside `out` until it
     is written; `restart` discards them. A table of another grid is replaced only with `overwrite`.
     """
-    read: Sweep = grid_from(grid, "grid") if isinstance(grid, Mapping) else read_grid(Path(grid))
+    read = grid_from(_plain(grid), "grid") if isinstance(grid, Mapping) else read_grid(Path(grid))
     return run_sweep(
         read,
         _fmu(fmu),
         Path(out),
-        workers=workers or available_cores(),
+        workers=_processes("workers", workers),
         restart=restart,
         overwrite=overwrite,
     )
 
 
+@_plain_errors
 def fit(
     data: str | Path | Measurements | Sequence[str | Path],
-    free: Sequence[str],
+    free: str | Sequence[str],
     fmu: str | Path | None = None,
     *,
     device: DeviceLike | None = None,
@@ -234,12 +276,12 @@ def fit(
     checked = {**_differing(device), **_checked(values)}
     return fit_parameters(
         data,
-        free,
+        [free] if isinstance(free, str) else free,
         {name: value for name, value in checked.items() if name in PARAMETERS},
-        isolated(_fmu(fmu), jobs or available_cores(), time_limit),
+        isolated(_fmu(fmu), _processes("jobs", jobs), _seconds(time_limit)),
         inputs={name: value for name, value in checked.items() if name in INPUTS},
-        bounds=bounds,
-        starts=starts,
+        bounds=_plain(bounds),
+        starts=_whole("starts", starts),
     )
 
 
@@ -261,8 +303,33 @@ def _checked(values: Mapping[str, Value]) -> dict[str, float]:
         if name not in allowed:
             raise SceneError(unknown_name("parameter or input", name, allowed))
         try:
-            checked[name] = si_value(name, value) if isinstance(value, str) else value
+            checked[name] = si_value(name, value) if isinstance(value, str) else _plain(value)
             check_value(name, checked[name])
         except ValueError as error:
             raise SceneError(str(error)) from error
     return checked
+
+
+def _plain(data: Any) -> Any:
+    """Return data with arrays, ranges and tuples as lists, and numpy's numbers as Python's."""
+    if isinstance(data, Mapping):
+        return {key: _plain(value) for key, value in data.items()}
+    if hasattr(data, "tolist"):
+        return data.tolist()
+    return [_plain(entry) for entry in data] if isinstance(data, list | tuple | range) else data
+
+
+def _processes(name: str, count: int | None) -> int:
+    return available_cores() if count is None else _whole(name, count)
+
+
+def _whole(name: str, value: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, Integral) or value < 1:
+        raise HarnessError(f"{name} = {value!r}: must be a whole number of at least 1")
+    return int(value)
+
+
+def _seconds(time_limit: float) -> float:
+    if isinstance(time_limit, bool) or not isinstance(time_limit, Real) or not time_limit > 0.0:
+        raise HarnessError(f"time_limit = {time_limit!r}: must be a number above 0, in s")
+    return float(time_limit)

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from fmpy import simulate_fmu
 
 import slider_resonator as sr
+from slider_resonator.fitting.measurements import Measurements, Point
 from slider_resonator.fmu import finished
+from slider_resonator.output.plot_style import Picture
 
 STEADY_VELOCITY = 0.0986951
 """Of table 1 at phase 0.4 rad and a load of 0.05 N, by Taylor integration, m/s."""
@@ -115,6 +122,125 @@ def test_finished_fmus_are_found_or_the_remedy_is_named(
         assert sr.fmu_path(build) == tmp_path / name
     with pytest.raises(sr.HarnessError, match="'fmi2': must be one of 'native', 'python', 'fmi3'"):
         sr.fmu_path("fmi2")  # type: ignore[arg-type]
+
+
+def test_results_say_what_was_found_on_a_screen(native_fmu: Path, tmp_path: Path) -> None:
+    with sr.open_fmu(native_fmu, device={"slider_mass": "2 kg"}) as fmu:
+        record, motion = fmu.run("table_1"), fmu.steady(phase=0.4)
+        blocking = fmu.blocking()
+    grid = {"measures": ["steady_velocity"], "grid": {"phase": np.linspace(0.0, 1.0, 3)}}
+    table = sr.sweep(grid, tmp_path / "table.csv", native_fmu, workers=1)
+    (validation,) = sr.validate(native_fmu, scenes=["blocking_force_table_1"])
+    choice = sr.choose("feed_forward", native_fmu)
+    fit = sr.fit(
+        Measurements((Point({}, "steady_velocity", 0.12),)), "friction_coefficient", native_fmu
+    )
+    scene = sr.read_scene("table_1")
+    for result, words in (
+        (record, f"mean_velocity           {record.final('mean_velocity'):.9g} m/s"),
+        (motion, f"{motion.steady_velocity:.10g} m/s"),
+        (blocking, f"{blocking.blocking_force:.10g} N"),
+        (table, f"{min(table.columns['steady_velocity']):.6g} to"),
+        (validation, f"passed: {len(validation.checks)} of {len(validation.checks)} checks"),
+        (choice, choice.model.name),
+        (fit, f"{fit.parameters[0].value:.6g}"),
+        (scene, "table_1: The device of table 1"),
+        (fit.device, "Device(friction_coefficient="),
+    ):
+        text = repr(result)
+        assert words in text
+        assert text.count("\n") <= 25
+        assert max(map(len, text.splitlines())) < 300
+    for drawable in (record, table, fit):
+        picture = tmp_path / f"{type(drawable).__name__}.png"
+        assert isinstance(drawable.plot(picture), Picture), "a notebook shows it"
+        assert picture.read_bytes().startswith(b"\x89PNG")
+    with pytest.raises(sr.HarnessError, match=r"the suffix is '\.gif'; must be one of \.png"):
+        record.plot(tmp_path / "run.gif")
+    for tabular in (record, table, fit, validation, choice):
+        assert len({len(column) for column in tabular.table().values()}) == 1
+
+
+def test_lines_that_do_not_fit_a_screen_are_counted(native_fmu: Path) -> None:
+    (validation,) = sr.validate(native_fmu, scenes=["blocking_force_table_1"])
+    failed = tuple(replace(check, passed=False) for check in validation.checks) * 50
+    lines = repr(replace(validation, checks=failed)).splitlines()
+    assert len(lines) <= 25
+    assert lines[1].startswith(f"  FAILED: 0 of {len(failed)} checks passed")
+    assert lines[-1].endswith("lines more")
+
+
+def test_tables_go_to_pandas_where_it_is_installed(
+    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with sr.open_fmu(native_fmu) as fmu:
+        record = fmu.run({"run": {"stop_time": 0.05, "step_size": 0.01}})
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(sr.HarnessError, match="needs pandas: pip install pandas"):
+        record.to_pandas()
+    monkeypatch.setitem(sys.modules, "pandas", SimpleNamespace(DataFrame=dict))
+    frame = record.to_pandas()
+    assert list(frame)[:4] == ["time", "phase", "load", "frequency_ratio"]
+    assert frame["position"] is record["position"]
+
+
+def test_arrays_and_numbers_of_numpy_are_data(native_fmu: Path, tmp_path: Path) -> None:
+    points = np.array([[0.0, 0.0], [0.05, 0.02]])
+    scene = sr.read_scene(
+        {
+            "run": {"stop_time": np.float32(0.5), "step_size": np.float64(0.01)},
+            "device": {"friction_law": np.int64(1)},
+            "inputs": {"load": {"steps": points}, "phase": {"ramp": tuple(points)}},
+        },
+        damping_ratio=np.float32(0.5),
+    )
+    assert scene.signals["load"].values == (0.0, 0.02)
+    assert scene.parameters == {"friction_law": 1.0, "damping_ratio": 0.5}
+    assert {type(value) for value in scene.parameters.values()} == {float}
+    grid = {
+        "measures": ("steady_velocity",),
+        "grid": {"friction_law": range(2), "phase": np.arange(2)},
+        "fixed": {"load": np.float64(0.01)},
+    }
+    result = sr.sweep(grid, tmp_path / "table.csv", native_fmu, workers=1)
+    assert (result.points, result.failed) == (4, 0)
+
+
+@pytest.mark.parametrize(
+    ("call", "text"),
+    [
+        (
+            lambda: sr.read_scene("table_1", phase=float("nan")),
+            "phase = nan: must be a",
+        ),
+        (lambda: sr.read_scene({"run": {"stop_time": "a"}}), r"scene: run\.stop_time = 'a': must"),
+        (
+            lambda: sr.read_device({"slider_mass": -1}),
+            r"device\.slider_mass = -1: must be a",
+        ),
+        (lambda: sr.read_device(sr.Device(slider_mass=-1.0)), "slider_mass = -1.0: must be a fin"),
+        (lambda: sr.read_device("no.toml"), r"no\.toml: cannot be read: No such file"),
+        (lambda: sr.open_fmu("no.fmu", time_limit=0), "time_limit = 0: must be a number above 0"),
+        (lambda: sr.validate("no.fmu", scenes="table_1", jobs=0), "jobs = 0: must be a whole num"),
+        (lambda: sr.sweep({"grid": {"phase": 3}}, "a.csv"), r"grid\.phase = 3: must be a list"),
+        (lambda: sr.fit("no.csv", "damping_ratio"), r"no\.csv cannot be read"),
+    ],
+)
+def test_bad_arguments_are_one_line(call: Callable[[], object], text: str) -> None:
+    with pytest.raises(sr.HarnessError, match=text) as caught:
+        call()
+    assert "\n" not in str(caught.value)
+    assert caught.value.__cause__ is None
+    assert caught.value.__suppress_context__, "a script shows no other error"
+
+
+def test_a_device_may_be_given_with_units(native_fmu: Path) -> None:
+    text: Any = "0.2 mm"  # as annotated, a Device has numbers
+    for device in ({"base_amplitude": text}, sr.Device(base_amplitude=text)):
+        assert sr.read_device(device) == sr.Device(base_amplitude=2e-4)
+        with sr.open_fmu(native_fmu, device=device) as fmu:
+            record = fmu.run("table_1")
+        assert record.scene.parameters["base_amplitude"] == 2e-4
 
 
 def test_no_scenes_are_not_all_scenes() -> None:

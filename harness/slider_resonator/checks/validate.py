@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -17,12 +17,15 @@ from slider_resonator.checks.fmu_side import measure_points
 from slider_resonator.checks.measures import Tube
 from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.overview import Overview, overview_of
+from slider_resonator.checks.verdict import place, sentence, title
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.isolation.tasks import Finished
 from slider_resonator.fmu.opening import lacking
 from slider_resonator.fmu.provenance import FmuIdentity, Provenance, identity_of, provenance_of
 from slider_resonator.output.progress import Progress, counted, no_progress
+from slider_resonator.output.readable import number_of
+from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.scenes.scene import Scene, ScenePoint
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -64,8 +67,8 @@ class Curves:
     reference: Array
 
 
-@dataclass(frozen=True)
-class Validation:
+@dataclass(frozen=True, repr=False)
+class Validation(Shown, Tabular):
     """All checks of an FMU, in the order of the scenes, and the wall time in s.
 
     `identity` is that of the FMU's file when the run began, `overviews` show the first point of
@@ -97,6 +100,31 @@ class Validation:
         if self.run_failures or not self.checks:
             return 2
         return int(not all(check.passed for check in self.checks))
+
+    def table(self) -> dict[str, list[Any]]:
+        """Return the checks in columns."""
+        columns = [one.name for one in fields(Check)]
+        return {name: [getattr(check, name) for check in self.checks] for name in columns}
+
+    def describe(self) -> list[str]:
+        """Return the verdict, and a line for each scene that could not run and failed check."""
+        failed = [check for check in self.checks if not check.passed]
+        scenes = len({check.scene for check in self.checks})
+        verdict = "passed" if self.passed else "FAILED" if self.exit_code == 1 else "could not run"
+        without = judged_without(self)
+        return [
+            f"{verdict}: {len(self.checks) - len(failed)} of "
+            f"{number_of(len(self.checks), 'check')} passed in {number_of(scenes, 'scene')}, "
+            f"{self.wall_time:.1f} s",
+            self.fmu,
+            *([without] if without else []),
+            *(
+                f"could not run: {one.scene}{place(one.at, ' at ')}{': ' if one.scene else ''}"
+                f"{one.reason}"
+                for one in self.run_failures
+            ),
+            *(f"FAIL {check.scene}: {title(check)}: {sentence(check)}" for check in failed),
+        ]
 
 
 def validate(
@@ -230,6 +258,27 @@ class _Judging:
 def provenance_of_all(validations: Sequence[Validation]) -> Provenance:
     """Return the provenance of the verdicts on some FMUs."""
     return provenance_of(*(v.identity or identity_of(v.fmu) for v in validations))
+
+
+def judged_without(validation: Validation) -> str:
+    """Return what the FMU lacks and how many checks do not apply to it, "" for neither."""
+    parts = []
+    if validation.lacks:
+        parts.append(
+            f"judged without {', '.join(validation.lacks)}, which came with a later interface"
+        )
+    count = len(validation.not_applied)
+    if count:
+        parts.append(f"{count} {'check does' if count == 1 else 'checks do'} not apply")
+    return "; ".join(parts)
+
+
+def not_applied(validation: Validation) -> list[tuple[str, str, str]]:
+    """Return scene, quantity and reason of each check that does not apply."""
+    return [
+        (f"{one.scene}{place(one.at, ' at ')}", one.quantity, one.reason)
+        for one in validation.not_applied
+    ]
 
 
 def curves_of(check: Check, measured: Measurement, expected: Any) -> Curves | None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from slider_resonator.checks.compare import AT_LEAST, AT_MOST, Check, Value
-from slider_resonator.checks.validate import Validation
 from slider_resonator.output.readable import readable
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -51,27 +50,6 @@ def measure_of(check: Check) -> str:
 def _near_zero(check: Check) -> bool:
     """Return whether the peak of a reference counts as larger than it is."""
     return check.scale is not None and check.scale != check.reference
-
-
-def judged_without(validation: Validation) -> str:
-    """Return what the FMU lacks and how many checks do not apply to it, "" for neither."""
-    parts = []
-    if validation.lacks:
-        parts.append(
-            f"judged without {', '.join(validation.lacks)}, which came with a later interface"
-        )
-    count = len(validation.not_applied)
-    if count:
-        parts.append(f"{count} {'check does' if count == 1 else 'checks do'} not apply")
-    return "; ".join(parts)
-
-
-def not_applied(validation: Validation) -> list[tuple[str, str, str]]:
-    """Return scene, quantity and reason of each check that does not apply."""
-    return [
-        (f"{one.scene}{place(one.at, ' at ')}", one.quantity, one.reason)
-        for one in validation.not_applied
-    ]
 
 
 def place(at: Mapping[str, float], before: str = "") -> str:

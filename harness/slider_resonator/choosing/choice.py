@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
+from typing import Any
 
 from slider_resonator.choosing.candidate import Candidate, uses_tolerance
 from slider_resonator.choosing.errors import ErrorEstimate
 from slider_resonator.choosing.scales import Scales
 from slider_resonator.device.model import Model
+from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.scenes.scene import Scene
 
 MARGIN = 0.99
@@ -23,6 +25,23 @@ INPUTS = {
     "cannot": "inputs are held over each: the FMU has canInterpolateInputs = false",
 }
 """How inputs that are straight lines reach an FMU, in words."""
+
+UNITS: Mapping[str, str] = {
+    "mean_velocity": "m/s",
+    "mean_velocity_throughout": "m/s",
+    "position": "m",
+    "velocity": "m/s",
+    "steady_velocity": "m/s",
+    "blocking_force": "N",
+    "event_times": "s",
+    "beat": "Hz",
+}
+"""Units of the needs."""
+
+
+def error_text(error: float) -> str:
+    """Return a measured error for people."""
+    return f"{error:.3g}" if isfinite(error) else "no bound"
 
 
 @dataclass(frozen=True)
@@ -90,8 +109,8 @@ class RuledOut:
         return Model(self.fidelity, self.friction_law, self.averaging_order)
 
 
-@dataclass(frozen=True)
-class Choice:
+@dataclass(frozen=True, repr=False)
+class Choice(Shown, Tabular):
     """The cheapest candidate that meets every need, or the nearest where `meets` is False.
 
     `averaging_order` is None but for averaged motion in an FMU that has a choice of orders. `step`
@@ -143,6 +162,24 @@ class Choice:
             f"cost     {self.cost:.3g} s of CPU time, measured",
             f"probe    {self.probe_drive_periods:.0f} drive periods resolved ({self.probe})",
         ]
+
+    def table(self) -> dict[str, list[Any]]:
+        """Return need, error, allowed error and unit, in columns."""
+        return {
+            "need": list(self.error),
+            "error": list(self.error.values()),
+            "allowed": [self.allowed[name] for name in self.error],
+            "unit": [UNITS[name] for name in self.error],
+        }
+
+    def describe(self) -> list[str]:
+        """Return what was chosen, how it meets each need, and what was ruled out."""
+        needs = [
+            f"need     {name}: error {error_text(error)}, allowed {allowed:.3g} {unit}"
+            for name, error, allowed, unit in zip(*self.table().values(), strict=True)
+        ]
+        others = [f"not      {one.model.name}: {one.why}" for one in self.ruled_out]
+        return [*self.sentences(), *needs, *others]
 
     @property
     def _step(self) -> str:

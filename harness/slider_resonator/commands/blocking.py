@@ -46,8 +46,4 @@ def blocking_command(
     with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
         progress("searching the blocking force", 0.0)
         blocking = isolated.run(search, progress)
-    found = blocking.blocking_force
-    code = print_search_result(
-        blocking, "blocking force", found, "N", as_json, provenance, settings
-    )
-    context.exit(code)
+    context.exit(print_search_result(blocking, as_json, provenance, settings))

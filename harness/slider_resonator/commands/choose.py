@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from math import isfinite
 from pathlib import Path
 
 import click
 
 from slider_resonator.choosing import Choice, choose
+from slider_resonator.choosing.choice import error_text
 from slider_resonator.choosing.choosing import TIME_LIMIT
 from slider_resonator.commands.options import (
     SettingsCommand,
@@ -23,17 +23,6 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.scene_files import find_scene
-
-UNITS = {
-    "mean_velocity": "m/s",
-    "mean_velocity_throughout": "m/s",
-    "position": "m",
-    "velocity": "m/s",
-    "steady_velocity": "m/s",
-    "blocking_force": "N",
-    "event_times": "s",
-    "beat": "Hz",
-}
 
 
 @click.command(
@@ -89,10 +78,10 @@ def choose_command(
 
 def _print(choice: Choice) -> None:
     print_text("\n".join(choice.sentences()))
-    needs = []
-    for name, error in choice.error.items():
-        found = f"{error:.3g}" if isfinite(error) else "no bound"
-        needs.append((name, found, f"{choice.allowed[name]:.3g}", UNITS[name]))
+    needs = [
+        (name, error_text(error), f"{allowed:.3g}", unit)
+        for name, error, allowed, unit in zip(*choice.table().values(), strict=True)
+    ]
     columns = (*texts("need"), *numbers("error", "allowed"), *texts("unit"))
     print_table(Table(columns, needs))
     others = [(ruled_out.model.name, ruled_out.why) for ruled_out in choice.ruled_out]

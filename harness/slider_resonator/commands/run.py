@@ -183,9 +183,11 @@ def run_command(
             write_csv(record, out)
         if plot is not None and drawing.is_default:
             # Imported here: drawing takes longer to load than the rest to run.
-            from slider_resonator.scenes.run_plot import plot_run, schedule_to_plot
+            from slider_resonator.output.plot_style import save
+            from slider_resonator.scenes.run_plot import run_figure, schedule_to_plot
 
-            plot_run(_run(isolated, read, schedule_to_plot(read), progress), read, plot)
+            fine = _run(isolated, read, schedule_to_plot(read), progress)
+            save(run_figure(fine, read), plot)
         elif plot is not None:
             draw_signals(isolated, fmu, read, drawing, plot, time_limit)
     summary = _summary(fmu, read, record, out, plot, choice, how)

@@ -16,7 +16,7 @@ from slider_resonator.commands.results import print_result
 from slider_resonator.device.device import Device
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.provenance import Provenance
-from slider_resonator.output.readable import number_of, readable
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.terminal import one_line
 from slider_resonator.steady.search_result import SearchResult
 
@@ -31,40 +31,15 @@ def search_arguments(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def print_search_result(
-    result: SearchResult,
-    what: str,
-    value: float | None,
-    unit: str,
-    as_json: bool,
-    provenance: Provenance,
-    settings: Mapping[str, float],
+    result: SearchResult, as_json: bool, provenance: Provenance, settings: Mapping[str, float]
 ) -> int:
     """Print the result of a search and return the exit code, 1 when there is no value."""
     (fmu,) = provenance.fmus
     faces = int(settings.get("friction_faces", Device().friction_faces))
-    text = (
-        f"{_sentences(result, what, value, unit)}\n"
-        f"friction         on {number_of(faces, 'face')} (friction_faces)\n"
-        f"FMU              {one_line(fmu.fmu)}"
-    )
-    print_result(result, text, as_json=as_json, provenance=provenance)
-    return 1 if value is None else 0
-
-
-def _sentences(outcome: SearchResult, what: str, value: float | None, unit: str) -> str:
-    found = "none" if value is None else f"{readable(value, 10)} {unit}"
     lines = [
-        f"{what:<17}{found}",
-        f"status           {outcome.status}: {one_line(outcome.reason)}",
-        f"FMU's output     {readable(outcome.predicted, 10)} {unit} (read without a run)",
+        *result.describe(),
+        f"friction         on {number_of(faces, 'face')} (friction_faces)",
+        f"FMU              {one_line(fmu.fmu)}",
     ]
-    if outcome.common_period is not None:
-        lines.append(
-            f"cost             {number_of(outcome.periods, 'drive period')} in "
-            f"{number_of(outcome.iterations, 'iteration')}, "
-            f"a common period is {outcome.common_period} of them"
-        )
-    if outcome.multipliers:
-        sizes = ", ".join(f"{abs(multiplier):.6f}" for multiplier in outcome.multipliers)
-        lines.append(f"multipliers      {sizes} (magnitudes)")
-    return "\n".join(lines)
+    print_result(result, "\n".join(lines), as_json=as_json, provenance=provenance)
+    return 1 if result.answer[1] is None else 0

@@ -49,8 +49,4 @@ def steady_command(
     with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
         progress("searching the steady velocity", 0.0)
         motion = isolated.run(search, progress)
-    found = motion.steady_velocity
-    code = print_search_result(
-        motion, "steady velocity", found, "m/s", as_json, provenance, settings
-    )
-    context.exit(code)
+    context.exit(print_search_result(motion, as_json, provenance, settings))

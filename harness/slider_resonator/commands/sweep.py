@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -19,13 +18,12 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.results import print_result, print_text
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.isolation.tasks import available_cores
-from slider_resonator.fmu.provenance import Provenance, provenance_of
+from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
-from slider_resonator.output.readable import number_of
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.terminal import one_line
 from slider_resonator.sweeping.grid import Sweep, read_grid
-from slider_resonator.sweeping.sweeping import SweepResult, run_sweep
+from slider_resonator.sweeping.sweeping import run_sweep
 from slider_resonator.sweeping.table import SUFFIXES, journal_path
 
 
@@ -104,7 +102,12 @@ def sweep_command(
             time_limit=time_limit,
             progress=progress,
         )
-    _draw(sweep, result, plot, html, provenance)
+    if plot is not None:
+        result.plot(plot)
+    if html is not None:
+        from slider_resonator.sweeping.page import write_sweep_page
+
+        write_sweep_page(html, sweep, result.columns, provenance)
     for number in result.damaged:
         print_text(
             f"{journal_path(out)} entry {number}: damaged; its points were computed again", err=True
@@ -112,8 +115,9 @@ def sweep_command(
     facts = {"points": result.points, "found": result.found, "failed": result.failed}
     facts["unanswered"] = result.unanswered
     document = {"out": str(out), **facts, "first_error": result.first_error}
-    sentences = _sentences(result, [out, *filter(None, (plot, html))])
-    print_result(document, sentences, as_json=as_json, provenance=provenance)
+    written = ", ".join(map(str, [out, *filter(None, (plot, html))]))
+    text = "\n".join([*result.sentences(), f"written    {one_line(written)}"])
+    print_result(document, text, as_json=as_json, provenance=provenance)
     context.exit(1 if result.failed else 0)
 
 
@@ -128,33 +132,3 @@ def _check_drawable(sweep: Sweep, plot: Path | None, html: Path | None) -> None:
         from slider_resonator.sweeping.page import check_page
 
         check_page(sweep, "--html")
-
-
-def _draw(
-    sweep: Sweep,
-    result: SweepResult,
-    plot: Path | None,
-    html: Path | None,
-    provenance: Provenance,
-) -> None:
-    if plot is not None:
-        from slider_resonator.sweeping.picture import draw_sweep
-
-        draw_sweep(sweep, result.columns, plot)
-    if html is not None:
-        from slider_resonator.sweeping.page import write_sweep_page
-
-        write_sweep_page(html, sweep, result.columns, provenance)
-
-
-def _sentences(result: SweepResult, written: Sequence[Path]) -> str:
-    lines = [f"points     {result.points}"]
-    if result.found:
-        lines.append(f"found      {result.found} of them finished before")
-    if result.unanswered:
-        lines.append(f"no answer  to a measure at {number_of(result.unanswered, 'point')}")
-    if result.failed:
-        points = number_of(result.failed, "point")
-        lines.append(f"failed     {points}; the first error: {result.first_error}")
-    lines.append(f"written    {one_line(', '.join(map(str, written)))}")
-    return "\n".join(lines)

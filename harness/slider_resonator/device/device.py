@@ -47,7 +47,7 @@ def _choice(
     return field(default=start, metadata={"bounds": bounds})
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Device:
     """Parameters of the slider with an embedded resonator, SI units, start values of table 1.
 
@@ -78,6 +78,15 @@ class Device:
     initial_resonator_velocity: float = _real(0.0, "m/s", nominal=1.0)
     initial_bristle_deflection: float = _real(0.0, "m", nominal=1e-6)
     averaging_order: int = _choice(2, 1, 2, since="0.2.0", without=1)
+
+    def __repr__(self) -> str:
+        """Return what differs from table 1, as the call that makes it."""
+        differing = [
+            f"{one.name}={getattr(self, one.name)!r}"
+            for one in fields(self)
+            if getattr(self, one.name) != one.default
+        ]
+        return f"Device({', '.join(differing)})"
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, float]) -> Device:

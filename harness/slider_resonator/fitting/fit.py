@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from math import isfinite
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.special import ndtri, stdtrit
@@ -31,6 +31,11 @@ from slider_resonator.fitting.prediction import predict
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, Task
 from slider_resonator.fmu.isolation.tasks import run_tasks
 from slider_resonator.output.progress import Progress, counted, no_progress
+from slider_resonator.output.readable import number_of
+from slider_resonator.output.shown import Drawable, Shown, Tabular
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 STARTS = 5
 REACH = 3.0
@@ -60,8 +65,8 @@ class FittedParameter:
     is_open: bool
 
 
-@dataclass(frozen=True)
-class Fit:
+@dataclass(frozen=True, repr=False)
+class Fit(Shown, Tabular, Drawable):
     """The result of a fit.
 
     `residuals` are predicted minus measured over the standard deviation, `scale` the standard
@@ -83,15 +88,35 @@ class Fit:
     evaluations: int
     measurements: Measurements
 
-    def __repr__(self) -> str:
-        """Return the estimates on a line each."""
-        lines = []
+    def table(self) -> dict[str, list[Any]]:
+        """Return the estimates in columns, those that the data leave open as None."""
+        columns: dict[str, list[Any]] = {
+            name: [getattr(one, name) for one in self.parameters]
+            for name in ("name", "unit", "start", "deviation", "low", "high")
+        }
+        values = [None if one.is_open else one.value for one in self.parameters]
+        return {"parameter": columns.pop("name"), "value": values, **columns}
+
+    def figure(self) -> Figure:
+        """Draw data and fit, with the residuals below."""
+        # Imported here: drawing takes longer to load than many fits to run.
+        from slider_resonator.fitting.picture import fit_figure
+
+        numbers = np.array([self.measured, self.predicted, self.residuals])
+        return fit_figure(self.measurements, numbers)
+
+    def describe(self) -> list[str]:
+        """Return the estimates with their intervals."""
+        lines = [f"{number_of(len(self.measured), 'measured number')}"]
         for one in self.parameters:
-            interval = "open" if one.is_open else f"{one.value:.6g} {one.unit}"
+            found = "left open by the data" if one.is_open else f"{one.value:.6g} {one.unit}"
             if one.low is not None and one.high is not None:
-                interval += f", 95 % {one.low:.6g} to {one.high:.6g}"
-            lines.append(f"  {one.name}: {interval}")
-        return "\n".join([f"Fit of {len(self.measured)} numbers:", *lines])
+                found += f", 95 % from {one.low:.6g} to {one.high:.6g}"
+            lines.append(f"{one.name:<24}{found}")
+        if self.scale is not None:
+            lines.append(f"residuals have {self.scale:.3g} standard deviations")
+        lines.append(f"{self.starts_agreeing} of {self.starts} starts led to this minimum")
+        return lines
 
 
 def free_parameters(

@@ -8,13 +8,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.interface import INPUTS
+from slider_resonator.device.interface import INPUTS, OUTPUTS
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.output.atomic import replacing
+from slider_resonator.output.readable import number_of, readable
+from slider_resonator.output.shown import Shown, Tabular
 
 
-@dataclass(frozen=True)
-class Record:
+@dataclass(frozen=True, repr=False)
+class Record(Shown, Tabular):
     """The inputs and outputs of an FMU at the readings of a schedule, `times` (s), shape (n,).
 
     `outputs` maps names to arrays (n,); `inputs` (n, 3) are phase, load, frequency_ratio as set
@@ -39,15 +41,31 @@ class Record:
         """Return the last value of an output; HarnessError names the nearest."""
         return float(self[name][-1])
 
+    def table(self) -> dict[str, Array]:
+        """Return time, inputs as held from each time on, and outputs, by name."""
+        inputs = dict(zip(INPUTS, self.inputs.T, strict=True))
+        return {"time": self.times, **inputs, **self.outputs}
+
+    def describe(self) -> list[str]:
+        """Return the span of the run and the outputs at its end."""
+        points = number_of(len(self.times), "point")
+        lines = [
+            f"{points} from {self.times[0]:.6g} s to {self.times[-1]:.6g} s, "
+            f"{self.wall_time:.3g} s of wall time; at the end:"
+        ]
+        for name in self.outputs:
+            unit = OUTPUTS.get(name, "1").removeprefix("1")
+            lines.append(f"{name:<24}{readable(self.final(name), 9)} {unit}".rstrip())
+        return lines
+
 
 def write_csv(record: Record, path: Path) -> None:
     """Write a run with quoted names of the variables as header, time first.
 
     Inputs are those held from each time on. Raises HarnessError when `path` cannot be written.
     """
-    header = ["time", *INPUTS, *record.outputs]
-    columns = [record.times, *record.inputs.T, *record.outputs.values()]
+    table = record.table()
     with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        csv.writer(file, quoting=csv.QUOTE_ALL, lineterminator="\n").writerow(header)
+        csv.writer(file, quoting=csv.QUOTE_ALL, lineterminator="\n").writerow(table)
         numbers = csv.writer(file, lineterminator="\n")
-        numbers.writerows(zip(*(column.tolist() for column in columns), strict=True))
+        numbers.writerows(zip(*(column.tolist() for column in table.values()), strict=True))

@@ -68,16 +68,27 @@ def save(figure: Figure, path: Path) -> None:
     Raises HarnessError when it cannot be written; an existing file then stays as it is.
     """
     FigureCanvasAgg(figure)
-    with replacing(path) as temporary:
+    with style(), replacing(path) as temporary:
         figure.savefig(temporary, dpi=150)
 
 
 def png_data_uri(figure: Figure) -> str:
     """Return a figure as a PNG data URI to embed in an HTML page."""
+    return "data:image/png;base64," + base64.b64encode(_png(figure)).decode("ascii")
+
+
+def _png(figure: Figure) -> bytes:
     FigureCanvasAgg(figure)
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=100)
-    return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode("ascii")
+    return buffer.getvalue()
+
+
+class Picture(Figure):
+    """A figure that a notebook shows without pyplot."""
+
+    def _repr_png_(self) -> bytes:
+        return _png(self)
 
 
 def shade_directions(axes: Axes, abscissa: Array, modes: Array) -> list[Patch]:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -14,7 +12,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUT_STARTS, INPUTS
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.record import Record
-from slider_resonator.output.plot_style import COLOURS, save, shade_directions, style
+from slider_resonator.output.plot_style import COLOURS, Picture, shade_directions, style
 from slider_resonator.scenes.plot_units import plot_unit
 from slider_resonator.scenes.scene import Scene
 
@@ -35,15 +33,15 @@ def schedule_to_plot(scene: Scene) -> Schedule:
     )
 
 
-def plot_run(record: Record, scene: Scene, path: Path) -> None:
-    """Write the plot of a run to `path`, whose suffix is one of `PICTURE_SUFFIXES`."""
+def run_figure(record: Record, scene: Scene) -> Figure:
+    """Draw a run: the last drive periods where its points resolve them, and inputs that vary."""
     period = scene.drive_period
     varying = [i for i in range(len(INPUTS)) if np.ptp(record.inputs[:, i]) > 0.0]
     gaps = np.diff(record.times[_last_periods(record, period)])
     resolved = gaps.size > 0 and bool(np.max(gaps) * MIN_POINTS <= period)
     with style():
         heights = [2.0, 2.0, *([2.0, 1.6, 1.6] if resolved else []), *[1.3 for _ in varying]]
-        figure = Figure(figsize=(8.0, sum(heights) + 0.3), layout="constrained")
+        figure = Picture(figsize=(8.0, sum(heights) + 0.3), layout="constrained")
         axes = figure.subplots(len(heights), 1, height_ratios=heights)
         figure.suptitle(f"{scene.title}  ({scene.name}){_constant_inputs(record, varying)}")
         factor, unit = plot_unit("s", record.times)
@@ -57,7 +55,7 @@ def plot_run(record: Record, scene: Scene, path: Path) -> None:
         for panel, index in zip(axes[len(heights) - len(varying) :], varying, strict=True):
             _input(panel, record, times, unit, index)
         figure.align_ylabels(axes)
-        save(figure, path)
+    return figure
 
 
 def _position(axes: Axes, record: Record, times: Array) -> None:

@@ -16,6 +16,8 @@ from slider_resonator.device.schedule import Schedule, schedule, step_count
 from slider_resonator.device.signal import Signal, constant, ramp, steps
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import SceneError, unknown_name
+from slider_resonator.output.readable import number_of
+from slider_resonator.output.shown import Shown
 from slider_resonator.scenes.csv_signal import csv_points
 from slider_resonator.scenes.device_file import refuse_other_kinds, with_si_device
 from slider_resonator.scenes.expansion import variants
@@ -35,8 +37,8 @@ class Beside:
     signals: Mapping[str, Signal]
 
 
-@dataclass(frozen=True)
-class Scene:
+@dataclass(frozen=True, repr=False)
+class Scene(Shown):
     """A valid scene; it can be pickled.
 
     Raises SceneError for a run of too many steps, or one that goes beyond the values of a CSV file.
@@ -119,6 +121,19 @@ class Scene:
     def values(self) -> dict[str, float]:
         """Parameters, and inputs as they are at the start."""
         return {**self.parameters, **{name: s.at(0.0) for name, s in self.signals.items()}}
+
+    def describe(self) -> list[str]:
+        """Return name, device, inputs and run, and how much is expected."""
+        differs = ", ".join(f"{name} = {value:g}" for name, value in self.parameters.items())
+        lines = [f"{self.name}: {self.title}", f"device   {differs or 'table 1'}"]
+        for key, signal in self._all_signals.items():
+            values = signal.values
+            span = f"{min(values):g} to {max(values):g}" if len(values) > 1 else f"{values[0]:g}"
+            lines.append(f"{key}  {span}")
+        if self.run is not None:
+            lines.append(f"run      {self.stop_time:.6g} s in steps of {self.step_size:.6g} s")
+        lines.append(f"expects  {number_of(len(self.expect), 'value')} at each point")
+        return lines
 
     def schedule(self) -> Schedule:
         """Return inputs and communication points; SceneError for a scene without a run."""

@@ -15,7 +15,7 @@ from slider_resonator.steady.search_result import SearchResult, cost, failure
 from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Blocking(SearchResult):
     """The result of a search for the blocking force.
 
@@ -25,6 +25,11 @@ class Blocking(SearchResult):
     """
 
     blocking_force: float | None = None
+
+    @property
+    def answer(self) -> tuple[str, float | None, str]:
+        """The blocking force."""
+        return "blocking force", self.blocking_force, "N"
 
 
 def find_blocking(

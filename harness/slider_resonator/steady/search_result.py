@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass
 from typing import Any
 
+from slider_resonator.output.readable import number_of, readable
+from slider_resonator.output.shown import Shown
+from slider_resonator.output.terminal import one_line
 from slider_resonator.steady.periodic import Facts, FmuPeriodMap
 from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
 
 
-@dataclass(frozen=True)
-class SearchResult:
+@dataclass(frozen=True, repr=False)
+class SearchResult(Shown):
     """Status, reason and cost of a search.
 
     `status` is for machines, `reason` for people; `predicted` is the FMU's own output.
@@ -28,6 +32,31 @@ class SearchResult:
     residual: float | None = None
     multipliers: tuple[complex, ...] = ()
     stable: bool | None = None
+
+    @property
+    @abstractmethod
+    def answer(self) -> tuple[str, float | None, str]:
+        """What was searched, its value, None where there is none, and its unit."""
+
+    def describe(self) -> list[str]:
+        """Return the answer, why it is one, and what it cost."""
+        what, value, unit = self.answer
+        found = "none" if value is None else f"{readable(value, 10)} {unit}"
+        lines = [
+            f"{what:<17}{found}",
+            f"status           {self.status}: {one_line(self.reason)}",
+            f"FMU's output     {readable(self.predicted, 10)} {unit} (read without a run)",
+        ]
+        if self.common_period is not None:
+            lines.append(
+                f"cost             {number_of(self.periods, 'drive period')} in "
+                f"{number_of(self.iterations, 'iteration')}, "
+                f"a common period is {self.common_period} of them"
+            )
+        if self.multipliers:
+            sizes = ", ".join(f"{abs(multiplier):.6f}" for multiplier in self.multipliers)
+            lines.append(f"multipliers      {sizes} (magnitudes)")
+        return lines
 
 
 def cost(period_map: FmuPeriodMap, found: FixedPoint | NoFixedPoint | None) -> dict[str, Any]:

@@ -22,7 +22,7 @@ from slider_resonator.steady.search_result import SearchResult, cost, failure, w
 from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SteadyMotion(SearchResult):
     """The result of a search for steady motion.
 
@@ -34,6 +34,11 @@ class SteadyMotion(SearchResult):
 
     steady_velocity: float | None = None
     state: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def answer(self) -> tuple[str, float | None, str]:
+        """The steady velocity."""
+        return "steady velocity", self.steady_velocity, "m/s"
 
 
 def find_steady(

@@ -9,6 +9,7 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
@@ -16,6 +17,7 @@ from slider_resonator.fmu.isolation.tasks import run_all_tasks
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.progress import Progress, counted
 from slider_resonator.output.readable import number_of
+from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.stress.case import RANDOM, Case
 from slider_resonator.stress.comparisons import (
     compare_with_reference,
@@ -91,8 +93,8 @@ MAX_REFUSED = 0.02
 """Share of the random cases that an FMU may refuse: their values are those of devices."""
 
 
-@dataclass(frozen=True)
-class StressResult:
+@dataclass(frozen=True, repr=False)
+class StressResult(Shown, Tabular):
     """The verdicts on an FMU, one for each case that ran, and the wall time in s.
 
     Cases were `skipped` that do not apply to the FMU; an interrupted run has some that were
@@ -104,6 +106,20 @@ class StressResult:
     wall_time: float
     not_run: int = 0
     skipped: int = 0
+
+    def table(self) -> dict[str, list[Any]]:
+        """Return the verdicts in columns."""
+        names = ("axis", "value", "model", "verdict", "reason")
+        return {name: [getattr(one, name) for one in self.verdicts] for name in names}
+
+    def describe(self) -> list[str]:
+        """Return the counts, and a line for each failed case."""
+        failed = [one for one in self.verdicts if one.verdict == FAILED]
+        return [
+            f"{'passed' if self.passed else 'FAILED'}: {self.fmu}",
+            *self.summary.splitlines(),
+            *(f"{FAILED}: {one.name}: {one.reason}" for one in failed),
+        ]
 
     def by_axis(self) -> dict[str, list[Verdict]]:
         """Return axis to verdicts, in order."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.errors import HarnessError
-from slider_resonator.output.plot_style import save, style
+from slider_resonator.output.plot_style import Picture, style
 from slider_resonator.sweeping.grid import Sweep
 from slider_resonator.sweeping.measures import unit
 from slider_resonator.sweeping.table import Columns
@@ -33,14 +32,14 @@ def check_picture(sweep: Sweep, option: str) -> None:
         )
 
 
-def draw_sweep(sweep: Sweep, columns: Columns, path: Path) -> None:
-    """Draw every measure over what was varied; the suffix of `path` chooses the format."""
+def sweep_figure(sweep: Sweep, columns: Columns) -> Figure:
+    """Draw every measure over what was varied."""
     names = sweep.task.names
     values = {name: np.array(columns[name], dtype=np.float64) for name in names}
     lines = split_into_lines(sweep, values)
     with style():
         count = len(sweep.task.measures)
-        figure = Figure(figsize=(6.4, 3.9 * count), layout="constrained")
+        figure = Picture(figsize=(6.4, 3.9 * count), layout="constrained")
         if sweep.title:
             figure.suptitle(sweep.title)
         for index, measure in enumerate(sweep.task.measures):
@@ -64,7 +63,7 @@ def draw_sweep(sweep: Sweep, columns: Columns, path: Path) -> None:
             if not axes.get_xlabel():
                 axes.set_xlabel(variable_label(names[0]))
             _scale(axes, sweep, lines[0] if lines else names[0], None if lines else names[1])
-        save(figure, path)
+    return figure
 
 
 def _map(axes: Axes, sweep: Sweep, values: Mapping[str, Array], result: Array, label: str) -> None:

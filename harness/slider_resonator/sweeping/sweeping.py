@@ -9,15 +9,19 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from importlib.util import find_spec
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from slider_resonator import __version__
+from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import Progress, no_progress
+from slider_resonator.output.readable import number_of
+from slider_resonator.output.shown import Drawable, Shown, Tabular
 from slider_resonator.sweeping.grid import Sweep
-from slider_resonator.sweeping.measures import Row
+from slider_resonator.sweeping.measures import Row, unit
 from slider_resonator.sweeping.running import Workers, run_points
 from slider_resonator.sweeping.table import (
     Columns,
@@ -29,9 +33,12 @@ from slider_resonator.sweeping.table import (
     write_table,
 )
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
-@dataclass(frozen=True)
-class SweepResult:
+
+@dataclass(frozen=True, repr=False)
+class SweepResult(Shown, Tabular, Drawable):
     """A finished sweep: `found` points were finished before it began, `failed` have an error.
 
     `unanswered` have no error, but a measure that does not exist there, such as a steady velocity.
@@ -45,6 +52,47 @@ class SweepResult:
     damaged: Sequence[int]
     first_error: str | None
     columns: Columns
+    sweep: Sweep
+
+    def table(self) -> Columns:
+        """Return the columns of the table."""
+        return self.columns
+
+    def figure(self) -> Figure:
+        """Draw every measure over what was varied: lines or a map.
+
+        Raises HarnessError where more than two variables were varied.
+        """
+        # Imported here: drawing takes longer to load than many sweeps to run.
+        from slider_resonator.sweeping.picture import check_picture, sweep_figure
+
+        check_picture(self.sweep, "plot()")
+        return sweep_figure(self.sweep, self.columns)
+
+    def sentences(self) -> list[str]:
+        """Return how many points there are, and what became of them."""
+        lines = [f"points     {self.points}"]
+        if self.found:
+            lines.append(f"found      {self.found} of them finished before")
+        if self.unanswered:
+            lines.append(f"no answer  to a measure at {number_of(self.unanswered, 'point')}")
+        if self.failed:
+            points = number_of(self.failed, "point")
+            lines.append(f"failed     {points}; the first error: {self.first_error}")
+        return lines
+
+    def describe(self) -> list[str]:
+        """Return what was varied, what became of the points, and the range of each measure."""
+        names = self.sweep.task.names
+        lines = [f"over       {', '.join(names)}", *self.sentences()]
+        units = {name: VARIABLES[name].unit for name in names}
+        units |= {measure: unit(measure) for measure in self.sweep.task.measures}
+        for name, one in units.items():
+            numbers = [value for value in self.columns[name] if value is not None]
+            if numbers:
+                span = f"{name:<17}{min(numbers):.6g} to {max(numbers):.6g}"
+                lines.append(span if one == "1" else f"{span} {one}")
+        return lines
 
 
 def run_sweep(
@@ -109,6 +157,7 @@ def run_sweep(
         damaged=journal.damaged,
         first_error=errors[0] if errors else None,
         columns=columns,
+        sweep=sweep,
     )
 
 

@@ -77,7 +77,7 @@ def _journal(path: Path, fmu: Path, bench: Sequence[BenchPoint]) -> Journal:
     """Open the journal of runs on an FMU at these points."""
     content = hashlib.sha256(fmu.read_bytes())
     for point in bench:
-        content.update(repr((point_name(point), point.scene)).encode())
+        content.update(repr((point_name(point), vars(point.scene))).encode())
         content.update(pickle.dumps(point.expected))
     remedy = "move the file away or name another one"
     return Journal(path, "mutation run", content.hexdigest(), remedy)

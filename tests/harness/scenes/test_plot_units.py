@@ -8,9 +8,9 @@ from matplotlib.figure import Figure
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
-from slider_resonator.scenes import run_plot, signals_plot
+from slider_resonator.scenes import signals_plot
 from slider_resonator.scenes.plot_units import plot_unit
-from slider_resonator.scenes.run_plot import plot_run, schedule_to_plot
+from slider_resonator.scenes.run_plot import run_figure, schedule_to_plot
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.signals_plot import Run, plot_signals
 
@@ -42,11 +42,10 @@ def test_one_run_and_several_are_drawn_in_the_same_units(
     instance: Instance, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     figures: list[Figure] = []
-    for module in (run_plot, signals_plot):
-        monkeypatch.setattr(module, "save", lambda figure, path: figures.append(figure))
+    monkeypatch.setattr(signals_plot, "save", lambda figure, path: figures.append(figure))
     scene = find_scene("table_1")
     record = run(instance, scene.parameters, schedule_to_plot(scene))
-    plot_run(record, scene, tmp_path / "one.png")
+    figures.append(run_figure(record, scene))
     both, window = [Run("a", record), Run("b", record)], (0.0, float(record.times[-1]))
     signals = ("position", "mean_velocity", "velocity", "resonator_displacement")
     plot_signals(both, scene, signals, window, tmp_path / "both.png")

@@ -16,14 +16,14 @@ from slider_resonator.checks.reports.headline import headline
 from slider_resonator.checks.validate import (
     Curves,
     Validation,
+    judged_without,
+    not_applied,
     provenance_of_all,
     worst_of_sweeps,
 )
 from slider_resonator.checks.verdict import (
     TITLE,
-    judged_without,
     measure_of,
-    not_applied,
     place,
     sentence,
     title,

@@ -7,11 +7,15 @@ from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
-from slider_resonator.checks.validate import RunFailure, Validation, provenance_of_all
-from slider_resonator.checks.verdict import (
-    TITLE,
+from slider_resonator.checks.validate import (
+    RunFailure,
+    Validation,
     judged_without,
     not_applied,
+    provenance_of_all,
+)
+from slider_resonator.checks.verdict import (
+    TITLE,
     place,
     sentence,
     title,

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from slider_resonator.checks.validate import Validation, provenance_of_all
-from slider_resonator.checks.verdict import (
-    TITLE,
+from slider_resonator.checks.validate import (
+    Validation,
     judged_without,
     not_applied,
+    provenance_of_all,
+)
+from slider_resonator.checks.verdict import (
+    TITLE,
     place,
     sentence,
     title,

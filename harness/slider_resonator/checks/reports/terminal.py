@@ -9,12 +9,15 @@ from rich.text import Text
 
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.headline import headline
-from slider_resonator.checks.validate import Validation, worst_of_sweeps
+from slider_resonator.checks.validate import (
+    Validation,
+    judged_without,
+    not_applied,
+    worst_of_sweeps,
+)
 from slider_resonator.checks.verdict import (
     called,
-    judged_without,
     measure_of,
-    not_applied,
     place,
     sentence,
     value_text,

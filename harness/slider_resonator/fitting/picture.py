@@ -1,0 +1,79 @@
+"""The picture of a fit: data, fit and residuals."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from slider_resonator.arrays import Array
+from slider_resonator.device.interface import VARIABLES
+from slider_resonator.fitting.measurements import Measurements, Point
+from slider_resonator.output.plot_style import COLOURS, Picture, style
+
+Panel = tuple[str, str, Array, Array, Array, Array]
+"""Label of the abscissa, title, abscissa, measured, predicted and residuals, (n,) each."""
+
+
+def fit_figure(measurements: Measurements, numbers: Array) -> Figure:
+    """Draw data and fit above, residuals below: points over what varies most, runs over time.
+
+    `numbers` are measured and predicted values and residuals, (3, n).
+    """
+    panels = [*_point_panels(measurements, numbers), *_run_panels(measurements, numbers)]
+    with style():
+        figure = Picture((3.6 + 3.2 * len(panels), 5.2), layout="constrained")
+        axes = figure.subplots(
+            2, len(panels), squeeze=False, sharex="col", height_ratios=[2.0, 1.0]
+        )
+        for column, (label, title, x, measured, predicted, residuals) in enumerate(panels):
+            above, below = axes[0][column], axes[1][column]
+            above.plot(x, measured, "o", ms=4, color=COLOURS["theory"], label="measured")
+            order = np.argsort(x, kind="stable")
+            is_line = len(np.unique(x)) == len(x)
+            mark = "-" if is_line else "+"
+            above.plot(x[order], predicted[order], mark, color=COLOURS["slow"], label="fit")
+            above.set_title(title)
+            above.legend()
+            below.axhline(0.0, color="0.6", lw=0.8)
+            below.plot(x, residuals, "o", ms=3, color=COLOURS["slow"])
+            below.set_xlabel(label)
+            below.set_ylabel("residual / deviation")
+    return figure
+
+
+def _point_panels(measurements: Measurements, numbers: Array) -> list[Panel]:
+    points = measurements.points
+    panels: list[Panel] = []
+    for quantity in dict.fromkeys(point.quantity for point in points):
+        rows = [i for i, point in enumerate(points) if point.quantity == quantity]
+        label, x = _abscissa([points[i] for i in rows])
+        title = f"{quantity}, {VARIABLES[quantity].unit}"
+        panels.append((label, title, x, *numbers[:, rows]))
+    return panels
+
+
+def _abscissa(points: list[Point]) -> tuple[str, Array]:
+    """Return the variable with most values among the points, or their numbers."""
+    names = dict.fromkeys(name for point in points for name in point.values)
+    counts = {name: len({point.values.get(name) for point in points}) for name in names}
+    if not counts or max(counts.values()) < 2:
+        return "number of the measurement", np.arange(1.0, len(points) + 1.0)
+    name = max(counts, key=lambda one: counts[one])
+    start = VARIABLES[name].start or 0.0
+    values = [point.values.get(name, start) for point in points]
+    return f"{name}, {VARIABLES[name].unit}", np.array(values)
+
+
+def _run_panels(measurements: Measurements, numbers: Array) -> list[Panel]:
+    begin = len(measurements.points)
+    panels: list[Panel] = []
+    for run in measurements.runs:
+        for name, column in run.outputs.items():
+            there = np.isfinite(column)
+            own = slice(begin, begin + int(there.sum()))
+            begin = own.stop
+            title = f"{name}, {VARIABLES[name].unit} ({Path(run.source).name})"
+            panels.append(("time, s", title, run.schedule.times[there], *numbers[:, own]))
+    return panels
