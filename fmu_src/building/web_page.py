@@ -23,7 +23,14 @@ FOLDER = Path(__file__).parents[1] / "page"
 UPLOT = Path(__file__).parents[2] / "harness" / "slider_resonator" / "output" / "vendor"
 """The library that draws curves, shared as files with the reports of the harness."""
 UPLOT_LICENCE = UPLOT / "LICENSE"
-SCRIPTS = ("component.js", "settings.js", "run.js", "plots.js", "sketch.js", "main.js")
+DEVICES = Path(__file__).parents[2] / "harness" / "slider_resonator" / "scenes" / "devices"
+"""The devices to start from, shared as files with the command `device`."""
+FIRST_DEVICE = "table_1"
+SCRIPTS = (
+    *("component.js", "units.js", "device_file.js", "settings.js", "ranges.js"),
+    *("curves.js", "run.js", "results.js", "controls.js", "files.js"),
+    *("chart.js", "plots.js", "summary.js", "sketch.js", "main.js"),
+)
 """In this order they are one JavaScript module."""
 
 _FMI_SHELL = re.compile(r"(.*/)?(fmi2(?!_version)|instance\.|state_access\.)")
@@ -38,7 +45,7 @@ _FLAGS = (
 
 def page_files() -> dict[str, str]:
     """Return name -> text of everything that makes the page but the kernel."""
-    paths = [*FOLDER.glob("*.*"), *UPLOT.glob("uPlot*")]
+    paths = [*FOLDER.glob("*.*"), *UPLOT.glob("uPlot*"), *DEVICES.glob("*.toml")]
     return {path.name: path.read_text(encoding="utf-8") for path in sorted(paths)}
 
 
@@ -62,19 +69,23 @@ def web_page(code: Mapping[str, str], compiler: Compiler) -> bytes:
     sources = {name: text for name, text in code.items() if not _FMI_SHELL.match(name)}
     sources["page.c"] = files["page.c"]
     kernel = compile_binary(sources, "page.wasm", _TARGET, _FLAGS, compiler)
+    devices = sorted(DEVICES.glob("*.toml"), key=lambda path: (path.stem != FIRST_DEVICE, path))
     parts = {
         "version": __version__,
         "style": files["page.css"],
         "uplot_style": files["uPlot.min.css"],
         "uplot": files["uPlot.iife.min.js"],
-        "variables": json.dumps([_row(i, v) for i, v in enumerate(VARIABLES)]).replace(
-            "<", "\\u003c"
-        ),
+        "variables": _script_json([_row(i, v) for i, v in enumerate(VARIABLES)]),
+        "devices": _script_json({path.stem: files[path.name] for path in devices}),
         "component": base64.b64encode(gzip.compress(kernel, mtime=0)).decode(),
         "script": "\n".join(files[name] for name in SCRIPTS),
     }
     page = re.sub(r"\{\{(\w+)\}\}", lambda part: parts[part[1]], files["page.html"])
     return page.encode()
+
+
+def _script_json(content: object) -> str:
+    return json.dumps(content).replace("<", "\\u003c")
 
 
 def _row(reference: int, variable: Variable) -> dict[str, object]:
@@ -85,7 +96,7 @@ def _row(reference: int, variable: Variable) -> dict[str, object]:
         "description": variable.description,
         "causality": variable.causality,
         "start": variable.start,
-        "unit": variable.unit,
+        "unit": variable.unit or "1",
         "display_unit": variable.display_unit,
         "factor": factors[variable.display_unit] if variable.display_unit else 1.0,
     }

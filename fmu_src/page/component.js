@@ -5,6 +5,7 @@ const VARIABLES = JSON.parse(document.getElementById("variables").textContent);
 const BY_NAME = new Map(VARIABLES.map((variable) => [variable.name, variable]));
 const OUTPUTS = VARIABLES.filter((variable) => variable.causality === "output");
 const SETTABLE = VARIABLES.filter((variable) => variable.causality !== "output");
+const PARAMETERS = VARIABLES.filter((variable) => variable.causality === "parameter");
 
 /** What the component refuses: its text names the variable, its value and what it must be. */
 class Refused extends Error {}

@@ -1,174 +1,130 @@
-const PLOT_HEIGHT = 210;
-const INK = "#546e7a";
-const COLOURS = { 1: "#1976d2", [-1]: "#00897b", 0: "#c62828", 2: "#b0bec5" };
+/** What the plots show of results, in units that suit. */
+const scaled = (values, factor) => values.map((value) => (value === null ? null : factor * value));
+const DEGREES = 180 / Math.PI;
+const MODES = new Map([
+  [1, { label: "slips forwards", colour: "forwards" }],
+  [-1, { label: "slips backwards", colour: "backwards" }],
+  [0, { label: "sticks", colour: "sticks" }],
+  [2, { label: "lifted", colour: "lifted" }],
+]);
+const NOT_VALID = "no steady motion is predicted";
 
-function axis(label, extra = {}) {
-  return { label, stroke: INK, grid: { stroke: "#eceff1" }, labelSize: 18, size: 52, ...extra };
+/** Return the unit and the factor of a time, in ms where it is short. */
+function timeUnit(time) {
+  return time < 0.5 ? ["ms", 1e3] : ["s", 1];
 }
 
-function line(label, stroke, extra = {}) {
-  return { label, stroke, width: 1.5, points: { show: false }, ...extra };
+function overTime({ run, end }, y, values, label, more = () => []) {
+  const [unit, factor] = timeUnit(end);
+  const times = scaled(run.time, factor);
+  return { x: { label: "time", unit }, y, curves: [{ label, x: times, y: values, colour: "run" }, ...more(times)] };
 }
 
-function xAxis(label) {
-  return axis(label, { size: 34 });
+const AFTER = { label: "time after the end of the run", unit: "ms" };
+const afterEnd = ({ closeUp }) => closeUp.time.map((now) => 1e3 * (now - closeUp.time[0]));
+
+/** Return the bands of equal contact mode. */
+function contactBands(times, modes) {
+  const changes = modes.map((_, i) => i).filter((i) => i === 0 || modes[i] !== modes[i - 1]);
+  return changes.map((from, k) => ({
+    ...MODES.get(modes[from]), from: times[from], to: times[changes[k + 1] ?? modes.length - 1],
+  }));
 }
 
-/** Paint the contact mode behind a curve over time. */
-function drawContactBands(plot, times, modes) {
-  const { left, top, width, height } = plot.bbox;
-  plot.ctx.save();
-  plot.ctx.globalAlpha = 0.14;
-  let begin = 0;
-  for (let i = 1; i <= modes.length; i++) {
-    if (i === modes.length || modes[i] !== modes[begin]) {
-      const from = Math.max(left, plot.valToPos(times[begin], "x", true));
-      const to = Math.min(left + width, plot.valToPos(times[Math.min(i, modes.length - 1)], "x", true));
-      plot.ctx.fillStyle = COLOURS[modes[begin]];
-      plot.ctx.fillRect(from, top, to - from, height);
-      begin = i;
-    }
+/** Return a curve of predictions over an input, the present point marked on it. */
+function overInput({ isPredicted, outputs }, curve, [x, xFactor, present], name, y, marks = []) {
+  const values = scaled(curve[name], 1e3);
+  const point = {
+    label: `at this ${x.label}`, x: [xFactor * present], y: [1e3 * outputs.get(name)], colour: "theory",
+  };
+  return {
+    x, y,
+    curves: [{ label: "predicted", x: scaled(curve.at, xFactor), y: values, colour: "theory" }],
+    marks: [...marks, ...(isPredicted ? [point] : [])],
+    note: values.some((value) => value !== null) ? "" : NOT_VALID,
+  };
+}
+
+/** Add the ends of runs to a plot over phase, if there are any. */
+function withRuns(plot, velocities) {
+  if (velocities.some((value) => value !== null)) {
+    const [{ x }] = plot.curves;
+    plot.curves.push({ label: "ends of runs", x, y: scaled(velocities, 1e3), colour: "run", dash: [2, 3] });
+    plot.note = "";
   }
-  plot.ctx.restore();
+  return plot;
 }
 
-/** Join points in their order: uPlot's own paths need ascending x. */
-function drawLoop(plot, xs, ys) {
-  const { ctx, bbox } = plot;
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
-  ctx.clip();
-  ctx.beginPath();
-  xs.forEach((x, i) => ctx.lineTo(plot.valToPos(x, "x", true), plot.valToPos(ys[i], "y", true)));
-  ctx.strokeStyle = "#6a1b9a";
-  ctx.lineWidth = 1.5 * uPlot.pxRatio;
-  ctx.stroke();
-  ctx.restore();
+const phaseAxis = ({ phase }) => [{ label: "phase", unit: "deg" }, DEGREES, phase];
+const loadAxis = ({ load }) => [{ label: "load", unit: "mN" }, 1e3, load];
+
+function endOfRun({ outputs }, at) {
+  return { label: "end of the run", x: [at], y: [1e3 * outputs.get("mean_velocity")], colour: "run" };
 }
 
-/** Return how single points look, which are named in the legend. */
-function points(label, stroke) {
-  return { label, stroke, width: 0, points: { show: true, size: 10, fill: stroke } };
-}
-
-/** Return [low, high] with a margin; a width even for equal values. */
-function rangeOf(values) {
-  const [low, high] = [Math.min(...values), Math.max(...values)];
-  const margin = 0.06 * (high - low) || 0.1 * Math.abs(high) || 1;
-  return [low - margin, high + margin];
-}
-
-const scaled = (values, factor) => values.map((value) => factor * value);
-
-const millisecondsOf = ({ time }) => time.map((now) => 1e3 * (now - time[0]));
-
-/** The plots: for each its title, and from results the data and options of uPlot. */
 const PLOTS = [
-  {
-    title: "Slow velocity",
-    make: ({ run, outputs }) => {
-      const predicted = 1e3 * outputs.get("steady_velocity");
-      return {
-        data: [run.time, scaled(run.mean_velocity, 1e3), run.time.map(() => predicted)],
-        series: [line("mean velocity", "#1976d2"), line("predicted", "#ef6c00", { dash: [6, 4] })],
-        axes: [xAxis("time [s]"), axis("mean velocity [mm/s]")],
-      };
-    },
+  (results) => ({
+    title: "Mean velocity of the run",
+    ...overTime(results, { label: "velocity", unit: "mm/s" }, scaled(results.run.mean_velocity, 1e3),
+      "mean velocity", (times) => (results.isPredicted ? [{
+        label: "predicted", x: times, colour: "theory", dash: [6, 4],
+        y: times.map(() => 1e3 * results.outputs.get("steady_velocity")),
+      }] : [])),
+  }),
+  (results) => ({
+    title: "Steady velocity over phase",
+    ...withRuns(overInput(results, results.overPhase, phaseAxis(results), "steady_velocity",
+      { label: "velocity", unit: "mm/s" }, [endOfRun(results, DEGREES * results.phase)]), results.runsOverPhase),
+  }),
+  (results) => ({
+    title: "Steady velocity over load",
+    ...overInput(results, results.overLoad, loadAxis(results), "steady_velocity",
+      { label: "velocity", unit: "mm/s" }, [endOfRun(results, 1e3 * results.load)]),
+  }),
+  (results) => ({
+    title: "Blocking force over phase",
+    ...overInput(results, results.overPhase, phaseAxis(results), "blocking_force",
+      { label: "force", unit: "mN" }),
+  }),
+  (results) => {
+    const x = afterEnd(results);
+    return {
+      title: "Velocity in the next periods", x: AFTER, y: { label: "velocity", unit: "mm/s" },
+      curves: [{ label: "velocity", x, y: scaled(results.closeUp.velocity, 1e3), colour: "ink" }],
+      bands: contactBands(x, results.closeUp.contact_mode),
+    };
   },
-  {
-    title: "Position",
-    make: ({ run }) => ({
-      data: [run.time, scaled(run.position, 1e3)],
-      series: [line("position", "#1976d2")],
-      axes: [xAxis("time [s]"), axis("position [mm]")],
-    }),
+  (results) => {
+    const x = afterEnd(results);
+    return {
+      title: "Forces in the next periods", x: AFTER, y: { label: "force", unit: "N" },
+      curves: [
+        { label: "normal force of a face", x, y: results.closeUp.normal_force, colour: "normal" },
+        { label: "friction of all faces", x, y: results.closeUp.friction_force, colour: "friction" },
+      ],
+    };
   },
-  {
-    title: "Velocity over the next periods",
-    make: ({ closeUp }) => {
-      const times = millisecondsOf(closeUp);
-      return {
-        data: [times, scaled(closeUp.velocity, 1e3)],
-        series: [line("velocity", "#263238")],
-        axes: [xAxis("time after the end of the run [ms]"), axis("velocity [mm/s]")],
-        hooks: { drawClear: [(plot) => drawContactBands(plot, times, closeUp.contact_mode)] },
-      };
-    },
-  },
-  {
-    title: "Forces over the next periods",
-    make: ({ closeUp }) => ({
-      data: [millisecondsOf(closeUp), closeUp.normal_force, scaled(closeUp.friction_force, 10)],
-      series: [line("normal force", "#5e35b1"), line("10 times friction", "#c62828")],
-      axes: [xAxis("time after the end of the run [ms]"), axis("force [N]")],
-    }),
-  },
-  {
-    title: "Friction on normal force",
-    make: ({ closeUp }) => {
-      const friction = scaled(closeUp.friction_force, 1e3);
-      return {
-        data: [rangeOf(closeUp.normal_force), rangeOf(friction)],
-        series: [line("friction", "transparent")],
-        scales: {
-          x: { time: false, range: () => rangeOf(closeUp.normal_force) },
-          y: { range: () => rangeOf(friction) },
-        },
-        axes: [xAxis("normal force [N]"), axis("friction force [mN]")],
-        hooks: { draw: [(plot) => drawLoop(plot, closeUp.normal_force, friction)] },
-        legend: { show: false },
-      };
-    },
-  },
-  {
-    title: "Steady velocity on load",
-    make: ({ curve, outputs, load }) => {
-      const loads = scaled(curve.load, 1e3);
-      const present = 1e3 * load;
-      const data = uPlot.join([
-        [loads, scaled(curve.steady_velocity, 1e3)],
-        [[1e3 * outputs.get("blocking_force")], [0]],
-        [[present], [1e3 * outputs.get("steady_velocity")]],
-        [[present], [1e3 * outputs.get("mean_velocity")]],
-      ]);
-      return {
-        data,
-        series: [
-          line("predicted", "#ef6c00"), points("blocking force", "#ffb74d"),
-          points("predicted at this load", "#ef6c00"), points("mean velocity of the run", "#1976d2"),
-        ],
-        scales: { x: { time: false, range: () => rangeOf([...loads, present]) } },
-        axes: [xAxis("load [mN]"), axis("velocity [mm/s]")],
-      };
-    },
-  },
+  ({ closeUp }) => ({
+    title: "Friction over normal force", isLoop: true,
+    x: { label: "normal force", unit: "N" }, y: { label: "friction force", unit: "N" },
+    curves: [{ label: "friction force", x: closeUp.normal_force, y: closeUp.friction_force, colour: "friction" }],
+  }),
+  (results) => ({
+    title: "Position in the run",
+    ...overTime(results, { label: "position", unit: "mm" }, scaled(results.run.position, 1e3), "position"),
+  }),
 ];
 
-const shown = [];
+const charts = [];
 
 function showPlots(results) {
-  const parent = document.getElementById("plots");
-  while (parent.children.length < PLOTS.length) {
-    parent.append(document.createElement("div"));
+  // All boxes come before the first curve, which has the width of its box.
+  while (charts.length < PLOTS.length) {
+    charts.push(new Chart(document.getElementById("plots")));
   }
-  PLOTS.forEach(({ title, make }, i) => {
-    shown[i]?.destroy();
-    const box = parent.children[i];
-    const { data, series, axes, hooks = {}, legend = {}, scales = { x: { time: false } } } = make(results);
-    shown[i] = new uPlot(
-      {
-        title, axes, hooks, legend, scales,
-        width: Math.max(200, box.clientWidth - 12), height: PLOT_HEIGHT,
-        series: [{ label: axes[0].label.replace(/ after.*(?= \[)/, "") }, ...series],
-      },
-      data, box);
-  });
+  PLOTS.forEach((make, i) => charts[i].show(make(results)));
 }
 
-window.addEventListener("resize", () => {
-  shown.forEach((plot) => {
-    const box = plot.root.parentElement;
-    plot.setSize({ width: Math.max(200, box.clientWidth - 12), height: PLOT_HEIGHT });
-  });
-});
+window.addEventListener("resize", () => charts.forEach((chart) => chart.fit()));
+window.matchMedia("(prefers-color-scheme: dark)")
+  .addEventListener("change", () => charts.forEach((chart) => chart.redraw()));

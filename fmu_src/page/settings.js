@@ -1,67 +1,85 @@
-/** Settings of a run: the end time `t` in s, and values by variable name where they are not starts. */
+/** Settings of a run: a device by name, the changes of its values and of inputs, in SI units, and
+ * the end of the run in s, or null for one that follows the device. */
 const MAX_TIME = 3600;
-const START_TIME = 4;
-const SLIDER_STEPS = 400;
+const TIME = { name: "t", unit: "s", display_unit: null, factor: 1, description: "End of the run" };
 
-/** Controls shown first, with the range of their sliders; text fields take any value. */
-const RANGES = new Map([
-  ["phase", [-Math.PI, Math.PI]],
-  ["load", [-0.2, 0.2]],
-  ["frequency_ratio", [0, 4]],
-  ["friction_coefficient", [0, 1]],
-  ["normal_preload", [0, 3]],
-  ["normal_amplitude", [0, 3]],
-  ["base_amplitude", [0, 3e-4]],
-  ["drive_frequency", [1750, 7000]],
-]);
-const CHOICES = new Map([
-  ["fidelity", [[0, "0: slow motion"], [1, "1: slider"], [2, "2: full device"]]],
-  ["friction_law", [[0, "0: Coulomb"], [1, "1: LuGre"]]],
-]);
+/** Devices to start from, as `{title, values}` by name. */
+const DEVICES = new Map(
+  Object.entries(JSON.parse(document.getElementById("devices").textContent))
+    .map(([name, text]) => [name, deviceOf(text)]));
+const [FIRST_DEVICE] = DEVICES.keys();
 
-/** Return a number, throw Refused unless the whole text is one. */
-function numberOf(name, text) {
-  const value = Number(text);
-  if (text.trim() === "" || !Number.isFinite(value)) {
-    throw new Refused(`${name} = ${text} refused: must be a finite number`);
-  }
-  return value;
+/** Return the value that a setting has without a change. */
+function unchanged({ device }, name) {
+  return DEVICES.get(device).values.get(name) ?? BY_NAME.get(name).start;
 }
 
-/** Return the value of one of the `SLIDER_STEPS` equal steps of a slider; its ends are exact. */
-function valueAt([min, max], step) {
-  const value = min + ((max - min) * step) / SLIDER_STEPS;
-  return value === min || value === max ? value : Number(value.toPrecision(12));
+function settingOf(settings, name) {
+  return settings.changes.get(name) ?? unchanged(settings, name);
 }
 
-/** Return the step of a slider that is nearest to a value. */
-function stepAt([min, max], value) {
-  return Math.round(((value - min) / (max - min)) * SLIDER_STEPS);
+/** Return all values that are not at their start. */
+function valuesOf({ device, changes }) {
+  return new Map([...DEVICES.get(device).values, ...changes]);
 }
 
-/** Set one of `{time, values}`, throw Refused for another name or what is no number. */
-function setOne(settings, name, text) {
-  if (name === "t") {
-    settings.time = numberOf(name, text);
-  } else if (BY_NAME.has(name) && BY_NAME.get(name).causality !== "output") {
-    settings.values.set(name, numberOf(name, text));
+function freshSettings(device = FIRST_DEVICE) {
+  return { device, time: null, changes: new Map() };
+}
+
+/** Set a value in SI units. */
+function change(settings, name, value) {
+  if (value === unchanged(settings, name)) {
+    settings.changes.delete(name);
   } else {
-    throw new Refused(`${name} refused: must be t, an input or a parameter`);
+    settings.changes.set(name, value);
   }
 }
 
-/** Return `{time, values, refused}` of an address like "#phase=0.4&t=20"; the first
- * refusal counts, and what is refused, or given again, sets nothing. */
+/** Set one setting; throw Refused for another name, or what is no number in `unit`. */
+function setOne(settings, name, text, unit) {
+  if (name === "t") {
+    const time = text.trim() === "" ? null : valueOf(TIME, text);
+    if (time !== null && !(time > 0 && time <= MAX_TIME)) {
+      throw new Refused(`t = ${text} refused: must be above 0 and at most ${MAX_TIME} s`);
+    }
+    settings.time = time;
+  } else if (SETTABLE.includes(BY_NAME.get(name))) {
+    change(settings, name, valueOf(BY_NAME.get(name), text, unit));
+  } else {
+    throw new Refused(`${name} refused: must be device, t, an input or a parameter`);
+  }
+}
+
+/** Return settings of the device that differs least from values, with these values. */
+function settingsFor(values) {
+  const candidates = [...DEVICES.keys()].map((device) => {
+    const settings = freshSettings(device);
+    PARAMETERS.forEach(({ name, start }) => change(settings, name, values.get(name) ?? start));
+    return settings;
+  });
+  return candidates.reduce((best, other) => (other.changes.size < best.changes.size ? other : best));
+}
+
+/** Return the settings of an address like "#device=stick_slip&phase=0.4&t=20", and as `refused`
+ * its first refusal; what is refused, or given again, sets nothing. */
 function settingsOf(hash) {
-  const settings = { time: START_TIME, values: new Map(), refused: null };
+  const given = new URLSearchParams(hash.replace(/^#/, ""));
+  const device = given.get("device") ?? FIRST_DEVICE;
+  const isKnown = DEVICES.has(device);
+  const settings = freshSettings(isKnown ? device : FIRST_DEVICE);
+  settings.refused = isKnown ? null : new Refused(
+    `device = ${device} refused: must be one of ${[...DEVICES.keys()].join(", ")}`);
   const seen = new Set();
-  for (const [name, text] of new URLSearchParams(hash.replace(/^#/, ""))) {
+  for (const [name, text] of given) {
     try {
       if (seen.has(name)) {
         throw new Refused(`${name} = ${text} refused: must be given once`);
       }
       seen.add(name);
-      setOne(settings, name, text);
+      if (name !== "device") {
+        setOne(settings, name, text);
+      }
     } catch (error) {
       if (!(error instanceof Refused)) {
         throw error;
@@ -72,10 +90,11 @@ function settingsOf(hash) {
   return settings;
 }
 
-/** Return the address of settings, without values that are at their start. */
-function hashOf({ time, values }) {
-  const parts = [...values].filter(([name, value]) => value !== BY_NAME.get(name).start);
-  if (time !== START_TIME) {
+/** Return the address of settings, which has all that differs from the first device. */
+function hashOf({ device, time, changes }) {
+  const parts = device === FIRST_DEVICE ? [] : [["device", device]];
+  parts.push(...changes);
+  if (time !== null) {
     parts.push(["t", time]);
   }
   return "#" + parts.map(([name, value]) => `${name}=${value}`).join("&");

@@ -23,7 +23,7 @@ class Sketch {
     showState();
   }
 
-  show({ closeUp, period, load }) {
+  show({ closeUp, period, load, faces }) {
     const count = closeUp.time.length;
     const mean = (closeUp.position[count - 1] - closeUp.position[0]) / (count - 1);
     // The position without its mean motion is the fast vibration.
@@ -47,6 +47,9 @@ class Sketch {
     const factor = slowed < 1e5 ? String(Number(slowed.toPrecision(2))) : slowed.toExponential(1).replace("e+", "e");
     const text = `${factor} times slower`;
     document.getElementById("slowed").textContent = text;
+    document.querySelectorAll(".second-face").forEach((part) => {
+      part.setAttribute("visibility", faces === 2 ? "visible" : "hidden");
+    });
     this.#draw();
     this.#nextFrame();
   }
@@ -75,16 +78,19 @@ class Sketch {
     };
     put("slider", { transform: `translate(${slider[i].toFixed(2)} 0)` });
     put("ground", { transform: `translate(${(-(travel * samples) % 40).toFixed(2)} 0)` });
+    put("rail", { transform: `translate(${(-(travel * samples) % 40).toFixed(2)} 0)` });
     const left = 300 + resonator[i];
     put("resonator", { x: left });
     put("resonator-label", { x: left + 35 });
     const coil = (left - 190) / 10;
     const turns = Array.from({ length: 8 }, (_, k) => `L ${190 + coil * (k + 1.5)} ${k % 2 ? 137 : 113}`);
     put("spring", { d: `M 190 125 L ${190 + coil} 125 ${turns.join(" ")} L ${left} 125` });
-    put("contact", { stroke: COLOURS[modes[i]] });
-    arrow("normal", 320, 66 - normal[i], 320, 66, normal[i]);
+    const mark = `var(--${MODES.get(modes[i]).colour})`;
+    put("contact", { style: `stroke: ${mark}` });
+    put("second-contact", { style: `stroke: ${mark}` });
+    arrow("normal", 320, 62 - normal[i], 320, 62, normal[i]);
     arrow("friction", 320, 172, 320 - friction[i], 172, friction[i]);
-    arrow("load", 458 + Math.max(load, 0), 150, 458 + Math.max(-load, 0), 150, load);
+    arrow("load-arrow", 458 + Math.max(load, 0), 150, 458 + Math.max(-load, 0), 150, load);
   }
 }
 

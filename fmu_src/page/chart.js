@@ -1,0 +1,167 @@
+/** How plots are drawn. A plot has `title`, `x` and `y` as `{label, unit}`, curves as
+ * `{label, x, y, colour, dash}`, marks as `{label, x, y, colour}`, bands as `{label, from, to,
+ * colour}`; a colour is a name in the style sheet. */
+const PLOT_HEIGHT = 190;
+
+const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+
+/** Return [low, high] with a margin; a width even for equal values, or none. */
+function rangeOf(values) {
+  const found = values.filter((value) => value !== null);
+  const [low, high] = found.length ? [Math.min(...found), Math.max(...found)] : [-1, 1];
+  const margin = 0.06 * (high - low) || 0.1 * Math.abs(high) || 1;
+  return [low - margin, high + margin];
+}
+
+const titled = ({ label, unit }) => `${label} [${unit}]`;
+
+function axis(description, extra) {
+  return {
+    label: titled(description), labelSize: 18, labelFont: "12px system-ui", labelGap: 2,
+    ...(description.unit === "deg" ? { incrs: [15, 30, 45, 90, 180] } : {}),
+    stroke: () => colour("quiet"), grid: { stroke: () => colour("line"), width: 1 }, ticks: { show: false },
+    ...extra,
+  };
+}
+
+const X_AXIS = { size: 26, gap: 4, space: 60 };
+const Y_AXIS = {
+  gap: 4, space: 34,
+  size: (_, texts) => 12 + 7 * Math.max(2, ...(texts ?? []).map((text) => text.length)),
+};
+
+function drawBands(plot, bands) {
+  const { left, top, width, height } = plot.bbox;
+  const place = (x) => Math.min(left + width, Math.max(left, plot.valToPos(x, "x", true)));
+  plot.ctx.save();
+  plot.ctx.globalAlpha = 0.16;
+  for (const { from, to, colour: name } of bands) {
+    plot.ctx.fillStyle = colour(name);
+    plot.ctx.fillRect(place(from), top, place(to) - place(from), height);
+  }
+  plot.ctx.restore();
+}
+
+/** Join the points of a curve in their order: uPlot's own paths need ascending x. */
+function drawLoop(plot, { x, y, colour: name }) {
+  const { ctx, bbox } = plot;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  ctx.beginPath();
+  x.forEach((at, i) => ctx.lineTo(plot.valToPos(at, "x", true), plot.valToPos(y[i], "y", true)));
+  ctx.strokeStyle = colour(name);
+  ctx.lineWidth = 1.75 * uPlot.pxRatio;
+  ctx.stroke();
+  ctx.restore();
+}
+
+/** Return the indices of values without a neighbour, which a line does not show. */
+function isolated({ data }, series) {
+  const values = data[series];
+  return values.map((_, i) => i).filter((i) =>
+    Number.isFinite(values[i]) && !Number.isFinite(values[i - 1]) && !Number.isFinite(values[i + 1]));
+}
+
+function lineOf({ label, colour: name, dash }) {
+  const stroke = () => colour(name);
+  const points = { show: true, size: 4, width: 0, fill: stroke, filter: isolated };
+  return { label, stroke, width: 1.75, dash, pxAlign: 0, points };
+}
+
+function dotOf({ label, colour: name }) {
+  const fill = () => colour(name);
+  return { label, stroke: fill, width: 0, points: { show: true, size: 10, width: 2, fill, stroke: () => colour("paper") } };
+}
+
+/** Return the curves as text of a CSV file, each under its own x where these differ. */
+function csvOf({ x, y, curves }) {
+  const columns = curves.flatMap((curve, i) => [
+    ...(curve.x === curves[i - 1]?.x ? [] : [[titled(x), ...curve.x]]),
+    [titled({ ...y, label: curve.label }), ...curve.y],
+  ]);
+  const rows = Array.from({ length: Math.max(...columns.map((column) => column.length)) },
+    (_, i) => columns.map((column) => column[i] ?? "").join(","));
+  return rows.join("\n") + "\n";
+}
+
+/** A plot in a box with its title, what is under the pointer, and a key of curves if several. */
+class Chart {
+  constructor(parent) {
+    this.title = element("h3");
+    this.reading = element("span", { class: "reading" });
+    const save = element("button", { type: "button", class: "quiet" }, "CSV");
+    save.addEventListener("click", () => {
+      download(`${this.content.title.toLowerCase().replaceAll(" ", "_")}.csv`, csvOf(this.content));
+    });
+    this.area = element("div", { class: "area" });
+    this.key = element("p", { class: "key" });
+    this.box = element("div", { class: "chart" },
+      element("header", {}, this.title, this.reading, save), this.area, this.key);
+    parent.append(this.box);
+  }
+
+  show(content) {
+    const { title, x, y, curves, marks = [], bands = [], isLoop = false, note = "" } = content;
+    this.content = content;
+    this.title.textContent = title;
+    this.reading.textContent = "";
+    const labels = new Set(bands.map(({ label }) => label));
+    this.#showKey([
+      ...curves.filter((curve) => curve.y.some(Number.isFinite)),
+      ...marks.map((mark) => ({ ...mark, kind: "dot" })),
+      ...[...MODES.values()].filter(({ label }) => labels.has(label)).map((mode) => ({ ...mode, kind: "band" })),
+    ]);
+    const allX = [...curves, ...marks].flatMap((one) => one.x);
+    const allY = [...curves, ...marks].flatMap((one) => one.y);
+    const extent = rangeOf(allX);
+    this.plot?.destroy();
+    this.plot = new uPlot({
+      ...this.#size(), pxAlign: 0,
+      legend: { show: false },
+      padding: [8, 26, 0, 0],
+      cursor: { points: { show: !isLoop }, y: false, drag: { x: false, y: false } },
+      scales: {
+        x: { time: false, range: () => (isLoop || marks.length ? extent : [curves[0].x[0], curves[0].x.at(-1)]) },
+        y: { range: () => rangeOf(allY) },
+      },
+      axes: [axis(x, X_AXIS), axis(y, Y_AXIS)],
+      series: isLoop ? [{}, {}] : [{}, ...curves.map(lineOf), ...marks.map(dotOf)],
+      hooks: {
+        drawClear: [(plot) => drawBands(plot, bands)],
+        draw: [(plot) => isLoop && drawLoop(plot, curves[0])],
+        setCursor: [(plot) => this.#read(plot)],
+      },
+    }, isLoop ? [extent, [null, null]] : uPlot.join([...curves, ...marks].map((one) => [one.x, one.y])), this.area);
+    if (note) {
+      this.plot.over.append(element("p", { class: "note" }, note));
+    }
+  }
+
+  #size() {
+    return { width: Math.max(200, this.area.clientWidth), height: PLOT_HEIGHT };
+  }
+
+  fit() {
+    this.plot?.setSize(this.#size());
+  }
+
+  redraw() {
+    this.plot?.redraw();
+  }
+
+  #showKey(entries) {
+    this.key.replaceChildren(...(entries.length > 1 ? entries : []).map(({ label, colour: name, dash, kind = dash ? "dash" : "line" }) =>
+      element("span", { class: kind, style: `--mark: var(--${name})` }, label)));
+  }
+
+  #read(plot) {
+    const { idx: i } = plot.cursor;
+    const { x, y, curves, isLoop } = this.content;
+    const values = curves.map((_, k) => plot.data[k + 1][i]).filter(Number.isFinite);
+    const round = (value) => Number(value.toPrecision(4));
+    this.reading.textContent = i === null || isLoop || values.length === 0 ? ""
+      : `${round(plot.data[0][i])} ${x.unit}: ${values.map(round).join(", ")} ${y.unit}`;
+  }
+}

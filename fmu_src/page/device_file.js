@@ -1,0 +1,76 @@
+/** Device files, of which the part of TOML is read that they need: comments, the table [device],
+ * and in a line a name with a number or a text. */
+const DEVICE_LINE = /^\s*(?:\[\s*([^\]]*?)\s*\]|([\w-]+)\s*=\s*("(?:[^"\\]|\\.)*"|'[^']*'|[^\s#"']+))?\s*(?:#.*)?$/;
+const TEXTS = ["name", "title", "description"];
+
+/** Return the text within the quotes of a TOML string. */
+function unquoted(token) {
+  return token.startsWith("'") ? token.slice(1, -1) : JSON.parse(token);
+}
+
+/** Return the value in SI units of a parameter: a number, or a text with a unit. */
+function parameterOf(name, token) {
+  const parameter = PARAMETERS.find((variable) => variable.name === name);
+  if (!parameter) {
+    throw new Refused(`${name} refused: must be a parameter, such as slider_mass`);
+  }
+  if (/^["']/.test(token)) {
+    return valueOf(parameter, unquoted(token), "");
+  }
+  return valueOf(parameter, token.replace(/(?<=\d)_(?=\d)/g, ""));
+}
+
+/** Return `{title, values}` of a device file; what it leaves out keeps its start.
+ * Throw Refused with the line, key, value and what it must be. */
+function deviceOf(text) {
+  const device = { title: "", values: new Map() };
+  const seen = new Set();
+  let isBelow = false;
+  text.replace(/^\uFEFF/, "").split(/\r?\n/).forEach((line, i) => {
+    try {
+      const [whole, table, name, token] = DEVICE_LINE.exec(line) ?? [];
+      if (whole === undefined) {
+        throw new Refused(`${line.trim()} refused: must be [device], or a name = a number or "text"`);
+      }
+      const key = table ?? name;
+      if (key !== undefined && seen.size === seen.add(`${isBelow} ${key}`).size) {
+        throw new Refused(`${key} refused: must be given once`);
+      }
+      if (table !== undefined) {
+        if (table !== "device") {
+          throw new Refused(`[${table}] refused: must be [device]`);
+        }
+        isBelow = true;
+      } else if (name && isBelow) {
+        device.values.set(name, parameterOf(name, token));
+      } else if (name === "title") {
+        device.title = unquoted(token);
+      } else if (name && !TEXTS.includes(name)) {
+        throw new Refused(`${name} refused: must be below [device], or one of ${TEXTS.join(", ")}`);
+      }
+    } catch (error) {
+      if (error instanceof Refused || error instanceof SyntaxError) {
+        throw new Refused(`line ${i + 1}: ${error.message}`);
+      }
+      throw error;
+    }
+  });
+  if (!isBelow) {
+    throw new Refused("the file must have a table headed [device]");
+  }
+  return device;
+}
+
+/** Return the text of a device file: what differs from the start, and the number of faces. */
+function deviceText(values) {
+  const lines = ["[device]"];
+  for (const parameter of PARAMETERS) {
+    const { name, start, unit } = parameter;
+    const value = values.get(name) ?? start;
+    if (value !== start || name === "friction_faces") {
+      const comment = unit && unit !== "1" ? `  # ${unit}, ${shownValue(parameter, value)}` : "";
+      lines.push(`${name} = ${value}${comment}`);
+    }
+  }
+  return lines.join("\n") + "\n";
+}

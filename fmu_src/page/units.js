@@ -1,0 +1,65 @@
+/** Factors of units to SI, and their exponents of kg, m, s and rad. */
+const SYMBOLS = new Map([
+  ["1", [1, [0, 0, 0, 0]]], ["%", [0.01, [0, 0, 0, 0]]],
+  ["g", [1e-3, [1, 0, 0, 0]]], ["m", [1, [0, 1, 0, 0]]], ["s", [1, [0, 0, 1, 0]]],
+  ["N", [1, [1, 1, -2, 0]]], ["rad", [1, [0, 0, 0, 1]]],
+  ["deg", [Math.PI / 180, [0, 0, 0, 1]]], ["°", [Math.PI / 180, [0, 0, 0, 1]]],
+  ["Hz", [2 * Math.PI, [0, 0, -1, 1]]], ["rpm", [Math.PI / 30, [0, 0, -1, 1]]],
+]);
+const PREFIXES = new Map([
+  ["n", 1e-9], ["u", 1e-6], ["µ", 1e-6], ["μ", 1e-6], ["m", 1e-3], ["c", 1e-2], ["k", 1e3], ["M", 1e6],
+]);
+
+/** Return [factor, exponents] of one unit, with or without a prefix, or undefined. */
+function symbolOf(word) {
+  if (SYMBOLS.has(word)) {
+    return SYMBOLS.get(word);
+  }
+  const [prefix, symbol] = [PREFIXES.get(word[0]), SYMBOLS.get(word.slice(1))];
+  return prefix && symbol && [prefix * symbol[0], symbol[1]];
+}
+
+/** Return `{factor, dimension}` of a product like "kHz", "mm/s" or "1/um", or null. */
+function unitOf(text) {
+  let factor = 1;
+  const dimension = [0, 0, 0, 0];
+  for (const part of text.split(/(?=[*/])/)) {
+    const [, operator, word, power = "1"] = /^([*/]?)\s*([^\s^]+)(?:\^(-?\d))?\s*$/.exec(part) ?? [];
+    const symbol = word && symbolOf(word);
+    if (!symbol) {
+      return null;
+    }
+    const exponent = operator === "/" ? -Number(power) : Number(power);
+    factor *= symbol[0] ** exponent;
+    symbol[1].forEach((of, i) => { dimension[i] += of * exponent; });
+  }
+  return { factor, dimension: String(dimension) };
+}
+
+/** Return a value in SI units from a text like "20 kHz"; a bare number is in `bareUnit`.
+ * Throw Refused unless the whole text is a number with a unit of the variable. */
+function valueOf({ name, unit, display_unit: display }, text, bareUnit = unit) {
+  const [, number, given] = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$/.exec(text) ?? [];
+  const bare = bareUnit === "1" ? "a finite number" : `a finite number in ${bareUnit}`;
+  const must = `must be ${bareUnit ? `${bare}, or ` : ""}a text with a unit such as "2 ${display ?? (unit === "1" ? "%" : unit)}"`;
+  const scale = number && unitOf(given || bareUnit);
+  if (!Number.isFinite(Number(number)) || (!given && !bareUnit)) {
+    throw new Refused(`${name} = ${text} refused: ${must}`);
+  }
+  if (scale?.dimension !== unitOf(unit).dimension) {
+    throw new Refused(`${name} = ${text} refused: ${given} is no unit of ${unit === "1" ? "a ratio" : unit} that is known here; ${must}`);
+  }
+  return Number(number) * scale.factor;
+}
+
+const displayUnit = ({ display_unit: display, unit }) => display ?? unit;
+
+/** Return a value as a number in the unit that is shown, such as mm/s or Hz. */
+function shownNumber({ factor }, value, digits = 6) {
+  return String(Number((factor * value).toPrecision(digits)));
+}
+
+function shownValue(variable, value, digits) {
+  const unit = displayUnit(variable);
+  return `${shownNumber(variable, value, digits)} ${unit === "1" ? "" : unit}`.trim();
+}
