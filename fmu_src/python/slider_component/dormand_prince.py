@@ -1,12 +1,19 @@
-"""One step of Dormand and Prince's 5(4) pair for a velocity and its travel."""
+"""Steps of a velocity and its travel: Dormand and Prince's pair 5(4), and one near a balance."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import exp, expm1
 from typing import NamedTuple
+
+NO_DECAY = 1e-6
+"""Decay of a velocity in a step below which its rate counts as constant."""
 
 Rates = tuple[float, float]
 """Rates of the velocity and of the travel."""
+
+RateFunction = Callable[[float, float], Rates]
+"""Rates at a time and a velocity."""
 
 
 class Step(NamedTuple):
@@ -23,9 +30,7 @@ class Step(NamedTuple):
     gain: float
 
 
-def dormand_prince(
-    rates: Callable[[float, float], Rates], t: float, v: float, h: float, first: Rates
-) -> Step:
+def dormand_prince(rates: RateFunction, t: float, v: float, h: float, first: Rates) -> Step:
     """Step by `h` from time `t` and velocity `v`, where the rates are `first`."""
     a1, x1 = first
     a2, _ = rates(t + h / 5, v + h * a1 / 5)
@@ -44,6 +49,33 @@ def dormand_prince(
     travel = 35 * x1 / 384 + 500 * x3 / 1113 + 125 * x4 / 192 - 2187 * x5 / 6784 + 11 * x6 / 84
     gain = (a7 - a6) / (end - before) if end != before else 0.0
     return Step(end, h * travel, error, (a7, x7), gain)
+
+
+def linear_step(
+    rates: RateFunction,
+    t: float,
+    v: float,
+    h: float,
+    first: Rates,
+    gain: float,
+    max_change: float,
+) -> Step | None:
+    """Step near a balance, where the acceleration is linear in the velocity, with slope `gain`.
+
+    However long `h` is. The acceleration at the end confirms it. None for a larger change of the
+    velocity than `max_change`.
+    """
+    z = h * min(0.0, gain)
+    decayed = exp(z)
+    mean = expm1(z) / z if z < -NO_DECAY else 1.0
+    change = h * first[0] * mean
+    if not abs(change) <= max_change:
+        return None
+    end = rates(t + h, v + change)
+    weight = (mean - decayed) / (1.0 - decayed) if z < -NO_DECAY else 0.5
+    travel = h * (end[1] + weight * (first[1] - end[1]))
+    error = h * mean * abs(end[0] - decayed * first[0])
+    return Step(v + change, travel, error, end, gain)
 
 
 def step_growth(error: float, tolerance: float) -> float:

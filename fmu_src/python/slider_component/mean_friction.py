@@ -23,9 +23,6 @@ NODES = 12
 WIDEST = 6.0
 """Widest panel as an angle [rad] of the normal load: there 12 nodes follow its sine to rounding."""
 
-NARROW = 1e-12
-"""Narrowest part [rad] that is kept apart: what is narrower adds no more than rounding."""
-
 BENT = 40.0
 """Path in units of mu / sigma_0 after which a bristle is fully bent to rounding."""
 
@@ -113,8 +110,8 @@ class MeanFriction:
                 continue
             last = arc.bent_after(BENT * mu, stiffness)
             edges = [last * share for share in PANELS]
-            inner = [kink - arc.begin for kink in load.kinks(arc.begin, arc.begin + last)]
-            for low, high in _panels(edges, inner, load.wave_number):
+            edges += [kink - arc.begin for kink in load.kinks(arc.begin, arc.begin + last)]
+            for low, high in _panels(edges, load.wave_number):
                 half = 0.5 * (high - low)
                 for node, weight in _RULE:
                     ahead = low + half * (1.0 + node)
@@ -176,17 +173,10 @@ def _beyond_sine(x: float, sine: float) -> float:
     return x * square / 6.0 * total
 
 
-def _panels(
-    edges: list[float], kinks: list[float], wave_number: float
-) -> list[tuple[float, float]]:
-    """Panels between edges and kinks, none wider than WIDEST of the normal load."""
-    begin, apart, panels = edges[0], [], []
-    for kink in sorted(kinks):
-        begin = max([begin, *(edge for edge in edges if edge <= kink)])
-        if kink > begin + NARROW:
-            apart.append(kink)
-            begin = kink
-    for low, high in pairwise(sorted(edges + apart)):
+def _panels(edges: list[float], wave_number: float) -> list[tuple[float, float]]:
+    """Panels between edges, none wider than WIDEST of the normal load."""
+    panels = []
+    for low, high in pairwise(sorted(edges)):
         pieces = 1 + int(abs(wave_number) * (high - low) / WIDEST)
         width = (high - low) / pieces
         panels += [(low + i * width, low + (i + 1) * width) for i in range(pieces)]

@@ -9,6 +9,7 @@ change slowly and smoothly (stroboscopic averaging: Calvo, Chartier, Murua, Sanz
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from copy import copy
 from dataclasses import replace
 from math import cos, exp, isfinite, pi, remainder, tau
@@ -23,8 +24,8 @@ from .slow_motion import full_friction
 MAP_TOLERANCE = 1e-10
 """Largest tolerance of LuGre friction in a map: differences of high order amplify its error."""
 
-Fast = tuple[float, float, float]
-"""Fast states: Y [m], Y' [m/s], and the bristle's friction per unit load."""
+Fast = Sequence[float]
+"""The three fast states: Y [m], Y' [m/s], and the bristle's friction per unit load."""
 
 
 class NoMapError(Exception):
@@ -44,6 +45,7 @@ class PeriodMap:
     def __init__(self, system: System, fast: Vibration, max_turns: int) -> None:
         """Raises NoMapError without vibration, or where transients do not decay."""
         device, w = system.device, system.drive_frequency
+        self.tolerance = device.tolerance
         tight = replace(device, tolerance=min(device.tolerance, MAP_TOLERANCE))
         self.system, self.vibration = System(tight, system.inputs), fast
         self.turns, self.drift = _turns_to_repeat_best(system, max_turns)
@@ -79,14 +81,11 @@ class PeriodMap:
         carried = now.velocity + self.system.mass_fraction * now.rate
         return carried + self.vibration.pair_velocity * cos(now.theta)
 
-    def psi_after(self, psi: float, periods: float) -> float:
-        """Phase of the normal load [rad] `periods` after it was `psi` [rad]."""
-        return (psi + remainder(self.drift * periods, tau)) % tau
-
-    def place(self, now: Moment, velocity: float, fast: Fast, psi: float) -> Moment:
-        """The moment put to V [m/s] and fast states at the section, at normal phase `psi` [rad]."""
-        placed = now.copied()
-        placed.theta, placed.psi = self.section, psi
+    def place(self, begin: Moment, velocity: float, fast: Fast, periods: float = 0.0) -> Moment:
+        """The moment at V [m/s] and fast states at the section, some periods after `begin`."""
+        placed = begin.copied()
+        placed.theta = self.section
+        placed.psi = (begin.psi + remainder(self.drift * periods, tau)) % tau
         placed.displacement, placed.rate, placed.bristle = fast
         vibrating = self.vibration.pair_velocity * cos(self.section)
         placed.velocity = velocity - vibrating - self.system.mass_fraction * placed.rate

@@ -14,7 +14,7 @@ import ctypes
 import functools
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
@@ -24,7 +24,6 @@ from . import refusal_texts
 from .component import Component
 from .snapshot import from_bytes, to_bytes
 from .values import Refusal
-from .variable import Variable
 from .variables import VARIABLES
 
 P = ParamSpec("P")
@@ -98,44 +97,48 @@ class SliderResonatorPy(Fmi2Slave):  # type: ignore[misc]
     @_refusing
     def get_real(self, vrs: list[int]) -> list[float]:
         """fmi2GetReal."""
-        return self._component.get(*(v.name for v in _variables("Real", vrs)))
+        return self._get("Real", vrs)
 
     @_refusing
     def get_integer(self, vrs: list[int]) -> list[int]:
         """fmi2GetInteger."""
-        return [int(v) for v in self._component.get(*(v.name for v in _variables("Integer", vrs)))]
+        return list(map(int, self._get("Integer", vrs)))
 
     @_refusing
     def get_boolean(self, vrs: list[int]) -> list[bool]:
         """fmi2GetBoolean: there are no such variables."""
-        return [bool(v) for v in _variables("Boolean", vrs)]
+        return list(map(bool, self._get("Boolean", vrs)))
 
     @_refusing
     def get_string(self, vrs: list[int]) -> list[str]:
         """fmi2GetString: there are no such variables."""
-        return [str(v) for v in _variables("String", vrs)]
+        return list(map(str, self._get("String", vrs)))
 
     @_refusing
     def set_real(self, vrs: list[int], values: list[float]) -> None:
         """fmi2SetReal: all values or, if one is refused, none."""
-        names = [v.name for v in _variables("Real", vrs)]
-        self._component.set(dict(zip(names, values, strict=True)))
+        self._set("Real", vrs, values)
 
     @_refusing
     def set_integer(self, vrs: list[int], values: list[int]) -> None:
         """fmi2SetInteger: all values or, if one is refused, none."""
-        names = [v.name for v in _variables("Integer", vrs)]
-        self._component.set(dict(zip(names, values, strict=True)))
+        self._set("Integer", vrs, values)
 
     @_refusing
     def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
         """fmi2SetBoolean: there are no such variables."""
-        _variables("Boolean", vrs)
+        self._set("Boolean", vrs, values)
 
     @_refusing
     def set_string(self, vrs: list[int], values: list[str]) -> None:
         """fmi2SetString: there are no such variables."""
-        _variables("String", vrs)
+        self._set("String", vrs, values)
+
+    def _get(self, kind: str, references: list[int]) -> list[float]:
+        return self._component.get(*_names(kind, references))
+
+    def _set(self, kind: str, references: list[int], values: Iterable[object]) -> None:
+        self._component.set(dict(zip(_names(kind, references), values, strict=True)))
 
     @_refusing
     def _get_fmu_state(self) -> dict[str, Any]:
@@ -181,8 +184,8 @@ def _release_interpreter(binary: Path) -> None:
         ctypes.CDLL(str(binary), mode=os.RTLD_NOLOAD | os.RTLD_NOW).finalizePythonInterpreter()
 
 
-def _variables(kind: str, references: list[int]) -> list[Variable]:
-    """Return the variables with these value references. Raises Refusal for one of another type."""
+def _names(kind: str, references: list[int]) -> list[str]:
+    """The names of variables by value reference. Raises Refusal for one of another type."""
     found = []
     for reference in references:
         if not 0 <= reference < len(VARIABLES):
@@ -190,5 +193,5 @@ def _variables(kind: str, references: list[int]) -> list[Variable]:
         variable = VARIABLES[reference]
         if variable.type != kind:
             raise Refusal(refusal_texts.wrong_type(variable.name, reference, variable.type, kind))
-        found.append(variable)
+        found.append(variable.name)
     return found

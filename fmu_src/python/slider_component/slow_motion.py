@@ -13,7 +13,6 @@ periodically; it has no state here.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import ceil, copysign, cos, hypot, inf, isfinite, pi, sin, tau
 
@@ -21,7 +20,7 @@ from .budget import Budget
 from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .contact import LIFTED, direction_of
 from .device import Device, System, Vibration, steady_swing, vibration
-from .dormand_prince import dormand_prince, step_growth
+from .dormand_prince import Rates, dormand_prince, linear_step, step_growth
 from .mean_friction import MAX_WAVES, MeanFriction, mean_friction
 from .moment import Moment
 from .vibrating_load import VibratingLoad, turns_to_repeat
@@ -54,18 +53,11 @@ MIN_SHARE = 1e-9
 PIECES = 256
 """Pieces of a beat, with constant friction in each, in motion without vibration."""
 
-SETTLING = 100.0
-"""What must be left, in first steps, for the motion to settle."""
+LINEAR = 4e-6
+"""Change of the velocity up to which its rate may be linear, over the fast velocity."""
 
-SETTLED = 20.0
-"""Number of time constants of the approach to a balance that the time left must exceed."""
-
-BESIDE = 1e-7
-"""Distance from balance, in fast velocities, at which motion settles: well above the error of the
-steps before, and so short that forces are linear over it."""
-
-BLOCK = 16
-"""Steps before each of which it may turn out that the motion has settled."""
+SETTLED = 0.01
+"""Share of the tolerance for the error of the last step: no other one corrects it."""
 
 FIRST_ORDER = 2.0
 """Error in friction shares and v_q: of the average, and of what the average leaves out, the
@@ -100,10 +92,14 @@ class SlowFriction:
         return self.turns is not None and self.waves == 0.0
 
     @property
-    def takes_long(self) -> bool:
-        """Whether each value costs a quadrature with kinks or many waves."""
+    def max_steps(self) -> int:
+        """How many steps of averaged motion one communication step may take."""
         many = self.system.device.lifts or abs(self.waves) > FEW_WAVES
-        return self.law.is_expensive and many and self.turns is not None and self.waves != 0.0
+        quadratures = self.law.is_expensive and many and self.turns is not None
+        if not quadratures or self.waves == 0.0:
+            return MAX_SLOW_STEPS // PYTHON_SLOWDOWN
+        waves = min(abs(self.waves), MAX_WAVES)
+        return max(MIN_STEPS, int(MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN / (1.0 + waves / WAVES)))
 
     def at(self, t: float, velocity: float) -> float:
         """Mean friction [N] of all faces after `t` [s] at a slow velocity [m/s]."""
@@ -200,88 +196,52 @@ class Averaged:
 
     def _passed(self, velocity: float, now: Moment, duration: float) -> tuple[float, float]:
         """Slow velocity [m/s] and displacement [m] after `duration` [s]."""
-        device, system, friction = self.system.device, self.system, self._friction(now)
-        max_steps = MAX_SLOW_STEPS // PYTHON_SLOWDOWN
+        friction = self._friction(now)
         if self.fast.velocity == 0.0:
-            return _unshaken(friction, velocity, duration, max_steps)
-        if friction.takes_long:
-            waves = min(abs(self.ratio), MAX_WAVES)
-            bought = MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN / (1.0 + waves / WAVES)
-            max_steps = max(MIN_STEPS, int(bought))
-        normal = device.normal_preload + device.normal_amplitude
-        strongest = device.friction_faces * device.friction_coefficient * normal
-        strongest += abs(system.load)
-        step = duration
-        if strongest > 0.0:
-            step = FIRST_STEP * self.fast.velocity * device.total_mass / strongest
-        return _integrated(friction, velocity, duration, step, max_steps)
+            return _unshaken(friction, velocity, duration)
+        return _integrated(friction, velocity, duration)
 
 
-def _integrated(
-    friction: SlowFriction, velocity: float, duration: float, step: float, max_steps: int
-) -> tuple[float, float]:
+def _integrated(friction: SlowFriction, velocity: float, duration: float) -> tuple[float, float]:
     """Slow velocity [m/s] and displacement [m] after `duration` [s], by Dormand and Prince's pair.
 
     A velocity that settles takes few steps, however long the duration is.
     """
-    system, budget = friction.system, Budget(duration)
-    fast, load, mass = friction.law.fast, system.load, system.total_mass
-    longest, settles, first_step = BEAT_SHARE * friction.beat, friction.drift == 0.0, step
+    system, fast, max_steps = friction.system, friction.law.fast, friction.max_steps
+    budget = Budget(duration)
+    longest, max_change, tolerance = BEAT_SHARE * friction.beat, LINEAR * fast, TOLERANCE * fast
+    strongest = system.friction_preload + system.friction_amplitude + abs(system.load)
+    step = FIRST_STEP * fast * system.total_mass / strongest if strongest > 0.0 else duration
 
-    def rates(t: float, v: float) -> tuple[float, float]:
-        return -(friction.at(t, v) + load) / mass, v
+    def rates(t: float, v: float) -> Rates:
+        return -(friction.at(t, v) + system.load) / system.total_mass, v
 
     # No step is longer than a share of a beat: too many of them are refused before the first.
-    if not settles and duration > max_steps * longest:
+    if duration > max_steps * longest:
         raise budget.refusal(max_steps * longest, max_steps, STEPS)
-    t, moved, tried, first = 0.0, 0.0, 0, rates(0.0, velocity)
+    t, moved, tried, first, gain = 0.0, 0.0, 0, rates(0.0, velocity), 0.0
     while t < duration and isfinite(velocity):
         if tried == max_steps:
             raise budget.refusal(t, max_steps, STEPS)
-        left = duration - t
-        if settles and tried % BLOCK == 0 and left > SETTLING * first_step:
-            end = _settled(lambda v: rates(0.0, v)[0], fast, velocity, left)
-            if end is not None:
-                return end[0], moved + end[1]
-        end_of_smoothness = friction.smooth_until(t, duration)
-        h = min(step, longest, end_of_smoothness - t)
+        left, end_of_smoothness, to = duration - t, friction.smooth_until(t, duration), None
+        if friction.drift == 0.0 and tried > 0:
+            to = linear_step(rates, t, velocity, left, first, gain, max_change)
+        h = left
+        if to is None or to.error > SETTLED * tolerance:
+            h = min(step, longest, end_of_smoothness - t)
+            to = dormand_prince(rates, t, velocity, h, first)
         tried += 1
-        to = dormand_prince(rates, t, velocity, h, first)
-        if not to.error > TOLERANCE * fast:
-            velocity, moved = to.velocity, moved + to.travel
+        if not to.error > tolerance:
+            velocity, moved, gain = to.velocity, moved + to.travel, to.gain
             t = t + h if t + h < end_of_smoothness else end_of_smoothness
             first = to.rates if end_of_smoothness == duration else rates(t, velocity)
-        step = h * step_growth(to.error, TOLERANCE * fast)
+        step = h * step_growth(to.error, tolerance)
     return velocity, moved
 
 
-def _settled(
-    acceleration: Callable[[float], float], fast: float, velocity: float, left: float
-) -> tuple[float, float] | None:
-    """Velocity [m/s] and displacement [m] after the time `left` [s] if forces balance before.
-
-    None unless the velocity is already close to that balance, relative to the `fast` velocity
-    [m/s]. The last approach is exponential.
-    """
-    low, high = velocity - BESIDE * fast, velocity + BESIDE * fast
-    at_low, at_high = acceleration(low), acceleration(high)
-    if not at_low > 0.0 > at_high:
-        return None
-    rate = (at_low - at_high) / (high - low)
-    if not rate * left > SETTLED:
-        return None
-    balance = 0.5 * (low + high)
-    while low < balance < high:
-        low, high = (balance, high) if acceleration(balance) > 0.0 else (low, balance)
-        balance = 0.5 * (low + high)
-    return balance, balance * left + (velocity - balance) / rate
-
-
-def _unshaken(
-    friction: SlowFriction, velocity: float, duration: float, max_pieces: int
-) -> tuple[float, float]:
+def _unshaken(friction: SlowFriction, velocity: float, duration: float) -> tuple[float, float]:
     """Velocity [m/s] and displacement [m] without vibration, under friction constant in pieces."""
-    system, longest = friction.system, duration
+    system, longest, max_pieces = friction.system, duration, friction.max_steps
     if friction.is_slow_load:
         longest = min(duration, friction.beat / PIECES)
     pieces = ceil(duration / longest)

@@ -100,8 +100,8 @@ class PeriodicMotion:
             period_map = period_map.under_load(unknowns[-1] * self.force)
             fast = [x * s for x, s in zip(unknowns[1:-1], scale, strict=False)]
         y, u, bristle = (*fast, 0.0)[:3]
-        begin = Moment(0.0, y, u, 0.0)
-        begin = period_map.place(begin, unknowns[0] * period_map.speed, (y, u, bristle), self.psi)
+        begin = Moment(0.0, y, u, 0.0, psi=self.psi)
+        begin = period_map.place(begin, unknowns[0] * period_map.speed, (y, u, bristle))
         (first, last), _ = period_map.visits(begin, 1, Budget(period_map.period))
         slow = period_map.slow_velocity(last) - period_map.slow_velocity(first)
         parts = zip(fast_of(last), fast_of(first), scale, strict=True)

@@ -35,17 +35,6 @@ class VibratingLoad:
     does, over all angles.
     """
 
-    __slots__ = (
-        "_amplitude",
-        "_constant",
-        "_delta",
-        "_dip",
-        "_per_turn",
-        "_preload",
-        "_ratio",
-        "_turns",
-    )
-
     def __init__(self, device: Device, ratio: float, delta: float) -> None:
         self._preload, self._amplitude = device.normal_preload, device.normal_amplitude
         self._ratio, self._delta = ratio, delta
