@@ -33,7 +33,7 @@ from slider_resonator.choosing import Choice
 from slider_resonator.choosing import choose as choose_model
 from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.device.device import Device
-from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.device.interface import PARAMETERS, SETTABLE
 from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fitting.fit import STARTS, Fit, isolated
@@ -279,7 +279,7 @@ def fit(
         [free] if isinstance(free, str) else free,
         {name: value for name, value in checked.items() if name in PARAMETERS},
         isolated(_fmu(fmu), _processes("jobs", jobs), _seconds(time_limit)),
-        inputs={name: value for name, value in checked.items() if name in INPUTS},
+        inputs={name: value for name, value in checked.items() if name not in PARAMETERS},
         bounds=_plain(bounds),
         starts=_whole("starts", starts),
     )
@@ -297,11 +297,10 @@ def _fmu(fmu: str | Path | None) -> Path:
 
 
 def _checked(values: Mapping[str, Value]) -> dict[str, float]:
-    allowed = [*PARAMETERS, *INPUTS]
     checked: dict[str, float] = {}
     for name, value in values.items():
-        if name not in allowed:
-            raise SceneError(unknown_name("parameter or input", name, allowed))
+        if name not in SETTABLE:
+            raise SceneError(unknown_name("parameter or input", name, SETTABLE))
         try:
             checked[name] = si_value(name, value) if isinstance(value, str) else _plain(value)
             check_value(name, checked[name])

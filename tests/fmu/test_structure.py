@@ -34,6 +34,8 @@ OTHER_VALUES: dict[str, float] = {
     "phase": 0.9,
     "load": 0.045,
     "frequency_ratio": -1.0,
+    "amplitude_deviation": 0.3,
+    "frequency_deviation": 0.05,
     "slider_mass": 1.7,
     "resonator_mass": 0.25,
     "resonator_frequency": 3100.0,
@@ -55,6 +57,8 @@ OTHER_VALUES: dict[str, float] = {
     "initial_resonator_velocity": 0.7,
     "initial_bristle_deflection": 1e-6,
 }
+
+INPUTS = ("phase", "load", "frequency_ratio", "amplitude_deviation", "frequency_deviation")
 
 
 def dependencies(unknowns: Iterable[Unknown]) -> dict[str, set[str]]:
@@ -94,7 +98,7 @@ def test_outputs_declare_every_input_that_acts_at_once(
     instance = instantiate().initialize(**SITUATIONS[situation])
     for _ in range(40):
         instance.step(1.37e-4)
-        for name in ("phase", "load", "frequency_ratio"):
+        for name in INPUTS:
             (kept,) = instance.get(name)
             before = instance.get(*OUTPUTS)
             instance.set(**{name: OTHER_VALUES[name]})

@@ -172,7 +172,7 @@ FAULTS: Mapping[str, tuple[str, str, str, str]] = {
     "derivatives of inputs outlive a reset": (
         "component/component.c",
         "    memset(&component->now, 0, sizeof component->now);\n",
-        "    InputDerivative kept[INPUT_COUNT];\n"
+        "    InputDerivative kept[VARYING_COUNT];\n"
         "    memcpy(kept, component->now.derivatives, sizeof kept);\n"
         "    memset(&component->now, 0, sizeof component->now);\n"
         "    memcpy(component->now.derivatives, kept, sizeof kept);\n",

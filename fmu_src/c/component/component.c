@@ -158,7 +158,7 @@ bool component_set(Component *component, const unsigned *references, const doubl
 
 bool component_set_derivatives(Component *component, const unsigned *references,
                                const double *values, size_t count, Refusal *refusal) {
-    InputDerivative changed[INPUT_COUNT];
+    InputDerivative changed[VARYING_COUNT];
     memcpy(changed, component->now.derivatives, sizeof changed);
     if (!change_derivatives(changed, component->now.lifecycle, references, values, count, refusal)) {
         return false;
@@ -273,8 +273,8 @@ static bool advance(Component *component, double step_size, double duration, Eve
 static bool take_reached_inputs(Component *component, Refusal *refusal) {
     Snapshot *now = &component->now;
     const double *reached = component->ramped.reached;
-    static const unsigned inputs[INPUT_COUNT] = {VR_PHASE, VR_LOAD, VR_FREQUENCY_RATIO};
-    size_t count = now->derivatives[VR_FREQUENCY_RATIO].value != 0.0 ? INPUT_COUNT : VR_LOAD + 1;
+    static const unsigned inputs[VARYING_COUNT] = {VR_PHASE, VR_LOAD, VR_FREQUENCY_RATIO};
+    size_t count = now->derivatives[VR_FREQUENCY_RATIO].value != 0.0 ? VARYING_COUNT : VR_LOAD + 1;
     if (!change(component, reached, inputs, count, refusal)) {
         return false;
     }

@@ -61,6 +61,14 @@ Inputs reduced_inputs(const double values[SETTABLE_COUNT]) {
     return inputs;
 }
 
+Device driven_device(const double values[SETTABLE_COUNT]) {
+    Device device = device_of(values);
+    device.base_amplitude *= 1.0 + values[VR_AMPLITUDE_DEVIATION];
+    device.tangential_force *= 1.0 + values[VR_AMPLITUDE_DEVIATION];
+    device.drive_frequency *= 1.0 + values[VR_FREQUENCY_DEVIATION];
+    return device;
+}
+
 const Motion *motion_of(Device *device) {
     if (device->fidelity != 0) {
         return &RESOLVED_MOTION;
@@ -73,8 +81,13 @@ const Motion *motion_of(Device *device) {
 }
 
 bool prepare_law(const double values[SETTABLE_COUNT], Law *law, Refusal *refusal) {
-    Device device = device_of(values);
+    Device device = driven_device(values);
     Inputs inputs = reduced_inputs(values);
+    const Variable *frequency = &VARIABLES[VR_DRIVE_FREQUENCY];
+    if (device.drive_frequency < frequency->minimum) {
+        return refuse_drive_too_slow(refusal, inputs.frequency_deviation, device.drive_frequency,
+                                     frequency->requirement);
+    }
     const Motion *motion = motion_of(&device);
     if (!law_prepare(law, &device, &inputs, refusal) || (motion->prepare != NULL && !motion->prepare(law, refusal))) {
         return false;

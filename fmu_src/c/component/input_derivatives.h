@@ -11,8 +11,8 @@
 #include "../base/refusal.h"
 #include "lifecycle.h"
 
-/* The inputs are the first variables: phase, load and frequency ratio. */
-enum { INPUT_COUNT = 3 };
+/* The inputs that may vary over a step are the first variables: phase, load and frequency ratio. */
+enum { VARYING_COUNT = 3 };
 
 /* The derivative of an input, per s. It `is_new` until a step has been made with it. */
 typedef struct {
@@ -21,19 +21,19 @@ typedef struct {
 } InputDerivative;
 
 /* Whether any input varies: has a derivative other than 0. */
-bool inputs_vary(const InputDerivative derivatives[INPUT_COUNT]);
+bool inputs_vary(const InputDerivative derivatives[VARYING_COUNT]);
 
 /* Change derivatives by reference. Refuse derivatives of other variables, any derivative after the end, and
  * values that are not finite; `derivatives` are then undefined. */
-bool change_derivatives(InputDerivative derivatives[INPUT_COUNT], Lifecycle lifecycle,
+bool change_derivatives(InputDerivative derivatives[VARYING_COUNT], Lifecycle lifecycle,
                         const unsigned *references, const double *values, size_t count,
                         Refusal *refusal);
 
 /* Hold inputs that were set by reference, except those with new derivatives. */
-void hold_inputs(InputDerivative derivatives[INPUT_COUNT], const unsigned *references,
+void hold_inputs(InputDerivative derivatives[VARYING_COUNT], const unsigned *references,
                  size_t count);
 
 /* Note that a step was made: no derivative is new any more. */
-void derivatives_used(InputDerivative derivatives[INPUT_COUNT]);
+void derivatives_used(InputDerivative derivatives[VARYING_COUNT]);
 
 #endif

@@ -5,7 +5,6 @@
 
 #include "../base/clock.h"
 #include "../base/number.h"
-#include "parameter_values.h"
 #include "values.h"
 
 /* Slow phases that a whole budget buys. */
@@ -14,7 +13,7 @@ enum { MAX_SLOW_PHASES = 1000 };
 /* Values after inputs have grown for `t` [s]. */
 static void grow(const Snapshot *now, double t, double values[SETTABLE_COUNT]) {
     memcpy(values, now->values, sizeof now->values);
-    for (size_t i = 0; i < INPUT_COUNT; i++) {
+    for (size_t i = 0; i < VARYING_COUNT; i++) {
         values[i] += now->derivatives[i].value * t;
     }
 }
@@ -22,7 +21,7 @@ static void grow(const Snapshot *now, double t, double values[SETTABLE_COUNT]) {
 /* Refuse inputs out of their bounds at the end of a step of `duration` [s]. */
 static bool reached_check(const Snapshot *now, const double reached[SETTABLE_COUNT],
                           double duration, Refusal *refusal) {
-    for (size_t i = 0; i < INPUT_COUNT; i++) {
+    for (size_t i = 0; i < VARYING_COUNT; i++) {
         Refusal bounds;
         if (!value_check(&VARIABLES[i], reached[i], &bounds)) {
             char step[NUMBER_SIZE], derivative[NUMBER_SIZE], value[NUMBER_SIZE];
@@ -38,8 +37,9 @@ static bool reached_check(const Snapshot *now, const double reached[SETTABLE_COU
 }
 
 /* The ramp from `values` on; the rate of the phase is added to the frequency ratio. */
-static Ramp ramp_from(const double values[SETTABLE_COUNT], const InputDerivative *derivatives) {
-    double turning = derivatives[VR_PHASE].value / values[VR_DRIVE_FREQUENCY];
+static Ramp ramp_from(const double values[SETTABLE_COUNT], double drive_frequency,
+                      const InputDerivative *derivatives) {
+    double turning = derivatives[VR_PHASE].value / drive_frequency;
     return (Ramp){values[VR_FREQUENCY_RATIO] + turning, derivatives[VR_LOAD].value,
                   derivatives[VR_FREQUENCY_RATIO].value};
 }
@@ -57,19 +57,17 @@ static bool prepare_part(RampedStep *step, const double values[SETTABLE_COUNT], 
     return true;
 }
 
-/* Give the moment after a ramp of `duration` [s] the phase that belongs to held inputs; `begin` are the values
- * before. */
-static void hold_phase(const double begin[SETTABLE_COUNT], const Ramp *ramp, double duration,
-                       Moment *after) {
-    double w = begin[VR_DRIVE_FREQUENCY];
-    double added = ramp->ratio * w - begin[VR_FREQUENCY_RATIO] * w;
+/* Give the moment after a ramp of `duration` [s] the phase that belongs to a held frequency `ratio` at drive
+ * frequency `w` [rad/s]. */
+static void hold_phase(double ratio, double w, const Ramp *ramp, double duration, Moment *after) {
+    double added = ramp->ratio * w - ratio * w;
     after->psi = within_turn(after->psi - remainder(added * duration, TAU));
 }
 
 bool ramped_step(RampedStep *step, const Snapshot *now, double duration, struct FrictionTables *tables,
                  Budget *budget, Moment *after, Refusal *refusal) {
     double values[SETTABLE_COUNT], left = duration;
-    Device device = device_of(now->values);
+    Device device = driven_device(now->values);
     const Motion *motion = motion_of(&device);
     Clock clock = clock_of(duration);
     *after = now->moment;
@@ -80,7 +78,7 @@ bool ramped_step(RampedStep *step, const Snapshot *now, double duration, struct 
     }
     while (left > 0.0) {
         Moment before = *after;
-        Ramp ramp = ramp_from(values, now->derivatives);
+        Ramp ramp = ramp_from(values, device.drive_frequency, now->derivatives);
         double part = motion->part == NULL ? left : motion->part(&device, &ramp, left);
         budget->passed = clock.elapsed;
         if (budget_left(budget, MAX_SLOW_PHASES) == 0) {
@@ -93,7 +91,7 @@ bool ramped_step(RampedStep *step, const Snapshot *now, double duration, struct 
         }
         left = part == left ? 0.0 : clock_advance(&clock, part);
         budget_spend(budget, left > 0.0, MAX_SLOW_PHASES);
-        hold_phase(values, &ramp, part, after);
+        hold_phase(values[VR_FREQUENCY_RATIO], device.drive_frequency, &ramp, part, after);
         grow(now, left > 0.0 ? clock.elapsed : duration, values);
     }
     return true;

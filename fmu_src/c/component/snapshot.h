@@ -18,7 +18,7 @@ typedef struct {
     double stop_time;                         /* end of the experiment [s], infinite if it is open */
     double last_event_time;                   /* time of the last event [s] */
     double values[SETTABLE_COUNT];            /* of the variables that can be set, by reference */
-    InputDerivative derivatives[INPUT_COUNT]; /* of the inputs, per s */
+    InputDerivative derivatives[VARYING_COUNT]; /* of the inputs, per s */
     bool moving;                              /* whether initialization has ended */
     Moment moment;                            /* defined while `moving` */
 } Snapshot;

@@ -205,6 +205,7 @@ class Component:
 def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Motion]:
     device = Device(**{v.name: values[v.name] for v in SETTABLE if v.causality == "parameter"})
     inputs = Inputs(**{v.name: values[v.name] for v in SETTABLE if v.causality == "input"})
+    device = _driven(device, inputs)
     inputs = replace(inputs, phase=remainder(inputs.phase, tau))
     try:
         motion = motion_of(device, inputs)
@@ -214,6 +215,21 @@ def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Motion]:
     if not finite:
         raise _extreme(values)
     return device, inputs, motion
+
+
+def _driven(device: Device, inputs: Inputs) -> Device:
+    """The device with the deviations of its drive. Raises Refusal for too slow a drive."""
+    w = device.drive_frequency * (1.0 + inputs.frequency_deviation)
+    variable, amplitude = BY_NAME["drive_frequency"], 1.0 + inputs.amplitude_deviation
+    if variable.minimum is not None and w < variable.minimum:
+        deviation, requirement = inputs.frequency_deviation, variable.requirement
+        raise Refusal(refusal_texts.drive_too_slow(deviation, w, requirement))
+    return replace(
+        device,
+        base_amplitude=device.base_amplitude * amplitude,
+        tangential_force=device.tangential_force * amplitude,
+        drive_frequency=w,
+    )
 
 
 def motion_of(device: Device, inputs: Inputs) -> Motion:

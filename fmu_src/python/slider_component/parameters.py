@@ -44,3 +44,5 @@ class Inputs:
     phase: float = 0.0
     load: float = 0.0
     frequency_ratio: float = 1.0
+    amplitude_deviation: float = 0.0
+    frequency_deviation: float = 0.0

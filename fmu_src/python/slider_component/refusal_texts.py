@@ -126,6 +126,14 @@ def unbounded_resonance(damping_ratio: float, drive_frequency: float) -> str:
     )
 
 
+def drive_too_slow(frequency_deviation: float, drive_frequency: float, requirement: str) -> str:
+    """Refuse a deviation that makes the drive slower than a device may be."""
+    return (
+        f"frequency_deviation = {frequency_deviation!r} refused: it makes drive_frequency "
+        f"{drive_frequency!r}; that must be {requirement}"
+    )
+
+
 def lugre_without_friction(friction_coefficient: float) -> str:
     """Refuse a friction coefficient of 0 with LuGre friction, where (8) has no meaning."""
     return (

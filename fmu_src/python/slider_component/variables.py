@@ -34,8 +34,10 @@ DEPENDENCIES = ("depends on", "initially on")
 """At a communication point, and during initialization."""
 
 GROUPS = """
+DRIVE
+    amplitude_deviation frequency_deviation
 INPUTS
-    phase load frequency_ratio
+    phase load frequency_ratio DRIVE
 CHOICES
     friction_law fidelity averaging_order
 NORMAL_FORCE
@@ -43,7 +45,7 @@ NORMAL_FORCE
 MASSES_AND_SPRING
     slider_mass resonator_mass resonator_frequency damping_ratio
 STEADY_RESONATOR
-    MASSES_AND_SPRING base_amplitude drive_frequency tangential_force
+    MASSES_AND_SPRING DRIVE base_amplitude drive_frequency tangential_force
 FRICTION
     NORMAL_FORCE CHOICES STEADY_RESONATOR load frequency_ratio friction_coefficient friction_faces
     bristle_stiffness bristle_damping initial_velocity initial_resonator_displacement
@@ -66,6 +68,12 @@ input load N (mN), start 0, nominal 0.1
 input frequency_ratio 1, start 1
     Frequency of the normal load variation over the drive frequency; a change alters a rate, never
     a phase
+input amplitude_deviation 1 (%), start 0, from -1, nominal 0.1
+    Deviation of base_amplitude and tangential_force from their values, relative to these, held over
+    a step; -1 switches the drive off
+input frequency_deviation 1 (%), start 0, from -0.99, nominal 0.01
+    Deviation of drive_frequency from its value, relative to that, held over a step; a change
+    alters a rate, never a phase
 fixed slider_mass kg (g), start 1, from 1e-12
     Mass M of the slider without its resonator
 fixed resonator_mass kg (g), start 0.1, from 0
@@ -127,9 +135,11 @@ output mean_velocity m/s (mm/s), nominal 0.1
     initially on: WHICH_MOTION initial_velocity initial_resonator_velocity
 output resonator_displacement m (um), nominal 1e-3
     Resonator displacement Y relative to the slider
+    depends on: DRIVE
     initially on: WHICH_MOTION initial_resonator_displacement
 output resonator_velocity m/s (mm/s), nominal 1
     Resonator velocity Y' relative to the slider
+    depends on: DRIVE
     initially on: WHICH_MOTION initial_resonator_velocity
 output normal_force N, nominal 1
     Normal load N of each face; 0 while the contact is lifted
@@ -159,7 +169,7 @@ output steady_velocity m/s (mm/s), nominal 0.1
 output blocking_force N (mN), nominal 0.1
     Load that stops the slider, for the present inputs: that of the periodic motion of the full
     device, or by averages of first order (eq. 22)
-    depends on: phase frequency_ratio
+    depends on: phase frequency_ratio DRIVE
     initially on: AVERAGED_THEORY
 count prediction_valid 1, from 0, to 1
     1: steady_velocity and blocking_force apply; 0: the load exceeds the mean friction of sliding,

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 import click
 
-from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fmu import finished
@@ -46,9 +46,8 @@ class Setting(click.ParamType[tuple[str, float]]):
         name = name.strip()
         if not separator:
             self.fail(f"{value!r} is not NAME=VALUE, such as phase=0.4", param, ctx)
-        allowed = [*PARAMETERS, *INPUTS]
-        if name not in allowed:
-            self.fail(unknown_name("parameter or input", name, allowed), param, ctx)
+        if name not in SETTABLE:
+            self.fail(unknown_name("parameter or input", name, SETTABLE), param, ctx)
         try:
             read = si_value(name, number)
             check_value(name, read)
@@ -66,7 +65,7 @@ class SettingsCommand(click.Command):
             return super().parse_args(ctx, _each_with_its_option(args))
         except click.NoSuchOption as error:
             name = error.option_name.lstrip("-").replace("-", "_")
-            if name not in (*PARAMETERS, *INPUTS):
+            if name not in SETTABLE:
                 raise
             raise click.UsageError(
                 f"{error.option_name}: no such option; a parameter or input is set by "

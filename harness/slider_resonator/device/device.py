@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 FULL = 2
 """Fidelity of the full device."""
+
+DEVIATIONS = ("amplitude_deviation", "frequency_deviation")
+"""Inputs by which the drive differs from what the parameters say, relative to these."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +93,7 @@ class Device:
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, float]) -> Device:
-        """Return table 1 with the given parameters replaced.
+        """Return table 1 with the given parameters replaced, its drive under given deviations.
 
         Raises ValueError naming an unknown parameter, or an Integer parameter that got a fraction.
         """
@@ -98,6 +101,8 @@ class Device:
         known = {field.name for field in fields(cls)}
         arguments: dict[str, Any] = {}
         for name, value in values.items():
+            if name in DEVIATIONS:
+                continue
             if name not in known:
                 raise ValueError(
                     f"unknown device parameter {name!r} = {value!r}; "
@@ -109,7 +114,17 @@ class Device:
                 arguments[name] = int(value)
             else:
                 arguments[name] = float(value)
-        return cls(**arguments)
+        return cls(**arguments).deviating(values)
+
+    def deviating(self, values: Mapping[str, float]) -> Device:
+        """Return the device whose drive has the `DEVIATIONS` among the values."""
+        amplitude, frequency = (1.0 + values.get(name, 0.0) for name in DEVIATIONS)
+        return replace(
+            self,
+            base_amplitude=self.base_amplitude * amplitude,
+            tangential_force=self.tangential_force * amplitude,
+            drive_frequency=self.drive_frequency * frequency,
+        )
 
     @property
     def total_mass(self) -> float:

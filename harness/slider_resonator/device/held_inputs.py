@@ -9,7 +9,7 @@ from typing import Any, Self
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.device import Device
+from slider_resonator.device.device import DEVIATIONS, Device
 
 RATES = ("phase_rate", "load_rate", "ratio_rate")
 """The rates of inputs, in rad/s, N/s and 1/s."""
@@ -66,14 +66,15 @@ class HeldInputs:
 
 @dataclass(frozen=True)
 class TunedInputs(HeldInputs):
-    """Held inputs together with the tunable parameters that a run changes, by name."""
+    """Held inputs together with what a run tunes, by name: parameters, deviations of the drive."""
 
     tuned: tuple[tuple[str, float], ...] = ()
 
     def tuned_device(self, device: Device) -> Device:
         """Return the device of a run with the parameters as they are over these inputs."""
-        values: dict[str, Any] = dict(self.tuned)
-        return replace(device, **values)
+        values = dict(self.tuned)
+        parameters: dict[str, Any] = {n: v for n, v in values.items() if n not in DEVIATIONS}
+        return replace(device, **parameters).deviating(values)
 
 
 def with_steady_phase(held: Sequence[HeldInputs], device: Device) -> list[HeldInputs]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
-from slider_resonator.device.device import Bounds, Device
+from slider_resonator.device.device import DEVIATIONS, Bounds, Device
 
 FIRST = "0.1.0"
 """First version of the interface, all of whose variables an FMU must have."""
@@ -53,10 +53,11 @@ class Variable:
 
 
 _input = partial(Variable, causality="input", variability="continuous")
+_deviation = partial(_input, unit="1", start=0.0, since="0.3.0", without=0.0)
 _output = partial(Variable, causality="output", variability="continuous")
 _count = partial(Variable, causality="output", variability="discrete")
 
-_INPUTS = ("phase", "load", "frequency_ratio")
+_INPUTS = ("phase", "load", "frequency_ratio", *DEVIATIONS)
 
 
 def _parameter(name: str, start: float) -> Variable:
@@ -80,12 +81,14 @@ _ALL = (
     _input("phase", unit="rad", start=0.0, nominal=1.0),
     _input("load", unit="N", start=0.0, nominal=0.1),
     _input("frequency_ratio", unit="1", start=1.0, nominal=1.0),
+    _deviation("amplitude_deviation", minimum=-1.0, nominal=0.1),
+    _deviation("frequency_deviation", minimum=-0.99, nominal=0.01),
     *(_parameter(name, start) for name, start in vars(Device()).items()),
     _output("position", unit="m", nominal=1e-3),
     _output("velocity", unit="m/s", nominal=0.1),
     _output("mean_velocity", unit="m/s", nominal=0.1),
-    _output("resonator_displacement", unit="m", nominal=1e-3),
-    _output("resonator_velocity", unit="m/s", nominal=1.0),
+    _output("resonator_displacement", unit="m", nominal=1e-3, depends_on=DEVIATIONS),
+    _output("resonator_velocity", unit="m/s", nominal=1.0, depends_on=DEVIATIONS),
     _output("normal_force", unit="N", nominal=1.0, depends_on=("phase",)),
     _output("friction_force", unit="N", nominal=0.1, depends_on=_INPUTS),
     _count("contact_mode", unit="1", minimum=-1.0, maximum=2.0, depends_on=_INPUTS),
@@ -93,7 +96,12 @@ _ALL = (
     _output("stick_fraction", unit="1", minimum=0.0, maximum=1.0, nominal=1.0),
     _count("last_event_time", unit="s"),
     _output("steady_velocity", unit="m/s", nominal=0.1, depends_on=_INPUTS),
-    _output("blocking_force", unit="N", nominal=0.1, depends_on=("phase", "frequency_ratio")),
+    _output(
+        "blocking_force",
+        unit="N",
+        nominal=0.1,
+        depends_on=("phase", "frequency_ratio", *DEVIATIONS),
+    ),
     _count("prediction_valid", unit="1", minimum=0.0, maximum=1.0, depends_on=None, since="0.2.0"),
     _output("slow_motion_error", unit="m/s", minimum=0.0, depends_on=None, since="0.2.0"),
 )
@@ -102,7 +110,7 @@ VARIABLES: Mapping[str, Variable] = {variable.name: variable for variable in _AL
 """Every variable by name."""
 
 
-def _units(causality: Causality, *, later: bool) -> Mapping[str, str]:
+def _units(causality: Causality, *, later: bool) -> dict[str, str]:
     return {
         name: variable.unit
         for name, variable in VARIABLES.items()
@@ -111,7 +119,7 @@ def _units(causality: Causality, *, later: bool) -> Mapping[str, str]:
 
 
 INPUTS = _units("input", later=False)
-"""Input name to unit."""
+"""Input name to unit, of those that every FMU has."""
 
 INPUT_STARTS: Mapping[str, float] = {name: VARIABLES[name].start or 0.0 for name in INPUTS}
 """Default value of each input."""
@@ -121,6 +129,12 @@ PARAMETERS = _units("parameter", later=True)
 
 TUNABLES = tuple(name for name in PARAMETERS if VARIABLES[name].variability == "tunable")
 """Parameters that can be set in a run; all others are fixed when it begins."""
+
+HELD = (*TUNABLES, *DEVIATIONS)
+"""Tunable parameters, and inputs that are held over a step as these are."""
+
+SETTABLE = _units("parameter", later=True) | _units("input", later=True)
+"""Name of a parameter or input to unit."""
 
 INTEGERS = frozenset(name for name in PARAMETERS if VARIABLES[name].kind == "Integer")
 """Parameters that are Integers; all others, and all inputs, are Real."""

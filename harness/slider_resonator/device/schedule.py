@@ -81,11 +81,12 @@ def _read_only(values: Array) -> Array:
 
 @dataclass(frozen=True)
 class Schedule:
-    """The three inputs and the communication points (s), shape (n,), starting at 0.
+    """The first three inputs and the communication points (s), shape (n,), starting at 0.
 
     Inputs are sampled at each communication point and held until the next, and so is the `tuning`
-    of tunable parameters, by name. `start_time` (s) is what the FMU gets as time 0. With
-    `reads_twice` outputs are read where values change, both before and after they are set.
+    of tunable parameters and deviations of the drive, by name. `start_time` (s) is what the FMU
+    gets as time 0. With `reads_twice` outputs are read where values change, both before and after
+    they are set.
 
     With `interpolates` inputs are straight lines between the communication points, and the FMU gets
     their derivatives; tuning is held all the same.

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.interface import INPUTS, PARAMETERS, TUNABLES, VARIABLES
+from slider_resonator.device.interface import HELD, INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.device.schedule import Schedule, in_order
 from slider_resonator.device.signal import steps
 from slider_resonator.device.values import si_value
@@ -175,7 +175,7 @@ def _column(heading: str, is_run: bool) -> tuple[str, float]:
     parts = _heading(heading)
     outputs = [name for name, one in VARIABLES.items() if one.causality == "output"]
     measured = outputs if is_run else [*STEADY]
-    allowed = [*INPUTS, *(TUNABLES if is_run else PARAMETERS), *measured, "time"]
+    allowed = [*INPUTS, *(HELD if is_run else PARAMETERS), *measured, "time"]
     name = parts["name"] if is_run else _ALIASES.get(parts["name"], parts["name"])
     if name not in allowed or (parts["std"] and name not in measured):
         raise ValueError(unknown_name("column", name + parts["std"], allowed))
@@ -228,7 +228,7 @@ def _run(path: Path, columns: Mapping[str, Array]) -> Measurements:
     times = columns["time"] - columns["time"][0]
     if not np.all(np.diff(times) > 0.0):
         raise HarnessError(f"{path}: time must be in every row, and increase strictly")
-    settable = (*INPUTS, *TUNABLES)
+    settable = (*INPUTS, *HELD)
     signals = {}
     for name in settable:
         if name in columns:
@@ -236,7 +236,7 @@ def _run(path: Path, columns: Mapping[str, Array]) -> Measurements:
                 raise HarnessError(f"{path}: {name} is empty in a row; must be a number")
             signals[name] = steps(list(zip(times.tolist(), columns[name].tolist(), strict=True)))
     inputs = {name: signal for name, signal in signals.items() if name in INPUTS}
-    tuning = {name: signal for name, signal in signals.items() if name in TUNABLES}
+    tuning = {name: signal for name, signal in signals.items() if name in HELD}
     outputs = {n: c for n, c in columns.items() if n in VARIABLES and n not in settable}
     if not outputs:
         raise HarnessError(f"{path}: measures nothing; must have a column of an output")

@@ -15,6 +15,7 @@ from fmpy.model_description import (
     Unknown,
 )
 
+from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import FIRST, INPUTS, VARIABLES, Variable
 
 DIMENSIONS: Mapping[str, Mapping[str, int]] = {
@@ -107,11 +108,11 @@ INITIAL: Mapping[str, str] = {"input": "exact", "parameter": "exact", "output": 
 
 INPUTS_AT_START: Mapping[str, Set[str]] = {
     "position": frozenset(),
-    "velocity": frozenset(),
+    "velocity": frozenset(DEVIATIONS),
     "normal_force": frozenset({"phase"}),
     "reversals": frozenset(),
     "last_event_time": frozenset(),
-    "blocking_force": frozenset({"phase", "frequency_ratio"}),
+    "blocking_force": frozenset({"phase", "frequency_ratio", *DEVIATIONS}),
 }
 """Inputs on which some outputs may depend at the start; any other makes a false algebraic loop."""
 
@@ -149,16 +150,15 @@ def description_faults(description: ModelDescription) -> list[str]:
             faults += _other_values(found, VARIABLES[found.name])
             faults += _undefined_display(found, units)
     declared = {unknown.variable.name: unknown.dependencies for unknown in description.outputs}
+    names = {variable.name for variable in description.modelVariables}
     for name, variable in VARIABLES.items():
-        if variable.causality != "output" or all(
-            v.name != name for v in description.modelVariables
-        ):
+        if variable.causality != "output" or name not in names:
             continue
         if name not in declared:
             faults.append(f"{name} is not among the outputs of ModelStructure")
         elif declared[name] is not None and variable.depends_on is not None:
             dependencies = {other.name for other in declared[name]}
-            for missing in sorted(set(variable.depends_on) - dependencies):
+            for missing in sorted(names & set(variable.depends_on) - dependencies):
                 faults.append(f"{name} is declared independent of {missing}, which acts on it")
             for other in sorted(dependencies - set(variable.depends_on)):
                 faults.append(f"{name} is declared to depend on {other}, which does not act on it")
@@ -211,7 +211,7 @@ def _loop_faults(unknown: Unknown) -> Iterator[str]:
     """Find inputs on which an output is declared to depend at the start, and does not."""
     name = unknown.variable.name
     if name in INPUTS_AT_START:
-        declared = {other.name for other in unknown.dependencies or ()} & set(INPUTS)
+        declared = {other.name for other in unknown.dependencies or ()} & {*INPUTS, *DEVIATIONS}
         for other in sorted(declared - INPUTS_AT_START[name]):
             yield f"{name} is declared to depend on {other} at the start, which does not act on it"
 

@@ -12,7 +12,7 @@ from xml.etree import ElementTree as ET
 import fmpy
 from fmpy.model_description import ModelDescription, ModelVariable, read_model_description
 
-from slider_resonator.device.interface import FIRST, INPUTS, PARAMETERS, VARIABLES
+from slider_resonator.device.interface import FIRST, SETTABLE, VARIABLES
 from slider_resonator.errors import FmuError, NotApplicable, unknown_name
 from slider_resonator.fmu.interface_check import interface_problems
 from slider_resonator.fmu.limits import MAX_ENTRIES, max_unpacked
@@ -58,9 +58,8 @@ class Fmu:
 
     def settable(self, name: str) -> ModelVariable:
         """Return the parameter or input called `name`; FmuError names the nearest if none is."""
-        allowed = [*PARAMETERS, *INPUTS]
-        if name not in allowed:
-            raise FmuError(unknown_name("parameter or input", name, allowed))
+        if name not in SETTABLE:
+            raise FmuError(unknown_name("parameter or input", name, SETTABLE))
         return self.variable(name)
 
     def variable(self, name: str) -> ModelVariable:

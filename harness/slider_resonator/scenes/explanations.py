@@ -9,6 +9,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
+from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import (
     INPUTS,
     INTEGERS,
@@ -52,7 +53,7 @@ PLACES: Mapping[str, str] = {
     **dict.fromkeys(OUTPUTS, "an output cannot be set"),
     **dict.fromkeys(PARAMETERS, "a parameter must be in [device]"),
     **dict.fromkeys(TUNABLES, "a tunable parameter must be in [device] or in [tuning]"),
-    **dict.fromkeys(INPUTS, "an input must be in [inputs]"),
+    **dict.fromkeys((*INPUTS, *DEVIATIONS), "an input must be in [inputs]"),
     **dict.fromkeys(RunTable.model_fields, "must be in [run]"),
     **dict.fromkeys(SceneTable.model_fields, "must be above the first heading"),
 }

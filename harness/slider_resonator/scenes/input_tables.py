@@ -6,6 +6,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field, field_validator, model_validator
 
+from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import TUNABLES
 from slider_resonator.scenes.device_keys import device_schema
 from slider_resonator.scenes.key_table import (
@@ -85,6 +86,29 @@ class InputsTable(KeyTable):
         unit="1",
         default=InputTable(constant=1.0),
     )
+
+
+class AllInputsTable(InputsTable):
+    """The inputs of the FMU; those left out keep their start value."""
+
+    rules: ClassVar[tuple[str, ...]] = (
+        "Deviations of the drive are held over a step, in a run that says `interpolate`, too.",
+    )
+
+    amplitude_deviation: InputTable | None = key(
+        "deviation of base_amplitude and tangential_force, relative to these; -1 is no drive",
+        {"steps": [[0.0, 0.0], [0.05, -1.0]]},
+        unit="1",
+    )
+    frequency_deviation: InputTable | None = key(
+        "deviation of drive_frequency, relative to it", 0.01, unit="1"
+    )
+
+    @property
+    def deviations(self) -> dict[str, InputTable]:
+        """The deviations that are given, by name."""
+        tables = {name: getattr(self, name) for name in DEVIATIONS}
+        return {name: table for name, table in tables.items() if table is not None}
 
 
 class TuningTable(KeyTable):

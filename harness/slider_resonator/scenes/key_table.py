@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar
 from pydantic import BaseModel, ConfigDict, Field
 from pydantic_core import PydanticCustomError
 
+from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import unknown_name
@@ -56,7 +57,7 @@ def checked_device(device: dict[str, float]) -> dict[str, float]:
     """Return the parameters; an error of kind `NAMED` for an unknown name or impossible value."""
     for name, value in device.items():
         try:
-            if name in INPUTS:
+            if name in (*INPUTS, *DEVIATIONS):
                 raise ValueError(f"{name}: is an input: must be in [inputs]")
             if name not in PARAMETERS:
                 raise ValueError(f"{name}: {unknown_name('parameter', name, PARAMETERS)}")

@@ -15,8 +15,8 @@ from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
 from slider_resonator.scenes.expansion import bundles
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.input_tables import (
+    AllInputsTable,
     BesideTable,
-    InputsTable,
     InputTable,
     TuningTable,
 )
@@ -28,7 +28,7 @@ from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES, Quantity
 
 TABLES: dict[str, type[KeyTable]] = {
     "The top of the file": SceneTable,
-    "[inputs]": InputsTable,
+    "[inputs]": AllInputsTable,
     "Values over time": InputTable,
     "[tuning]": TuningTable,
     "[beside]": BesideTable,

@@ -10,7 +10,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from slider_resonator.device.device import Device
+from slider_resonator.device.device import DEVIATIONS, Device
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule, schedule, step_count
 from slider_resonator.device.signal import Signal, constant, ramp, steps
@@ -44,8 +44,9 @@ class Scene(Shown):
     Raises SceneError for a run of too many steps, or one that goes beyond the values of a CSV file.
 
     `parameters` are the device parameters that differ from their start, `signals` the inputs by
-    name, `tuning` the parameters that change in the run. `beside` is what a second instance runs.
-    `source` names the scene in messages; `files` are all that it was read from.
+    name, `tuning` what changes in the run and is held over a step: tunable parameters, deviations
+    of the drive. Deviations that are constant are among the parameters. `beside` is what a second
+    instance runs. `source` names the scene in messages; `files` are all that it was read from.
     """
 
     name: str
@@ -79,7 +80,11 @@ class Scene(Shown):
         """All values over time, by the key of the scene file."""
         beside = self.beside.signals if self.beside else {}
         tables = (("inputs", self.signals), ("tuning", self.tuning), ("beside.inputs", beside))
-        return {f"{t}.{name}": signal for t, signals in tables for name, signal in signals.items()}
+        return {
+            f"{'inputs' if name in DEVIATIONS else table}.{name}": signal
+            for table, signals in tables
+            for name, signal in signals.items()
+        }
 
     @property
     def device(self) -> Device:
@@ -254,19 +259,26 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
     except ValidationError as error:
         raise SceneError("\n".join(explanations(source, error, content))) from error
     tables = _tables_of(table.inputs)
-    given = {**tables, **table.tuning.given}
+    deviations = table.inputs.deviations
+    given = {**tables, **table.tuning.given, **deviations}
     beside = _tables_of(table.beside.inputs) if table.beside else {}
 
     def signals(tables: Mapping[str, InputTable], where: str) -> dict[str, Signal]:
         return {n: _signal(t, n, f"{source}: {where}.{n}", folder) for n, t in tables.items()}
 
     tuning = signals(table.tuning.given, "tuning")
+    starts = {name: s.at(0.0) for name, s in tuning.items()}
+    deviating = signals(deviations, "inputs")
+    if tuning or any(len(signal.times) > 1 for signal in deviating.values()):
+        tuning |= deviating
+    else:
+        starts |= {name: signal.at(0.0) for name, signal in deviating.items()}
     return Scene(
         name=table.name,
         title=table.title,
         description=table.description.strip(),
         source=source,
-        parameters={**table.device, **{name: s.at(0.0) for name, s in tuning.items()}},
+        parameters={**table.device, **starts},
         signals=signals(tables, "inputs"),
         run=table.run,
         expect=table.expect,

@@ -7,13 +7,13 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, field_validator, model_validator
 
-from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.device.interface import INPUTS, SETTABLE
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.device_keys import device_schema
 from slider_resonator.scenes.expansion import with_bundles
 from slider_resonator.scenes.expect_table import ExpectTable
-from slider_resonator.scenes.input_tables import BesideTable, InputsTable, TuningTable
+from slider_resonator.scenes.input_tables import AllInputsTable, BesideTable, TuningTable
 from slider_resonator.scenes.key_table import (
     KeyTable,
     Line,
@@ -89,16 +89,15 @@ class SweepTable(KeyTable):
     variable: str = Field(
         description="the parameter or input that varies",
         examples=["load"],
-        json_schema_extra={"enum": [*PARAMETERS, *INPUTS]},
+        json_schema_extra={"enum": [*SETTABLE]},
     )
     values: tuple[Number, ...] = required("its values, SI units", [0.0, 0.02, 0.04])
 
     @field_validator("variable")
     @classmethod
     def _known_variable(cls, name: str) -> str:
-        allowed = [*PARAMETERS, *INPUTS]
-        if name not in allowed:
-            raise ValueError(unknown_name("parameter or input", name, allowed))
+        if name not in SETTABLE:
+            raise ValueError(unknown_name("parameter or input", name, SETTABLE))
         return name
 
     @field_validator("values")
@@ -140,7 +139,7 @@ class SceneTable(KeyTable):
         examples=[{"friction_coefficient": 0.12}],
         json_schema_extra=device_schema(),
     )
-    inputs: InputsTable = key("inputs over time", {"phase": 0.4}, default=InputsTable())
+    inputs: AllInputsTable = key("inputs over time", {"phase": 0.4}, default=AllInputsTable())
     tuning: TuningTable = key(
         "tunable parameters that change in the run",
         {"normal_preload": {"steps": [[0.0, 1.0], [0.02, 1.4]]}},
@@ -213,6 +212,12 @@ class SceneTable(KeyTable):
         return not self._changing()
 
     def _changing(self) -> list[str]:
-        """Return the names of the inputs and parameters that change in the run."""
-        tables = {name: getattr(self.inputs, name) for name in INPUTS} | self.tuning.given
-        return [name for name, table in tables.items() if table.constant is None]
+        """Return the names of the inputs and parameters that change in the run.
+
+        Deviations of a drive that is tuned count as such: they are applied to what it is tuned to.
+        """
+        deviations = self.inputs.deviations
+        tables = {name: getattr(self.inputs, name) for name in INPUTS}
+        tables |= self.tuning.given | deviations
+        combined = deviations if self.tuning.given else {}
+        return [n for n, table in tables.items() if table.constant is None or n in combined]

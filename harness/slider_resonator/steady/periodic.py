@@ -92,6 +92,7 @@ def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
     )
     with instance.explained():
         read = instance.read(names)
+    read["drive_frequency"] *= 1.0 + values.get("frequency_deviation", 0.0)
     try:
         check_value("drive_frequency", read["drive_frequency"])
     except ValueError as error:

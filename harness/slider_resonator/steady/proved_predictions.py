@@ -19,7 +19,7 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
-from slider_resonator.device.interface import PARAMETERS
+from slider_resonator.device.interface import INPUTS
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.resolved.equations import steady_vibration
@@ -136,7 +136,7 @@ def _candidate(
         instance.recreate()
         return None
     displacement, swing = _vibration(device)
-    drive = device["drive_frequency"]
+    drive = device["drive_frequency"] * (1.0 + device.get("frequency_deviation", 0.0))
     size = (abs(swing), abs(displacement), abs(displacement) * drive)
     if valid != 1.0 or 0.0 in size or not all(map(isfinite, (velocity, force, *size))):
         return None
@@ -160,7 +160,7 @@ def _vibration(values: Mapping[str, float]) -> tuple[complex, complex]:
     Those of the steady vibration without friction; 0 where there is none.
     """
     try:
-        device = Device.from_mapping({name: values[name] for name in PARAMETERS if name in values})
+        device = Device.from_mapping({n: value for n, value in values.items() if n not in INPUTS})
         displacement, force = steady_vibration(device)
         return displacement, force / (1j * device.drive_frequency * device.total_mass)
     except (ValueError, ArithmeticError):

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from slider_resonator.device.common_period import MAX_DENOMINATOR
-from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.scenes.device_file import device_values, refuse_other_kinds
@@ -80,8 +80,8 @@ def _sweep(content: Mapping[str, Any], device: Mapping[str, float]) -> Sweep:
         raise AxisError("nothing is varied; must have any of [grid], [list] and [random]")
     fixed = dict(_table(content, "fixed"))
     for name in [*names, *fixed]:
-        if name not in PARAMETERS and name not in INPUTS:
-            raise AxisError(unknown_name("parameter or input", name, [*PARAMETERS, *INPUTS]))
+        if name not in SETTABLE:
+            raise AxisError(unknown_name("parameter or input", name, SETTABLE))
         if [*names, *fixed].count(name) > 1:
             raise AxisError(f"{name} is given more than once; must be in one place")
     factors = [rows for own, rows in parts if own]

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from slider_resonator.arrays import Array
+from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUT_STARTS, INPUTS, INTEGERS, OUTPUTS
 from slider_resonator.device.schedule import schedule
 from slider_resonator.device.signal import constant
@@ -131,8 +132,7 @@ def _statistics(instance: Instance, task: Task, values: Mapping[str, float]) -> 
     outputs = list(dict.fromkeys(name.partition(".")[0] for name in chosen))
     parameters = {name: value for name, value in values.items() if name not in INPUTS}
     inputs = {name: constant(values.get(name, start)) for name, start in INPUT_STARTS.items()}
-    instance.start(values)
-    period = tau / instance.value("drive_frequency")
+    period = tau / Device.from_mapping(parameters).drive_frequency
     plan = schedule(task.run.drive_periods * period, period / task.run.steps_per_period, **inputs)
     record = run(instance, parameters, plan, outputs=outputs)
     first = task.run.skip_periods * task.run.steps_per_period

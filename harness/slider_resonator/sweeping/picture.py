@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.device.interface import SETTABLE
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.plot_style import Picture, style
 from slider_resonator.sweeping.grid import Sweep
@@ -119,7 +119,7 @@ def _unanswered(axes: Axes, x: Array, y: Array, result: Array) -> None:
 
 def _unit(name: str) -> str:
     """Return the unit of a parameter or input, 1 where it has none."""
-    return INPUTS.get(name) or PARAMETERS[name]
+    return SETTABLE[name]
 
 
 def variable_label(name: str) -> str:

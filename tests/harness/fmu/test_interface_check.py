@@ -32,8 +32,8 @@ CHANGES: dict[str, tuple[bytes, bytes, str]] = {
     "one large step": (b'stepSize="0.001"', b'stepSize="1.0"', "stepSize of the default"),
     "no step": (b'stepSize="0.001"', b'stepSize="0"', "stepSize of the default experiment is 0.0"),
     "linear": (
-        b'dependenciesKind="dependent dependent dependent"',
-        b'dependenciesKind="constant dependent dependent"',
+        b'dependencies="1 2 3 4 5" dependenciesKind="dependent ',
+        b'dependencies="1 2 3 4 5" dependenciesKind="constant ',
         "friction_force is declared constant in phase",
     ),
     "needs a tool": (
@@ -42,8 +42,8 @@ CHANGES: dict[str, tuple[bytes, bytes, str]] = {
         "needsExecutionTool is true, must be false",
     ),
     "loop at the start": (
-        b'index="26" dependencies="21" dependenciesKind="dependent"',
-        b'index="26" dependencies="2 21" dependenciesKind="dependent dependent"',
+        b'index="28" dependencies="23" dependenciesKind="dependent"',
+        b'index="28" dependencies="2 23" dependenciesKind="dependent dependent"',
         "position is declared to depend on load at the start",
     ),
     "display unit": (b'displayUnit="mm"', b'displayUnit="mile"', "displayUnit of"),

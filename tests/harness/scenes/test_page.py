@@ -104,7 +104,7 @@ def test_a_scene_with_every_key_validates(tmp_path: Path) -> None:
     assert seen >= set(PARAMETERS_OF_TABLES)
     for model, places in {
         "The top of the file": [""],
-        "[inputs]": ["inputs.", "beside.inputs."],
+        "[inputs]": ["inputs."],
         "[tuning]": ["tuning."],
         "[beside]": ["beside."],
         "[run]": ["run."],

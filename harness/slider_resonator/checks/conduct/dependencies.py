@@ -8,7 +8,8 @@ from fmpy.model_description import Unknown
 
 from slider_resonator.checks.conduct.findings import Findings, other_value
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.device.interface import INPUTS, PARAMETERS, VARIABLES
+from slider_resonator.device.device import DEVIATIONS
+from slider_resonator.device.interface import INPUTS, SETTABLE, VARIABLES
 from slider_resonator.fmu.instance import Instance
 
 SITUATIONS: Sequence[Mapping[str, float]] = (
@@ -32,7 +33,7 @@ def dependency_faults(fmu: FmuSide) -> Findings:
     at_start = _declared(description.initialUnknowns)
     in_run = _declared(description.outputs)
     faults: list[str] = []
-    names = [name for name in (*PARAMETERS, *INPUTS) if name in instance.fmu.variables]
+    names = [name for name in SETTABLE if name in instance.fmu.variables]
     chosen = ("fidelity", "friction_law", "averaging_order")  # each has a situation of its own
     for situation in SITUATIONS:
         before = _started(instance, situation)
@@ -56,7 +57,9 @@ def _after_inputs(
     """Change each input from the value that was set, and set it back."""
     faults: list[str] = []
     before = _outputs(instance)
-    for name in INPUTS:
+    for name in (*INPUTS, *DEVIATIONS):
+        if name not in instance.fmu.variables:
+            continue
         value = set_values.get(name, VARIABLES[name].start or 0.0)
         instance.set({name: other_value(name, value)})
         faults += _undeclared(instance, name, before, declared, "in a run")

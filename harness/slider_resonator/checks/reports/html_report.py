@@ -29,7 +29,7 @@ from slider_resonator.checks.verdict import (
     title,
     value_text,
 )
-from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.device.interface import SETTABLE
 from slider_resonator.fmu.provenance import provenance_html
 from slider_resonator.output.hover_plot import (
     Axis,
@@ -218,7 +218,7 @@ def _over_sweep(checks: Sequence[Check]) -> HoverPlot | None:
     name = first.quantity.replace("_", " ")
     return HoverPlot(
         f"{name} over {variable.replace('_', ' ')}: FMU on reference",
-        Axis(_label(variable, INPUTS.get(variable) or PARAMETERS[variable]), log=_is_wide(x)),
+        Axis(_label(variable, SETTABLE[variable]), log=_is_wide(x)),
         Axis(_label(first.quantity, first.unit)),
         _pair(x, fmu, reference),
         HEIGHT,

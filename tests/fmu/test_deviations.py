@@ -1,0 +1,174 @@
+"""The drive as inputs: deviations of its amplitude and frequency from what the parameters say."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from tests.fmu.host import OUTPUTS, Instance, Instantiate, Unpacked
+from tests.fmu.host_3 import Instance3
+from tests.fmus import both_fmus, native_fmu_only
+
+DEVICE = {"tangential_force": 20.0, "phase": 0.4, "load": 0.02}
+DRIVE = {"base_amplitude": 1e-4, "drive_frequency": 3500.0, "tangential_force": 20.0}
+MOTIONS = [
+    {"fidelity": 2},
+    {"fidelity": 1},
+    {"fidelity": 0, "averaging_order": 1},
+    {"fidelity": 0, "averaging_order": 2},
+]
+LAWS = [{"friction_law": 0}, {"friction_law": 1}]
+BURST = [(0.0, 0.0), (-1.0, 0.0), (-1.0, 0.1), (0.3, -0.05), (0.0, 0.0)]
+"""Deviations of amplitude and frequency, one after the other."""
+
+STEP = 0.123
+"""Some 68 periods: long enough for a leap."""
+
+Course = Sequence[tuple[float, float]]
+
+
+def tuned(amplitude: float, frequency: float) -> Mapping[str, float]:
+    """The parameters of a drive with these deviations."""
+    return {
+        "base_amplitude": DRIVE["base_amplitude"] * (1.0 + amplitude),
+        "tangential_force": DRIVE["tangential_force"] * (1.0 + amplitude),
+        "drive_frequency": DRIVE["drive_frequency"] * (1.0 + frequency),
+    }
+
+
+def deviating(amplitude: float, frequency: float) -> Mapping[str, float]:
+    return {"amplitude_deviation": amplitude, "frequency_deviation": frequency}
+
+
+def assert_deviates_as_tuned(
+    instances: tuple[Instance, Instance], device: Mapping[str, float], course: Course, step: float
+) -> None:
+    """Every output is equal after each change and each step, through a saved state on the way."""
+    deviates, is_tuned = instances
+    for instance, values in ((deviates, deviating(*course[0])), (is_tuned, tuned(*course[0]))):
+        instance.slave.reset()
+        instance.initialize(**{**device, **values})
+    for one in course:
+        deviates.set(**deviating(*one))
+        is_tuned.set(**tuned(*one))
+        assert deviates.get(*OUTPUTS) == is_tuned.get(*OUTPUTS), f"{one} at once"
+        state = deviates.state()
+        deviates.set(amplitude_deviation=0.7, frequency_deviation=0.2)
+        deviates.step(0.1 * step)
+        deviates.restore(state)
+        deviates.time = is_tuned.time
+        for instance in instances:
+            instance.step(step)
+        assert deviates.get(*OUTPUTS) == is_tuned.get(*OUTPUTS), f"{one} after a step"
+
+
+@both_fmus
+@pytest.mark.parametrize("law", LAWS, ids=str)
+@pytest.mark.parametrize("motion", MOTIONS, ids=str)
+def test_deviations_are_tuning_to_the_last_bit(
+    instantiate: Instantiate, motion: Mapping[str, float], law: Mapping[str, float]
+) -> None:
+    device = {**DEVICE, **motion, **law}
+    step = STEP if motion["fidelity"] == 0 else 0.1 * STEP
+    assert_deviates_as_tuned((instantiate(), instantiate()), device, BURST, step)
+
+
+@both_fmus
+@settings(
+    max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None
+)
+@given(
+    device=st.fixed_dictionaries(
+        {
+            "fidelity": st.integers(1, 2),
+            "friction_law": st.integers(0, 1),
+            "frequency_ratio": st.sampled_from([1.0, 0.5, 3.0, 1.001]),
+            "normal_amplitude": st.floats(0.0, 2.0),
+            "phase": st.floats(-3.0, 3.0),
+            "load": st.floats(-0.1, 0.1),
+        }
+    ),
+    course=st.lists(
+        st.tuples(st.just(-1.0) | st.floats(-1.0, 2.0), st.floats(-0.5, 1.0)),
+        min_size=1,
+        max_size=4,
+    ),
+)
+def test_any_deviation_is_tuning(
+    instantiate: Instantiate, device: Mapping[str, float], course: Course
+) -> None:
+    assert_deviates_as_tuned((instantiate(), instantiate()), {**DRIVE, **device}, course, 2.3e-3)
+
+
+@native_fmu_only
+def test_ramped_inputs_of_a_drive_that_deviates(instantiate: Instantiate) -> None:
+    for motion in MOTIONS:
+        deviates, is_tuned = instantiate(), instantiate()
+        deviates.initialize(**DEVICE, **motion, **deviating(0.2, 0.01))
+        is_tuned.initialize(**{**DEVICE, **motion, **tuned(0.2, 0.01)})
+        for instance in (deviates, is_tuned):
+            instance.ramp(phase=2.0, load=0.3, frequency_ratio=0.1)
+            instance.step(0.011)
+        assert deviates.get(*OUTPUTS) == is_tuned.get(*OUTPUTS)
+
+
+@pytest.mark.parametrize("motion", MOTIONS, ids=str)
+def test_fmi_3_deviates_alike(unpacked_3: Unpacked, motion: Mapping[str, float]) -> None:
+    deviates, is_tuned = Instance3(unpacked_3), Instance3(unpacked_3)
+    for instance in (deviates, is_tuned):
+        instance.initialize(**DEVICE, **motion)
+    for count, one in enumerate(BURST, start=1):
+        deviates.set(**deviating(*one))
+        is_tuned.set(**tuned(*one))
+        for instance in (deviates, is_tuned):
+            instance.step_to(0.0137 * count)
+        assert deviates.get(*OUTPUTS) == is_tuned.get(*OUTPUTS)
+    for instance in (deviates, is_tuned):
+        instance.slave.freeInstance()
+
+
+@both_fmus
+@pytest.mark.parametrize("law", LAWS, ids=str)
+@pytest.mark.parametrize("motion", MOTIONS, ids=str)
+def test_a_drive_that_is_switched_off_lets_friction_stop_the_slider(
+    instantiate: Instantiate, motion: Mapping[str, float], law: Mapping[str, float]
+) -> None:
+    instance = instantiate().initialize(initial_velocity=0.02, **motion, **law)
+    instance.step(0.02)
+    before = instance.get("position", "velocity")
+    instance.set(amplitude_deviation=-1.0)
+    assert instance.get("position", "velocity") == before, "nothing jumps"
+    assert instance.get("steady_velocity", "blocking_force", "prediction_valid") == (0.0, 0.0, 0.0)
+    instance.step(2.0)
+    (velocity,) = instance.get("mean_velocity")
+    assert abs(velocity) < 1e-8, "the slider stands, to the tolerance of bristles"
+    instance.set(amplitude_deviation=0.0)
+    instance.step(1.0)
+    assert instance.get("mean_velocity")[0] > 0.05, "and moves on"
+    assert instance.get("prediction_valid") == (1.0,)
+
+
+@both_fmus
+def test_deviations_out_of_bounds_are_refused(instantiate: Instantiate) -> None:
+    instance = instantiate().initialize(drive_frequency=2e-6)
+    with instance.refuses("amplitude_deviation = -1.5 refused", "at least -1"):
+        instance.set(amplitude_deviation=-1.5)
+    with instance.refuses("frequency_deviation = -1.0 refused", "at least -0.99"):
+        instance.set(frequency_deviation=-1.0)
+    with instance.refuses(
+        "frequency_deviation = -0.75 refused: it makes drive_frequency 5e-07", "at least 1e-06"
+    ):
+        instance.set(frequency_deviation=-0.75)
+
+
+@native_fmu_only
+@pytest.mark.parametrize("name", ["amplitude_deviation", "frequency_deviation"])
+def test_deviations_are_held_over_a_step(instance: Instance, name: str) -> None:
+    instance.ramp(**{name: 0.0})
+    with instance.refuses(f"derivative of {name} = 0.5 refused", "held over a step", "must be 0"):
+        instance.ramp(**{name: 0.5})
+    instance.step(1e-3)
+    assert instance.get(name) == (0.0,)
