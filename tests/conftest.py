@@ -12,6 +12,7 @@ from fmu_src.building.controller_fmu import build_controller
 from fmu_src.building.native_fmu import build_native, build_native_3
 from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import build_python
+from tests.harness.in_process import run_in_this_process
 
 # On a CI server the tests add nothing to the page that the validation itself makes.
 os.environ.pop("GITHUB_STEP_SUMMARY", None)
@@ -25,6 +26,13 @@ settings.load_profile("same")
 # Else examples change with every number in whatever modules happen to be loaded by then.
 if hasattr(providers, "_get_local_constants"):
     providers._get_local_constants = lambda: providers._local_constants
+
+
+@pytest.fixture(autouse=True)
+def fmus_in_this_process(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Run FMUs in this process, but in tests marked `isolated`."""
+    if request.node.get_closest_marker("isolated") is None:
+        run_in_this_process(monkeypatch)
 
 
 @pytest.fixture(scope="session")

@@ -255,17 +255,17 @@ def test_run_as_json_with_another_load(python_fmu: Path) -> None:
     assert summary["mean_velocity"] < weaker["mean_velocity"], "0.3 N brakes more than 0.25 N"
 
 
+@pytest.mark.isolated
 def test_an_fmu_with_wrong_physics_is_rejected(python_fmu: Path, tmp_path: Path) -> None:
-    """In a process of its own, for two FMUs with one package name would share their modules."""
+    """Isolated, for two FMUs with one package name would share their modules."""
     wrong = faulty_fmus.other_friction(python_fmu, tmp_path / "wrong.fmu")
-    command = [sys.executable, "-m", "harness", "validate", str(wrong), "--scene", "table_1"]
-    result = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert result.returncode == 1, result.stderr
+    result = call("validate", wrong, "--scene", "table_1")
+    assert result.exit_code == 1, result.stderr
     assert "FAIL" in result.stdout
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX closes the streams")
-@pytest.mark.parametrize("closed", ["2>&-", ">&-", ">&- 2>&-", "<&-", "| head -n 1"])
+@pytest.mark.parametrize("closed", [">&- 2>&-", "<&-"])
 def test_closed_streams_do_no_harm(closed: str, tmp_path: Path) -> None:
     out = tmp_path / "report.json"
     missing = tmp_path / "none.fmu"

@@ -8,7 +8,8 @@ from slider_resonator.checks.compare import Check
 from slider_resonator.checks.validate import validate, worst_of_sweeps
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.scene_files import find_scene
-from tests.harness.scene_text import scene_read
+from tests.harness import faulty_fmus
+from tests.harness.scene_text import read_scene, scene_read
 
 EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = {}\nrelative = 1e-6\nwhy = "test"\n'
 
@@ -90,3 +91,19 @@ def test_several_fmus_are_judged_one_by_one(tmp_path: Path, python_fmu: Path) ->
     assert [result.fmu for result in results] == [str(python_fmu), str(copy)]
     assert all(result.passed and len(result.checks) == 1 for result in results)
     assert reported == sorted(reported)
+
+
+def test_a_refused_scene_does_not_keep_others_from_being_judged(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    scene = faulty_fmus.scene(tmp_path)
+    refused = faulty_fmus.scene(tmp_path, "refused")
+    refused.write_text(
+        refused.read_text() + "\n[device]\nfriction_law = 1\nfriction_coefficient = 0\n"
+    )
+    (validation,) = validate([native_fmu], [read_scene(refused), read_scene(scene)])
+    assert validation.exit_code == 2
+    (run_failure,) = validation.run_failures
+    assert run_failure.scene == "refused"
+    assert "friction_coefficient = 0.0 refused" in run_failure.reason
+    assert [(c.scene, c.passed) for c in validation.checks] == [("short", True)]

@@ -64,6 +64,7 @@ CASES = [
 ]
 
 
+@pytest.mark.isolated
 @pytest.mark.parametrize(("command", "as_json"), CASES)
 def test_no_command_prints_hostile_text(
     nasty_fmu: Path,

@@ -19,6 +19,7 @@ ENDLESS = Case("steps", "far too many", Model(2, 0), {}, (Hold(1.0, 100_000),))
 LEAPING = replace(QUICK, model=Model(0, 0, 2))
 
 
+@pytest.mark.isolated
 @pytest.mark.slow
 def test_a_hang_costs_one_case(native_fmu: Path) -> None:
     shares: list[float] = []
@@ -30,6 +31,7 @@ def test_a_hang_costs_one_case(native_fmu: Path) -> None:
     assert f"--case '{ENDLESS.name}'" in sentences(result), "the command that runs it again"
 
 
+@pytest.mark.isolated
 def test_an_fmu_that_crashes_in_every_case_fails_each(native_fmu: Path, tmp_path: Path) -> None:
     crash = compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
     cases = [replace(QUICK, value=str(n)) for n in range(4)]

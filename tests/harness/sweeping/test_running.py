@@ -10,6 +10,8 @@ from slider_resonator.sweeping.measures import Row, Run, Task
 from slider_resonator.sweeping.running import Workers, run_points
 from tests.harness.faulty_fmus import compiled
 
+pytestmark = pytest.mark.isolated
+
 POINTS = [(number, (0.1 * (1 + number),)) for number in range(3)]
 
 

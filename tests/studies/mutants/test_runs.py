@@ -35,6 +35,7 @@ def run() -> MutationRun[Mutant]:
     return MutationRun("my.fmu", 100, verdicts, 2.0)
 
 
+@pytest.mark.isolated
 def test_mutants_are_judged_once_and_kept(
     python_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -54,6 +55,7 @@ def test_mutants_are_judged_once_and_kept(
     assert run_kept().verdicts == run.verdicts
 
 
+@pytest.mark.isolated
 @pytest.mark.slow
 def test_faults_are_rejected_and_variants_accepted(native_fmu: Path) -> None:
     names = ("mean_before_first_period", "first_bristle_sign", "split_merges_mirror", "longer_arcs")

@@ -13,6 +13,8 @@ from studies.mutants.trial import BenchPoint, Tried, trial
 from tests.harness import faulty_fmus
 from tests.harness.scene_text import read_scene
 
+pytestmark = pytest.mark.isolated
+
 Outcome = Callable[[str, str, str], Tried]
 FORCE = "self.drive, self.arc = force"
 

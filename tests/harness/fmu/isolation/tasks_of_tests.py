@@ -44,11 +44,6 @@ def abort(instance: Instance) -> None:
     os.abort()
 
 
-def abort_after(instance: Instance, seconds: float) -> None:
-    time.sleep(seconds)
-    os.abort()
-
-
 def crash_in_step_of_fmi_3(instance: Instance) -> None:
     """Have the FMU answer into memory that is nobody's."""
     assert isinstance(instance.slave, Fmi3Slave)

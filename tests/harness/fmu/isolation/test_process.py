@@ -16,6 +16,8 @@ from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, Request
 from tests.harness.fmu.isolation import tasks_of_tests as tasks
 from tests.processes import has_ended
 
+pytestmark = pytest.mark.isolated
+
 
 @pytest.fixture
 def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:

@@ -18,6 +18,8 @@ from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.isolation.tasks import run_tasks
 from tests.harness.fmu.isolation import tasks_of_tests
 
+pytestmark = pytest.mark.isolated
+
 Task = Callable[[Instance], Any]
 SLOW: Task = tasks_of_tests.own_process
 MOVE: Task = partial(tasks_of_tests.position_after, time=0.01)

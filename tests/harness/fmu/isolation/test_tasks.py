@@ -1,5 +1,8 @@
+"""Which tasks are run, and how often, where an FMU dies; the processes are tested beside this."""
+
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -16,6 +19,11 @@ MOVE = partial(tasks.position_after, time=0.01)
 Named = tuple[str, Callable[[Instance], Any]]
 
 
+def die(instance: Instance, seconds: float = 0.0, over_limit: bool = False) -> None:
+    time.sleep(seconds)
+    raise FmuDied("as a process of its own would have", over_limit=over_limit)
+
+
 def outcome(finished: Finished[str]) -> str:
     if finished.error is None:
         return "done"
@@ -23,7 +31,7 @@ def outcome(finished: Finished[str]) -> str:
 
 
 def test_a_task_that_fails_leaves_the_others_alone(native_fmu: Path) -> None:
-    given: list[Named] = [("a", MOVE), ("b", tasks.refused), ("c", tasks.abort), ("d", MOVE)]
+    given: list[Named] = [("a", MOVE), ("b", tasks.refused), ("c", die), ("d", MOVE)]
     working: list[str] = []
     finished = list(run_tasks(native_fmu, given, 60.0, name=str, meanwhile=working.append))
     assert [one.item for one in finished] == working == ["a", "b", "c", "d"]
@@ -32,13 +40,13 @@ def test_a_task_that_fails_leaves_the_others_alone(native_fmu: Path) -> None:
 
 
 def test_tasks_of_one_name_are_left_out_after_a_crash(native_fmu: Path) -> None:
-    given: list[Named] = [("a", tasks.abort), ("a", MOVE), ("b", MOVE)]
+    given: list[Named] = [("a", die), ("a", MOVE), ("b", MOVE)]
     finished = list(run_tasks(native_fmu, given, 60.0, name=str))
     assert [(one.item, outcome(one)) for one in finished] == [("a", "died"), ("b", "done")]
 
 
 def test_an_fmu_that_keeps_crashing_is_given_up_by_default(native_fmu: Path) -> None:
-    given = [(name, tasks.abort) for name in "abc"]
+    given = [(name, die) for name in "abc"]
     *_, last = run_tasks(native_fmu, given, 60.0, name=str, max_crashes=2)
     assert last.item is None
     assert str(last.error) == "given up after 2 crashes or exceeded limits; not run: c"
@@ -46,17 +54,18 @@ def test_an_fmu_that_keeps_crashing_is_given_up_by_default(native_fmu: Path) -> 
 
 
 def test_a_missed_time_limit_ends_the_run(native_fmu: Path) -> None:
-    given: list[Named] = [("a", tasks.hang), ("a", MOVE), ("b", MOVE), ("c", MOVE)]
-    missed, last = run_tasks(native_fmu, given, 0.5, name=str)
+    missing = partial(die, over_limit=True)
+    given: list[Named] = [("a", missing), ("a", MOVE), ("b", MOVE), ("c", MOVE)]
+    missed, last = run_tasks(native_fmu, given, 60.0, name=str)
     assert (missed.item, outcome(missed)) == ("a", "died")
     assert last.item is None
     assert str(last.error) == "given up after 1 crash or exceeded limit; not run: b, c"
 
 
 def test_crashes_that_took_the_time_limit_end_the_run(native_fmu: Path) -> None:
-    slow: Named = ("a", partial(tasks.abort_after, seconds=0.6))
+    slow: Named = ("a", partial(die, seconds=0.06))
     given = [slow, ("b", slow[1]), ("c", slow[1])]
-    *died, last = run_tasks(native_fmu, given, 1.0, name=str)
+    *died, last = run_tasks(native_fmu, given, 0.1, name=str)
     assert [(one.item, outcome(one)) for one in died] == [("a", "died"), ("b", "died")]
     assert str(last.error) == "given up after 2 crashes or exceeded limits; not run: c"
 
