@@ -111,54 +111,42 @@ class Schedule:
     def _signals(self) -> tuple[Signal, Signal, Signal]:
         return self.phase, self.load, self.frequency_ratio
 
-    def sampled(self) -> Array:
-        """Return phase (rad), load (N), frequency ratio at each communication point, (n, 3)."""
-        return self._sampled
-
     @cached_property
-    def _sampled(self) -> Array:
+    def sampled(self) -> Array:
+        """Phase (rad), load (N), frequency ratio at each communication point, (n, 3)."""
         return _read_only(np.column_stack([signal.over(self.times) for signal in self._signals]))
 
+    @cached_property
     def rates(self) -> Array:
-        """Return the derivatives of the inputs from each communication point on, (n, 3); per s.
+        """Derivatives of the inputs from each communication point on, (n, 3); per s.
 
         Those of inputs that are held, and at the last point, are 0.
         """
-        return self._rates
-
-    @cached_property
-    def _rates(self) -> Array:
         rates = np.zeros((len(self.times), 3))
         if self.interpolates:
             ramped = [not signal.hold and len(signal.times) > 1 for signal in self._signals]
-            slopes = np.diff(self._sampled, axis=0) / np.diff(self.times)[:, None]
+            slopes = np.diff(self.sampled, axis=0) / np.diff(self.times)[:, None]
             rates[:-1] = np.where(ramped, slopes, 0.0)
         return _read_only(rates)
 
     @property
     def ramps(self) -> bool:
         """Whether an input has a derivative anywhere."""
-        return bool(self.rates().any())
-
-    def tuned(self) -> Array:
-        """Return the parameters of `tuning` at each communication point, (n, k)."""
-        return self._tuned
+        return bool(self.rates.any())
 
     @cached_property
-    def _tuned(self) -> Array:
+    def tuned(self) -> Array:
+        """The parameters of `tuning` at each communication point, (n, k)."""
         columns = [signal.over(self.times) for signal in self.tuning.values()]
         return _read_only(np.array(columns, dtype=np.float64).reshape(-1, len(self.times)).T)
 
+    @cached_property
     def changes(self) -> NDArray[np.intp]:
-        """Return the indices of the points after the first at which a value changes, (m,).
+        """Indices of the points after the first at which a value changes, (m,).
 
         Nothing is set at the last point.
         """
-        return self._changes
-
-    @cached_property
-    def _changes(self) -> NDArray[np.intp]:
-        values = np.column_stack([self.sampled(), self.rates(), self.tuned()])[:-1]
+        values = np.column_stack([self.sampled, self.rates, self.tuned])[:-1]
         changes = np.flatnonzero(np.any(values[1:] != values[:-1], axis=1)) + 1
         changes.flags.writeable = False
         return changes
@@ -171,7 +159,7 @@ class Schedule:
         """
         if not self.reads_twice:
             return self.times
-        after = np.nextafter(self.times[self.changes()], np.inf)
+        after = np.nextafter(self.times[self.changes], np.inf)
         return np.sort(np.concatenate([self.times, after]))
 
     def refined(self, begin: float, step: float) -> Schedule:
@@ -207,8 +195,8 @@ class Schedule:
 
     def held(self) -> list[HeldInputs]:
         """Return the inputs as the FMU sees them, equal neighbours merged into one interval."""
-        sampled, tuned = np.column_stack([self.sampled(), self.rates()]), self.tuned()
-        changes = self.changes().tolist()
+        sampled, tuned = np.column_stack([self.sampled, self.rates]), self.tuned
+        changes = self.changes.tolist()
         starts = [0, *changes]
         stops = [*changes, len(sampled) - 1]
         held = [

@@ -65,15 +65,15 @@ class Running:
         self.instance = instance
         self.outputs = instance.fmu.outputs if outputs is None else tuple(outputs)
         self.rows: list[list[float]] = []
-        self.inputs: Array = schedule.sampled()
-        self._rates = schedule.rates()
+        self.inputs: Array = schedule.sampled
+        self._rates = schedule.rates
         self._ramps = schedule.ramps
         if self._ramps:
             instance.fmu.require("canInterpolateInputs")
-        self._tuned = schedule.tuned()
+        self._tuned = schedule.tuned
         self._schedule = schedule
         self._times = schedule.times.tolist()
-        self._changes = set(schedule.changes().tolist())
+        self._changes = set(schedule.changes.tolist())
         self._block: Block | None = None
         self._tunables: Block | None = None
         names = (*INPUTS, *schedule.tuning)

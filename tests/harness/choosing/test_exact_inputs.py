@@ -25,7 +25,7 @@ def scene() -> Scene:
 def test_held_inputs_give_their_impulse_exactly(scene: Scene, step: float) -> None:
     schedule = exact_schedule(scene, ENDS, step, interpolates=False)
     assert not schedule.ramps
-    load, ratio = (np.diff(schedule.times) @ schedule.sampled()[:-1, i] for i in (1, 2))
+    load, ratio = (np.diff(schedule.times) @ schedule.sampled[:-1, i] for i in (1, 2))
     assert load == pytest.approx(0.5 * 0.3 * 0.1, rel=1e-12)
     assert ratio == pytest.approx(0.05 * 1.25 + 0.05 * 1.5, rel=1e-12)
 
@@ -33,8 +33,8 @@ def test_held_inputs_give_their_impulse_exactly(scene: Scene, step: float) -> No
 def test_lines_that_are_passed_on_need_their_corners_only(scene: Scene) -> None:
     schedule = exact_schedule(scene, np.array([0.0, 0.0651, 0.1]), 0.001, interpolates=True)
     assert schedule.times.tolist() == [0.0, 0.03, 0.05, 0.051, 0.0651, 0.1]
-    assert schedule.rates()[:-1, 1] == pytest.approx([10.0, *4 * [-0.3 / 0.07]])
-    assert schedule.sampled()[:, 1] == pytest.approx(scene.signals["load"].over(schedule.times))
+    assert schedule.rates[:-1, 1] == pytest.approx([10.0, *4 * [-0.3 / 0.07]])
+    assert schedule.sampled[:, 1] == pytest.approx(scene.signals["load"].over(schedule.times))
 
 
 def test_tuned_parameters_are_held_at_their_means() -> None:
@@ -44,7 +44,7 @@ def test_tuned_parameters_are_held_at_their_means() -> None:
         "[run]\nstop_time = 0.1\nstep_size = 0.02\n"
     )
     schedule = exact_schedule(scene, ENDS, 0.02, interpolates=True)
-    tuned = dict(zip(schedule.tuning, schedule.tuned().T, strict=True))
+    tuned = dict(zip(schedule.tuning, schedule.tuned.T, strict=True))
     lengths = np.diff(schedule.times)
     assert lengths @ tuned["friction_coefficient"][:-1] == pytest.approx(0.1 * 0.2, rel=1e-12)
     assert tuned["base_amplitude"][np.searchsorted(schedule.times, 0.033)] == 2e-4

@@ -41,7 +41,7 @@ def test_a_tuned_parameter_parts_the_inputs() -> None:
         load=steps([(0.0, 0.1), (0.5, 0.2)]),
     )
     assert plan.times.tolist() == [0.0, 0.25, 0.3, 0.5, 0.75, 1.0]
-    assert plan.changes().tolist() == [2, 3]
+    assert plan.changes.tolist() == [2, 3]
     assert plan.readings().tolist() == plan.times.tolist(), "read once unless it is asked"
     held = plan.held()
     check_contiguous(held)
@@ -155,7 +155,7 @@ def test_jump_replaces_a_grid_point_just_before_it() -> None:
     made = schedule(1.0, 0.1, load=steps([(0.0, 0.0), (jump, 5.0)]))
     assert len(made.times) == 11
     assert jump in made.times
-    assert made.sampled()[3, 1] == 5.0
+    assert made.sampled[3, 1] == 5.0
 
 
 def test_held_inputs_merge_equal_neighbours() -> None:
@@ -189,7 +189,7 @@ def test_lines_are_held_or_have_rates_and_corners() -> None:
     assert lines.ramps
     assert 0.35 in lines.times
     assert 0.35 not in held.times
-    rates = lines.rates()
+    rates = lines.rates
     inside = lines.times[:-1] < 0.35
     assert rates[:-1, 1] == pytest.approx(np.where(inside, 2.0, 0.0))
     assert not rates[:, [0, 2]].any(), "steps have no rate"
@@ -197,4 +197,4 @@ def test_lines_are_held_or_have_rates_and_corners() -> None:
     assert (last.start, last.phase, last.load, last.load_rate) == (0.5, 0.7, 0.7, 0.0)
     check_contiguous(lines.held(), rates=["load_rate"])
     finer = lines.refined(0.2, 0.01)
-    assert np.allclose(finer.rates()[:, 1], np.where(finer.times < 0.35 - 1e-9, 2.0, 0.0))
+    assert np.allclose(finer.rates[:, 1], np.where(finer.times < 0.35 - 1e-9, 2.0, 0.0))

@@ -40,7 +40,7 @@ def test_a_run_begins_at_zero_and_may_lack_values(tmp_path: Path) -> None:
     data = read(tmp_path, text)
     (run,) = data.runs
     assert run.schedule.times.tolist() == [0.0, 1.0, 3.0]
-    assert run.schedule.sampled()[:, 1].tolist() == [0.0, 0.05, 0.05]
+    assert run.schedule.sampled[:, 1].tolist() == [0.0, 0.05, 0.05]
     assert data.measured == pytest.approx([0.1, 0.3, 1e-6, 2e-6, 3e-6])
     assert data.quantities == ["velocity"] * 2 + ["position"] * 3
     assert np.isnan(run.outputs["velocity"][1])

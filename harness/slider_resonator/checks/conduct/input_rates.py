@@ -53,7 +53,7 @@ def rate_differences(fmu: FmuSide) -> Findings:
 def _kept(fmu: FmuSide, plain: Record) -> Findings:
     """Set values and derivatives at the corners of lines only: derivatives last until then."""
     instance, schedule = fmu.instance, fmu.scene.schedule()
-    rates = schedule.rates()
+    rates = schedule.rates
     running = Running(instance, schedule, ["position"])
     running.start(fmu.scene.parameters)
     with instance.explained():
@@ -102,9 +102,9 @@ def _begun(fmu: FmuSide) -> Findings:
 
 
 def _before_values(instance: Instance, schedule: Schedule, step: int) -> None:
-    instance.set_input_rates(schedule.rates()[step].tolist())
+    instance.set_input_rates(schedule.rates[step].tolist())
     _through_a_state(instance)
-    instance.set_inputs(schedule.sampled()[step].tolist())
+    instance.set_inputs(schedule.sampled[step].tolist())
 
 
 def _through_a_state(instance: Instance) -> None:
@@ -121,15 +121,15 @@ def _through_a_state(instance: Instance) -> None:
 
 
 def _without_zeros(instance: Instance, schedule: Schedule, step: int) -> None:
-    instance.set_inputs(schedule.sampled()[step].tolist())
-    rates = schedule.rates()[step].tolist()
+    instance.set_inputs(schedule.sampled[step].tolist())
+    rates = schedule.rates[step].tolist()
     for name, rate in zip(INPUTS, rates, strict=True):
         if rate:
             _set_rate(instance, name, rate)
 
 
 def _one_by_one(instance: Instance, schedule: Schedule, step: int) -> None:
-    values, rates = schedule.sampled()[step].tolist(), schedule.rates()[step].tolist()
+    values, rates = schedule.sampled[step].tolist(), schedule.rates[step].tolist()
     for name, value, rate in zip(INPUTS, values, rates, strict=True):
         _set_rate(instance, name, rate)
         instance.set({name: value})
