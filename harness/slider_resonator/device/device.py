@@ -13,23 +13,6 @@ DEVIATIONS = ("amplitude_deviation", "frequency_deviation")
 """Inputs by which the drive differs from what the parameters say, relative to these."""
 
 
-@dataclass(frozen=True)
-class Bounds:
-    """What the interface says of a parameter besides its start: unit, bounds, nominal value.
-
-    A `tunable` parameter can be set in a run. An FMU of an interface before version `since` may
-    lack it: it then counts as `without`.
-    """
-
-    unit: str
-    minimum: float | None = None
-    maximum: float | None = None
-    nominal: float | None = None
-    tunable: bool = False
-    since: str = "0.1.0"
-    without: float | None = None
-
-
 def _real(
     start: float,
     unit: str,
@@ -39,15 +22,22 @@ def _real(
     nominal: float | None = None,
     tunable: bool = False,
 ) -> Any:
-    bounds = Bounds(unit, minimum, maximum, start if nominal is None else nominal, tunable)
-    return field(default=start, metadata={"bounds": bounds})
+    """Return a field with the rest of what `interface.Variable` says of the parameter."""
+    about = {
+        "variability": "tunable" if tunable else "fixed",
+        "unit": unit,
+        "minimum": minimum,
+        "maximum": maximum,
+        "nominal": start if nominal is None else nominal,
+    }
+    return field(default=start, metadata=about)
 
 
-def _choice(
-    start: int, minimum: int, maximum: int, *, since: str = "0.1.0", without: int | None = None
-) -> Any:
-    bounds = Bounds("1", minimum, maximum, since=since, without=without)
-    return field(default=start, metadata={"bounds": bounds})
+def _choice(start: int, minimum: int, maximum: int, **version: Any) -> Any:
+    """Return the same of an Integer; `version` is what says since when there is one."""
+    bounds = {"minimum": minimum, "maximum": maximum}
+    about = {"variability": "fixed", "unit": "1", "kind": "Integer", **bounds, **version}
+    return field(default=start, metadata=about)
 
 
 @dataclass(frozen=True, repr=False)

@@ -7,11 +7,11 @@ that came after version `FIRST` of the interface may be missing; the FMU is judg
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import partial
 from typing import Literal
 
-from slider_resonator.device.device import DEVIATIONS, Bounds, Device
+from slider_resonator.device.device import DEVIATIONS, Device
 
 FIRST = "0.1.0"
 """First version of the interface, all of whose variables an FMU must have."""
@@ -60,30 +60,16 @@ _count = partial(Variable, causality="output", variability="discrete")
 _INPUTS = ("phase", "load", "frequency_ratio", *DEVIATIONS)
 
 
-def _parameter(name: str, start: float) -> Variable:
-    bounds: Bounds = Device.__dataclass_fields__[name].metadata["bounds"]
-    return Variable(
-        name,
-        "parameter",
-        "tunable" if bounds.tunable else "fixed",
-        bounds.unit,
-        "Integer" if isinstance(start, int) else "Real",
-        start,
-        bounds.minimum,
-        bounds.maximum,
-        bounds.nominal,
-        since=bounds.since,
-        without=bounds.without,
-    )
-
-
 _ALL = (
     _input("phase", unit="rad", start=0.0, nominal=1.0),
     _input("load", unit="N", start=0.0, nominal=0.1),
     _input("frequency_ratio", unit="1", start=1.0, nominal=1.0),
     _deviation("amplitude_deviation", minimum=-1.0, nominal=0.1),
     _deviation("frequency_deviation", minimum=-0.99, nominal=0.01),
-    *(_parameter(name, start) for name, start in vars(Device()).items()),
+    *(
+        Variable(one.name, "parameter", start=getattr(Device(), one.name), **one.metadata)
+        for one in fields(Device)
+    ),
     _output("position", unit="m", nominal=1e-3),
     _output("velocity", unit="m/s", nominal=0.1),
     _output("mean_velocity", unit="m/s", nominal=0.1),
