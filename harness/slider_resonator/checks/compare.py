@@ -109,20 +109,6 @@ class Comparison:
         return cls(expect.quantity, against, Tolerance.of(expect), expect.why)
 
 
-@dataclass(frozen=True)
-class _Difference:
-    """The part of a check that follows from the two values."""
-
-    fmu: Value
-    reference: Value
-    deviation: float | None
-    allowed: float | None
-    passed: bool
-    first_time: float | None = None
-    worst_time: float | None = None
-    scale: float | None = None
-
-
 def compare(
     comparison: Comparison, measured: Measurement, expected: Any, point: ScenePoint
 ) -> Check:
@@ -143,22 +129,24 @@ def compare(
         note=measured.note,
         at=point.at,
         tube=comparison.tolerance.tube,
-        **vars(difference),
+        **difference,
     )
 
 
 def _difference_of_values(
     comparison: Comparison, measured: Value, expected: Value, floor: float
-) -> _Difference:
-    """Compare numbers or words; a value that does not exist fails."""
+) -> dict[str, Any]:
+    """Return the fields of a check of numbers or words; a value that does not exist fails."""
+    values = {"fmu": measured, "reference": expected}
     if isinstance(measured, str | None) or isinstance(expected, str | None):
         passed = measured is not None and measured == expected
-        return _Difference(measured, expected, None, None, passed)
+        return {**values, "deviation": None, "allowed": None, "passed": passed}
     tolerance = comparison.tolerance
     excess = _excess(comparison.against, measured - expected)
     deviation = 0.0 if is_same(measured, expected) else excess
     allowed = (tolerance.absolute or 0.0) + tolerance.relative * max(abs(expected), floor)
-    return _Difference(measured, expected, deviation, allowed, deviation <= allowed)
+    passed = deviation <= allowed
+    return {**values, "deviation": deviation, "allowed": allowed, "passed": passed}
 
 
 def _excess(against: str, difference: float) -> float:
@@ -176,8 +164,8 @@ def _difference_of_signals(
     expected: Array | Tube,
     floor: float,
     clock: float,
-) -> _Difference:
-    """Compare two signals; a value that is not finite fails.
+) -> dict[str, Any]:
+    """Return the fields of a check of two signals; a value that is not finite fails.
 
     `clock` is the share of the peak that rounded times account for.
     """
@@ -197,11 +185,10 @@ def _difference_of_signals(
         allowed += clock
         deviation, limit = share_of(peak(outside), scale), allowed * scale
     passed = deviation <= allowed
-    first = worst = None
+    difference = {"deviation": deviation, "allowed": allowed, "passed": passed, "scale": scale}
     if not passed and measured.times is not None:
-        first, worst = _places(outside, limit, measured.times)
-    fmu = peak(measured.value)
-    return _Difference(fmu, size, deviation, allowed, passed, first, worst, scale)
+        difference |= _places(outside, limit, measured.times)
+    return {"fmu": peak(measured.value), "reference": size, **difference}
 
 
 def _clock_rounding(scene: Scene) -> float:
@@ -216,8 +203,11 @@ def _clock_rounding(scene: Scene) -> float:
     return steps * scene.device.drive_frequency * float(np.spacing(abs(scene.start_time)))
 
 
-def _places(error: Array, limit: float, times: Array) -> tuple[float, float]:
+def _places(error: Array, limit: float, times: Array) -> dict[str, float]:
     """Return the times (s) at which errors (n,) first exceed the limit and are largest."""
     beyond = ~(error <= limit)
     size = np.where(np.isfinite(error), error, np.inf)
-    return float(times[np.argmax(beyond)]), float(times[np.argmax(size)])
+    return {
+        "first_time": float(times[np.argmax(beyond)]),
+        "worst_time": float(times[np.argmax(size)]),
+    }

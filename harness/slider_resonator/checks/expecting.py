@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from slider_resonator.arrays import Array
 from slider_resonator.checks.measures import Tube, no_tube, slow_displacement
 from slider_resonator.checks.period_means import (
-    DriveTurns,
     last_events,
     mean_velocities,
     reversal_counts,
@@ -18,7 +17,6 @@ from slider_resonator.checks.period_means import (
 )
 from slider_resonator.checks.reference_side import ReferenceSide, beside_events
 from slider_resonator.errors import SceneError
-from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.vocabulary import QUANTITIES, RESOLVED
 
@@ -41,41 +39,13 @@ def expected_value(expect: ExpectTable, references: ReferenceSide) -> Any:
         raise SceneError(f"{where} cannot be compared: {error}") from error
 
 
-def _signal(reference: str, output: str) -> Expected:
-    return lambda references: references.signal(reference, output)
-
-
-def _resolved(output: str) -> Mapping[str, Expected]:
-    return {reference: _signal(reference, output) for reference in RESOLVED}
-
-
-def _beside_events(output: str) -> Mapping[str, Expected]:
-    def of(reference: str) -> Expected:
-        return lambda references: beside_events(references, reference, output)
-
-    return {reference: of(reference) for reference in RESOLVED}
+def _resolved(measure: Callable[..., Any], /, **arguments: Any) -> Mapping[str, Expected]:
+    """Return what each reference with the fast motion gives for a measure of it."""
+    return {name: partial(measure, reference=name, **arguments) for name in RESOLVED}
 
 
 def _averaged(output: str) -> Mapping[str, Expected]:
     return {"averaged": lambda references: getattr(references.averaged_outputs, output)}
-
-
-def _reversals(reference: str) -> Expected:
-    return lambda references: references.reversals(reference)
-
-
-def _in_run(measure: Callable[[Trajectory, Array, DriveTurns], Any]) -> Mapping[str, Expected]:
-    def of(reference: str) -> Expected:
-        return lambda references: references.in_run(reference, measure)
-
-    return {reference: of(reference) for reference in RESOLVED}
-
-
-def _at_the_end(measure: Callable[[ReferenceSide, str], float]) -> Mapping[str, Expected]:
-    def of(reference: str) -> Expected:
-        return lambda references: measure(references, reference)
-
-    return {reference: of(reference) for reference in RESOLVED}
 
 
 def _without_events(references: ReferenceSide) -> Tube:
@@ -121,20 +91,23 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         "averaged": lambda references: references.steady_at_end.prediction_valid,
     },
     "position": {
-        **_resolved("position"),
+        **_resolved(ReferenceSide.signal, name="position"),
         "averaged": lambda references: references.averaged_motion.position,
     },
     "velocity": {
-        **_resolved("velocity"),
+        **_resolved(ReferenceSide.signal, name="velocity"),
         "averaged": lambda references: references.averaged_motion.velocity,
     },
     **{
-        output: {**_resolved(output), **_averaged(output)}
+        output: {**_resolved(ReferenceSide.signal, name=output), **_averaged(output)}
         for output in ("resonator_displacement", "resonator_velocity")
     },
-    "normal_force": {**_resolved("normal_force"), **_averaged("normal_force")},
+    "normal_force": {
+        **_resolved(ReferenceSide.signal, name="normal_force"),
+        **_averaged("normal_force"),
+    },
     **{
-        output: {**_beside_events(output), **_averaged(output)}
+        output: {**_resolved(beside_events, name=output), **_averaged(output)}
         for output in ("friction_force", "contact_mode")
     },
     "slow_displacement": {
@@ -148,22 +121,28 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         ),
     },
     "mean_velocity": {
-        **_at_the_end(ReferenceSide.mean_velocity),
+        **_resolved(ReferenceSide.mean_velocity),
         "averaged": lambda references: float(references.averaged_motion.mean_velocity[-1]),
     },
     "mean_velocity_in_run": {
-        **_in_run(mean_velocities),
+        **_resolved(ReferenceSide.in_run, measure=mean_velocities),
         "averaged": lambda references: references.averaged_motion.mean_velocity,
     },
-    "stick_fraction": _at_the_end(ReferenceSide.stick_fraction),
+    "stick_fraction": _resolved(ReferenceSide.stick_fraction),
     "stick_fraction_in_run": {
-        **_in_run(stick_fractions),
+        **_resolved(ReferenceSide.in_run, measure=stick_fractions),
         "averaged": lambda references: np.zeros_like(references.times),
     },
-    "reversals": {reference: _reversals(reference) for reference in RESOLVED},
-    "reversals_in_run": {**_in_run(reversal_counts), "averaged": _without_events},
-    "event_times": {**_in_run(last_events), "averaged": _without_events},
-    "last_event_time": _at_the_end(ReferenceSide.last_event_time),
+    "reversals": _resolved(ReferenceSide.reversals),
+    "reversals_in_run": {
+        **_resolved(ReferenceSide.in_run, measure=reversal_counts),
+        "averaged": _without_events,
+    },
+    "event_times": {
+        **_resolved(ReferenceSide.in_run, measure=last_events),
+        "averaged": _without_events,
+    },
+    "last_event_time": _resolved(ReferenceSide.last_event_time),
     "ripple_amplitude": {"closed_form": lambda references: references.steady.ripple_amplitude},
     "ripple_frequency": {"closed_form": lambda references: 1.0 / references.drive_period},
     "beat_frequency": {"closed_form": lambda references: references.steady.difference_frequency},

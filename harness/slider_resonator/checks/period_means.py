@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
@@ -19,36 +18,20 @@ _ENDED = 1e-9
 """Share of a drive period that may be missing from one that counts as ended."""
 
 
-class Travel(Protocol):
-    """Anything with position (m) and velocity (m/s) at times (s), all (n,)."""
-
-    @property
-    def time(self) -> Array:
-        """Times (s)."""
-
-    @property
-    def position(self) -> Array:
-        """Position (m)."""
-
-    @property
-    def velocity(self) -> Array:
-        """Velocity (m/s)."""
-
-
 @dataclass(frozen=True)
-class DriveTurns:
-    """The whole turns of a drive with `period` (s).
+class DrivePeriods:
+    """The whole periods of a drive; `period` (s) is that at the start.
 
     Of a drive whose frequency changes `times` (s) are those of the changes, first and last instant
-    included, and `turned` the turns by then; else both are empty.
+    included, and `passed` the periods by then; else both are empty.
     """
 
     period: float
     times: tuple[float, ...] = ()
-    turned: tuple[float, ...] = ()
+    passed: tuple[float, ...] = ()
 
     def ends(self, times: Array) -> Array:
-        """Return begin and end (s) of the last whole turn before each time, shape (n, 2).
+        """Return begin and end (s) of the last whole period before each time, shape (n, 2).
 
         Before the first is over they are the start, 0 s, and the time itself.
         """
@@ -56,7 +39,7 @@ class DriveTurns:
         numbers = np.column_stack([ended - 1.0, ended])
         whole = numbers * self.period
         if self.times:
-            whole = np.interp(numbers, self.turned, self.times)
+            whole = np.interp(numbers, self.passed, self.times)
         running = np.column_stack([np.zeros_like(times), times])
         return np.where(ended[:, None] >= 1.0, np.minimum(whole, times[:, None]), running)
 
@@ -67,24 +50,24 @@ class DriveTurns:
         return np.where(self._ended(times) >= 1.0, self.period, times)
 
     def _ended(self, times: Array) -> Array:
-        turned = np.interp(times, self.times, self.turned) if self.times else times / self.period
-        return np.asarray(np.floor(turned + _ENDED))
+        passed = np.interp(times, self.times, self.passed) if self.times else times / self.period
+        return np.asarray(np.floor(passed + _ENDED))
 
 
-def mean_velocities(run: Travel, times: Array, turns: DriveTurns) -> Array:
+def mean_velocities(run: Trajectory, times: Array, periods: DrivePeriods) -> Array:
     """Return the mean velocity (m/s) over the last whole drive period, shape (n,).
 
     Before the first is over it is the mean since the start, and at the start the velocity. The
-    trajectory must have samples at the `ends` of turns.
+    trajectory must have samples at the `ends` of periods.
     """
-    ends, lengths = turns.ends(times), turns.lengths(times)
+    ends, lengths = periods.ends(times), periods.lengths(times)
     position = run.position[np.searchsorted(run.time, ends)]
     at_start = run.velocity[np.searchsorted(run.time, times)]
     means = np.diff(position, axis=1)[:, 0] / np.where(lengths > 0.0, lengths, 1.0)
     return np.where(lengths > 0.0, means, at_start)
 
 
-def stick_fractions(run: Trajectory, times: Array, turns: DriveTurns) -> Array:
+def stick_fractions(run: Trajectory, times: Array, periods: DrivePeriods) -> Array:
     """Return the share of the last whole drive period spent sticking, shape (n,).
 
     Before the first is over it is the share since the start, at the start 1 at rest and else 0.
@@ -97,15 +80,15 @@ def stick_fractions(run: Trajectory, times: Array, turns: DriveTurns) -> Array:
         last = np.searchsorted(edges, at, side="right") - 1
         return np.asarray(before[last] + (at - edges[last]) * (run.modes[last] == STICK))
 
-    ends, lengths = turns.ends(times), turns.lengths(times)
+    ends, lengths = periods.ends(times), periods.lengths(times)
     shares = np.diff(stick_time(ends), axis=1)[:, 0] / np.where(lengths > 0.0, lengths, 1.0)
     return np.where(lengths > 0.0, shares, float(run.modes[0] == STICK))
 
 
-def reversal_counts(run: Trajectory, times: Array, turns: DriveTurns) -> Tube:
+def reversal_counts(run: Trajectory, times: Array, periods: DrivePeriods) -> Tube:
     """Return how many reversals there were up to each time; where they coincide, either number."""
     counts = [
-        np.searchsorted(run.reversal_times, times + shift * turns.period, side="right").astype(
+        np.searchsorted(run.reversal_times, times + shift * periods.period, side="right").astype(
             float
         )
         for shift in (0.0, -COINCIDENCE, COINCIDENCE)
@@ -113,7 +96,7 @@ def reversal_counts(run: Trajectory, times: Array, turns: DriveTurns) -> Tube:
     return Tube(*counts)
 
 
-def last_events(run: Trajectory, times: Array, turns: DriveTurns) -> Tube:
+def last_events(run: Trajectory, times: Array, periods: DrivePeriods) -> Tube:
     """Return the time of the last event before each time, in drive periods.
 
     Events are changes of the contact mode and reversals. Where an event and a time coincide to
@@ -124,6 +107,6 @@ def last_events(run: Trajectory, times: Array, turns: DriveTurns) -> Tube:
     def last_before(at: Array) -> Array:
         return events[np.searchsorted(events, np.maximum(at, 0.0), side="right") - 1]
 
-    margin = COINCIDENCE * turns.period
+    margin = COINCIDENCE * periods.period
     bounds = [last_before(times + shift) for shift in (0.0, -margin, margin)]
-    return Tube(*(bound / turns.period for bound in bounds))
+    return Tube(*(bound / periods.period for bound in bounds))

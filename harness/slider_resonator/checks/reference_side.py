@@ -15,7 +15,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.checks.measures import Tube, no_tube
 from slider_resonator.checks.period_means import (
     COINCIDENCE,
-    DriveTurns,
+    DrivePeriods,
     last_events,
     mean_velocities,
     stick_fractions,
@@ -69,7 +69,7 @@ class ReferenceSide:
         if reference not in self._trajectories:
             every = any(expect.quantity == "mean_velocity_in_run" for expect in self.scene.expect)
             means = self.times if every else self.times[-1:]
-            times = np.union1d(self.times, self.turns.ends(means))
+            times = np.union1d(self.times, self.periods.ends(means))
             self._trajectories[reference] = self._simulate(reference, times)
         return self._trajectories[reference]
 
@@ -96,15 +96,15 @@ class ReferenceSide:
         return run.reversals - int(np.sum(run.reversal_times > self.times[-1]))
 
     def in_run(
-        self, reference: str, measure: Callable[[Trajectory, Array, DriveTurns], Any]
+        self, reference: str, measure: Callable[[Trajectory, Array, DrivePeriods], Any]
     ) -> Any:
         """Return a measure of `period_means` at the communication points."""
-        return measure(self.trajectory(reference), self.times, self.turns)
+        return measure(self.trajectory(reference), self.times, self.periods)
 
     def last_event_time(self, reference: str) -> float:
         """Return the time (s) of the last event, that of the start without any."""
         run, end = self.trajectory(reference), self.times[-1:]
-        last = float(last_events(run, end, self.turns).middle[0])
+        last = float(last_events(run, end, self.periods).middle[0])
         return self.scene.start_time + last * self.drive_period
 
     @property
@@ -133,12 +133,12 @@ class ReferenceSide:
     def mean_velocity(self, reference: str) -> float:
         """Return the mean velocity (m/s) over the last whole drive period of the run."""
         run, end = self.trajectory(reference), self.times[-1:]
-        return float(mean_velocities(run, end, self.turns)[0])
+        return float(mean_velocities(run, end, self.periods)[0])
 
     def stick_fraction(self, reference: str) -> float:
         """Return the share of the last whole drive period of the run that is spent sticking."""
         run, end = self.trajectory(reference), self.times[-1:]
-        return float(stick_fractions(run, end, self.turns)[0])
+        return float(stick_fractions(run, end, self.periods)[0])
 
     @cached_property
     def steady(self) -> SteadyReferences:
@@ -178,15 +178,15 @@ class ReferenceSide:
         return np.asarray(values[np.searchsorted(starts, self.times, side="left")])
 
     @cached_property
-    def turns(self) -> DriveTurns:
-        """The whole turns of the drive."""
+    def periods(self) -> DrivePeriods:
+        """The whole periods of the drive."""
         if not self.scene.tuning:
-            return DriveTurns(self.drive_period)
+            return DrivePeriods(self.drive_period)
         held = self.scene.schedule().held()
         rates = [_drive_frequency(inputs, self.device) for inputs in held]
-        turned = [r * (h.stop - h.start) / (2.0 * pi) for r, h in zip(rates, held, strict=True)]
+        passed = [r * (h.stop - h.start) / (2.0 * pi) for r, h in zip(rates, held, strict=True)]
         times = (held[0].start, *(inputs.stop for inputs in held))
-        return DriveTurns(self.drive_period, times, (0.0, *np.cumsum(turned).tolist()))
+        return DrivePeriods(self.drive_period, times, (0.0, *np.cumsum(passed).tolist()))
 
 
 def _drive_frequency(inputs: HeldInputs, device: Device) -> float:
