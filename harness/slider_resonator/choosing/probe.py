@@ -60,8 +60,7 @@ class Probe:
         self.duration = scene.stop_time or 0.0
         self.varying = vary(scene)
         self.reference_model = Model(2, scene.device.friction_law)
-        has_orders = "averaging_order" in instance.fmu.variables
-        self.averaging_orders = (1, 2) if has_orders else (None,)
+        self.averaging_orders = (1, 2) if instance.fmu.has_orders else (None,)
         self.ladder: tuple[float | None, ...] = (None,)
         self._finest = self.duration
         if self.run_needs:
@@ -179,8 +178,7 @@ class Probe:
         return self._read(self._compared)
 
     def _referenced(self, scene: Scene) -> Reference:
-        has_orders = self.averaging_orders[-1] is not None
-        return Reference(self.instance, scene, self._read(scene), has_orders=has_orders)
+        return Reference(self.instance, scene, self._read(scene))
 
     def _read(self, scene: Scene) -> Readings:
         """Return when a scene is read: at each of its own steps, or at its end only."""

@@ -109,20 +109,17 @@ class Readings:
 class Reference:
     """The reference runs of a scene; FmuError or Refusal where the FMU cannot make them.
 
-    `has_orders` says whether the FMU has a choice of averaging orders, and `drive_periods` counts
-    what was resolved.
+    `drive_periods` counts what was resolved.
     """
 
-    def __init__(
-        self, instance: Instance, scene: Scene, readings: Readings, *, has_orders: bool
-    ) -> None:
+    def __init__(self, instance: Instance, scene: Scene, readings: Readings) -> None:
         self.drive_periods = 0.0
         self._instance = instance
         self._scene = scene
         self._readings = readings
         self._stop = scene.stop_time or 0.0
         self._model = Model(2, scene.device.friction_law)
-        self._leaps = Model(0, self._model.friction_law, 2) if has_orders else None
+        self._leaps = Model(0, self._model.friction_law, 2) if instance.fmu.has_orders else None
         self._records: dict[float, Record] = {}
 
     @cached_property

@@ -56,6 +56,11 @@ class Fmu:
         """Whether it takes derivatives of inputs, by its description; FMI 3.0 has none."""
         return bool(self.description.coSimulation.canInterpolateInputs)
 
+    @property
+    def has_orders(self) -> bool:
+        """Whether averages have a choice of orders."""
+        return "averaging_order" in self.variables
+
     def settable(self, name: str) -> ModelVariable:
         """Return the parameter or input called `name`; FmuError names the nearest if none is."""
         if name not in SETTABLE:

@@ -33,9 +33,9 @@ LEFT_OUT = 1e-5
 """Transients of the resonator that leaps leave out, ten times what they may."""
 CONDITIONING = 10.0
 """Largest deviation, over that of a reference whose values are off by the allowed error."""
-MAX_TURNS = 600.0
-"""Turns of the fastest oscillation up to which the resolved reference is run."""
-MAX_LEAPT_TURNS = 2000.0
+MAX_PERIODS = 600.0
+"""Periods of the fastest oscillation up to which the resolved reference is run."""
+MAX_LEAPT_PERIODS = 2000.0
 """The same with averages of second order: the long steps in which they leap."""
 MAX_HOLDS = 400
 """Changes of inputs up to which the resolved reference is run."""
@@ -122,7 +122,7 @@ def _has_mean_friction(case: Case) -> bool:
 
 
 def _is_short(case: Case) -> bool:
-    """Return whether the resolved reference follows the run in few turns, and without stiffness."""
+    """Return whether the resolved reference follows the run in few periods, without stiffness."""
     device = case.device
     if case.start_time or len(case.holds) > MAX_HOLDS:
         return False
@@ -136,8 +136,8 @@ def _is_short(case: Case) -> bool:
     decay = device.damping_ratio * device.resonator_frequency / slider
     if decay > MAX_DECAY * device.drive_frequency or case.sizes.min() < 1e-9:
         return False
-    max_turns = MAX_LEAPT_TURNS if case.model.leaps else MAX_TURNS
-    return case.duration * fastest <= math.tau * max_turns
+    max_periods = MAX_LEAPT_PERIODS if case.model.leaps else MAX_PERIODS
+    return case.duration * fastest <= math.tau * max_periods
 
 
 def _expected(case: Case) -> Signals:
@@ -203,8 +203,8 @@ def _allowed(case: Case, signals: Signals, share: float) -> dict[str, float]:
     """Return the allowed deviation of the four signals: a share of their scales, and rounding.
 
     Scales are peaks, with the resonator's share in the slider, as steps may always meet the same
-    phase. With LuGre friction they hold what friction does in a turn, and the error `tolerance` of
-    the velocity accumulates in the position.
+    phase. With LuGre friction they hold what friction does in a period, and the error `tolerance`
+    of the velocity accumulates in the position.
     """
     device, time = case.device, case.duration
     w = device.drive_frequency

@@ -188,11 +188,12 @@ def applicable(fmu: Path, cases: Sequence[Case]) -> list[Case]:
     Averages of second order need `averaging_order`, unequal steps an FMU that takes them.
     """
     with open_fmu(fmu) as opened:
-        lacks, equal_only = opened.lacks, opened.takes_equal_steps_only
+        lacks, has_orders = opened.lacks, opened.has_orders
+        equal_only = opened.takes_equal_steps_only
     chosen = [
         case
         for case in cases
-        if not ("averaging_order" in lacks and case.model.leaps)
+        if (has_orders or not case.model.leaps)
         and not (equal_only and len({hold.size for hold in case.holds}) > 1)
     ]
     if not chosen:

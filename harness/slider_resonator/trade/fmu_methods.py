@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property, partial
 from math import ceil
+from operator import attrgetter
 from time import process_time
 from typing import Any, Protocol
 
@@ -63,7 +64,7 @@ class FmuMethods:
     @cached_property
     def orders(self) -> tuple[int | None, ...]:
         """The orders of averages from which the FMU has a choice, highest first; else None."""
-        return AVERAGING_ORDERS if self.fmu.run(_has_orders) else (None,)
+        return AVERAGING_ORDERS if self.fmu.run(attrgetter("fmu.has_orders")) else (None,)
 
     def _clock(self) -> float:
         """Return the CPU time (s) that the FMU has taken so far, in its own process."""
@@ -103,7 +104,7 @@ class FmuMethods:
     @cached_property
     def interpolates(self) -> bool:
         """Whether the FMU takes derivatives of inputs."""
-        return bool(self.fmu.run(_takes_derivatives))
+        return bool(self.fmu.run(attrgetter("fmu.interpolates")))
 
     def _schedule(self, periods: int, step: float) -> Schedule:
         """Return the inputs in steps (s): straight lines as derivatives where it takes them."""
@@ -207,14 +208,6 @@ def _timed(
 ) -> tuple[float, Any]:
     """Return the CPU time (s) of a task and its result, in the process of the FMU."""
     return timed(lambda: task(instance, *arguments), process_time)
-
-
-def _has_orders(instance: Instance) -> bool:
-    return "averaging_order" in instance.fmu.variables
-
-
-def _takes_derivatives(instance: Instance) -> bool:
-    return instance.fmu.interpolates
 
 
 def _value_at_start(instance: Instance, values: Mapping[str, float], output: str) -> float:

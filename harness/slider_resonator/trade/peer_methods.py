@@ -33,7 +33,7 @@ def shoot(
 
     Raises RuntimeError when that takes more CPU time (s) than its budget.
     """
-    turns: list[float] = []
+    simulated: list[float] = []
     began = process_time()
 
     def counted(device: Device, held: Sequence[HeldInputs], times: Array) -> Trajectory:
@@ -41,7 +41,7 @@ def shoot(
             raise RuntimeError(
                 f"the search by shooting takes more than its budget of {budget:g} s of CPU time"
             )
-        turns.append((held[-1].stop - held[0].start) / problem.period)
+        simulated.append((held[-1].stop - held[0].start) / problem.period)
         return simulate(device, held, times)
 
     phase, load, ratio = (problem.inputs[name] for name in ("phase", "load", "frequency_ratio"))
@@ -53,7 +53,7 @@ def shoot(
         value = reference_blocking_force(
             problem.device, phase, ratio, simulate=counted, tolerance=tolerance
         )
-    return SteadyAnswer(value, "the search by shooting found none", round(sum(turns)))
+    return SteadyAnswer(value, "the search by shooting found none", round(sum(simulated)))
 
 
 def peer_methods(problem: Problem) -> Iterator[Method]:

@@ -80,8 +80,8 @@ def _probed(instance: Instance, scene: Scene) -> tuple[float, float]:
     """Return error and allowed error (m/s) of averaged motion of the order of the device."""
     assert scene.need is not None
     device = scene.device
-    has_orders = "averaging_order" in instance.fmu.variables
-    model = Model(0, device.friction_law, device.averaging_order if has_orders else None)
+    order = device.averaging_order if instance.fmu.has_orders else None
+    model = Model(0, device.friction_law, order)
     candidate = Candidate(model, START_TOLERANCE, scene.step_size)
     found = Probe(instance, scene).measure(candidate).errors["mean_velocity"]
     return found.error, scene.need.needs["mean_velocity"].at(found.magnitude)
