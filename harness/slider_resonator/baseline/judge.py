@@ -47,7 +47,12 @@ def measure_golden(fmu: FmuSide) -> Golden:
     if fmu.scene.interpolates:
         fmu.instance.fmu.require("canInterpolateInputs")
     found = {}
-    for name in _quantities(fmu):
+    names: list[str] = []
+    if fmu.scene.stop_time is not None:
+        names += (*SIGNALS, *OF_A_RUN)
+    if all(signal.times == (0.0,) for signal in fmu.scene.signals.values()):
+        names += OF_CONSTANT_INPUTS
+    for name in names:
         try:
             measured = measure(name, fmu)
         except SceneError:
@@ -58,13 +63,6 @@ def measure_golden(fmu: FmuSide) -> Golden:
     if "ripple_amplitude" not in found:  # too few points to see a ripple
         found.pop("ripple_frequency", None)
     return found
-
-
-def _quantities(fmu: FmuSide) -> Iterator[str]:
-    if fmu.scene.stop_time is not None:
-        yield from (*SIGNALS, *OF_A_RUN)
-    if all(signal.times == (0.0,) for signal in fmu.scene.signals.values()):
-        yield from OF_CONSTANT_INPUTS
 
 
 def _decimated(measured: Measurement) -> Measurement:

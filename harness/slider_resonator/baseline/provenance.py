@@ -32,6 +32,7 @@ Provenance = Mapping[str, str]
 def provenance(fmu: Fmu, scene: Scene, folder: Path) -> dict[str, str]:
     """Return FMU, scene, host and tools; the scene's file as seen from the baseline's folder."""
     description = fmu.description
+    is_built_in = built_in_scenes().get(scene.name) == scene.files[0]
     return {
         "fmu": fmu.path.name,
         FMU_DIGEST: file_digest(fmu.path),
@@ -40,7 +41,7 @@ def provenance(fmu: Fmu, scene: Scene, folder: Path) -> dict[str, str]:
         "model_version": str(description.version or ""),
         "generation_tool": str(description.generationTool or ""),
         "scene": scene.name,
-        SCENE_FILE: BUILT_IN if _is_built_in(scene) else _seen_from(folder, scene.files[0]),
+        SCENE_FILE: BUILT_IN if is_built_in else _seen_from(folder, scene.files[0]),
         SCENE_DIGEST: scene_digest(scene),
         "points_kept": str(MAX_POINTS),
         "harness": __version__,
@@ -68,10 +69,6 @@ def scene_digest(scene: Scene) -> str:
         tuning = [(name, s.times, s.values, s.hold) for name, s in sorted(scene.tuning.items())]
         runs = (*runs, tuning, run)
     return hashlib.sha256(repr(runs).encode()).hexdigest()
-
-
-def _is_built_in(scene: Scene) -> bool:
-    return built_in_scenes().get(scene.name) == scene.files[0]
 
 
 def _seen_from(folder: Path, file: Path) -> str:

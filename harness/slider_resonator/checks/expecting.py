@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import partial
+from operator import methodcaller
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from slider_resonator.checks.period_means import (
     reversal_counts,
     stick_fractions,
 )
-from slider_resonator.checks.reference_side import ReferenceSide, beside_events
+from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.vocabulary import QUANTITIES, RESOLVED
@@ -39,9 +39,9 @@ def expected_value(expect: ExpectTable, references: ReferenceSide) -> Any:
         raise SceneError(f"{where} cannot be compared: {error}") from error
 
 
-def _resolved(measure: Callable[..., Any], /, **arguments: Any) -> Mapping[str, Expected]:
-    """Return what each reference with the fast motion gives for a measure of it."""
-    return {name: partial(measure, reference=name, **arguments) for name in RESOLVED}
+def _resolved(method: str, *arguments: Any) -> Mapping[str, Expected]:
+    """Return what a method of `ReferenceSide` gives of each reference with the fast motion."""
+    return {name: methodcaller(method, name, *arguments) for name in RESOLVED}
 
 
 def _averaged(output: str) -> Mapping[str, Expected]:
@@ -91,23 +91,23 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         "averaged": lambda references: references.steady_at_end.prediction_valid,
     },
     "position": {
-        **_resolved(ReferenceSide.signal, name="position"),
+        **_resolved("signal", "position"),
         "averaged": lambda references: references.averaged_motion.position,
     },
     "velocity": {
-        **_resolved(ReferenceSide.signal, name="velocity"),
+        **_resolved("signal", "velocity"),
         "averaged": lambda references: references.averaged_motion.velocity,
     },
     **{
-        output: {**_resolved(ReferenceSide.signal, name=output), **_averaged(output)}
+        output: {**_resolved("signal", output), **_averaged(output)}
         for output in ("resonator_displacement", "resonator_velocity")
     },
     "normal_force": {
-        **_resolved(ReferenceSide.signal, name="normal_force"),
+        **_resolved("signal", "normal_force"),
         **_averaged("normal_force"),
     },
     **{
-        output: {**_resolved(beside_events, name=output), **_averaged(output)}
+        output: {**_resolved("beside_events", output), **_averaged(output)}
         for output in ("friction_force", "contact_mode")
     },
     "slow_displacement": {
@@ -121,28 +121,28 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         ),
     },
     "mean_velocity": {
-        **_resolved(ReferenceSide.mean_velocity),
+        **_resolved("mean_velocity"),
         "averaged": lambda references: float(references.averaged_motion.mean_velocity[-1]),
     },
     "mean_velocity_in_run": {
-        **_resolved(ReferenceSide.in_run, measure=mean_velocities),
+        **_resolved("in_run", mean_velocities),
         "averaged": lambda references: references.averaged_motion.mean_velocity,
     },
-    "stick_fraction": _resolved(ReferenceSide.stick_fraction),
+    "stick_fraction": _resolved("stick_fraction"),
     "stick_fraction_in_run": {
-        **_resolved(ReferenceSide.in_run, measure=stick_fractions),
+        **_resolved("in_run", stick_fractions),
         "averaged": lambda references: np.zeros_like(references.times),
     },
-    "reversals": _resolved(ReferenceSide.reversals),
+    "reversals": _resolved("reversals"),
     "reversals_in_run": {
-        **_resolved(ReferenceSide.in_run, measure=reversal_counts),
+        **_resolved("in_run", reversal_counts),
         "averaged": _without_events,
     },
     "event_times": {
-        **_resolved(ReferenceSide.in_run, measure=last_events),
+        **_resolved("in_run", last_events),
         "averaged": _without_events,
     },
-    "last_event_time": _resolved(ReferenceSide.last_event_time),
+    "last_event_time": _resolved("last_event_time"),
     "ripple_amplitude": {"closed_form": lambda references: references.steady.ripple_amplitude},
     "ripple_frequency": {"closed_form": lambda references: 1.0 / references.drive_period},
     "beat_frequency": {"closed_form": lambda references: references.steady.difference_frequency},

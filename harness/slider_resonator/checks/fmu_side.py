@@ -76,14 +76,6 @@ class FmuSide:
         return self.scene.drive_period
 
 
-def task_in_scene(scene: Scene, measure: Callable[[FmuSide], Any]) -> Callable[[Instance], Any]:
-    """Return the task, for an isolated FMU, of measuring in a scene.
-
-    `measure` must be picklable: a function of a module.
-    """
-    return partial(_measure, scene=scene, measure=measure)
-
-
 def _measure(instance: Instance, scene: Scene, measure: Callable[[FmuSide], Any]) -> Any:
     return measure(FmuSide(instance, scene))
 
@@ -105,7 +97,7 @@ def measure_points(
     FMU share the points, as `run_tasks` has it. After a crash or a missed
     `time_limit` (s) the other points of that scene are left out.
     """
-    tasks = [(point, task_in_scene(point.scene, measure)) for point in points]
+    tasks = [(p, partial(_measure, scene=p.scene, measure=measure)) for p in points]
     return run_tasks(
         fmu,
         tasks,

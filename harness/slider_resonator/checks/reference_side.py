@@ -90,6 +90,24 @@ class ReferenceSide:
         window = values[np.searchsorted(run.time, around)]
         return Tube(window[:, TUBE_POINTS], window.min(axis=1), window.max(axis=1))
 
+    def beside_events(self, reference: str, name: str) -> Tube:
+        """Return one output, with both of its values where an event coincides with a time.
+
+        An event at the start or at a change of inputs has one right side, and is not meant.
+        """
+        signal = self.signal(reference, name)
+        events = self.trajectory(reference).event_times
+        changes = np.array([held.start for held in self.scene.schedule().held()])
+        margin = COINCIDENCE * self.drive_period
+        times = self.times
+        coincide = _near(times, events, margin) & ~_near(times, changes, margin)
+        if not coincide.any():
+            return no_tube(signal)
+        around = self.tube(reference, name, COINCIDENCE)
+        lower = np.where(coincide, around.lower, signal)
+        upper = np.where(coincide, around.upper, signal)
+        return Tube(signal, lower, upper)
+
     def reversals(self, reference: str) -> int:
         """Return the number of reversals up to the end."""
         run = self.trajectory(reference)
@@ -191,25 +209,6 @@ class ReferenceSide:
 
 def _drive_frequency(inputs: HeldInputs, device: Device) -> float:
     return inputs.tuned_device(device).drive_frequency
-
-
-def beside_events(references: ReferenceSide, reference: str, name: str) -> Tube:
-    """Return one output, with both of its values where an event coincides with a time.
-
-    An event at the start or at a change of inputs has one right side, and is not meant.
-    """
-    signal = references.signal(reference, name)
-    events = references.trajectory(reference).event_times
-    changes = np.array([held.start for held in references.scene.schedule().held()])
-    margin = COINCIDENCE * references.drive_period
-    times = references.times
-    coincide = _near(times, events, margin) & ~_near(times, changes, margin)
-    if not coincide.any():
-        return no_tube(signal)
-    around = references.tube(reference, name, COINCIDENCE)
-    lower = np.where(coincide, around.lower, signal)
-    upper = np.where(coincide, around.upper, signal)
-    return Tube(signal, lower, upper)
 
 
 def _near(times: Array, instants: Array, margin: float) -> NDArray[np.bool_]:

@@ -19,7 +19,7 @@ from slider_resonator.choosing.choice import Choice, Evaluation, RuledOut, cheap
 from slider_resonator.choosing.errors import Estimates
 from slider_resonator.choosing.ladder import coarsest
 from slider_resonator.choosing.probe import Probe
-from slider_resonator.choosing.reference import FINEST_TOLERANCE, MAX_PERIODS
+from slider_resonator.choosing.reference import FINEST_TOLERANCE, HEAD_PERIODS, MAX_PERIODS
 from slider_resonator.choosing.scales import check_magnitudes
 from slider_resonator.choosing.steady_need import SteadyValue, find, steady_error
 from slider_resonator.device.model import COULOMB, LUGRE, Model
@@ -193,7 +193,7 @@ class _Choosing:
         if self.probe.run_needs:
             start = Candidate(model, tolerances(model)[0], self.steps(model)[0])
             try:
-                cost += self.probe.head_cost(start)
+                cost += self.probe.cost(start, HEAD_PERIODS * self.probe.scales.period)
             except FmuError:
                 return
         if cost > MAX_COST_RATIO * best:

@@ -12,7 +12,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.errors import ErrorEstimate, Estimates, lacking_beat, unseen_beat
 from slider_resonator.choosing.ladder import SIGNAL_NEEDS, step_ladder
-from slider_resonator.choosing.reference import HEAD_PERIODS, Readings, Reference, vary
+from slider_resonator.choosing.reference import Readings, Reference, vary
 from slider_resonator.choosing.scales import scales_of
 from slider_resonator.choosing.steady_need import timed_run
 from slider_resonator.device.model import Model
@@ -110,10 +110,6 @@ class Probe:
             seen["beat"] = ErrorEstimate(inf, 0.0, why)
         grown = seen if self._stop == self.duration else self._grown(candidate.model, seen)
         return Measured(grown, seconds * self.duration / self._stop)
-
-    def head_cost(self, candidate: Candidate) -> float:
-        """Return the cost (s) of a run with a candidate, by that of its beginning."""
-        return self.cost(candidate, HEAD_PERIODS * self.scales.period)
 
     def cost(self, candidate: Candidate, stop: float = inf) -> float:
         """Return the cost (s) of a run with a candidate, by that up to `stop` (s)."""

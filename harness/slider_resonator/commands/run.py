@@ -159,7 +159,8 @@ def run_command(
     files = {f"the scene's file {file}": file for file in read.files}
     others = {f"the FMU {one}": one for one in overlays if isinstance(one, Path)}
     distinct({"--out": out, "--plot": plot}, {"the FMU": fmu, **others, **files})
-    drawing = Drawing(_names(signals), window, overlays)
+    names = None if signals is None else tuple(name.strip() for name in signals.split(","))
+    drawing = Drawing(names, window, overlays)
     if plot is None and not drawing.is_default:
         raise click.UsageError("--signals, --window and --overlay need --plot")
     if auto:
@@ -192,10 +193,6 @@ def run_command(
             draw_signals(isolated, fmu, read, drawing, plot, time_limit)
     summary = _summary(fmu, read, record, out, plot, choice, how)
     print_result(summary, _sentences(summary, read), as_json=as_json, provenance=provenance)
-
-
-def _names(signals: str | None) -> tuple[str, ...] | None:
-    return None if signals is None else tuple(name.strip() for name in signals.split(","))
 
 
 def _choose(isolated: IsolatedFmu, scene: Scene, progress: Progress) -> Choice:

@@ -109,7 +109,8 @@ def trade_command(
       slider-resonator trade table_1 lugre detuned_beat --out trade --picture trade.png
       slider-resonator trade my.toml --out trade --fmu my.fmu --json
     """
-    problems = _problems(scenes or ("table_1",), periods)
+    points = [point for name in scenes or ("table_1",) for point in find_scene(name).points()]
+    problems = [problem_of(point.scene, point.at, periods) for point in points]
     paths = fmus or default_fmus()
     provenance = provenance_of(*paths)
     trades: list[Trade] = []
@@ -134,18 +135,12 @@ def trade_command(
     for page in pages:
         write_choices(page, trades)
     if as_json:
-        print_json([_entry(trade) for trade in trades], provenance)
+        entries = [{"trade": trade, "standings": standings(trade)} for trade in trades]
+        print_json(entries, provenance)
     else:
         for trade in trades:
             _print(trade)
         print_text(f"written {one_line(str(out / 'index.html'))}")
-
-
-def _problems(scenes: Sequence[str], periods: int | None) -> list[Problem]:
-    problems = []
-    for scene in map(find_scene, scenes):
-        problems += [problem_of(p.scene, p.at, periods) for p in scene.points()]
-    return problems
 
 
 def _kept(trades: Sequence[Trade], problems: Sequence[Problem], out: Path) -> str:
@@ -153,10 +148,6 @@ def _kept(trades: Sequence[Trade], problems: Sequence[Problem], out: Path) -> st
         return "no scene is finished; nothing is kept"
     rest = ", ".join(dict.fromkeys(problem.name for problem in problems[len(trades) :]))
     return f"{len(trades)} of {len(problems)} scenes are kept in {out}; not measured: {rest}"
-
-
-def _entry(trade: Trade) -> dict[str, object]:
-    return {"trade": trade, "standings": standings(trade)}
 
 
 def _print(trade: Trade) -> None:

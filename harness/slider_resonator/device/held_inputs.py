@@ -51,14 +51,6 @@ class HeldInputs:
         ratio = self.frequency_ratio + 0.5 * self.ratio_rate * duration
         return ratio * frequency * duration
 
-    def without_phase_rate(self, frequency: float) -> Self:
-        """Return inputs of the same normal load whose phase stays: its rate shifts the ratio.
-
-        ``frequency`` (rad/s) is that of the drive.
-        """
-        ratio = self.frequency_ratio + self.phase_rate / frequency
-        return replace(self, frequency_ratio=ratio, phase_rate=0.0)
-
     def tuned_device(self, device: Device) -> Device:
         """Return the device of a run as it is over these inputs."""
         return device
@@ -85,8 +77,10 @@ def with_steady_phase(held: Sequence[HeldInputs], device: Device) -> list[HeldIn
     steady: list[HeldInputs] = []
     gained = 0.0
     for inputs in held:
-        moved = inputs.without_phase_rate(inputs.tuned_device(device).drive_frequency)
-        steady.append(replace(moved, phase=inputs.phase - gained))
+        frequency = inputs.tuned_device(device).drive_frequency
+        ratio = inputs.frequency_ratio + inputs.phase_rate / frequency
+        phase = inputs.phase - gained
+        steady.append(replace(inputs, frequency_ratio=ratio, phase_rate=0.0, phase=phase))
         gained += inputs.phase_rate * (inputs.stop - inputs.start)
     return steady
 

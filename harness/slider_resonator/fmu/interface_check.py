@@ -144,7 +144,10 @@ def description_faults(description: ModelDescription) -> list[str]:
     must be needed.
     """
     faults = [*_experiment_faults(description.defaultExperiment)]
-    units = {unit.name: {shown.name for shown in unit.displayUnits} for unit in _units(description)}
+    units = {
+        unit.name: {shown.name for shown in unit.displayUnits}
+        for unit in description.unitDefinitions or ()
+    }
     for found in description.modelVariables:
         if found.name in VARIABLES:
             faults += _other_values(found, VARIABLES[found.name])
@@ -214,10 +217,6 @@ def _loop_faults(unknown: Unknown) -> Iterator[str]:
         declared = {other.name for other in unknown.dependencies or ()} & {*INPUTS, *DEVIATIONS}
         for other in sorted(declared - INPUTS_AT_START[name]):
             yield f"{name} is declared to depend on {other} at the start, which does not act on it"
-
-
-def _units(description: ModelDescription) -> Sequence[Unit]:
-    return description.unitDefinitions or ()
 
 
 def _undefined_display(found: ModelVariable, units: Mapping[str, Set[str]]) -> Iterator[str]:

@@ -93,17 +93,11 @@ def _allowed(scripts: Sequence[str]) -> str:
 def _min_width(table: Table) -> int:
     """Return the characters of the narrowest row, with one for each column; numbers keep a line."""
     whole = [row for row in table.cells if len(row) == len(table.columns)]
-    return sum(
-        1
-        + max(
-            [_longest_word(column.heading), *(_min_cell_width(row[index], column) for row in whole)]
-        )
-        for index, column in enumerate(table.columns)
-    )
-
-
-def _min_cell_width(cell: Cell, column: Column) -> int:
-    return len(cell.text) if column.numeric else _longest_word(cell.text)
+    width = len(table.columns)
+    for index, column in enumerate(table.columns):
+        size = len if column.numeric else _longest_word
+        width += max([_longest_word(column.heading), *(size(row[index].text) for row in whole)])
+    return width
 
 
 def _longest_word(text: str) -> int:

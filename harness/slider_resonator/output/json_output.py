@@ -21,14 +21,12 @@ def to_json(result: Any, provenance: Any = None) -> str:
     Each top-level object begins with `schema_version`, and `provenance` where it is given. A
     complex number becomes [real, imaginary]; a value that is not finite becomes null.
     """
-    text = json.dumps(_headed(plain(result), _head(provenance)), indent=2, allow_nan=False)
+    head = {"schema_version": SCHEMA_VERSION}
+    if provenance is not None:
+        head["provenance"] = plain(provenance)
+    text = json.dumps(_headed(plain(result), head), indent=2, allow_nan=False)
     # In strings only: GitHub Actions finds commands of this form anywhere in a line of a log.
     return text.replace("##[", "\\u0023#[")
-
-
-def _head(provenance: Any) -> dict[str, Any]:
-    known = {} if provenance is None else {"provenance": plain(provenance)}
-    return {"schema_version": SCHEMA_VERSION, **known}
 
 
 def _headed(document: Any, head: Mapping[str, Any]) -> Any:

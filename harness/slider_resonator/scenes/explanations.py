@@ -93,14 +93,16 @@ def _explanation(problem: ErrorDetails, content: Mapping[str, Any]) -> str:
         example = f"; add {location[-1]} = {toml_value(field.examples[0])}" if field else ""
         return f"{key}: is missing{example}"
     value = problem["input"]
-    shown = "" if isinstance(value, dict) else f" = {_shown(value)}"
+    text = str(value) if isinstance(value, date | time) else repr(value)
+    shown = "" if isinstance(value, dict) else f" = {text}"
     wrong = problem["msg"].removeprefix("Value error, ")
     if kind in _REQUIREMENTS:
         wrong = "must be " + _REQUIREMENTS[kind].format(**problem.get("ctx", {}))
         wrong += _in_unit(location, field) if kind in _NUMBERS else ""
     if location == ("expect",):
         wrong = "must be a list of tables, each headed [[expect]]"
-    if _is_point(location):
+    in_points = len(location) > 1 and location[-2] in ("steps", "ramp")
+    if in_points and isinstance(location[-1], int):
         wrong = "must be a pair [time (s), value]"
     if location in _TABLES and isinstance(value, list):
         wrong = f"must be one table, headed [{key}]"
@@ -119,15 +121,6 @@ def _unknown_key(location: tuple[int | str, ...]) -> str:
     if name in PLACES and (below_top or name not in SceneTable.model_fields):
         return f"unknown key {name!r}; {PLACES[name]}"
     return unknown_name("key", name, known)
-
-
-def _is_point(location: tuple[int | str, ...]) -> bool:
-    """Whether a location is a pair in the list `steps` or `ramp`."""
-    return len(location) > 1 and location[-2] in ("steps", "ramp") and isinstance(location[-1], int)
-
-
-def _shown(value: object) -> str:
-    return str(value) if isinstance(value, date | time) else repr(value)
 
 
 def _in_unit(location: tuple[int | str, ...], field: Any) -> str:

@@ -93,7 +93,10 @@ def scene_page() -> str:
         "inputs and parameters, without [tuning].\n",
         _table(("quantity", "kind", "unit", "meaning", "needs", "references"), _quantities()),
         "## References\n",
-        _table(("reference", "what it is, and when it applies"), _references()),
+        _table(
+            ("reference", "what it is, and when it applies"),
+            [(_code(name), meaning) for name, meaning in REFERENCES.items()],
+        ),
         "A reference that does not apply to a scene is an error of that scene (exit code 2), "
         "not a failed check.\n",
         "## A scene with every key\n",
@@ -202,10 +205,6 @@ def _bound(expect: Mapping[str, Any]) -> tuple[str, str]:
     bounds = ("absolute", "relative", "tube")
     within = [f"{kind} {expect[kind]:g}" for kind in bounds if kind in expect]
     return _code(expect["reference"]) if "reference" in expect else values[0], ", ".join(within)
-
-
-def _references() -> list[tuple[str, ...]]:
-    return [(_code(name), meaning) for name, meaning in REFERENCES.items()]
 
 
 def _table(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.device import FULL, Device
+from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import TunedInputs
 from slider_resonator.device.model import Model
 
@@ -114,11 +114,6 @@ class Case:
     def device(self) -> Device:
         """The device at the start."""
         return Device.from_mapping(self.settings)
-
-    @property
-    def reference_device(self) -> Device:
-        """The device of the reference: leaps are judged by resolved motion of the full device."""
-        return replace(self.device, fidelity=FULL) if self.model.leaps else self.device
 
     @property
     def period(self) -> float:

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.natural_scale import MARGIN, fast_velocity
-from slider_resonator.device.device import Device
 from slider_resonator.stress.case import Case
 from slider_resonator.stress.observe import Observation
 from slider_resonator.stress.verdict import BoundCheck
@@ -135,15 +134,10 @@ def _energy(case: Case, seen: Observation) -> BoundCheck:
     else:
         gained = np.maximum(0.0, gained)
     allowed = BOUND * (float(energy[0]) or 1.0)
-    if device.friction_law == 1:
-        allowed += _stored_in_bristles(device)
+    if device.friction_law == 1:  # bristles bent to mu / s0 give energy back
+        bent = 0.5 * device.friction_coefficient**2 / device.bristle_stiffness
+        allowed += device.friction_faces * device.max_normal_force * bent
     return _largest("energy", gained, allowed)
-
-
-def _stored_in_bristles(device: Device) -> float:
-    """Energy in J that bristles bent to mu / s0 give back."""
-    bent = 0.5 * device.friction_coefficient**2 / device.bristle_stiffness
-    return device.friction_faces * device.max_normal_force * bent
 
 
 def _share(seen: Observation) -> BoundCheck:

@@ -79,7 +79,12 @@ def _of_one_fmu(result: StressResult) -> list[str]:
         if chosen:
             anchor = f"{name}-{Path(result.fmu).name}".replace(" ", "-")
             heading, count = name.capitalize(), number_of(len(chosen), "case")
-            table = rendered(_others(result, chosen))
+            others: list[Row] = [
+                (one.name, _coloured(one.verdict), one.reason, one.command(result.fmu))
+                for one in chosen
+            ]
+            columns = texts("case", "verdict", "reason", "run it again")
+            table = rendered(Table(columns, others))
             parts.append(section(anchor, heading, count, table, unfolded=name == FAILED))
     parts += [plot_html(_plot(result)), rendered(_nearest(result))]
     return parts + [_grid(axis, ones) for axis, ones in result.by_axis().items() if axis != RANDOM]
@@ -87,13 +92,6 @@ def _of_one_fmu(result: StressResult) -> list[str]:
 
 def _coloured(verdict: str) -> Cell:
     return Cell(verdict, Style.FAIL if verdict == FAILED else Style.PLAIN)
-
-
-def _others(result: StressResult, chosen: Sequence[Verdict]) -> Table:
-    rows: list[Row] = [
-        (one.name, _coloured(one.verdict), one.reason, one.command(result.fmu)) for one in chosen
-    ]
-    return Table(texts("case", "verdict", "reason", "run it again"), rows)
 
 
 def _nearest(result: StressResult) -> Table:

@@ -19,7 +19,6 @@ from slider_resonator.output.hover_plot import (
 from slider_resonator.output.html_page import escaped, folded, rendered, write_page
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.trade.result import (
-    Omission,
     Row,
     Trade,
     cost_label,
@@ -146,7 +145,9 @@ def _scene(trade: Trade) -> list[str]:
             parts.append(plot_html(work_precision_plot(trade, quantity)))
     table = Table(_COLUMNS, [_cells(row) for row in trade.rows])
     parts.append(folded(f"All {len(trade.rows)} rows", rendered(table)))
-    parts.append(_omissions(trade.omissions))
+    omitted = [(one.method, one.quantity, one.reason) for one in trade.omissions]
+    missing = rendered(Table(texts("method", "quantity", "reason"), omitted))
+    parts.append(folded(f"{len(omitted)} omissions: what is missing, and why", missing))
     return parts
 
 
@@ -159,10 +160,3 @@ def _cells(row: Row) -> list[str]:
         *("" if n is None else str(n) for n in (row.steps, row.evaluations, row.events)),
         *(f"{row.errors[q]:.1e}" if q in row.errors else "" for q in QUANTITIES),
     ]
-
-
-def _omissions(omissions: Sequence[Omission]) -> str:
-    table = Table(
-        texts("method", "quantity", "reason"), [(o.method, o.quantity, o.reason) for o in omissions]
-    )
-    return folded(f"{len(omissions)} omissions: what is missing, and why", rendered(table))

@@ -157,8 +157,16 @@ def write_choices(path: Path, trades: Sequence[Trade]) -> None:
     if path.suffix not in SUFFIXES:
         allowed = " or ".join(SUFFIXES)
         raise HarnessError(f"{path}: the suffix is {path.suffix!r}; must be {allowed}")
-    part = _markdown if path.suffix == ".md" else _html
-    write_marked(path, "\n".join(part(trade) for trade in trades), BEGIN, END)
+    parts = []
+    for trade in trades:
+        table = Table(COLUMNS, [cells(choice) for choice in choices(trade)])
+        if path.suffix == ".md":
+            heading = markdown.escaped(title(trade))
+            parts.append(f"\n**{heading}**\n\n{markdown.rendered(table)}\n")
+        else:
+            heading = html_page.escaped(title(trade))
+            parts.append(f"<h3>{heading}</h3>\n{html_page.rendered(table)}")
+    write_marked(path, "\n".join(parts), BEGIN, END)
 
 
 def title(trade: Trade) -> str:
@@ -182,16 +190,3 @@ def cells(choice: CheapestRows) -> tuple[str, ...]:
 
 def _cost(row: Row) -> str:
     return duration(row.cost) + (" / s" if row.answer == "run" else "")
-
-
-def _table(trade: Trade) -> Table:
-    return Table(COLUMNS, [cells(choice) for choice in choices(trade)])
-
-
-def _markdown(trade: Trade) -> str:
-    return f"\n**{markdown.escaped(title(trade))}**\n\n{markdown.rendered(_table(trade))}\n"
-
-
-def _html(trade: Trade) -> str:
-    heading = html_page.escaped(title(trade))
-    return f"<h3>{heading}</h3>\n{html_page.rendered(_table(trade))}"

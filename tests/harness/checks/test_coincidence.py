@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from slider_resonator.checks.period_means import last_events, reversal_counts
-from slider_resonator.checks.reference_side import ReferenceSide, beside_events
+from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.references.resolved.contact import LIFTED
 from tests.harness.scene_text import scene_of
 
@@ -19,7 +19,7 @@ def side(text: str, end: float) -> ReferenceSide:
 def test_at_an_event_both_of_its_sides_are_right(early: float) -> None:
     """The contact of a pure sine load closes at each whole period, where this run ends."""
     references = side(PURE_SINE, 3.0 - early)
-    modes = beside_events(references, "located_events", "contact_mode")
+    modes = references.beside_events("located_events", "contact_mode")
     assert modes.upper[-1] == LIFTED
     assert modes.lower[-1] != LIFTED, "the contact closes at the end, to rounding"
     last = references.in_run("located_events", last_events)
@@ -31,7 +31,7 @@ def test_at_an_event_both_of_its_sides_are_right(early: float) -> None:
 def test_away_from_events_there_is_one_right_value(reference: str) -> None:
     references = side(PURE_SINE, 3.3)
     for name in ("contact_mode", "friction_force"):
-        tube = beside_events(references, reference, name)
+        tube = references.beside_events(reference, name)
         assert tube.upper[-1] == tube.lower[-1] == tube.middle[-1]
 
 
@@ -41,7 +41,7 @@ def test_an_event_that_a_change_of_inputs_causes_has_one_right_side() -> None:
     push = "[inputs]\nload = { steps = [[0.0, 0.0], [0.002, 1.0]] }\n"
     run = "[run]\nstop_time = 0.004\nstep_size = 0.001\n"
     references = ReferenceSide(scene_of(rest + push + run))
-    modes = beside_events(references, "located_events", "contact_mode")
+    modes = references.beside_events("located_events", "contact_mode")
     assert (modes.lower == modes.upper).all()
     assert sorted(set(modes.middle.tolist())) == [-1.0, 0.0]
 
@@ -54,5 +54,5 @@ def test_an_event_beyond_the_end_is_not_counted() -> None:
     counts = references.in_run("located_events", reversal_counts)
     assert references.reversals("located_events") == counts.middle[-1] == counts.lower[-1]
     assert counts.upper[-1] == counts.middle[-1] + 1.0, "the next coincides with the end"
-    force = beside_events(references, "located_events", "friction_force")
+    force = references.beside_events("located_events", "friction_force")
     assert force.lower[-1] < 0.0 < force.upper[-1], "friction changes its sign there"

@@ -38,7 +38,9 @@ def _answer(quantity: str, checks: Sequence[Check]) -> tuple[Cell, list[Row]] | 
     rows: list[Row] = [("FMU", _value(first.fmu, first.unit), "", "")]
     for against, called in ANSWERS.items():
         for check in [c for c in same if c.against == against][:1]:
-            rows.append((called, _value(check.reference, check.unit), _off(check), _passed(check)))
+            off = "" if check.deviation is None else f"off by {check.deviation:.1e} {check.unit}"
+            value = _value(check.reference, check.unit)
+            rows.append((called, value, off, verdict(check.passed)))
     where = f"{first.scene}{place(first.at, ', ')}"
     return Cell(f"{name}: {where}", Style.HEADING), rows
 
@@ -46,11 +48,3 @@ def _answer(quantity: str, checks: Sequence[Check]) -> tuple[Cell, list[Row]] | 
 def _value(value: Value, unit: str) -> str:
     shown = value_text(value, DIGITS)
     return f"{shown} {unit}" if isinstance(value, float | int) else shown
-
-
-def _off(check: Check) -> str:
-    return "" if check.deviation is None else f"off by {check.deviation:.1e} {check.unit}"
-
-
-def _passed(check: Check) -> Cell:
-    return verdict(check.passed)

@@ -215,18 +215,15 @@ def _over_sweep(checks: Sequence[Check]) -> HoverPlot | None:
         [value for value in values if isinstance(value, float)]
         for values in ([c.fmu for c in same], [c.reference for c in same])
     )
+    is_wide = x[0] > 0.0 and math.log10(x[-1] / x[0]) >= MIN_DECADES
     name = first.quantity.replace("_", " ")
     return HoverPlot(
         f"{name} over {variable.replace('_', ' ')}: FMU on reference",
-        Axis(_label(variable, SETTABLE[variable]), log=_is_wide(x)),
+        Axis(_label(variable, SETTABLE[variable]), log=is_wide),
         Axis(_label(first.quantity, first.unit)),
         _pair(x, fmu, reference),
         HEIGHT,
     )
-
-
-def _is_wide(x: Sequence[float]) -> bool:
-    return x[0] > 0.0 and math.log10(x[-1] / x[0]) >= MIN_DECADES
 
 
 def _is_swept_number(check: Check) -> bool:

@@ -165,7 +165,10 @@ class _Run(RunWithoutEvents):
             take_step(solver, inputs.start, "use a greater atol")
             self._check_progress(solver, inputs.start)
             recorder.steps += 1
-            self._count_reversal(angle + rate * solver.t, float(solver.y[1]))
+            velocity = float(solver.y[1])
+            load = equations.normal_amplitude * np.sin(angle + rate * solver.t)
+            if equations.normal_preload + load > 0.0:
+                recorder.contact.slide((velocity > 0.0) - (velocity < 0.0))
             reached = inputs.start + solver.t if solver.status == "running" else inputs.stop
             local = recorder.pending(reached) - inputs.start
             if local.size:
@@ -183,11 +186,6 @@ class _Run(RunWithoutEvents):
                 f"max_evaluations = {self._max_evaluations}: it chatters in a stick; use a "
                 "greater atol, or located_events"
             )
-
-    def _count_reversal(self, angle: float, velocity: float) -> None:
-        equations = self.equations
-        if equations.normal_preload + equations.normal_amplitude * np.sin(angle) > 0.0:
-            self.recorder.contact.slide((velocity > 0.0) - (velocity < 0.0))
 
     def _friction(self, inputs: HeldInputs, local: Array, velocity: Array) -> Array:
         limit = np.maximum(0.0, self.equations.friction_limit(self.angles(inputs, local)))
