@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import Target, fmus_argument, json_option, time_limit_option
+from slider_resonator.commands.options import fmus_argument, json_option, target, time_limit_option
 from slider_resonator.commands.stress import CASES, seed_options, stress
 from slider_resonator.stress.listing import Files
 from slider_resonator.stress.random_cases import random_case
@@ -29,8 +29,8 @@ from slider_resonator.stress.random_cases import random_case
     help="Run only the case of this number, and print its values.",
 )
 @time_limit_option(60.0, "For each case; one that hangs fails.")
-@click.option("--out", type=Target((".json",)), help="Write the result as JSON, too.")
-@click.option("--html", type=Target((".html",)), help="One page with plots to point at.")
+@click.option("--out", type=target((".json",)), help="Write the result as JSON, too.")
+@click.option("--html", type=target((".html",)), help="One page with plots to point at.")
 @json_option
 def campaign_command(
     fmus: tuple[Path, ...],

@@ -6,50 +6,27 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-import click
-
-from slider_resonator.commands.options import Setting
+from slider_resonator.commands.options import setting
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene
 
 
-class Window(click.ParamType[tuple[float, float]]):
-    """FROM:TO, two times in s."""
-
-    name = "FROM:TO"
-
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[float, float]:
-        """Return the two times."""
-        if isinstance(value, tuple):
-            return value
-        begin, separator, end = str(value).partition(":")
-        try:
-            if separator:
-                return float(begin), float(end)
-        except ValueError:
-            pass
-        self.fail(f"{value!r}: must be FROM:TO, two times in s, such as 0.1:0.11", param, ctx)
+def window_of(text: str) -> tuple[float, float]:
+    """Return the two times (s) of FROM:TO; ValueError for another text."""
+    begin, _, end = text.partition(":")
+    try:
+        return float(begin), float(end)
+    except ValueError as error:
+        raise ValueError(f"{text!r}: must be FROM:TO, two times in s, such as 0.1:0.11") from error
 
 
-class Overlay(click.ParamType["tuple[str, float] | Path"]):
-    """NAME=VALUE, or an FMU."""
-
-    name = "NAME=VALUE|FMU"
-
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[str, float] | Path:
-        """Return the setting, or the path of the FMU."""
-        if isinstance(value, tuple | Path):
-            return value
-        text = str(value)
-        if "=" in text and not Path(text).is_file():
-            return Setting().convert(text, param, ctx)
-        return Path(text)
+def overlay(text: str) -> tuple[str, float] | Path:
+    """Return the setting NAME=VALUE, or the path of an FMU; ValueError for a wrong setting."""
+    if "=" in text and not Path(text).is_file():
+        return setting(text)
+    return Path(text)
 
 
 @dataclass(frozen=True)

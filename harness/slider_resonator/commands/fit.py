@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import partial
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from slider_resonator.commands.options import (
+    Parsed,
     SettingsCommand,
     default_fmu,
     fmu_option,
@@ -35,68 +37,35 @@ if TYPE_CHECKING:
     from slider_resonator.fitting.fit import Fit
 
 
-class _Quantity(click.ParamType[float]):
-    """A number in SI units, or a text with a unit, of a variable."""
-
-    def __init__(self, variable: str) -> None:
-        self.variable = variable
-        self.name = VARIABLES[variable].unit
-
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> float:
-        """Return the value in SI units."""
-        if isinstance(value, float):
-            return value
-        try:
-            number = si_value(self.variable, str(value))
-            if not isfinite(number):
-                raise ValueError(f"{self.variable} = {value}: must be finite")
-        except ValueError as error:
-            self.fail(str(error), param, ctx)
-        return number
+def _quantity(variable: str) -> Parsed[float]:
+    """Return a finite number in SI units, or a text with a unit, of a variable."""
+    return Parsed(VARIABLES[variable].unit, partial(_finite, variable))
 
 
-class _Loaded(click.ParamType[tuple[float, float]]):
-    """LOAD=VELOCITY."""
-
-    name = "LOAD=VELOCITY"
-
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[float, float]:
-        """Return load (N) and velocity (m/s)."""
-        if isinstance(value, tuple):
-            return value
-        load, separator, velocity = str(value).partition("=")
-        if not separator:
-            self.fail(f"{value!r} is not LOAD=VELOCITY, such as '50 mN=30 mm/s'", param, ctx)
-        sides = (_Quantity("load"), load), (_Quantity("steady_velocity"), velocity)
-        first, second = (kind.convert(text, param, ctx) for kind, text in sides)
-        return first, second
+def _finite(variable: str, text: str) -> float:
+    number = si_value(variable, text)
+    if not isfinite(number):
+        raise ValueError(f"{variable} = {text}: must be finite")
+    return number
 
 
-class _Bounds(click.ParamType[tuple[str, tuple[float, float]]]):
-    """NAME=LOW:HIGH."""
+def _loaded(text: str) -> tuple[float, float]:
+    """Return load (N) and velocity (m/s) of LOAD=VELOCITY; ValueError for another text."""
+    load, separator, velocity = text.partition("=")
+    if not separator:
+        raise ValueError(f"{text!r} is not LOAD=VELOCITY, such as '50 mN=30 mm/s'")
+    return _finite("load", load), _finite("steady_velocity", velocity)
 
-    name = "NAME=LOW:HIGH"
 
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[str, tuple[float, float]]:
-        """Return the name and both bounds in SI units."""
-        if isinstance(value, tuple):
-            return value
-        match = re.fullmatch(r"(\w+)=([^:]+):([^:]+)", str(value).strip())
-        if match is None:
-            self.fail(
-                f"{value!r} is not NAME=LOW:HIGH, such as damping_ratio=0.001:0.2", param, ctx
-            )
-        name = match[1]
-        if name not in PARAMETERS:
-            self.fail(unknown_name("parameter", name, PARAMETERS), param, ctx)
-        kind = _Quantity(name)
-        return name, (kind.convert(match[2], param, ctx), kind.convert(match[3], param, ctx))
+def _bounds(text: str) -> tuple[str, tuple[float, float]]:
+    """Return name and both bounds in SI units of NAME=LOW:HIGH; ValueError for another text."""
+    match = re.fullmatch(r"(\w+)=([^:]+):([^:]+)", text.strip())
+    if match is None:
+        raise ValueError(f"{text!r} is not NAME=LOW:HIGH, such as damping_ratio=0.001:0.2")
+    name = match[1]
+    if name not in PARAMETERS:
+        raise ValueError(unknown_name("parameter", name, PARAMETERS))
+    return name, (_finite(name, match[2]), _finite(name, match[3]))
 
 
 @click.command("fit", cls=SettingsCommand)
@@ -108,13 +77,18 @@ class _Bounds(click.ParamType[tuple[str, tuple[float, float]]]):
     help="Parameters to estimate. Repeatable.",
     multiple=True,
 )
-@click.option("--bounds", type=_Bounds(), multiple=True, help="Bounds of one. Repeatable.")
-@click.option("--velocity", type=_Quantity("steady_velocity"), help="Velocity without load.")
-@click.option("--blocking", type=_Quantity("blocking_force"), help="Load that stops the slider.")
+@click.option(
+    "--bounds",
+    type=Parsed("NAME=LOW:HIGH", _bounds),
+    multiple=True,
+    help="Bounds of one. Repeatable.",
+)
+@click.option("--velocity", type=_quantity("steady_velocity"), help="Velocity without load.")
+@click.option("--blocking", type=_quantity("blocking_force"), help="Load that stops the slider.")
 @click.option(
     "--velocity-at",
     "loaded",
-    type=_Loaded(),
+    type=Parsed("LOAD=VELOCITY", _loaded),
     multiple=True,
     help="Velocity under a load, as '50 mN=30 mm/s'. Repeatable.",
 )

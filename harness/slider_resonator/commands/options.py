@@ -26,34 +26,51 @@ from slider_resonator.scenes.device_file import (
 from slider_resonator.scenes.scene_files import find_scene
 
 SET = "--set"
+Value = TypeVar("Value")
 FC = TypeVar("FC", bound=Callable[..., Any])
 """A command, or the function that becomes one."""
 _SETTING = re.compile(r"[A-Za-z_]\w*=")
 
 
-class Setting(click.ParamType[tuple[str, float]]):
-    """NAME=VALUE with a parameter or input of the FMU."""
+class Parsed(click.ParamType[Value]):
+    """What is read from a text by `read`, which raises ValueError or HarnessError.
 
-    name = "NAME=VALUE"
+    The help shows `name`.
+    """
+
+    def __init__(self, name: str, read: Callable[[str], Value]) -> None:
+        self.name = name
+        self.read = read
 
     def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[str, float]:
-        """Split, check the name, and read and check the number."""
-        if isinstance(value, tuple):
-            return value
-        name, separator, number = str(value).partition("=")
-        name = name.strip()
-        if not separator:
-            self.fail(f"{value!r} is not NAME=VALUE, such as phase=0.4", param, ctx)
-        if name not in SETTABLE:
-            self.fail(unknown_name("parameter or input", name, SETTABLE), param, ctx)
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> Value:
+        """Return what is read, or fail with the message of the error."""
+        if not isinstance(value, str):
+            found: Value = value
+            return found
         try:
-            read = si_value(name, number)
-            check_value(name, read)
-        except ValueError as error:
+            return self.read(value)
+        except (ValueError, HarnessError) as error:
             self.fail(str(error), param, ctx)
-        return name, read
+
+
+def target(suffixes: Sequence[str] = ()) -> Parsed[Path]:
+    """Return a file to write, checked before anything runs; `suffixes` are the allowed ones."""
+    return Parsed("FILE", partial(writable, suffixes=suffixes))
+
+
+def setting(text: str) -> tuple[str, float]:
+    """Return name and value of NAME=VALUE, a parameter or input of the FMU; ValueError if wrong."""
+    name, separator, number = text.partition("=")
+    name = name.strip()
+    if not separator:
+        raise ValueError(f"{text!r} is not NAME=VALUE, such as phase=0.4")
+    if name not in SETTABLE:
+        raise ValueError(unknown_name("parameter or input", name, SETTABLE))
+    value = si_value(name, number)
+    check_value(name, value)
+    return name, value
 
 
 class SettingsCommand(click.Command):
@@ -84,24 +101,6 @@ def _each_with_its_option(arguments: Sequence[str]) -> list[str]:
         spread.append(argument)
         inside = bare or before == SET or argument == SET or argument.startswith(f"{SET}=")
     return spread
-
-
-class Target(click.ParamType[Path]):
-    """A file to write, checked before anything runs; `suffixes`, if any, are the allowed ones."""
-
-    name = "FILE"
-
-    def __init__(self, suffixes: Sequence[str] = ()) -> None:
-        self.suffixes = suffixes
-
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> Path:
-        """Return the path, or fail with the reason why it cannot be written."""
-        try:
-            return writable(str(value), self.suffixes)
-        except HarnessError as error:
-            self.fail(str(error), param, ctx)
 
 
 def _each_once(
@@ -237,7 +236,7 @@ fmu_option = click.option(
 _set_option = click.option(
     SET,
     "settings",
-    type=Setting(),
+    type=Parsed("NAME=VALUE", setting),
     multiple=True,
     callback=_each_once,
     help="Set a parameter or input, in SI units or with a unit, as 'load=50 mN'; more NAME=VALUE "

@@ -16,23 +16,18 @@ from slider_resonator.checks.reports.step_summary import VARIABLE, append_summar
 from slider_resonator.checks.reports.terminal import print_validation
 from slider_resonator.checks.validate import RunFailure, Validation
 from slider_resonator.checks.verdict import place
-from slider_resonator.commands.options import Target
+from slider_resonator.commands.options import Parsed, target
 from slider_resonator.output.console import output
-from slider_resonator.output.targets import distinct
+from slider_resonator.output.targets import distinct, writable
 from slider_resonator.output.terminal import fitting, indented, terminal_width
 
 PRINTED = Path("-")
 """The value of `--json` without a file."""
 
 
-class JsonTarget(Target):
-    """A JSON file to write, or standard output."""
-
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> Path:
-        """Return the path, or `PRINTED` unchecked."""
-        return PRINTED if str(value) == str(PRINTED) else super().convert(value, param, ctx)
+def _json_target(text: str) -> Path:
+    """Return the path of a JSON file to write, checked, or `PRINTED`."""
+    return PRINTED if text == str(PRINTED) else writable(text, [".json"])
 
 
 @dataclass(frozen=True)
@@ -86,13 +81,13 @@ class Reports:
 def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options --junit, --html and --json to a command."""
     options = (
-        click.option("--junit", type=Target([".xml"]), help="JUnit XML for a CI server."),
+        click.option("--junit", type=target([".xml"]), help="JUnit XML for a CI server."),
         click.option(
-            "--html", type=Target([".html"]), help="One page with pictures of what differs."
+            "--html", type=target([".html"]), help="One page with pictures of what differs."
         ),
         click.option(
             "--json",
-            type=JsonTarget([".json"]),
+            type=Parsed("FILE", _json_target),
             is_flag=False,
             flag_value=str(PRINTED),
             metavar="[FILE.json]",

@@ -12,18 +12,19 @@ import click
 
 from slider_resonator.commands.drawing import (
     Drawing,
-    Overlay,
-    Window,
     check_drawing,
     draw_signals,
+    overlay,
+    window_of,
 )
 from slider_resonator.commands.options import (
+    Parsed,
     SettingsCommand,
-    Target,
     check_left_to_choose,
     json_option,
     native_fmu_argument,
     set_option,
+    target,
     time_limit_option,
 )
 from slider_resonator.commands.results import print_result
@@ -82,10 +83,10 @@ class RunSummary:
 @click.command("run", cls=SettingsCommand)
 @native_fmu_argument
 @click.argument("scene", required=False)
-@click.option("--out", type=Target(), help="CSV file of the run.")
+@click.option("--out", type=target(), help="CSV file of the run.")
 @click.option(
     "--plot",
-    type=Target(PICTURE_SUFFIXES),
+    type=target(PICTURE_SUFFIXES),
     help="PNG, SVG or PDF of the run, drawn from a second run with finer steps at the end.",
 )
 @click.option(
@@ -95,13 +96,13 @@ class RunSummary:
 )
 @click.option(
     "--window",
-    type=Window(),
+    type=Parsed("FROM:TO", window_of),
     help="With --plot: the time to draw, in s, in steps fine enough to be smooth.",
 )
 @click.option(
     "--overlay",
     "overlays",
-    type=Overlay(),
+    type=Parsed("NAME=VALUE|FMU", overlay),
     multiple=True,
     help="With --plot: draw a further run, with a setting such as fidelity=1 or of another FMU. "
     "Repeatable.",

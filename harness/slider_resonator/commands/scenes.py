@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from slider_resonator.commands.options import Target, json_option
+from slider_resonator.commands.options import json_option, target
 from slider_resonator.commands.results import print_json, print_table
 from slider_resonator.output.atomic import write_text
 from slider_resonator.output.readable import number_of
@@ -34,7 +34,7 @@ from slider_resonator.scenes.vocabulary import QUANTITIES
 @click.option("--schema", is_flag=True, help="Print the JSON schema of scenes, for editors.")
 @click.option(
     "--page",
-    type=Target((".md",)),
+    type=target((".md",)),
     help="Write the page about scene files, docs/scenes.md, from the schema.",
 )
 @json_option

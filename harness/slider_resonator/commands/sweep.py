@@ -7,12 +7,12 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import (
-    Target,
     default_fmu,
     device_option,
     fmu_option,
     jobs_option,
     json_option,
+    target,
     time_limit_option,
 )
 from slider_resonator.commands.results import print_result, print_text
@@ -29,9 +29,9 @@ from slider_resonator.sweeping.table import SUFFIXES, journal_path
 
 @click.command("sweep")
 @click.argument("grid", type=click.Path(path_type=Path))
-@click.option("--out", type=Target(SUFFIXES), required=True, help="Table to write or complete.")
-@click.option("--plot", type=Target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")
-@click.option("--html", type=Target([".html"]), help="One page with plots to point at.")
+@click.option("--out", type=target(SUFFIXES), required=True, help="Table to write or complete.")
+@click.option("--plot", type=target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")
+@click.option("--html", type=target([".html"]), help="One page with plots to point at.")
 @device_option
 @fmu_option
 @jobs_option

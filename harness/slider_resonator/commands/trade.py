@@ -10,10 +10,10 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import (
-    Target,
     default_fmus,
     json_option,
     out_folder_option,
+    target,
     time_limit_option,
 )
 from slider_resonator.commands.results import print_json, print_text
@@ -68,12 +68,12 @@ TIME_LIMIT = 600.0
     help="Shorten runs to this many drive periods.",
 )
 @click.option(
-    "--picture", type=Target(PICTURE_SUFFIXES), help="Picture of the first scene for the README."
+    "--picture", type=target(PICTURE_SUFFIXES), help="Picture of the first scene for the README."
 )
 @click.option(
     "--page",
     "pages",
-    type=Target(SUFFIXES),
+    type=target(SUFFIXES),
     multiple=True,
     help="Markdown or HTML file for the tables from need to model to cost, which go between the "
     "lines <!-- trade --> and <!-- end of trade --> if the file has them. Repeatable.",
@@ -152,8 +152,8 @@ def _kept(trades: Sequence[Trade], problems: Sequence[Problem], out: Path) -> st
 
 def _print(trade: Trade) -> None:
     print_text(one_line(title(trade)))
-    for target, sentences in comparisons(trade):
-        print_text(f"  {one_line(target)}")
+    for heading, sentences in comparisons(trade):
+        print_text(f"  {one_line(heading)}")
         for line in sentences:
             print_text(f"    {one_line(line)}")
     print_text(

@@ -8,9 +8,9 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import (
-    Target,
     json_option,
     native_fmu_argument,
+    target,
     time_limit_option,
 )
 from slider_resonator.commands.results import print_json, print_table, print_text
@@ -61,7 +61,7 @@ NAMES = [host.name for host in hosts()]
 )
 @click.option(
     "--out",
-    type=Target((".md",)),
+    type=target((".md",)),
     help="Markdown file for the table, which goes between the lines <!-- hosts --> and "
     "<!-- end of hosts --> if the file has them.",
 )

@@ -10,11 +10,11 @@ from typing import Any
 import click
 
 from slider_resonator.commands.options import (
-    Target,
     jobs_option,
     json_option,
     other_fmu_argument,
     scenes_option,
+    target,
     time_limit_option,
 )
 from slider_resonator.commands.results import print_json
@@ -93,7 +93,7 @@ MIN_NATIVE_RATE = 0.97
 )
 @click.option(
     "--journal",
-    type=Target([]),
+    type=target([]),
     help="Keep the verdicts in this file; a run that is stopped goes on from there.",
 )
 @json_option
