@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf
 
@@ -13,6 +13,7 @@ from slider_resonator.checks.measures import dominant_frequency, peak
 from slider_resonator.choosing.scales import NEAR_AN_INTEGER, Scales
 from slider_resonator.device.schedule import nearest
 from slider_resonator.fmu.record import Record
+from slider_resonator.scenes.need_table import AllowedTable
 from slider_resonator.scenes.scene import Scene
 
 ROUNDING = {0: 1e-12, 1: 1e-10}
@@ -38,56 +39,55 @@ Estimates = dict[str, ErrorEstimate]
 
 
 @dataclass(frozen=True)
-class Compared:
-    """A run and its reference, with the times (s) at which both are read.
+class Readings:
+    """The needs of a run, and the times (s) at which it and its reference are read.
 
     Signals are compared at `points` (n,), numbers at the last of them, and a beat is read at
-    `grid` (m,), which is equidistant. `period` (s) is the drive's.
+    `grid` (m,), which is equidistant. `period` (s) is the drive's, `law` the friction law of the
+    reference.
     """
 
-    record: Record
-    reference: Record
+    needs: Mapping[str, AllowedTable]
     points: Array
     grid: Array
     period: float
+    law: int
 
-    def errors(self, names: Iterable[str], law: int) -> Estimates:
-        """Return the error of each needed quantity, as the table [need] defines it.
+    def errors(self, record: Record, reference: Record) -> Estimates:
+        """Return the error of each needed quantity, as the table [need] defines it."""
+        return {name: self._error(name, record, reference) for name in self.needs}
 
-        `law` is the friction law of the reference.
-        """
-        return {name: self._error(name, ROUNDING[law]) for name in names}
-
-    def _error(self, name: str, rounding: float) -> ErrorEstimate:
+    def _error(self, name: str, record: Record, reference: Record) -> ErrorEstimate:
         if name == "event_times":
-            return self._events()
+            return self._events(record, reference)
         if name == "beat":
-            return self._beat(rounding)
+            return self._beat(record, reference)
         signal = name.removesuffix("_throughout")
         points = self.points[-1:] if name == "mean_velocity" else self.points
-        found, true = (_at(points, r, signal) for r in (self.record, self.reference))
-        return ErrorEstimate(max(peak(found - true), rounding * peak(true)), peak(true))
+        found, true = (_at(points, r, signal) for r in (record, reference))
+        rounding = ROUNDING[self.law] * peak(true)
+        return ErrorEstimate(max(peak(found - true), rounding), peak(true))
 
-    def _events(self) -> ErrorEstimate:
+    def _events(self, record: Record, reference: Record) -> ErrorEstimate:
         """Return the largest distance of an event from the nearest one of the reference."""
-        found, true = (record.final("reversals") for record in (self.record, self.reference))
+        found, true = (one.final("reversals") for one in (record, reference))
         if found != true:
             return ErrorEstimate(inf, self.period, f"{found:.0f} reversals instead of {true:.0f}")
-        shown = np.unique(_at(self.points, self.record, "last_event_time"))
-        events = np.unique(self.reference["last_event_time"])
+        shown = np.unique(_at(self.points, record, "last_event_time"))
+        events = np.unique(reference["last_event_time"])
         apart = peak(shown - events[nearest(events, shown)])
         return ErrorEstimate(max(apart, EVENT_ROUNDING * self.period), self.period)
 
-    def _beat(self, rounding: float) -> ErrorEstimate:
+    def _beat(self, record: Record, reference: Record) -> ErrorEstimate:
         later = self.grid[len(self.grid) // 2 :]
         try:
             found, true = (
-                dominant_frequency(later, _at(later, record, "mean_velocity"))
-                for record in (self.record, self.reference)
+                dominant_frequency(later, _at(later, one, "mean_velocity"))
+                for one in (record, reference)
             )
         except ValueError as error:
             return ErrorEstimate(inf, 0.0, str(error))
-        return ErrorEstimate(max(abs(found - true), rounding * true), true)
+        return ErrorEstimate(max(abs(found - true), ROUNDING[self.law] * true), true)
 
 
 def _at(points: Array, record: Record, name: str) -> Array:

@@ -10,9 +10,15 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.choosing.candidate import Candidate
-from slider_resonator.choosing.errors import ErrorEstimate, Estimates, lacking_beat, unseen_beat
+from slider_resonator.choosing.errors import (
+    ErrorEstimate,
+    Estimates,
+    Readings,
+    lacking_beat,
+    unseen_beat,
+)
 from slider_resonator.choosing.ladder import SIGNAL_NEEDS, step_ladder
-from slider_resonator.choosing.reference import Readings, Reference, vary
+from slider_resonator.choosing.reference import Reference, vary
 from slider_resonator.choosing.scales import scales_of
 from slider_resonator.choosing.steady_need import timed_run
 from slider_resonator.device.model import Model
@@ -50,8 +56,8 @@ class Probe:
 
     def __init__(self, instance: Instance, scene: Scene) -> None:
         self.instance = instance
-        self._asks = scene.run is not None and scene.run.interpolate
         can_interpolate = instance.fmu.interpolates
+        self.inputs = scene.lines_reach(can_interpolate)
         self.scene = scene = scene if can_interpolate else scene.interpolating(False)
         self.scales = scales_of(scene)
         needs = scene.need.needs if scene.need else {}
@@ -81,15 +87,6 @@ class Probe:
         """Drive periods that the FMU has resolved so far in runs."""
         return self._periods + (self._reference.drive_periods if self.run_needs else 0.0)
 
-    @property
-    def inputs(self) -> str | None:
-        """How inputs that are straight lines reach the FMU, as `Choice` says; None without any."""
-        if self.scene.run is None or not self.scene.interpolating(True).interpolates:
-            return None
-        if self.scene.run.interpolate:
-            return "interpolated"
-        return "cannot" if self._asks else "held"
-
     def resolve(self) -> None:
         """Make the reference; raises FmuError or Refusal where the FMU cannot."""
         self._reference.record(self.ladder[0] or self.duration)
@@ -105,7 +102,7 @@ class Probe:
         if joined > step:
             seconds = self.cost(candidate) * self._stop / self.duration
         reference, grid = self._reference.record(step), self._grid(step)
-        seen = self._readings.errors(self._compared, record, reference, grid)
+        seen = replace(self._readings, grid=grid).errors(record, reference)
         if "beat" in seen and (why := self.no_beat or unseen_beat(seen["beat"], self.scales)):
             seen["beat"] = ErrorEstimate(inf, 0.0, why)
         grown = seen if self._stop == self.duration else self._grown(candidate.model, seen)
@@ -185,7 +182,8 @@ class Probe:
             points = scene.with_step(own * self._together(own)).schedule().times
         assert scene.need is not None
         needs = {name: scene.need.needs[name] for name in self.run_needs}
-        return Readings(needs, points, self._grid(self._finest, stop))
+        grid, law = self._grid(self._finest, stop), scene.device.friction_law
+        return Readings(needs, points, grid, scene.drive_period, law)
 
     def _grid(self, step: float, stop: float | None = None) -> Array:
         """Return the times (s) at which a candidate with this step (s) shows a beat."""

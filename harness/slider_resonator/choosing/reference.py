@@ -5,14 +5,13 @@ Its inputs are without the error of holding them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.choosing.candidate import Candidate
-from slider_resonator.choosing.errors import Compared, Estimates
+from slider_resonator.choosing.errors import Readings
 from slider_resonator.choosing.steady_need import timed_run
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.model import Model
@@ -21,7 +20,6 @@ from slider_resonator.device.signal import Signal
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
-from slider_resonator.scenes.need_table import AllowedTable
 from slider_resonator.scenes.scene import Scene
 
 
@@ -89,23 +87,6 @@ STEPS, MIN_POINTS, MAX_POINTS = 8, 4000, 20_000
 least two in a step."""
 
 
-@dataclass(frozen=True)
-class Readings:
-    """The needs of a run, and the times (s) at which signals (n,) and a beat (m,) are read."""
-
-    needs: dict[str, AllowedTable]
-    points: Array
-    grid: Array
-
-    def errors(
-        self, scene: Scene, record: Record, reference: Record, grid: Array | None = None
-    ) -> Estimates:
-        """Return the errors of a run; `grid` (k,) (s) are other points for the beat."""
-        own = self.grid if grid is None else grid
-        compared = Compared(record, reference, self.points, own, scene.drive_period)
-        return compared.errors(self.needs, scene.device.friction_law)
-
-
 class Reference:
     """The reference runs of a scene; FmuError or Refusal where the FMU cannot make them.
 
@@ -140,7 +121,7 @@ class Reference:
             fine, _ = self._run(self._leaps, LEAP_TOLERANCES[1], self._stop, self._stop)
         except FmuError:
             return False
-        errors = self._readings.errors(self._scene, coarse, fine)
+        errors = self._readings.errors(coarse, fine)
         return all(
             errors[name].error <= TRUSTED * need.at(errors[name].magnitude)
             for name, need in self._readings.needs.items()

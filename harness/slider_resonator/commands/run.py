@@ -177,7 +177,7 @@ def run_command(
                 print_result(choice, text, as_json=as_json, provenance=provenance)
                 context.exit(1)
             read = choice.applied_to(read)
-        how = _how_inputs(read, isolated)
+        how = read.lines_reach(isolated.interpolates)
         if how == "cannot":
             read = read.interpolating(False)
         record = _run(isolated, read, read.schedule(), progress)
@@ -214,15 +214,6 @@ def _run(
     task = partial(run, parameters=scene.parameters, schedule=schedule)
     record: Record = isolated.run(task, labelled(progress, scene.name))
     return record
-
-
-def _how_inputs(scene: Scene, fmu: IsolatedFmu) -> str | None:
-    """Return how straight lines reach the FMU, a key of `HOW_INPUTS`; None without any."""
-    if not scene.interpolating(True).schedule().ramps:
-        return None
-    if not scene.schedule().interpolates:
-        return "held"
-    return "interpolated" if fmu.interpolates else "cannot"
 
 
 def _summary(

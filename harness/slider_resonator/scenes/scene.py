@@ -199,6 +199,17 @@ class Scene(Shown):
             return self
         return replace(self, run=self.run.model_copy(update={"interpolate": interpolate}))
 
+    def lines_reach(self, interpolates: bool) -> str | None:
+        """Return how straight lines of inputs reach an FMU, None without any.
+
+        They are "interpolated", "held", or held where they should not be as it "cannot".
+        """
+        if self.run is None or not self.interpolating(True).interpolates:
+            return None
+        if not self.run.interpolate:
+            return "held"
+        return "interpolated" if interpolates else "cannot"
+
     def points(self) -> tuple[ScenePoint, ...]:
         """Return the points of the sweep, or without a sweep the scene as its only point."""
         if self.sweep is None:

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from slider_resonator.arrays import Array
-from slider_resonator.choosing.errors import Compared, ErrorEstimate
+from slider_resonator.choosing.errors import ErrorEstimate, Readings
 from slider_resonator.fmu.record import Record
+from slider_resonator.scenes.need_table import AllowedTable
 
 POINTS = np.linspace(0.1, 1.0, 10)
 GRID = np.linspace(0.0, 1.0, 201)
@@ -21,7 +22,8 @@ def record(**signals: float | Array) -> Record:
 
 
 def error(name: str, found: Record, reference: Record, law: int = 0) -> ErrorEstimate:
-    return Compared(found, reference, POINTS, GRID, 0.01).errors([name], law)[name]
+    readings = Readings({name: AllowedTable(rel=0.1)}, POINTS, GRID, 0.01, law)
+    return readings.errors(found, reference)[name]
 
 
 def test_signals_are_judged_everywhere_and_numbers_at_the_end() -> None:
