@@ -20,7 +20,7 @@ from slider_resonator.stress.run import TIME_LIMIT
 
 @click.command("extremes")
 @fmus_argument
-@out_folder_option("extremes.json, index.html and a picture for each FMU")
+@out_folder_option("extremes.json and index.html")
 @time_limit_option(TIME_LIMIT, "For each case; one that hangs fails.", "--limit")
 @long_option
 @click.option("--cell", "name", metavar="NAME", help="Run only the case of this name.")

@@ -91,7 +91,7 @@ def seed_options(command: Callable[..., Any]) -> Callable[..., Any]:
 @click.option(
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
-    help="Folder for stress.json, index.html and a picture of the axes for each FMU.",
+    help="Folder for stress.json and index.html.",
 )
 @json_option
 def stress_command(
@@ -164,8 +164,8 @@ def stress(
     )
     for path in chosen:
         applicable(path, cases)  # before any of them runs: it takes minutes
-    if files.pictures is not None:
-        make_folder(files.pictures)
+    if files.folder is not None:
+        make_folder(files.folder)
     provenance = provenance_of(*chosen)
     results: list[StressResult] = []
 

@@ -13,51 +13,40 @@ from slider_resonator.output.atomic import write_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.targets import make_folder
 from slider_resonator.output.terminal import one_line
-from slider_resonator.stress.case import RANDOM, Case
+from slider_resonator.stress.case import Case
+from slider_resonator.stress.page import write_stress_page
 from slider_resonator.stress.run import StressResult
 from slider_resonator.stress.verdict import FAILED, NO_REFERENCE, PASSED
 
 
 @dataclass(frozen=True)
 class Files:
-    """What to write: the result as JSON, the page, and a picture of the axes for each FMU.
-
-    Pictures get the name of the JSON file and of the FMU, in the folder `pictures`.
-    """
+    """What to write: the result as JSON, and the page; in a folder, where both are in one."""
 
     json: Path | None = None
     page: Path | None = None
-    pictures: Path | None = None
+    folder: Path | None = None
 
     @property
     def names(self) -> list[str]:
-        """The files, and the folder of the pictures in place of what is in it."""
-        paths = [self.pictures] if self.pictures else [self.json, self.page]
+        """The folder, or else the files."""
+        paths = [self.folder] if self.folder else [self.json, self.page]
         return [str(path) for path in paths if path is not None]
 
 
 def in_folder(folder: Path, name: str) -> Files:
-    """Return all files in a folder: NAME.json, index.html and NAME_<FMU>.png."""
+    """Return the files in a folder: NAME.json and index.html."""
     return Files(folder / f"{name}.json", folder / "index.html", folder)
 
 
 def write_files(results: Sequence[StressResult], files: Files, provenance: Provenance) -> None:
     """Write what is asked for; HarnessError when that is impossible."""
-    if files.pictures is not None:
-        make_folder(files.pictures)
+    if files.folder is not None:
+        make_folder(files.folder)
     if files.json is not None:
         write_text(files.json, to_json(as_plain(results), provenance))
-    # Imported here: they take longer to load than a case to run.
     if files.page is not None:
-        from slider_resonator.stress.page import write_stress_page
-
         write_stress_page(files.page, results, provenance)
-    for result in results:
-        if files.pictures and files.json and result.by_axis().keys() - {RANDOM}:
-            from slider_resonator.stress.picture import draw_map
-
-            name = f"{files.json.stem}_{Path(result.fmu).stem}.png"
-            draw_map(result, files.pictures / name)
 
 
 def as_plain(results: Sequence[StressResult]) -> dict[str, object]:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import log10
 from pathlib import Path
-
-from matplotlib.colors import to_hex
 
 from slider_resonator.fmu.provenance import Provenance, provenance_html
 from slider_resonator.output.hover_plot import (
@@ -21,10 +20,14 @@ from slider_resonator.output.html_page import escaped, rendered, section, write_
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict_so_far
 from slider_resonator.stress.case import MODELS, RANDOM, name_of
-from slider_resonator.stress.picture import FAILED_COLOUR, FAR, NEAR, SHADES, colour, margin
 from slider_resonator.stress.run import StressResult
 from slider_resonator.stress.verdict import FAILED, MEANINGS, PASSED, SENSITIVE, Verdict
 
+FAR, NEAR = -8.0, 0.0
+"""Decimal logarithm of a deviation over its bound, at the ends of the scale."""
+SHADES = ((227, 239, 230), (156, 198, 177), (47, 127, 121))
+"""Colours of the scale in RGB: far from the bound, half-way, at it."""
+REFUSED_COLOUR, FAILED_COLOUR = "#edc46b", "#c8553d"
 MAX_SHOWN = 1e6
 """Deviation over its bound above which a point is drawn at this value."""
 
@@ -62,7 +65,7 @@ def _legend(results: Sequence[StressResult]) -> str:
 
 
 def _scale() -> str:
-    shades = ", ".join(to_hex(SHADES(i / 8)) for i in range(9))
+    shades = ", ".join(f"rgb{shade}" for shade in SHADES)
     return (
         "<p>A cell in a grid, or a point in the plot, says its checks. It is shaded by its largest "
         "deviation over the allowed one; r is refused by name, F failed.</p>"
@@ -128,7 +131,7 @@ def _plot(result: StressResult) -> HoverPlot:
 def _height(one: Verdict) -> float | None:
     """Return the deviation of a case that has one, within the scale where it passed."""
     if one.verdict == PASSED:
-        return float(10.0 ** margin(one))
+        return float(10.0 ** _margin(one))
     far = one.nearest.found if one.nearest else 0.0
     return min(far, MAX_SHOWN) if one.verdict in (FAILED, SENSITIVE) and far > 0.0 else None
 
@@ -172,4 +175,23 @@ def _cell(one: Verdict | None) -> str:
         return "<td></td>"
     note = escaped(f"{one.model}\n{_note(one)}")
     sign = "" if one.verdict == PASSED else "F" if one.verdict == FAILED else "r"
-    return f'<td style="background: {to_hex(colour(one))}" title="{note}">{sign}</td>'
+    return f'<td style="background: {_colour(one)}" title="{note}">{sign}</td>'
+
+
+def _margin(one: Verdict) -> float:
+    """Return the largest deviation over its bound, as a decimal logarithm within the scale.
+
+    What a step costs is no deviation and does not count.
+    """
+    found = one.nearest.found if one.nearest else 0.0
+    return min(max(log10(found), FAR), NEAR) if found > 0.0 else FAR
+
+
+def _colour(one: Verdict) -> str:
+    """Return the colour of a case: shaded by its margin where it passed."""
+    if one.verdict != PASSED:
+        return FAILED_COLOUR if one.verdict == FAILED else REFUSED_COLOUR
+    place = 2.0 * (_margin(one) - FAR) / (NEAR - FAR)
+    low = min(int(place), 1)
+    pairs = zip(SHADES[low], SHADES[low + 1], strict=True)
+    return f"rgb{tuple(round(a + (place - low) * (b - a)) for a, b in pairs)}"
