@@ -1,10 +1,10 @@
-"""Explain the errors of a scene file: file, key, value and requirement."""
+"""Explain the errors of a scene or grid file: file, key, value and requirement."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from datetime import date, time
-from typing import Any
+from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
@@ -32,7 +32,9 @@ _REQUIREMENTS: Mapping[str, str] = {
     "float_type": "a number",
     "greater_than": "a number above {gt:g}",
     "greater_than_equal": "a number not below {ge:g}",
+    "int_type": "a whole number",
     "less_than": "a number below {lt:g}",
+    "less_than_equal": "a number up to {le:g}",
     "literal_error": "{expected}",
     "model_type": "a table of keys and values",
     "string_too_short": "a text that is not empty",
@@ -63,34 +65,44 @@ PLACES: Mapping[str, str] = {
 _TABLES = {("beside",), ("device",), ("inputs",), ("need",), ("run",), ("sweep",), ("tuning",)}
 
 
-def explanations(source: str, error: ValidationError, content: Mapping[str, Any]) -> list[str]:
-    """Return one line per error in a scene's content: file, key path, value and requirement.
+AXIS = ("<values>", "<range>")
+"""Tags of the two forms of an axis of a grid; like that of a constant input they are no keys."""
 
-    Of the errors of one kind in a list only the first is reported.
+
+def explanations(
+    source: str,
+    error: ValidationError,
+    content: Mapping[str, Any],
+    top: type[BaseModel] = SceneTable,
+) -> list[str]:
+    """Return one line per error in the content of a file: key path, value and requirement.
+
+    `top` is the schema of the file. Of the errors of one kind in a list only the first is reported.
     """
     first: dict[tuple[object, ...], ErrorDetails] = {}
     for problem in error.errors():
         place = problem["loc"]
         in_list = bool(place) and isinstance(place[-1], int)
         first.setdefault((problem["type"], *(place[:-1] if in_list else place)), problem)
-    return [f"{source}: {_explanation(problem, content)}" for problem in first.values()]
+    return [f"{source}: {_explanation(problem, content, top)}" for problem in first.values()]
 
 
-def _explanation(problem: ErrorDetails, content: Mapping[str, Any]) -> str:
+def _explanation(problem: ErrorDetails, content: Mapping[str, Any], top: type[BaseModel]) -> str:
     """Return key path, value and requirement of an error."""
-    location = tuple(part for part in problem["loc"] if part != "constant")
+    location = tuple(part for part in problem["loc"] if part not in ("constant", *AXIS))
     key, kind = _key_path(_named(location, content)), problem["type"]
     if not location:
         return problem["msg"].removeprefix("Value error, ")
     if kind == NAMED:
         return f"{key}.{problem['msg']}"
     if kind == "extra_forbidden":
-        return f"{key}: {_unknown_key(location)}"
+        return f"{key}: {_unknown_key(location, top)}"
     if kind == "missing" and isinstance(location[-1], int):
         return f"{_key_path(location[:-1])}: must be a pair [time (s), value]"
-    field = _field_at(location)
+    field = _field_at(location, top)
     if kind == "missing":
-        example = f"; add {location[-1]} = {toml_value(field.examples[0])}" if field else ""
+        examples = field.examples if field else None
+        example = f"; add {location[-1]} = {toml_value(examples[0])}" if examples else ""
         return f"{key}: is missing{example}"
     value = problem["input"]
     text = str(value) if isinstance(value, date | time) else repr(value)
@@ -115,10 +127,11 @@ def _explanation(problem: ErrorDetails, content: Mapping[str, Any]) -> str:
     return f"{key}{shown}: {wrong}"
 
 
-def _unknown_key(location: tuple[int | str, ...]) -> str:
-    name, known = str(location[-1]), _table_at(location).model_fields
+def _unknown_key(location: tuple[int | str, ...], top: type[BaseModel]) -> str:
+    fields = _table_at(location, top).model_fields
+    name, known = str(location[-1]), [field.alias or key for key, field in fields.items()]
     below_top = len(location) > 1
-    if name in PLACES and (below_top or name not in SceneTable.model_fields):
+    if top is SceneTable and name in PLACES and (below_top or name not in top.model_fields):
         return f"unknown key {name!r}; {PLACES[name]}"
     return unknown_name("key", name, known)
 
@@ -149,29 +162,29 @@ def _named(location: tuple[int | str, ...], content: Mapping[str, Any]) -> tuple
     return (f"expect[{', '.join(known)}]", *location[2:]) if known else location
 
 
-def _field_at(location: tuple[int | str, ...]) -> Any:
+def _field_at(location: tuple[int | str, ...], top: type[BaseModel]) -> Any:
     """Return the field of the key at a location of the schema, None inside a list or mapping."""
     name = location[-1]
     if isinstance(name, int):
         return None
     try:
-        return _table_at(location).model_fields.get(name)
+        fields = _table_at(location, top).model_fields
+        return next((one for key, one in fields.items() if name in (key, one.alias)), None)
     except (AttributeError, IndexError, KeyError):
         return None  # below a mapping of names, such as [device]
 
 
-def _table_at(location: tuple[int | str, ...]) -> type[BaseModel]:
+def _table_at(location: tuple[int | str, ...], top: type[BaseModel]) -> type[BaseModel]:
     """Return the table of the schema that has the last key of a location."""
-    model: type[BaseModel] = SceneTable
+    model = top
     for part in location[:-1]:
-        if not isinstance(part, int):
-            model = _table_of(model.model_fields[part].annotation)
+        if part in model.model_fields:
+            model = _tables_in(model.model_fields[str(part)].annotation)[-1]
     return model
 
 
-def _table_of(annotation: Any) -> type[BaseModel]:
-    """Return the table class inside an annotation such as `RunTable | None`."""
+def _tables_in(annotation: Any) -> list[type[BaseModel]]:
+    """Return the tables inside an annotation such as `RunTable | None`."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return annotation
-    tables = [a for a in annotation.__args__ if isinstance(a, type) and issubclass(a, BaseModel)]
-    return tables[0]
+        return [annotation]
+    return [table for part in get_args(annotation) for table in _tables_in(part)]

@@ -2,33 +2,183 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import chain, product
-from math import prod
+from math import exp, log, prod
 from pathlib import Path
-from typing import Any
+from random import Random
+from typing import Annotated, Any, Literal
+
+from pydantic import (
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    ValidationError,
+    field_validator,
+    model_validator,
+)
 
 from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.scenes.device_file import device_values, refuse_other_kinds
+from slider_resonator.scenes.explanations import AXIS, explanations
+from slider_resonator.scenes.key_table import KeyTable, Number
 from slider_resonator.scenes.toml_file import read_toml
-from slider_resonator.sweeping.axes import (
-    AxisError,
-    check_count,
-    finite_number,
-    grid_points,
-    list_points,
-    random_points,
-    whole_number,
-)
 from slider_resonator.sweeping.measures import Run, Task, check_measure
 
-KEYS = ("title", "measures", "max_denominator", "device", "fixed", "grid", "list", "random", "run")
-RUN_KEYS = ("drive_periods", "steps_per_period", "skip_periods")
-RUN_DEFAULTS = {"drive_periods": 100, "steps_per_period": 16, "skip_periods": 0}
+MAX_POINTS = 10_000_000
+"""More would not fit into the memory of the process that writes the table."""
+
+Rows = tuple[tuple[float, ...], ...]
+"""The values of some variables, point by point."""
+Counted = Annotated[int, Field(strict=True, ge=1)]
+
+
+class RangeTable(KeyTable):
+    """Values between two numbers."""
+
+    first: Number = Field(alias="from", examples=[0.0])
+    last: Number = Field(alias="to", examples=[1.0])
+    spacing: Literal["linear", "log"] = "linear"
+
+    @model_validator(mode="after")
+    def _has_logarithms(self) -> RangeTable:
+        if self.spacing == "log" and not (self.first > 0.0 and self.last > 0.0):
+            raise ValueError(f"from {self.first!r} to {self.last!r}: must be above 0 for log")
+        return self
+
+    def value(self, share: float) -> float:
+        """Return the value at a share of the way; the ends are met exactly."""
+        if share in (0.0, 1.0):
+            return self.first if share == 0.0 else self.last
+        if self.spacing == "log":
+            return exp(log(self.first) + (log(self.last) - log(self.first)) * share)
+        return self.first + (self.last - self.first) * share
+
+
+class AxisTable(RangeTable):
+    """Equally spaced values of an axis, the two numbers among them."""
+
+    count: Annotated[int, Field(strict=True, ge=2, le=MAX_POINTS, examples=[11])]
+
+    @property
+    def values(self) -> tuple[float, ...]:
+        """The values, from the first on."""
+        return tuple(self.value(index / (self.count - 1)) for index in range(self.count))
+
+
+Values = Annotated[tuple[Number, ...], Field(min_length=1)]
+Axis = Annotated[
+    Annotated[Values, Tag(AXIS[0])] | Annotated[AxisTable, Tag(AXIS[1])],
+    Discriminator(lambda given: AXIS[isinstance(given, dict | AxisTable)]),
+]
+
+
+class RandomTable(KeyTable):
+    """A random sample of points: a range for each variable."""
+
+    model_config = ConfigDict(extra="allow", frozen=True)
+    __pydantic_extra__: dict[str, RangeTable]
+    count: Annotated[int, Field(strict=True, ge=1, le=MAX_POINTS, examples=[1000])]
+    seed: Annotated[int, Field(strict=True, ge=0, examples=[1])]
+
+    @model_validator(mode="after")
+    def _some_variable(self) -> RandomTable:
+        if not self.__pydantic_extra__:
+            example = "load = { from = 0, to = 0.05 }"
+            raise ValueError(f"no variable; must have some, such as {example}")
+        return self
+
+    def rows(self) -> Rows:
+        """Return the points; Python's own generator: the same on every platform and version."""
+        random, ranges = Random(self.seed), self.__pydantic_extra__.values()
+        return tuple(tuple(one.value(random.random()) for one in ranges) for _ in range(self.count))
+
+
+class RunTable(KeyTable):
+    """How long and in which steps statistics of outputs are taken."""
+
+    drive_periods: Counted = 100
+    steps_per_period: Counted = 16
+    skip_periods: Annotated[int, Field(strict=True, ge=0)] = 0
+
+    @model_validator(mode="after")
+    def _some_left(self) -> RunTable:
+        if self.skip_periods >= self.drive_periods:
+            raise ValueError(
+                f"skip_periods = {self.skip_periods}: must be a whole number below "
+                f"drive_periods = {self.drive_periods}"
+            )
+        return self
+
+
+class GridTable(KeyTable):
+    """A grid file."""
+
+    title: str = ""
+    measures: tuple[str, ...] = ("steady_velocity",)
+    max_denominator: Counted = MAX_DENOMINATOR
+    device: dict[str, Any] = Field(default={})
+    fixed: dict[str, Number] = Field(default={})
+    grid: dict[str, Axis] = Field(default={})
+    parallel: dict[str, Values] = Field(default={}, alias="list")
+    random: RandomTable | None = None
+    run: RunTable = RunTable()
+
+    @field_validator("measures", mode="before")
+    @classmethod
+    def _known_measures(cls, names: Any) -> Any:
+        if not isinstance(names, list) or not names or len(set(map(str, names))) < len(names):
+            raise ValueError("must be a list of different measures")
+        for name in names:
+            check_measure(name)
+        return names
+
+    @model_validator(mode="after")
+    def _possible(self) -> GridTable:
+        if not self.names:
+            raise ValueError("nothing is varied; must have any of [grid], [list] and [random]")
+        names = [*self.names, *self.fixed]
+        for name in names:
+            if name not in SETTABLE:
+                raise ValueError(unknown_name("parameter or input", name, SETTABLE))
+            if names.count(name) > 1:
+                raise ValueError(f"{name} is given more than once; must be in one place")
+        lengths = {name: len(values) for name, values in self.parallel.items()}
+        if len(set(lengths.values())) > 1:
+            shown = ", ".join(f"{name} {length}" for name, length in lengths.items())
+            raise ValueError(f"[list]: the lengths differ ({shown}); must be of equal length")
+        sizes = [len(a) if isinstance(a, tuple) else a.count for a in self.grid.values()]
+        sizes += [*lengths.values()][:1] + ([self.random.count] if self.random else [])
+        if prod(sizes) > MAX_POINTS:
+            raise ValueError(f"{prod(sizes)} points; must be at most {MAX_POINTS}")
+        return self
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What is varied, in the order of the columns."""
+        drawn = self.random.__pydantic_extra__ if self.random else {}
+        return (*self.grid, *self.parallel, *drawn)
+
+    @property
+    def points(self) -> Rows:
+        """The values of `names`, point by point: what is written last varies fastest."""
+        axes = [a if isinstance(a, tuple) else a.values for a in self.grid.values()]
+        factors: list[Rows] = [tuple(product(*axes))] if axes else []
+        factors += [tuple(zip(*self.parallel.values(), strict=True))] if self.parallel else []
+        factors += [self.random.rows()] if self.random else []
+        return tuple(tuple(chain.from_iterable(rows)) for rows in product(*factors))
+
+    @property
+    def logarithmic(self) -> frozenset[str]:
+        """The variables with that spacing."""
+        drawn = self.random.__pydantic_extra__ if self.random else {}
+        ranges = {**self.grid, **drawn}.items()
+        return frozenset(name for name, one in ranges if getattr(one, "spacing", "") == "log")
 
 
 @dataclass(frozen=True)
@@ -42,7 +192,7 @@ class Sweep:
 
     title: str
     task: Task
-    points: tuple[tuple[float, ...], ...]
+    points: Rows
     is_grid: bool
     logarithmic: frozenset[str] = frozenset()
 
@@ -62,99 +212,27 @@ def grid_from(
 ) -> Sweep:
     """Return the sweep of parsed TOML, or data of the same form; HarnessError with `source`."""
     try:
-        _table(content, "device")
-        return _sweep(content, {**(device or {}), **device_values(content, source)})
-    except AxisError as error:
-        raise HarnessError(f"{source}: {error}") from error
-
-
-def _sweep(content: Mapping[str, Any], device: Mapping[str, float]) -> Sweep:
-    _known("key", content, KEYS)
-    parts = (
-        grid_points(_table(content, "grid")),
-        list_points(_table(content, "list")),
-        random_points(_table(content, "random")),
-    )
-    names = [name for own, _ in parts for name in own]
-    if not names:
-        raise AxisError("nothing is varied; must have any of [grid], [list] and [random]")
-    fixed = dict(_table(content, "fixed"))
-    for name in [*names, *fixed]:
-        if name not in SETTABLE:
-            raise AxisError(unknown_name("parameter or input", name, SETTABLE))
-        if [*names, *fixed].count(name) > 1:
-            raise AxisError(f"{name} is given more than once; must be in one place")
-    factors = [rows for own, rows in parts if own]
-    check_count(prod(map(len, factors)))
-    points = tuple(tuple(chain.from_iterable(rows)) for rows in product(*factors))
-    for column, name in enumerate(names):
-        _check(name, {point[column] for point in points})
-    for name, value in fixed.items():
-        _check(name, [value])
-    for name, value in device.items():
-        if name not in names:
-            fixed.setdefault(name, value)
+        table = GridTable.model_validate(content)
+    except ValidationError as error:
+        lines = explanations(source, error, content, GridTable)
+        raise HarnessError("\n".join(lines)) from error
+    points = table.points
+    own = {**(device or {}), **device_values(content, source)}
+    fixed = {name: value for name, value in own.items() if name not in table.names} | table.fixed
+    columns = dict(zip(table.names, map(set, zip(*points, strict=True)), strict=True))
+    columns |= {name: {value} for name, value in table.fixed.items()}
+    for name, values in columns.items():
+        for value in values:
+            try:
+                check_value(name, value)
+            except ValueError as error:
+                raise HarnessError(f"{source}: {error}") from error
     task = Task(
-        names=tuple(names),
+        names=table.names,
         fixed=tuple((name, float(value)) for name, value in fixed.items()),
-        measures=_measures(content),
-        max_denominator=whole_number(
-            "max_denominator", content.get("max_denominator", MAX_DENOMINATOR), 1
-        ),
-        run=_run(_table(content, "run")),
+        measures=table.measures,
+        max_denominator=table.max_denominator,
+        run=Run(**table.run.model_dump()),
     )
-    is_grid = not content.get("list") and not content.get("random")
-    title = content.get("title", "")
-    if not isinstance(title, str):
-        raise AxisError(f"title = {title!r}: must be a text in quotes")
-    return Sweep(title, task, points, is_grid, _logarithmic(content))
-
-
-def _logarithmic(content: Mapping[str, Any]) -> frozenset[str]:
-    axes = [*_table(content, "grid").items(), *_table(content, "random").items()]
-    return frozenset(
-        name for name, axis in axes if isinstance(axis, dict) and axis.get("spacing") == "log"
-    )
-
-
-def _measures(content: Mapping[str, Any]) -> tuple[str, ...]:
-    names = content.get("measures", ["steady_velocity"])
-    if not isinstance(names, list) or not names or len(set(map(str, names))) < len(names):
-        raise AxisError(f"measures = {names!r}: must be a list of different measures")
-    for name in names:
-        check_measure(name)
-    return tuple(names)
-
-
-def _run(table: Mapping[str, Any]) -> Run:
-    _known("key of [run]", table, RUN_KEYS)
-    periods, steps, skipped = (
-        whole_number(key, table.get(key, RUN_DEFAULTS[key]), minimum)
-        for key, minimum in zip(RUN_KEYS, (1, 1, 0), strict=True)
-    )
-    if skipped >= periods:
-        raise AxisError(
-            f"run.skip_periods = {skipped}: must be a whole number below drive_periods = {periods}"
-        )
-    return Run(periods, steps, skipped)
-
-
-def _check(name: str, values: Iterable[object]) -> None:
-    for value in values:
-        try:
-            check_value(name, finite_number(name, value))
-        except ValueError as error:
-            raise AxisError(str(error)) from error
-
-
-def _table(content: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-    table = content.get(key, {})
-    if not isinstance(table, dict):
-        raise AxisError(f"{key} = {table!r}: must be a table headed [{key}]")
-    return table
-
-
-def _known(kind: str, table: Iterable[str], allowed: Iterable[str]) -> None:
-    for key in table:
-        if key not in allowed:
-            raise AxisError(unknown_name(kind, key, allowed))
+    is_grid = not table.parallel and table.random is None
+    return Sweep(table.title, task, points, is_grid, table.logarithmic)

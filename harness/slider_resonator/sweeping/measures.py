@@ -20,7 +20,6 @@ from slider_resonator.fmu.run import run
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.proved_predictions import QUANTITIES, proved_predictions
 from slider_resonator.steady.steady_velocity import find_steady
-from slider_resonator.sweeping.axes import AxisError
 
 Cell = float | str | None
 """An entry of the table; None where there is none."""
@@ -83,16 +82,16 @@ class Task:
 
 
 def check_measure(name: object) -> None:
-    """Raise AxisError unless this is the name of a measure."""
+    """Raise ValueError unless this is the name of a measure."""
     if not isinstance(name, str):
-        raise AxisError(f"measure {name!r}: must be a name in quotes")
+        raise ValueError(f"measure {name!r}: must be a name in quotes")
     output, dot, statistic = name.partition(".")
     if dot and output not in OUTPUTS:
-        raise AxisError(f"measure {name!r}: {unknown_name('output', output, OUTPUTS)}")
+        raise ValueError(f"measure {name!r}: {unknown_name('output', output, OUTPUTS)}")
     if dot and statistic not in STATISTICS:
-        raise AxisError(f"measure {name!r}: {unknown_name('statistic', statistic, STATISTICS)}")
+        raise ValueError(f"measure {name!r}: {unknown_name('statistic', statistic, STATISTICS)}")
     if not dot and name not in SEARCHED:
-        raise AxisError(unknown_name("measure", name, [*SEARCHED, "OUTPUT.STATISTIC"]))
+        raise ValueError(unknown_name("measure", name, [*SEARCHED, "OUTPUT.STATISTIC"]))
 
 
 def unit(measure: str) -> str:
