@@ -51,17 +51,14 @@ def with_si_device(content: Mapping[str, Any], source: str) -> Mapping[str, Any]
         return content
     values = dict(table)
     for name, value in table.items():
-        if isinstance(value, str) and name in PARAMETERS and _has_unit(name, value):
+        is_real = name in PARAMETERS and VARIABLES[name].kind == "Real"
+        # Any other text is refused as what is no number.
+        if is_real and isinstance(value, str) and re.search(HAS_UNIT, value):
             try:
                 values[name] = si_value(name, value)
             except ValueError as error:
                 raise SceneError(f"{source}: device.{error}") from error
     return {**content, "device": values}
-
-
-def _has_unit(name: str, text: str) -> bool:
-    """Whether a text may be a value with a unit: any other is refused as what is no number."""
-    return VARIABLES[name].kind == "Real" and re.search(HAS_UNIT, text) is not None
 
 
 def example_devices() -> dict[str, Path]:
@@ -132,10 +129,13 @@ def possible_slips(table: Mapping[str, Any]) -> list[str]:
     Meant are round numbers, and a frequency that is 2 pi times or a 2 pi-th of the other.
     """
     slips = []
-    frequencies = ("drive_frequency", "resonator_frequency")
-    given = {name: float(table[name]) for name in frequencies if _is_number(table.get(name))}
-    values = dict(zip(frequencies, (_frequency(table, name) for name in frequencies), strict=True))
-    ratio = values["drive_frequency"] / values["resonator_frequency"]
+    given, values = {}, []
+    for name in ("drive_frequency", "resonator_frequency"):
+        value = table.get(name, VARIABLES[name].start)
+        values.append(si_value(name, value) if isinstance(value, str) else float(value))
+        if name in table and not isinstance(value, str | bool):
+            given[name] = values[-1]
+    ratio = values[0] / values[1]
     apart = any(abs(r / (2.0 * pi) - 1.0) < 0.03 for r in (ratio, 1.0 / ratio))
     for name, value in given.items():
         is_round = value != VARIABLES[name].start and float(f"{value:.2g}") == value
@@ -145,15 +145,6 @@ def possible_slips(table: Mapping[str, Any]) -> list[str]:
                 f'if {value:g} Hz is meant, write {name} = "{value:g} Hz"'
             )
     return slips
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
-
-
-def _frequency(table: Mapping[str, Any], name: str) -> float:
-    value = table.get(name, VARIABLES[name].start)
-    return si_value(name, value) if isinstance(value, str) else float(value)
 
 
 def to_toml(device: Device, title: str = "") -> str:

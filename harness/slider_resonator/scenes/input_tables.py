@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from typing import ClassVar, Literal
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import model_validator
 
 from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import TUNABLES
-from slider_resonator.scenes.device_keys import device_schema
 from slider_resonator.scenes.key_table import (
     KeyTable,
     Number,
+    Parameters,
     Point,
-    checked_device,
     exactly_one,
     key,
+    parameters,
 )
 
 
@@ -150,17 +150,9 @@ class BesideTable(KeyTable):
         "Needed by the quantity `beside_differences` alone: the two instances step in turn.",
     )
 
-    device: dict[str, Number] = Field(
-        default={},
-        description="parameters of the second instance that differ from table 1",
-        examples=[{"damping_ratio": 0.02}],
-        json_schema_extra=device_schema(),
+    device: Parameters = parameters(
+        "parameters of the second instance that differ from table 1", {"damping_ratio": 0.02}
     )
     inputs: InputsTable = key(
         "inputs of the second instance", {"phase": 1.0}, default=InputsTable()
     )
-
-    @field_validator("device")
-    @classmethod
-    def _known_parameters(cls, device: dict[str, float]) -> dict[str, float]:
-        return checked_device(device)

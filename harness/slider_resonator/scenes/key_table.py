@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated, Any, ClassVar
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 from pydantic_core import PydanticCustomError
 
 from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import unknown_name
-from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
+from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS, device_schema
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
@@ -66,3 +66,17 @@ def checked_device(device: dict[str, float]) -> dict[str, float]:
             text = f"{error} ({PARAMETER_MEANINGS[name]})" if name in INTEGERS else str(error)
             raise PydanticCustomError(NAMED, "{text}", {"text": text}) from error
     return device
+
+
+Parameters = Annotated[dict[str, Number], AfterValidator(checked_device)]
+"""Device parameters by name."""
+
+
+def parameters(meaning: str, example: Any) -> Any:
+    """Return the field of a table of parameters, as `key` does."""
+    return Field(
+        default={},
+        description=meaning,
+        examples=[example],
+        json_schema_extra=device_schema(),
+    )

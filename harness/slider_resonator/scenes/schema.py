@@ -10,7 +10,6 @@ from pydantic import Field, field_validator, model_validator
 from slider_resonator.device.interface import INPUTS, SETTABLE
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import unknown_name
-from slider_resonator.scenes.device_keys import device_schema
 from slider_resonator.scenes.expansion import with_bundles
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.input_tables import AllInputsTable, BesideTable, TuningTable
@@ -18,10 +17,11 @@ from slider_resonator.scenes.key_table import (
     KeyTable,
     Line,
     Number,
+    Parameters,
     Positive,
-    checked_device,
     exactly_one,
     key,
+    parameters,
     required,
 )
 from slider_resonator.scenes.need_table import RUN_NEEDS, STEADY_NEEDS, NeedTable
@@ -133,11 +133,8 @@ class SceneTable(KeyTable):
     )
     title: Line = required("one line for lists and plots", "The load steps up")
     description: str = key("what the scene shows, and why", "A step of load.", default="")
-    device: dict[str, Number] = Field(
-        default={},
-        description="parameters that differ from table 1",
-        examples=[{"friction_coefficient": 0.12}],
-        json_schema_extra=device_schema(),
+    device: Parameters = parameters(
+        "parameters that differ from table 1", {"friction_coefficient": 0.12}
     )
     inputs: AllInputsTable = key("inputs over time", {"phase": 0.4}, default=AllInputsTable())
     tuning: TuningTable = key(
@@ -173,11 +170,6 @@ class SceneTable(KeyTable):
     @classmethod
     def _with_bundles(cls, content: Mapping[str, Any]) -> Mapping[str, Any]:
         return with_bundles(content)
-
-    @field_validator("device")
-    @classmethod
-    def _known_parameters(cls, device: dict[str, float]) -> dict[str, float]:
-        return checked_device(device)
 
     @model_validator(mode="after")
     def _runnable(self) -> SceneTable:
