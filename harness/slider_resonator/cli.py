@@ -21,7 +21,8 @@ from slider_resonator.fmu.limits import DEFAULTS, MEMORY, UNPACKED
 from slider_resonator.output.console import exit_with, open_closed_streams
 from slider_resonator.output.fitting_help import FittingHelp
 from slider_resonator.output.json_output import to_json
-from slider_resonator.output.terminal import escaped, fitting, indented, terminal_width
+from slider_resonator.output.readable import escaped, indented
+from slider_resonator.output.terminal import fitting, terminal_width
 
 COULD_NOT_RUN = 2
 INTERRUPTED = 130

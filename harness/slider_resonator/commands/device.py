@@ -9,9 +9,8 @@ from slider_resonator.commands.results import print_json, print_table, print_tex
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.values import with_unit
-from slider_resonator.output.readable import number_of
+from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.output.terminal import escaped
 from slider_resonator.scenes.device_file import (
     device_content,
     device_values,

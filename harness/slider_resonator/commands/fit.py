@@ -30,8 +30,8 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.readable import one_line
 from slider_resonator.output.targets import make_folder
-from slider_resonator.output.terminal import one_line
 
 if TYPE_CHECKING:
     from slider_resonator.fitting.fit import Fit

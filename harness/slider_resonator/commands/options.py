@@ -15,8 +15,8 @@ from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fmu import finished
+from slider_resonator.output.readable import escaped
 from slider_resonator.output.targets import writable
-from slider_resonator.output.terminal import escaped
 from slider_resonator.scenes.device_file import (
     device_content,
     device_values,

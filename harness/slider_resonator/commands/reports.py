@@ -18,8 +18,9 @@ from slider_resonator.checks.validate import RunFailure, Validation
 from slider_resonator.checks.verdict import place
 from slider_resonator.commands.options import Parsed, target
 from slider_resonator.output.console import output
+from slider_resonator.output.readable import indented
 from slider_resonator.output.targets import distinct, writable
-from slider_resonator.output.terminal import fitting, indented, terminal_width
+from slider_resonator.output.terminal import fitting, terminal_width
 
 PRINTED = Path("-")
 """The value of `--json` without a file."""

@@ -9,8 +9,9 @@ import click
 from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.output.console import output
 from slider_resonator.output.json_output import to_json
+from slider_resonator.output.readable import escaped
 from slider_resonator.output.table import Table
-from slider_resonator.output.terminal import escaped, fitting, rendered, terminal_width
+from slider_resonator.output.terminal import fitting, rendered, terminal_width
 
 
 def print_result(result: Any, text: str, *, as_json: bool, provenance: Provenance | None) -> None:

@@ -35,9 +35,8 @@ from slider_resonator.fmu.record import Record, write_csv
 from slider_resonator.fmu.run import run
 from slider_resonator.output.progress import Progress, labelled
 from slider_resonator.output.progress_bar import progress_bar
-from slider_resonator.output.readable import number_of, readable
+from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
-from slider_resonator.output.terminal import one_line
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import find_scene
 

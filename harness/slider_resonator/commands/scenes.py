@@ -11,9 +11,8 @@ import click
 from slider_resonator.commands.options import json_option, target
 from slider_resonator.commands.results import print_json, print_table
 from slider_resonator.output.atomic import write_text
-from slider_resonator.output.readable import number_of
+from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.output.terminal import escaped
 from slider_resonator.scenes.expansion import variants
 from slider_resonator.scenes.json_schema import scene_schema
 from slider_resonator.scenes.page import example_text, scene_page

@@ -21,8 +21,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
-from slider_resonator.output.readable import number_of
-from slider_resonator.output.terminal import one_line
+from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.steady.search_result import SearchResult
 
 

@@ -25,9 +25,8 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import part_of
 from slider_resonator.output.progress_bar import progress_bar
-from slider_resonator.output.readable import number_of
+from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.output.targets import distinct, make_folder
-from slider_resonator.output.terminal import one_line
 from slider_resonator.stress.axes import axis_cases
 from slider_resonator.stress.case import RANDOM, Case
 from slider_resonator.stress.listing import (

@@ -20,8 +20,8 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.readable import one_line
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
-from slider_resonator.output.terminal import one_line
 from slider_resonator.sweeping.grid import Sweep, read_grid
 from slider_resonator.sweeping.sweeping import run_sweep
 from slider_resonator.sweeping.table import SUFFIXES, journal_path

@@ -22,9 +22,8 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import part_of
 from slider_resonator.output.progress_bar import progress_bar
-from slider_resonator.output.readable import number_of
+from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
-from slider_resonator.output.terminal import one_line
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.trade.measure import BUDGET, REPEATS, measure_trade
 from slider_resonator.trade.page import write_trades

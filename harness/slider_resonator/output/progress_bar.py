@@ -12,7 +12,7 @@ from rich.progress import Progress as Bar
 from rich.text import Text
 
 from slider_resonator.output.progress import Progress, no_progress
-from slider_resonator.output.terminal import one_line
+from slider_resonator.output.readable import one_line
 
 MIN_SHARE = 0.02
 """Share of the work from which on the time left is estimated."""

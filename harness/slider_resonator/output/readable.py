@@ -25,3 +25,23 @@ _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud
 def printable(text: str) -> str:
     """Return the text with U+FFFD for each control character but newline and tab."""
     return _CONTROL.sub("\ufffd", text.replace("\r\n", "\n"))
+
+
+_WORKFLOW_COMMAND = re.compile(r"(?<!\S):(?=:)|##(?=\[)")
+"""Where GitHub Actions may find a command in a log: `::name::` at the start of a line, which may be
+a wrapped one, and `##[name]` anywhere."""
+
+
+def escaped(text: str) -> str:
+    """Return the text without control characters and commands to GitHub Actions."""
+    return _WORKFLOW_COMMAND.sub(lambda found: f"{found[0]} ", printable(text))
+
+
+def one_line(text: str) -> str:
+    """Return foreign text, such as a path, for the middle of a line."""
+    return escaped(" ".join(text.splitlines()))
+
+
+def indented(text: str) -> str:
+    """Return a message, escaped, whose further lines cannot pass for messages of their own."""
+    return "\n  ".join(escaped(text).splitlines())

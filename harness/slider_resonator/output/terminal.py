@@ -15,7 +15,7 @@ from rich.cells import cell_len
 from rich.console import Console, ConsoleOptions, RenderResult
 from rich.text import Text
 
-from slider_resonator.output.readable import printable
+from slider_resonator.output.readable import escaped
 from slider_resonator.output.table import Cell, Column, Style, Table
 
 _LABELLED = re.compile(r"\s*\S+(?: \S+)* {2,}(?=\S)")
@@ -196,26 +196,6 @@ def _block(columns: Sequence[Column], row: Sequence[Cell], width: int) -> Iterat
 
 def _text(cell: Cell) -> Text:
     return Text(cell.text, STYLES[cell.style])
-
-
-_WORKFLOW_COMMAND = re.compile(r"(?<!\S):(?=:)|##(?=\[)")
-"""Where GitHub Actions may find a command in a log: `::name::` at the start of a line, which may be
-a wrapped one, and `##[name]` anywhere."""
-
-
-def escaped(text: str) -> str:
-    """Return the text without control characters and commands to GitHub Actions."""
-    return _WORKFLOW_COMMAND.sub(lambda found: f"{found[0]} ", printable(text))
-
-
-def one_line(text: str) -> str:
-    """Return foreign text, such as a path, for the middle of a line."""
-    return escaped(" ".join(text.splitlines()))
-
-
-def indented(text: str) -> str:
-    """Return a message, escaped, whose further lines cannot pass for messages of their own."""
-    return "\n  ".join(escaped(text).splitlines())
 
 
 def rendered(table: Table) -> FittingTable:

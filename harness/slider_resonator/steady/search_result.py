@@ -6,9 +6,8 @@ from abc import abstractmethod
 from dataclasses import dataclass
 from typing import Any
 
-from slider_resonator.output.readable import number_of, readable
+from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.output.shown import Shown
-from slider_resonator.output.terminal import one_line
 from slider_resonator.steady.periodic import Facts, FmuPeriodMap
 from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
 

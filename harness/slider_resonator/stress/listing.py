@@ -11,8 +11,8 @@ from slider_resonator.device.interface import INPUTS
 from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.output.atomic import write_text
 from slider_resonator.output.json_output import to_json
+from slider_resonator.output.readable import one_line
 from slider_resonator.output.targets import make_folder
-from slider_resonator.output.terminal import one_line
 from slider_resonator.stress.case import Case
 from slider_resonator.stress.page import write_stress_page
 from slider_resonator.stress.run import StressResult

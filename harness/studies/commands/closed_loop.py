@@ -19,9 +19,9 @@ from slider_resonator.output.atomic import write_csv
 from slider_resonator.output.console import nothing_kept, noting_on_interrupt
 from slider_resonator.output.progress import counted, part_of
 from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.readable import one_line
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.output.targets import make_folder
-from slider_resonator.output.terminal import one_line
 from studies.closed_loop.duty import Duty
 from studies.closed_loop.judge import (
     Agreement,

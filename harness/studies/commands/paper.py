@@ -16,7 +16,7 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
-from slider_resonator.output.terminal import one_line
+from slider_resonator.output.readable import one_line
 from studies.paper.listing import verdicts
 from studies.paper.reproduce import NAMES, TIME_LIMIT, Outcome, reproduce
 

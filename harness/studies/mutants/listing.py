@@ -8,9 +8,9 @@ from typing import Any
 from rich.console import Console
 from rich.text import Text
 
-from slider_resonator.output.readable import number_of
+from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Row, Style, Table, numbers, texts
-from slider_resonator.output.terminal import STYLES, escaped, fitting, rendered, terminal_width
+from slider_resonator.output.terminal import STYLES, fitting, rendered, terminal_width
 from studies.mutants.changes import Change
 from studies.mutants.mutant import KINDS, Mutant
 from studies.mutants.verdict import STATUSES, MutationRun, Variant, Verdict

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.output.json_output import to_json
-from slider_resonator.output.terminal import indented, one_line
+from slider_resonator.output.readable import indented, one_line
 from tests.harness import faulty_fmus
 from tests.harness.calling import call
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from slider_resonator.output import html_page, markdown, terminal
+from slider_resonator.output import html_page, markdown, readable, terminal
 from slider_resonator.output.table import Cell, Style, Table, numbers, texts, verdict
 
 HOSTILE = "a|b\n::error::x \x1b[31m<b>`c` *d* _e_ f_g ~h~ [i](j) \\"
@@ -62,7 +62,7 @@ def test_the_terminal_shows_foreign_text_without_control_characters_and_commands
     ],
 )
 def test_text_for_a_terminal(text: str, shown: str) -> None:
-    assert terminal.escaped(text) == shown
+    assert readable.escaped(text) == shown
 
 
 def test_markdown_keeps_each_row_on_its_line_with_all_cells() -> None:

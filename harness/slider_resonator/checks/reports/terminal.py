@@ -22,9 +22,9 @@ from slider_resonator.checks.verdict import (
     sentence,
     value_text,
 )
-from slider_resonator.output.readable import number_of
+from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
-from slider_resonator.output.terminal import STYLES, aligned, escaped, rendered, words
+from slider_resonator.output.terminal import STYLES, aligned, rendered, words
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 MAX_DETAILED = 3
