@@ -16,7 +16,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INTEGERS, PARAMETERS, VARIABLES
 from slider_resonator.device.values import check_value
-from slider_resonator.errors import FmuError, HarnessError, unknown_name
+from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fitting.estimation import (
     Free,
     Minimum,
@@ -29,7 +29,7 @@ from slider_resonator.fitting.estimation import (
 from slider_resonator.fitting.measurements import Measurements
 from slider_resonator.fitting.prediction import predict
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, Task
-from slider_resonator.fmu.isolation.tasks import run_tasks
+from slider_resonator.fmu.isolation.tasks import run_all_tasks
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Drawable, Shown, Tabular
@@ -260,13 +260,9 @@ def isolated(
         numbered = list(enumerate(tasks))
         results = []
         progress(counted(label, 0, len(tasks)), 0.0)
-        for one in run_tasks(fmu, numbered, time_limit, name=lambda i: f"{label} {i}", jobs=jobs):
-            if one.error is not None:
-                raise one.error
-            results.append(one.result)
+        for _, result, _ in run_all_tasks(fmu, numbered, time_limit, outcomes=(), jobs=jobs):
+            results.append(result)
             progress(counted(label, len(results), len(tasks)), len(results) / len(tasks))
-        if len(results) < len(tasks):
-            raise FmuError(f"{fmu}: ended before all was fitted")
         return results
 
     return run

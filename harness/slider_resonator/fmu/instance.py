@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, suppress
 from dataclasses import dataclass
 from itertools import count
+from typing import Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
@@ -113,6 +114,10 @@ class Instance:
         self._inputs = self.block(list(INPUTS))
         self._rates: Derivatives | None = None
 
+    def call(self, name: str, *arguments: Any) -> None:
+        """Call a function of FMI 2.0 by its name; raises FMICallException."""
+        call(self.slave, name, *arguments)
+
     def block(self, names: Sequence[str]) -> Block:
         """Return a block of Real variables of the FMU; FmuError for an unknown name."""
         key = tuple(names)
@@ -136,22 +141,22 @@ class Instance:
         with self.explained():
             self.set_up(stop_time, start_time=start_time)
             self.set(values)
-            call(self.slave, "fmi2EnterInitializationMode")
+            self.call("fmi2EnterInitializationMode")
             self.begin()
 
     def set_up(self, stop_time: float | None = None, *, start_time: float = 0.0) -> None:
         """Reset the instance, where it was used before, and set up an experiment (s)."""
         self.time = start_time
         if self._used:
-            call(self.slave, "fmi2Reset")
+            self.call("fmi2Reset")
         self._used = True
         self._initialised = False
         stop = (False, 0.0) if stop_time is None else (True, stop_time)
-        call(self.slave, "fmi2SetupExperiment", False, 0.0, start_time, *stop)
+        self.call("fmi2SetupExperiment", False, 0.0, start_time, *stop)
 
     def begin(self) -> None:
         """Leave initialisation mode."""
-        call(self.slave, "fmi2ExitInitializationMode")
+        self.call("fmi2ExitInitializationMode")
         self._initialised = True
 
     def set(self, values: Mapping[str, float]) -> None:
@@ -171,7 +176,7 @@ class Instance:
 
     def terminate(self) -> None:
         """End a run."""
-        call(self.slave, "fmi2Terminate")
+        self.call("fmi2Terminate")
         self._initialised = False
 
     def resumed(self, time: float) -> None:
@@ -210,7 +215,7 @@ class Instance:
 
     def step_by(self, size: float) -> None:
         """Advance by `size` (s)."""
-        call(self.slave, "fmi2DoStep", self.time, size, True)
+        self.call("fmi2DoStep", self.time, size, True)
         self.time += size
 
     def value(self, name: str) -> float:

@@ -13,7 +13,6 @@ from fmpy.fmi2 import fmi2Discard
 from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.fmu.blocks import call
 from slider_resonator.fmu.instance import Instance
 
 STEP = 1e-3
@@ -83,7 +82,7 @@ def _at_the_start(instance: Instance, one: Meaningless) -> Iterator[str]:
     instance.messages.clear()
     try:
         instance.set({**one.device, **one.cause})
-        call(instance.slave, "fmi2EnterInitializationMode")
+        instance.call("fmi2EnterInitializationMode")
         instance.begin()
         instance.step_by(STEP)
     except FMICallException as error:
@@ -98,7 +97,7 @@ def _extreme(instance: Instance, device: Mapping[str, float]) -> Iterator[str]:
     instance.set_up()
     try:
         instance.set(device)
-        call(instance.slave, "fmi2EnterInitializationMode")
+        instance.call("fmi2EnterInitializationMode")
         instance.begin()
         yield from _infinite(instance, values)
         instance.step_by(LONG_STEP)

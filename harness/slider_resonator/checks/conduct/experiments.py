@@ -8,7 +8,6 @@ from math import sqrt
 from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import Refusal
-from slider_resonator.fmu.blocks import call
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.rounding import is_same
 
@@ -77,9 +76,9 @@ def _run_faults(instance: Instance, what: str, tolerance: tuple[bool, float]) ->
         instance.step_by(STEP)
     expected = instance.read(outputs)
     instance.set_up()
-    call(instance.slave, "fmi2Reset")
-    call(instance.slave, "fmi2SetupExperiment", *tolerance, 0.0, True, STEPS * STEP)
-    call(instance.slave, "fmi2EnterInitializationMode")
+    instance.call("fmi2Reset")
+    instance.call("fmi2SetupExperiment", *tolerance, 0.0, True, STEPS * STEP)
+    instance.call("fmi2EnterInitializationMode")
     instance.begin()
     for _ in range(STEPS):
         instance.step_by(STEP)

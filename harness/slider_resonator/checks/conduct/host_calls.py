@@ -25,7 +25,6 @@ from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import NotApplicable
 from slider_resonator.fmu import fmu_log
-from slider_resonator.fmu.blocks import call
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.instance import Instance
 
@@ -74,7 +73,7 @@ def host_faults(fmu: FmuSide) -> Findings:
         faults += _other_host_faults(instance, slave)
     faults += _many_values_faults(instance)
     try:
-        call(slave, "fmi2GetReal", None, 0, None)
+        instance.call("fmi2GetReal", None, 0, None)
     except FMICallException:
         faults.append("a call for no values at all is refused")
     faults += _offer_faults(instance, slave)
@@ -148,7 +147,7 @@ def _switching_faults(instance: Instance) -> Iterator[str]:
 
 def _refusal_is_logged(instance: Instance, on: bool, *categories: object) -> bool:
     """Switch logging for some categories, all without any, and make a call that is refused."""
-    call(instance.slave, "fmi2SetDebugLogging", on, *(categories or (0, None)))
+    instance.call("fmi2SetDebugLogging", on, *(categories or (0, None)))
     del instance.messages[:]
     with suppress(FMICallException):
         instance.set({"load": math.nan})
@@ -165,7 +164,7 @@ def _text_faults(instance: Instance) -> Iterator[str]:
     del instance.messages[:]
     with suppress(FMICallException):
         name = (c_char_p * 1)((CATEGORY + FORMAT).encode())
-        call(instance.slave, "fmi2SetDebugLogging", True, 1, name)
+        instance.call("fmi2SetDebugLogging", True, 1, name)
     for message in instance.messages:
         if CATEGORY in message and CATEGORY + FORMAT not in message:
             yield f"a message takes {FORMAT} for a format: {message}"
@@ -224,7 +223,7 @@ def _many_values_faults(instance: Instance) -> Iterator[str]:
         yield "normal_force read twice in a call is not the same"
     with suppress(FMICallException):
         references = (c_uint * MANY)(*[reference] * MANY)
-        call(instance.slave, "fmi2GetReal", references, MANY, found)
+        instance.call("fmi2GetReal", references, MANY, found)
         if set(found) != {expected}:
             yield f"normal_force read {MANY} times in a call is not {expected!r} each time"
 
@@ -238,17 +237,16 @@ def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     if fmi2OK in (pending, slave.dll.fmi2GetIntegerStatus(slave.component, 0, byref(number))):
         yield "a status is given of a step that is not pending"
     with suppress(FMICallException):
-        call(slave, "fmi2DoStep", instance.time, -1.0, True)
+        instance.call("fmi2DoStep", instance.time, -1.0, True)
     if slave.dll.fmi2GetStatus(slave.component, 0, byref(status)) == fmi2OK and status.value == 0:
         yield "fmi2GetStatus calls a refused step a success"
     with suppress(FMICallException):
-        call(slave, "fmi2CancelStep")
+        instance.call("fmi2CancelStep")
         yield "fmi2CancelStep is accepted though no step is pending"
 
 
 def derivative_offer_faults(instance: Instance) -> Iterator[str]:
     """Ask for each kind of derivative that the description offers, and for those it does not."""
-    slave = instance.slave
     offers = instance.fmu.description.coSimulation
     position, load = (
         byref(fmi2ValueReference(instance.fmu.variables[name].valueReference))
@@ -258,13 +256,13 @@ def derivative_offer_faults(instance: Instance) -> Iterator[str]:
     if order > 0:
         try:
             derivative = (position, 1, byref(c_int(order)), byref(c_double()))
-            call(slave, "fmi2GetRealOutputDerivatives", *derivative)
+            instance.call("fmi2GetRealOutputDerivatives", *derivative)
         except FMICallException:
             yield f"maxOutputDerivativeOrder is {order}, but position has no such derivative"
     yield from _wrong_derivative_faults(instance, order)
     arguments = (position, 1, load, 1, byref(c_double(1.0)), byref(c_double()))
     try:
-        call(slave, "fmi2GetDirectionalDerivative", *arguments)
+        instance.call("fmi2GetDirectionalDerivative", *arguments)
     except FMICallException:
         if offers.providesDirectionalDerivative:
             yield "providesDirectionalDerivative is true, but that of position by load is refused"
@@ -275,7 +273,7 @@ def derivative_offer_faults(instance: Instance) -> Iterator[str]:
 
 def _wrong_derivative_faults(instance: Instance, order: int) -> Iterator[str]:
     """Ask for derivatives of outputs that there are not, and for two at once."""
-    slave, variables = instance.slave, instance.fmu.variables
+    variables = instance.fmu.variables
     names = ("position", "velocity")
     position, velocity = (int(variables[name].valueReference) for name in names)
     load = int(variables["load"].valueReference)
@@ -284,7 +282,7 @@ def _wrong_derivative_faults(instance: Instance, order: int) -> Iterator[str]:
         count = len(references)
         orders, values = (c_int * count)(*[order] * count), (c_double * count)()
         asked = (c_uint * count)(*references)
-        call(slave, "fmi2GetRealOutputDerivatives", asked, count, orders, values)
+        instance.call("fmi2GetRealOutputDerivatives", asked, count, orders, values)
         return list(values)
 
     for what, reference, wrong in (

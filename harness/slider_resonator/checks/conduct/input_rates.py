@@ -10,7 +10,7 @@ from slider_resonator.checks.conduct.findings import NOTHING, Findings, differen
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.fmu.blocks import Derivatives, call
+from slider_resonator.fmu.blocks import Derivatives
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import Running, run
@@ -93,7 +93,7 @@ def _begun(fmu: FmuSide) -> Findings:
             faults.append("derivatives of inputs outlive a reset")
         instance.set_up()
         instance.set(parameters)
-        call(instance.slave, "fmi2EnterInitializationMode")
+        instance.call("fmi2EnterInitializationMode")
         instance.set_input_rates(RATES)
         instance.begin()
         if after_a_step() != growing:

@@ -18,7 +18,6 @@ from slider_resonator.checks.conduct.replays import plain_rows
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES, Variable
 from slider_resonator.errors import Refusal
-from slider_resonator.fmu.blocks import call
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Running
 
@@ -26,13 +25,11 @@ STEP = 1.7e-3
 """Size of a good step, s."""
 
 _LIFECYCLE: Mapping[str, Callable[[Instance], object]] = {
-    "fmi2SetupExperiment": lambda i: call(
-        i.slave, "fmi2SetupExperiment", False, 0.0, 0.0, False, 0.0
-    ),
-    "fmi2EnterInitializationMode": lambda i: call(i.slave, "fmi2EnterInitializationMode"),
-    "fmi2ExitInitializationMode": lambda i: call(i.slave, "fmi2ExitInitializationMode"),
-    "fmi2DoStep": lambda i: call(i.slave, "fmi2DoStep", i.time, STEP, True),
-    "fmi2Terminate": lambda i: call(i.slave, "fmi2Terminate"),
+    "fmi2SetupExperiment": lambda i: i.call("fmi2SetupExperiment", False, 0.0, 0.0, False, 0.0),
+    "fmi2EnterInitializationMode": lambda i: i.call("fmi2EnterInitializationMode"),
+    "fmi2ExitInitializationMode": lambda i: i.call("fmi2ExitInitializationMode"),
+    "fmi2DoStep": lambda i: i.call("fmi2DoStep", i.time, STEP, True),
+    "fmi2Terminate": lambda i: i.call("fmi2Terminate"),
     "setting load": lambda i: i.set({"load": 0.1}),
     "reading position": lambda i: i.value("position"),
 }
@@ -187,7 +184,7 @@ class Trial:
         pair = (c_uint * 2)(load, phase), 2, (c_int * 2)(1, 1), (c_double * 2)(0.1, math.nan)
         self.refuses(
             "a derivative of phase = nan after one of load",
-            partial(call, self.instance.slave, "fmi2SetRealInputDerivatives", *pair),
+            partial(self.instance.call, "fmi2SetRealInputDerivatives", *pair),
         )
 
     def refuses_types(self, present: Sequence[Variable]) -> None:
@@ -222,7 +219,7 @@ class Trial:
     def _derive(self, variable: Variable, order: int, value: float) -> None:
         reference = self._reference(variable.name)
         arguments = (c_uint * 1)(reference), 1, (c_int * 1)(order), (c_double * 1)(value)
-        call(self.instance.slave, "fmi2SetRealInputDerivatives", *arguments)
+        self.instance.call("fmi2SetRealInputDerivatives", *arguments)
 
     def _reference(self, name: str) -> int:
         return int(self.instance.fmu.variables[name].valueReference)
@@ -287,7 +284,7 @@ def _try_all(trial: Trial, running: Running, start: Mapping[str, float], start_t
     with instance.explained():
         instance.set_up(running.stop_time, start_time=start_time)
         instance.set(start)
-        call(instance.slave, "fmi2EnterInitializationMode")
+        instance.call("fmi2EnterInitializationMode")
     trial.outputs = [name for name in SMOOTH if name in instance.fmu.variables]
     trial.refuses_values("in initialisation mode", settable)
     trial.refuses_calls("in initialisation mode")
@@ -310,7 +307,7 @@ def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
     instance = trial.instance
     with instance.explained():
         instance.set_up()
-        call(instance.slave, "fmi2Reset")
+        instance.call("fmi2Reset")
     for what, arguments in EXPERIMENTS.items():
         trial.refuses(what, partial(_set_up_experiment, instance, arguments))
     trial.refuses_values("before a run", settable)
@@ -320,9 +317,9 @@ def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
 
 def _set_up_experiment(instance: Instance, arguments: tuple[object, ...]) -> None:
     """Set up an experiment; FMI 3.0 takes it with initialisation mode."""
-    call(instance.slave, "fmi2SetupExperiment", *arguments)
+    instance.call("fmi2SetupExperiment", *arguments)
     if instance.fmu.version != "2.0":
-        call(instance.slave, "fmi2EnterInitializationMode")
+        instance.call("fmi2EnterInitializationMode")
 
 
 def _in_the_run(trial: Trial, present: list[Variable]) -> None:
@@ -348,4 +345,4 @@ def _in_the_run(trial: Trial, present: list[Variable]) -> None:
 
 
 def _step(instance: Instance, time: float, size: float) -> None:
-    call(instance.slave, "fmi2DoStep", time, size, True)
+    instance.call("fmi2DoStep", time, size, True)

@@ -22,7 +22,6 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import PARAMETERS, TUNABLES, VARIABLES
 from slider_resonator.device.schedule import Schedule, in_order
 from slider_resonator.errors import Refusal
-from slider_resonator.fmu.blocks import call
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.run import Running
 from slider_resonator.fmu.saved_state import SavedState
@@ -231,7 +230,7 @@ def overwritten_differences(fmu: FmuSide) -> Findings:
             instance.set({name: other_value(name, value)})
             accepted += _refused(instance, name)
         instance.set(values)
-        call(instance.slave, "fmi2EnterInitializationMode")
+        instance.call("fmi2EnterInitializationMode")
         for name, value in reversed(values.items()):
             instance.set({name: other_value(name, value)})
             accepted += _refused(instance, name)
@@ -311,7 +310,7 @@ def reading_differences(fmu: FmuSide) -> Findings:
     with instance.explained():
         instance.set_up(running.stop_time, start_time=schedule.start_time)
         instance.set({**plain.parameters, **running.first})
-        call(instance.slave, "fmi2EnterInitializationMode")
+        instance.call("fmi2EnterInitializationMode")
         read_all()
         instance.begin()
         read_all()

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from slider_resonator.checks.conduct.findings import Findings, other_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.fmu.blocks import call
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.rounding import is_same
 
@@ -36,7 +35,7 @@ def start_faults(fmu: FmuSide) -> Findings:
             instance.set({name: value})
         faults += _unequal(instance, others, "after it was set")
         faults += _in_one_call(instance, others)
-        call(instance.slave, "fmi2EnterInitializationMode")
+        instance.call("fmi2EnterInitializationMode")
         first = _one_by_one(instance, instance.fmu.outputs)
         instance.begin()
         faults += _unequal(instance, others, "in a run")

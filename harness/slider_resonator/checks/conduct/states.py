@@ -12,8 +12,6 @@ from fmpy.fmi2 import FMU2Slave
 from slider_resonator.checks.conduct.findings import Findings, other_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.fmu.blocks import call
-from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.saved_state import SavedState
 
@@ -30,42 +28,41 @@ DAMAGED = 24
 def state_faults(fmu: FmuSide) -> Findings:
     """Get a state into the place of another, damage serialised ones, and free them."""
     instance = fmu.instance
-    slave = instance.slave
     instance.fmu.require("canGetAndSetFMUstate")
     with instance.explained():
         instance.start(fmu.scene.parameters)
         instance.step_by(STEP)
-        faults = [*_overwriting_faults(instance, slave)]
+        faults = [*_overwriting_faults(instance)]
         if instance.fmu.description.coSimulation.canSerializeFMUstate:
-            faults += _damage_faults(instance, slave)
-        faults += _freeing_faults(instance, slave)
+            faults += _damage_faults(instance)
+        faults += _freeing_faults(instance)
         faults += _early_faults(instance, fmu.scene.parameters)
         instance.terminate()
     return Findings.of(faults)
 
 
-def _overwriting_faults(instance: Instance, slave: FMU2Slave | Fmi3Slave) -> Iterator[str]:
+def _overwriting_faults(instance: Instance) -> Iterator[str]:
     """Get the state twice into one place, the second time after a step."""
     state = c_void_p()
-    call(slave, "fmi2GetFMUstate", byref(state))
+    instance.call("fmi2GetFMUstate", byref(state))
     instance.step_by(STEP)
-    call(slave, "fmi2GetFMUstate", byref(state))
+    instance.call("fmi2GetFMUstate", byref(state))
     kept, time = instance.read(instance.fmu.outputs), instance.time
     instance.step_by(STEP)
-    call(slave, "fmi2SetFMUstate", state)
+    instance.call("fmi2SetFMUstate", state)
     instance.time = time
     if instance.read(instance.fmu.outputs) != kept:
         yield "a state that is got into the place of another is still the old one"
-    call(slave, "fmi2FreeFMUstate", byref(state))
+    instance.call("fmi2FreeFMUstate", byref(state))
 
 
-def _damage_faults(instance: Instance, slave: FMU2Slave | Fmi3Slave) -> Iterator[str]:
+def _damage_faults(instance: Instance) -> Iterator[str]:
     """Read back states with a bit turned, the end cut off or those of another FMU.
 
     They must be refused. Turned bits may also be of no account: the state is then the one that was
     written, and not the present one.
     """
-    outputs = instance.fmu.outputs
+    slave, outputs = instance.slave, instance.fmu.outputs
     state = slave.getFMUstate()
     content = bytes(slave.serializeFMUstate(state))
     slave.freeFMUstate(state)
@@ -81,7 +78,7 @@ def _damage_faults(instance: Instance, slave: FMU2Slave | Fmi3Slave) -> Iterator
     if isinstance(slave, FMU2Slave) and instance.fmu.runs_without_python:
         few = (c_char * (len(content) - 1))()
         with suppress(FMICallException):
-            call(slave, "fmi2SerializeFMUstate", state, few, len(few))
+            instance.call("fmi2SerializeFMUstate", state, few, len(few))
             yield "a state is serialised into too few bytes"
     damaged["of zeros"] = bytes(len(content))
     damaged["with something after it"] = content + bytes(8)
@@ -105,23 +102,23 @@ def _damage_faults(instance: Instance, slave: FMU2Slave | Fmi3Slave) -> Iterator
     slave.freeFMUstate(state)
 
 
-def _freeing_faults(instance: Instance, slave: FMU2Slave | Fmi3Slave) -> Iterator[str]:
+def _freeing_faults(instance: Instance) -> Iterator[str]:
     """Free a state, whose pointer must then be null, and a null pointer, which is no error.
 
     pythonfmu leaves the pointer as it is.
     """
     state = c_void_p()
-    call(slave, "fmi2GetFMUstate", byref(state))
-    call(slave, "fmi2FreeFMUstate", byref(state))
+    instance.call("fmi2GetFMUstate", byref(state))
+    instance.call("fmi2FreeFMUstate", byref(state))
     if state.value and instance.fmu.runs_without_python:
         yield "the pointer to a state that is freed is not null"
     state.value = None
     if instance.fmu.runs_without_python:
         with suppress(FMICallException):
-            call(slave, "fmi2SetFMUstate", state)
+            instance.call("fmi2SetFMUstate", state)
             yield "a null pointer is accepted as a state"
     try:
-        call(slave, "fmi2FreeFMUstate", byref(state))
+        instance.call("fmi2FreeFMUstate", byref(state))
     except FMICallException:
         yield "freeing a null pointer is refused"
 
@@ -143,7 +140,7 @@ def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
         instance.set(parameters)
         state = SavedState.of(instance)
         instance.set({name: other_value(name, VARIABLES[name].start or 0.0) for name in CHANGED})
-        call(instance.slave, "fmi2EnterInitializationMode")
+        instance.call("fmi2EnterInitializationMode")
         instance.read(outputs)
         try:
             go_back(state)
@@ -152,7 +149,7 @@ def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
             return
         finally:
             state.free()
-        call(instance.slave, "fmi2EnterInitializationMode")
+        instance.call("fmi2EnterInitializationMode")
         instance.begin()
         instance.step_by(STEP)
         if instance.read(outputs) != expected:
