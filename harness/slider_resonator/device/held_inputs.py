@@ -137,14 +137,3 @@ def turning_apart(held: Sequence[HeldInputs]) -> list[HeldInputs]:
         else:
             parts.append(inputs)
     return parts
-
-
-def check_turns_on(inputs: HeldInputs) -> None:
-    """Raise ValueError where the angle of the normal load turns back within the inputs."""
-    first = inputs.frequency_ratio
-    last = first + inputs.ratio_rate * (inputs.stop - inputs.start)
-    if inputs.ratio_rate and not first * last > 0.0:
-        raise ValueError(
-            f"frequency_ratio from {first!r} to {last!r} between {inputs.start!r} and "
-            f"{inputs.stop!r} s: must keep its sign between communication points"
-        )

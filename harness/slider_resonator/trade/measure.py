@@ -131,7 +131,6 @@ def _measured(
         friction_law=problem.device.friction_law,
         periods=problem.periods,
         simulated=problem.periods * problem.period,
-        uncertainty=reference.uncertainty,
         rows=tuple(c.timed(taken) for c, taken in zip(candidates, seconds, strict=True)),
         omissions=tuple(notes.omissions),
     )

@@ -123,8 +123,9 @@ def _explanation() -> str:
         "reference. Times are CPU times, medians of repeats taken in turn, of following the "
         "motion: not of the start of an FMU, nor of the first drive period, which located Taylor "
         "steps take for heyoka in one call, since it cannot start at rest. A method that would "
-        "exceed its budget is followed over fewer drive periods, as listed. Peers hold "
-        "inputs that vary over the scene's own communication step (FMUs over theirs), and cost "
+        "exceed its budget is followed over fewer drive periods, as listed. Inputs that "
+        "ramp do so for all methods; an FMU that takes no derivatives of inputs holds them over "
+        "its steps. Peers cost "
         "what they cost a user of Python: heyoka compiles its equations, scipy calls them "
         "in Python, and Moreau-Jean is a loop in Python. Steps are an FMU's communication steps "
         "or an integrator's own; events are those that were located, else reversals.</p>"
@@ -134,11 +135,6 @@ def _explanation() -> str:
 def _scene(trade: Trade) -> list[str]:
     parts = [f"<h2>{escaped(title(trade))}: in full</h2>"]
     run = f"{trade.periods} drive periods, {trade.simulated:.4g} s simulated."
-    if trade.uncertainty:
-        run += (
-            f" The reference holds inputs in fine steps, which leaves an uncertainty of "
-            f"{trade.uncertainty:.0e} of the position: errors below it mean nothing."
-        )
     parts.append(f"<p>{escaped(run)}</p>")
     for quantity in QUANTITIES:
         if trade.having(quantity):

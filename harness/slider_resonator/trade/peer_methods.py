@@ -86,7 +86,7 @@ def _run(problem: Problem, peer: Peer, periods: int) -> Solution:
     times = problem.readings(periods)
     if problem.beat is not None:
         times = np.union1d(times, problem.ends(periods))
-    solution = peer.follow(problem.device, problem.held(periods), times)
+    solution = peer.follow(problem.device, problem.lines(periods), times)
     if problem.beat is None:
         return solution
     ends = problem.ends(periods)

@@ -11,8 +11,8 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs, check_turns_on, with_steady_phase
-from slider_resonator.device.schedule import Schedule, communication_points, in_order, schedule
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.schedule import Schedule, schedule
 from slider_resonator.device.signal import Signal
 from slider_resonator.references.averaged.averaged_motion import MAX_DETUNING
 from slider_resonator.scenes.scene import Scene
@@ -23,9 +23,6 @@ HALVINGS = 5
 """The motion is read in windows that end at the end of the run, at half of it, and so on."""
 POINTS = 16
 """Readings in a window, which is a drive period long."""
-REFERENCE_STEPS = 16
-"""Steps per drive period in which the reference holds inputs, at their middle value, where it
-cannot follow their lines."""
 
 
 @dataclass(frozen=True)
@@ -117,36 +114,9 @@ class Problem:
         """Return the inputs with straight lines passed on; all their corners are points."""
         return schedule(periods * self.period, step, None, True, **self.signals)
 
-    def held(self, periods: int) -> list[HeldInputs]:
-        """Return the inputs of peers, held over the scene's own communication step."""
-        return self.schedule(periods, self.step).held()
-
-    def lines(self, periods: int) -> list[HeldInputs] | None:
-        """Return the inputs as straight lines from corner to corner.
-
-        None where the normal load turns back within a line, which no reference follows.
-        """
-        lines = self.interpolated(periods, periods * self.period).held()
-        try:
-            for inputs in with_steady_phase(lines, self.device):
-                check_turns_on(inputs)
-        except ValueError:
-            return None
-        return lines
-
-    def reference_inputs(self, periods: int, steps: int = REFERENCE_STEPS) -> list[HeldInputs]:
-        """Return the inputs of the reference: lines, or else `steps` per drive period, held."""
-        lines = self.lines(periods)
-        if lines is not None:
-            return lines
-        corners = [t for signal in self.signals.values() for t in signal.times]
-        times = communication_points(periods * self.period, self.period / steps, corners)
-        begins, middles = tuple(times[:-1].tolist()), 0.5 * (times[1:] + times[:-1])
-        held = {
-            name: Signal(begins, tuple(signal.over(middles).tolist()))
-            for name, signal in self.signals.items()
-        }
-        return Schedule(times, *in_order(held)).held()
+    def lines(self, periods: int) -> list[HeldInputs]:
+        """Return the inputs of reference and peers: straight lines from corner to corner."""
+        return self.interpolated(periods, periods * self.period).held()
 
 
 def problem_of(scene: Scene, varied: Mapping[str, float], max_periods: int | None) -> Problem:

@@ -7,15 +7,13 @@ from math import inf
 
 import numpy as np
 
-from slider_resonator.checks.measures import peak, share_of
 from slider_resonator.errors import HarnessError
 from slider_resonator.references.resolved import taylor
 from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import Simulate
 from slider_resonator.trade.peer_methods import shoot
 from slider_resonator.trade.peers.peer import solution_of
-from slider_resonator.trade.problem import REFERENCE_STEPS, Problem
+from slider_resonator.trade.problem import Problem
 from slider_resonator.trade.solution import WindowReadings, windows
 
 SHOOTING = 1e-10
@@ -27,14 +25,11 @@ class Reference:
     """The reference solution of a problem.
 
     `windows` are its readings; `sticks` says whether the slider sticks after the first drive
-    period; `uncertainty` is the change of the position, as a share of its peak, when inputs whose
-    lines it cannot follow are held over half as many steps. The steady velocity (m/s) and the
-    blocking force (N) are None where there is none.
+    period. The steady velocity (m/s) and the blocking force (N) are None where there is none.
     """
 
     windows: WindowReadings
     sticks: bool
-    uncertainty: float
     steady_velocity: float | None
     blocking_force: float | None
 
@@ -43,14 +38,10 @@ def find_reference(problem: Problem) -> Reference:
     """Compute the reference; HarnessError where that is impossible."""
     simulate: Simulate = simulate_lugre if problem.device.friction_law == 1 else taylor.simulate
     try:
-        run = _run(problem, simulate, REFERENCE_STEPS)
-        found = windows(problem, solution_of(run, located=True), problem.periods)
-        uncertainty = 0.0
-        if problem.lines(problem.periods) is None:
-            coarse = _run(problem, simulate, REFERENCE_STEPS // 2)
-            # Three times what second order leaves: corners between steps make it irregular.
-            uncertainty = share_of(peak(coarse.position - run.position), peak(run.position))
-        first = simulate(problem.device, problem.reference_inputs(1), np.empty(0)).stick_time
+        held, periods = problem.lines(problem.periods), problem.periods
+        run = simulate(problem.device, held, problem.readings(periods))
+        found = windows(problem, solution_of(run, located=True), periods)
+        first = simulate(problem.device, problem.lines(1), np.empty(0)).stick_time
         answers = {}
         for quantity in ("steady_velocity", "blocking_force"):
             answers[quantity] = (
@@ -63,15 +54,6 @@ def find_reference(problem: Problem) -> Reference:
     return Reference(
         found,
         run.stick_time > first + 1e-9 * problem.period,
-        uncertainty,
         answers["steady_velocity"],
         answers["blocking_force"],
-    )
-
-
-def _run(problem: Problem, simulate: Simulate, steps: int) -> Trajectory:
-    return simulate(
-        problem.device,
-        problem.reference_inputs(problem.periods, steps),
-        problem.readings(problem.periods),
     )

@@ -65,14 +65,13 @@ class Omission:
 
 @dataclass(frozen=True)
 class Trade:
-    """All measurements on one scene; `uncertainty` is the reference's own error of the position."""
+    """All measurements on one scene, of a run of `periods` drive periods, `simulated` s."""
 
     scene: str
     title: str
     friction_law: int
     periods: int
     simulated: float
-    uncertainty: float
     rows: tuple[Row, ...]
     omissions: tuple[Omission, ...]
 

@@ -19,7 +19,7 @@ def reference_of(problem: Problem) -> WindowReadings:
     """The readings of a problem by the Taylor references, over its whole run."""
     periods = problem.periods
     simulate: Simulate = simulate_lugre if problem.device.friction_law else taylor.simulate
-    run = simulate(problem.device, problem.reference_inputs(periods), problem.readings(periods))
+    run = simulate(problem.device, problem.lines(periods), problem.readings(periods))
     return windows(problem, solution_of(run, located=True), periods)
 
 

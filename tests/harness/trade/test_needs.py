@@ -38,7 +38,6 @@ TRADE = Trade(
     friction_law=0,
     periods=10,
     simulated=1.0,
-    uncertainty=0.0,
     rows=(
         named(row(2e-5, 3e-3, AVERAGED), "native FMU, fidelity 0", "steps of 10 periods"),
         named(row(3e-4, 1e-13, RESOLVED), "native FMU, fidelity 2", "steps of 10 periods"),

@@ -15,7 +15,7 @@ from tests.html_pages import Page
 
 def test_a_page_stands_alone(tmp_path: Path) -> None:
     gone = Omission("s", "slow <method>", "all", "more than its budget")
-    trade = replace(TRADE, title="A & B", uncertainty=2e-7, omissions=(gone,))
+    trade = replace(TRADE, title="A & B", omissions=(gone,))
     write_trades(tmp_path / "index.html", [trade], PROVENANCE)
     text = (tmp_path / "index.html").read_text(encoding="utf-8")
     page = Page(text)
@@ -24,7 +24,6 @@ def test_a_page_stands_alone(tmp_path: Path) -> None:
     assert page.ids == ["provenance"]
     assert "A &amp; B" in text
     assert "slow &lt;method&gt;" in text
-    assert "an uncertainty of 2e-07" in text
     assert "averaged: not reached" in text
 
 

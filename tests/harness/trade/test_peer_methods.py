@@ -2,23 +2,14 @@
 
 from __future__ import annotations
 
-import numpy as np
-import pytest
-
 from slider_resonator.trade.peer_methods import peer_answers, peer_methods
-from tests.harness.trade.problems import LUGRE, RAMP, TABLE_1, problem
+from tests.harness.trade.problems import LUGRE, TABLE_1, problem
 
 
 def test_every_setting_has_a_name_of_its_own() -> None:
     for text in (TABLE_1, LUGRE):
         names = [method.label.name for method in peer_methods(problem(text))]
         assert len(set(names)) == len(names)
-
-
-def test_peers_hold_inputs_over_the_step_of_the_scene() -> None:
-    ramp = problem(RAMP)
-    lengths = np.diff([inputs.start for inputs in ramp.held(16)])
-    assert lengths == pytest.approx(ramp.period / 8)
 
 
 def test_peers_that_start_in_any_state_support_shooting() -> None:

@@ -69,27 +69,28 @@ def test_nothing_draws_a_slider_without_friction_into_a_steady_motion(device: st
 
 def test_jumps_are_exact_for_every_method() -> None:
     found = problem(JUMPS)
-    assert [inputs.start for inputs in found.reference_inputs(16)] == [0.0, 0.0101]
-    assert found.held(16) == found.reference_inputs(16)
+    assert [(inputs.start, inputs.load) for inputs in found.lines(16)] == [
+        (0.0, 0.0),
+        (0.0101, 0.05),
+    ]
 
 
-def test_the_reference_follows_ramps() -> None:
-    line, constant = problem(RAMP).reference_inputs(16)
+def test_reference_and_peers_follow_ramps() -> None:
+    line, constant = problem(RAMP).lines(16)
     assert (line.start, line.stop, line.load) == (0.0, 0.02, 0.0)
     assert line.load_rate == pytest.approx(5.0)
     assert (constant.load, constant.load_rate) == (0.1, 0.0), "from where the ramp ends"
 
 
-def test_lines_that_turn_the_normal_load_back_are_held_at_their_middle() -> None:
+def test_lines_that_turn_the_normal_load_back_are_the_limit_of_shorter_steps() -> None:
     found = problem(TURNS_BACK)
-    held = found.reference_inputs(16, steps=4)
-    middles = np.array([0.5 * (inputs.start + inputs.stop) for inputs in held])
-    ratios = [inputs.frequency_ratio for inputs in held[:-1]]
-    assert ratios == pytest.approx(0.4 - 50.0 * middles[:-1])
-    assert (held[-1].start, held[-1].frequency_ratio) == (0.02, -0.6)
     times = np.array([16 * PERIOD])
-    *ends, fine = (
-        simulate(found.device, found.reference_inputs(16, n), times).position[0] for n in (2, 8, 32)
-    )
-    order = np.log(abs(ends[0] - fine) / abs(ends[1] - fine)) / np.log(4.0)
-    assert order > 1.7, f"middle values hold a ramp to second order, not {order}"
+    (limit,) = simulate(found.device, found.lines(16), times).position
+    off = [
+        abs(
+            simulate(found.device, found.schedule(16, PERIOD / n).held(), times).position[0] - limit
+        )
+        for n in (64, 1024)
+    ]
+    order = np.log(off[0] / off[1]) / np.log(16.0)
+    assert order == pytest.approx(1.0, abs=0.1), f"inputs held over steps are off by {off}"

@@ -87,7 +87,7 @@ def test_classes_are_compared_where_they_reach_the_error() -> None:
         row(3e-4, 1e-13, RESOLVED),
         row(6e-3, 1e-8, PEER),
     )
-    found = standings(Trade("s", "S", 0, 10, 1.0, 0.0, rows, ()))
+    found = standings(Trade("s", "S", 0, 10, 1.0, rows, ()))
     reported = {(s.quantity, s.kind): s for s in found}
     assert reported["mean_velocity", AVERAGED].ratio == pytest.approx((1 / 30,) * 3)
     assert reported["mean_velocity", PEER].ratio == pytest.approx((20.0,) * 3)
@@ -104,7 +104,7 @@ def test_classes_are_compared_where_they_reach_the_error() -> None:
 
 def test_another_friction_law_is_no_candidate() -> None:
     lucky = replace(row(1e-6, 1e-12), friction_law=1)
-    trade = Trade("s", "S", 0, 10, 1.0, 0.0, (row(3e-4, 1e-13), lucky), ())
+    trade = Trade("s", "S", 0, 10, 1.0, (row(3e-4, 1e-13), lucky), ())
     (found,) = [s.row for s in standings(trade) if s.quantity == "position" and s.row is not None]
     assert found.friction_law == 0
     assert lucky in trade.having("position"), "its error is shown all the same"

@@ -17,9 +17,15 @@ from scipy.integrate import DOP853
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs, check_contiguous, check_times
+from slider_resonator.device.held_inputs import (
+    RATES,
+    HeldInputs,
+    check_contiguous,
+    check_times,
+    with_steady_phase,
+)
 from slider_resonator.references.resolved.contact import LIFTED
-from slider_resonator.references.resolved.equations import equations_of, initial_state
+from slider_resonator.references.resolved.equations import Number, equations_of, initial_state
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.scipy_methods import (
     Method,
@@ -38,35 +44,37 @@ class RunWithoutEvents(ABC):
 
     def __init__(self, device: Device, times: Array) -> None:
         self.recorder = Recorder(times)
+        self.device = device
         self.equations = equations_of(device)
         self.state: Array = np.array(initial_state(device))
         self.theta = 0.0
         self.psi = 0.0
 
     def run(self, held: Sequence[HeldInputs]) -> Trajectory:
-        """Return the motion through the held inputs.
+        """Return the motion through the held inputs, or ones with rates.
 
         ``contact_mode`` is the sign of the velocity (2 where the contact is open), ``reversals``
         counts its changes of sign between steps; there are no event times. Raises ValueError for
         inputs with gaps and times outside them, besides what the method raises.
         """
-        check_contiguous(held)
+        check_contiguous(held, rates=RATES)
         check_times(self.recorder.times, held)
-        for inputs in held:
+        rate = self.equations.drive_frequency
+        for inputs in with_steady_phase(held, self.device):
             self.follow(inputs)
-            turned = self.equations.drive_frequency * (inputs.stop - inputs.start)
-            self.theta += turned
-            self.psi += inputs.frequency_ratio * turned
+            span = inputs.stop - inputs.start
+            self.theta += rate * span
+            self.psi += inputs.turned(span, rate)
         return self.recorder.trajectory()
 
     @abstractmethod
     def follow(self, inputs: HeldInputs) -> None:
         """Advance ``state`` through held inputs, keeping samples and counts."""
 
-    def angles(self, inputs: HeldInputs, local: Array) -> Array:
-        """Return psi + phase in rad at times in s since the start of the inputs, shape (k,)."""
-        rate = inputs.frequency_ratio * self.equations.drive_frequency
-        return np.asarray(self.psi + inputs.phase + rate * local)
+    def angles(self, inputs: HeldInputs, local: Number) -> Number:
+        """Return psi + phase in rad at times in s since the start of the inputs."""
+        ratio = inputs.frequency_ratio + 0.5 * inputs.ratio_rate * local
+        return self.psi + inputs.phase + ratio * self.equations.drive_frequency * local
 
     def keep(self, inputs: HeldInputs, local: Array, states: Array, friction: Array) -> None:
         """Keep states (k, 4) and friction (k,) in N at times in s since the start of the inputs."""
@@ -149,10 +157,12 @@ class _Run(RunWithoutEvents):
 
     def follow(self, inputs: HeldInputs) -> None:
         equations, recorder = self.equations, self.recorder
-        angle = self.psi + inputs.phase
         solver = self._method(
             equations.slopes(
-                None, inputs.load, self.theta, angle, inputs.frequency_ratio, self._width
+                *(None, inputs.load, self.theta, self.psi + inputs.phase, inputs.frequency_ratio),
+                self._width,
+                load_rate=inputs.load_rate,
+                ratio_rate=inputs.ratio_rate,
             ),
             0.0,
             self.state,
@@ -160,13 +170,12 @@ class _Run(RunWithoutEvents):
             rtol=self._rtol,
             atol=self._atol * equations.state_scales(inputs.load),
         )
-        rate = inputs.frequency_ratio * equations.drive_frequency
         while solver.status == "running":
             take_step(solver, inputs.start, "use a greater atol")
             self._check_progress(solver, inputs.start)
             recorder.steps += 1
             velocity = float(solver.y[1])
-            load = equations.normal_amplitude * np.sin(angle + rate * solver.t)
+            load = equations.normal_amplitude * np.sin(self.angles(inputs, float(solver.t)))
             if equations.normal_preload + load > 0.0:
                 recorder.contact.slide((velocity > 0.0) - (velocity < 0.0))
             reached = inputs.start + solver.t if solver.status == "running" else inputs.stop

@@ -52,11 +52,12 @@ class _Run(RunWithoutEvents):
     def follow(self, inputs: HeldInputs) -> None:
         equations, contact = self.equations, self.recorder.contact
         rate = equations.drive_frequency
-        angle_rate = inputs.frequency_ratio * rate
+        angle_rate, half = inputs.frequency_ratio * rate, 0.5 * inputs.ratio_rate * rate
+        load, load_rate = inputs.load, inputs.load_rate
         span = inputs.stop - inputs.start
         count = ceil(span * rate / (2.0 * pi) * self._steps_per_period * (1.0 - _SAME_INSTANT))
         step = span / count
-        smooth = _SmoothStep(equations, step, inputs.load)
+        smooth = _SmoothStep(equations, step)
         theta, angle = self.theta, self.psi + inputs.phase
         limit_mean, limit_amplitude = equations.friction_mean, equations.friction_amplitude
         x, v, y, u = self.state.tolist()
@@ -64,8 +65,10 @@ class _Run(RunWithoutEvents):
         sticking = False
         for index in range(count):
             middle = (index + 0.5) * step
-            free_v, free_u = smooth.free(v, y, u, theta + rate * middle)
-            limit = step * max(0.0, limit_mean + limit_amplitude * sin(angle + angle_rate * middle))
+            pulled = load + load_rate * middle
+            free_v, free_u = smooth.free(v, y, u, theta + rate * middle, pulled)
+            normal = angle + (angle_rate + half * middle) * middle
+            limit = step * max(0.0, limit_mean + limit_amplitude * sin(normal))
             impulse = min(limit, max(-limit, free_v / smooth.mobility))
             # Where the impulse stops the slider, it does so exactly: -0.0 and rounding are no slip.
             stopped = abs(impulse) < limit
@@ -97,10 +100,9 @@ class _SmoothStep:
     equations whose matrix is inverted once.
     """
 
-    def __init__(self, equations: Equations, step: float, load: float) -> None:
+    def __init__(self, equations: Equations, step: float) -> None:
         e, h = equations, step
         self._equations = e
-        self._load = load
         self._step = h
         pull = 0.5 * h * (e.coupling_damping + 0.5 * h * e.coupling_stiffness) / e.inertia
         swing = 0.5 * h * (e.damping_rate + 0.5 * h * e.stiffness_rate)
@@ -110,13 +112,13 @@ class _SmoothStep:
         self.mobility = (1.0 + swing) * self._inverse / e.inertia
         self.resonator_mobility = -self._inverse / e.inertia
 
-    def free(self, v: float, y: float, u: float, theta: float) -> tuple[float, float]:
-        """Return both velocities after the step; ``theta`` is the drive angle at its middle."""
+    def free(self, v: float, y: float, u: float, theta: float, load: float) -> tuple[float, float]:
+        """Return both velocities after the step; drive angle and load are those at its middle."""
         e, h = self._equations, self._step
         sine, cosine = sin(theta), sin(theta + 0.5 * pi)
         middle = y + 0.25 * h * u
         force = e.coupling_stiffness * middle + 0.5 * e.coupling_damping * u
-        force += e.force_sine * sine + e.force_cosine * cosine - self._load
+        force += e.force_sine * sine + e.force_cosine * cosine - load
         a = v + h * force / e.inertia
         shaken = e.base_acceleration * sine - 0.5 * e.damping_rate * u - e.stiffness_rate * middle
         b = v + u + h * shaken

@@ -49,7 +49,7 @@ def heyoka_in_one_call(family: str, first: Simulate, tolerance: float) -> Peer:
     """Return heyoka in one call; it starts where `first` is after one drive period."""
 
     def follow(device: Device, held: Sequence[HeldInputs], times: Array) -> Solution:
-        if len(held) != 1:
+        if len(held) != 1 or held[0].vary:
             raise ValueError("inputs vary, which it does not cover")
         (inputs,) = held
         begin = min(2.0 * np.pi / device.drive_frequency, inputs.stop)

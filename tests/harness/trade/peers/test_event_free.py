@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved import located_events
 from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.trade.peers import moreau_jean
 from slider_resonator.trade.peers.event_free import simulate_sgn, simulate_tanh
 
 TABLE_1 = Device()
@@ -153,3 +155,21 @@ def test_a_width_that_is_none_is_refused(width: float) -> None:
 def test_an_unknown_method_is_refused() -> None:
     with pytest.raises(ValueError, match="method = 'Euler': must be one of DOP853, LSODA, Radau"):
         simulate_tanh(SLIDER, until(1.0), np.empty(0), width=1e-3, method="Euler")
+
+
+def test_ramps_of_all_inputs_are_followed() -> None:
+    held = [
+        HeldInputs(
+            0.0, 3 * PERIOD, 0.3, 0.05, 1.0, phase_rate=20.0, load_rate=3.0, ratio_rate=20.0
+        ),
+        HeldInputs(3 * PERIOD, 6 * PERIOD, 0.4, load=0.06, load_rate=-3.0, ratio_rate=-30.0),
+    ]
+    times = np.linspace(0.0, 6 * PERIOD, 25)
+    reference = located_events.simulate(TABLE_1, held, times)
+    followed = simulate_sgn(TABLE_1, held, times, rtol=1e-10, atol=1e-10)
+    assert deviation(followed, reference) < 1e-8
+    stepped = moreau_jean.simulate(TABLE_1, held, times, steps_per_period=4096)
+    assert deviation(stepped, reference) < 1e-4
+    held_still = [replace(one, phase_rate=0.0, load_rate=0.0, ratio_rate=0.0) for one in held]
+    still = located_events.simulate(TABLE_1, held_still, times)
+    assert deviation(still, reference) > 1e-3, "the ramps count"

@@ -13,7 +13,7 @@ def test_one_call_of_heyoka_covers_no_inputs_that_vary() -> None:
     ramp = problem(RAMP)
     peer = next(peer for peer in peers(ramp) if peer.family == "heyoka at its fastest")
     with pytest.raises(ValueError, match="inputs vary"):
-        peer.follow(ramp.device, ramp.held(4), ramp.readings(4))
+        peer.follow(ramp.device, ramp.lines(4), ramp.readings(4))
 
 
 def test_being_led_into_motion_is_not_charged() -> None:

@@ -33,7 +33,7 @@ def test_the_last_setting_of_each_family_is_near_the_reference(text: str) -> Non
     for peer in most_exact(short):
         if peer.family.startswith("Radau"):
             continue
-        solution = peer.follow(short.device, short.held(PERIODS), short.readings(PERIODS))
+        solution = peer.follow(short.device, short.lines(PERIODS), short.readings(PERIODS))
         found = errors(short, solution, reference, PERIODS)
         exact = any(peer.family.startswith(family) for family in EXACT)
         allowed = 1e-6 if exact else 5e-2
@@ -48,5 +48,5 @@ def test_a_width_in_fast_velocities_needs_a_steady_vibration() -> None:
     assert "Moreau-Jean" in by_family, "the others follow resonance as it grows"
     with pytest.raises(ValueError, match="there is no steady state"):
         by_family["tanh, LSODA"].follow(
-            resonant.device, resonant.held(PERIODS), resonant.readings(PERIODS)
+            resonant.device, resonant.lines(PERIODS), resonant.readings(PERIODS)
         )
