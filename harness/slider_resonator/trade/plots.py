@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from slider_resonator.output.plot_style import save, style
+from slider_resonator.trade.names_in_plot import Name, place_names
 from slider_resonator.trade.result import (
     AVERAGED,
     PEER,
@@ -27,10 +28,6 @@ PANELS = ("position", "mean_velocity")
 OURS = {"native": "#1f5f8b", "Python": "#6fa8d0"}
 MARKERS = {(2, None): "o", (1, None): "s", (0, 1): "^", (0, 2): "d", (0, None): "^"}
 """Markers of our FMUs, by fidelity and averaging order."""
-NAME_HEIGHTS = {(1, "native"): 17, (1, "Python"): -26}
-"""Heights [pt] of the names of our FMUs over their cheapest points, by fidelity and build, where
-they are not `NAME_HEIGHT`: fidelity 1 and order 1 lie on the same line."""
-NAME_HEIGHT = {"native": 7, "Python": -16}
 PEER_MARKERS = "DvPX*<>ph8|H"
 PEER_COLOURS = (
     *("#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22"),
@@ -46,19 +43,27 @@ class _Look:
 
 
 def draw_picture(trade: Trade, path: Path) -> None:
-    """Write the picture of the README: position and mean velocity side by side."""
+    """Write the picture of the README."""
+    save(trade_figure(trade), path)
+
+
+def trade_figure(trade: Trade) -> Figure:
+    """Draw errors of position and mean velocity over cost, side by side."""
     looks = _looks(trade)
     with style():
         figure = Figure(figsize=(8.0, 5.4), layout="constrained")
-        for axes, quantity in zip(figure.subplots(1, len(PANELS)), PANELS, strict=True):
-            rows = trade.candidates(quantity)
-            _draw(axes, rows, quantity, looks)
+        panels = dict(zip(PANELS, figure.subplots(1, len(PANELS)), strict=True))
+        for quantity, axes in panels.items():
+            _draw(axes, trade.candidates(quantity), quantity, looks)
             axes.set_title(f"error of the {quantity.replace('_', ' ')}")
-            _name_ours(axes, rows, quantity)
         figure.axes[0].set_ylabel("share of the peak")
         handles, labels = figure.axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=8.5)
-        save(figure, path)
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")  # names are placed in the layout as it is
+        for quantity, axes in panels.items():
+            place_names(axes, _our_names(trade.candidates(quantity), quantity), fontsize=8.0)
+    return figure
 
 
 def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look]) -> None:
@@ -99,19 +104,14 @@ def _draw(axes: Axes, rows: Sequence[Row], quantity: str, looks: dict[str, _Look
     axes.set(xscale="log", yscale="log", xlabel=cost_label(drawn))
 
 
-def _name_ours(axes: Axes, rows: Sequence[Row], quantity: str) -> None:
-    """Label our FMUs."""
+def _our_names(rows: Sequence[Row], quantity: str) -> list[Name]:
+    """Return the names of our FMUs, which stand near their cheapest points."""
+    names = []
     for family in families([row for row in rows if row.kind != PEER]):
-        cheapest = min((row for row in rows if row.family == family), key=lambda row: row.cost)
-        build = family.split()[0]
-        axes.annotate(
-            family.replace(" FMU, fidelity ", " "),
-            (cheapest.cost, drawn_error(cheapest, quantity)),
-            xytext=(0, NAME_HEIGHTS.get((cheapest.fidelity or 0, build), NAME_HEIGHT[build])),
-            textcoords="offset points",
-            fontsize=8,
-            color=_our_colour(family),
-        )
+        own = sorted((row for row in rows if row.family == family), key=lambda row: row.cost)
+        points = [(row.cost, drawn_error(row, quantity)) for row in own]
+        names.append(Name(family.replace(" FMU, fidelity ", " "), _our_colour(family), points))
+    return names
 
 
 def _points(rows: Sequence[Row], quantity: str) -> tuple[list[float], list[float]]:
