@@ -1,4 +1,4 @@
-"""`scenes`: list the built-in scenes; template, check, schema and page of scene files."""
+"""`scenes`: list the built-in scenes; template, check and schema of scene files."""
 
 from __future__ import annotations
 
@@ -8,16 +8,14 @@ from typing import Any
 
 import click
 
-from slider_resonator.commands.options import json_option, target
+from slider_resonator.commands.options import json_option
 from slider_resonator.commands.results import print_json, print_table
-from slider_resonator.output.atomic import write_text
 from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.expansion import variants
 from slider_resonator.scenes.json_schema import scene_schema
-from slider_resonator.scenes.page import example_text, scene_page
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.scenes.scene_files import find_scene, find_scenes, is_core
+from slider_resonator.scenes.scene_files import example_text, find_scene, find_scenes, is_core
 from slider_resonator.scenes.toml_file import read_toml, toml_text
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -31,11 +29,6 @@ from slider_resonator.scenes.vocabulary import QUANTITIES
     "--check", metavar="NAME|FILE|DIR", help="Check whether scenes are valid; nothing is run."
 )
 @click.option("--schema", is_flag=True, help="Print the JSON schema of scenes, for editors.")
-@click.option(
-    "--page",
-    type=target((".md",)),
-    help="Write the page about scene files, docs/scenes.md, from the schema.",
-)
 @json_option
 def scenes_command(as_json: bool, **chosen: Any) -> None:
     """List the built-in scenes, or help to write your own.
@@ -84,8 +77,6 @@ def scenes_command(as_json: bool, **chosen: Any) -> None:
         _check(chosen["check"])
     elif chosen["schema"]:
         click.echo(json.dumps(scene_schema(), indent=2))
-    elif chosen["page"]:
-        write_text(chosen["page"], scene_page())
     elif chosen["quantities"]:
         _list_quantities(as_json)
     else:

@@ -75,6 +75,11 @@ def _scenes_of(name_or_file: str, *, folders: bool = False) -> Sequence[Scene]:
     raise SceneError(f"{unknown}; `slider-resonator scenes --all` lists all")
 
 
+def example_text(name: str) -> str:
+    """Return the text of an example file of this package, such as `template.toml`."""
+    return (resources.files(__package__) / "examples" / name).read_text(encoding="utf-8")
+
+
 def _names_in(folder: str) -> dict[str, Path]:
     place = Path(str(resources.files("slider_resonator.scenes") / "built_in" / folder))
     files = sorted(place.glob("*.toml"))

@@ -4,7 +4,6 @@ import json
 from pathlib import Path
 
 from slider_resonator.scenes.json_schema import scene_schema
-from slider_resonator.scenes.page import scene_page
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
 from tests.harness.calling import call, refused
@@ -50,10 +49,8 @@ def test_the_template_is_a_scene(tmp_path: Path) -> None:
     assert call("scenes", "--check", tmp_path).stdout == f"{path}: valid, 2 checks\n"
 
 
-def test_the_schema_and_the_page_are_written(tmp_path: Path) -> None:
+def test_the_schema_is_printed() -> None:
     assert json.loads(call("scenes", "--schema").stdout) == scene_schema()
-    assert call("scenes", "--page", tmp_path / "scenes.md").exit_code == 0
-    assert (tmp_path / "scenes.md").read_text(encoding="utf-8") == scene_page()
 
 
 def test_what_does_not_go_together_is_refused() -> None:

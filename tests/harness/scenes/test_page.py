@@ -11,12 +11,12 @@ from typing import Any
 import jsonschema
 import pytest
 
+from docs.scene_page import TABLES, scene_page
 from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
 from slider_resonator.scenes.json_schema import scene_schema
-from slider_resonator.scenes.page import TABLES, example_text, scene_page
 from slider_resonator.scenes.scene import Scene, scene_from
-from slider_resonator.scenes.scene_files import built_in_scenes
+from slider_resonator.scenes.scene_files import built_in_scenes, example_text
 from slider_resonator.scenes.schema import SceneTable
 from slider_resonator.scenes.toml_file import toml_value
 from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES
@@ -66,7 +66,7 @@ def keys(table: Mapping[str, Any], place: str = "") -> Iterator[str]:
 
 def test_the_page_is_that_of_the_schema() -> None:
     page = (ROOT / "docs" / "scenes.md").read_text(encoding="utf-8")
-    assert page == scene_page(), "run: slider-resonator scenes --page docs/scenes.md"
+    assert page == scene_page(), "run: python docs/scene_page.py"
 
 
 def test_the_page_has_every_key_quantity_and_reference() -> None:

@@ -1,10 +1,14 @@
-"""The page docs/scenes.md: every key, unit, rule and quantity of scene files, from the schema."""
+"""Write docs/scenes.md: every key, unit, rule and quantity of scene files, from the schema.
+
+python docs/scene_page.py [PAGE]
+"""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping, Sequence
-from importlib import resources
 from itertools import groupby
+from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel
@@ -22,6 +26,7 @@ from slider_resonator.scenes.input_tables import (
 )
 from slider_resonator.scenes.key_table import KeyTable
 from slider_resonator.scenes.need_table import AllowedTable, NeedTable
+from slider_resonator.scenes.scene_files import example_text
 from slider_resonator.scenes.schema import RunTable, SceneTable, SweepTable
 from slider_resonator.scenes.toml_file import toml_value
 from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES, Quantity
@@ -43,7 +48,7 @@ TABLES: dict[str, type[KeyTable]] = {
 _INTRODUCTION = """\
 # Scene files
 
-<!-- Written by `slider-resonator scenes --page docs/scenes.md` from the schema; do not edit. -->
+<!-- Written by `python docs/scene_page.py` from the schema; do not edit. -->
 
 A scene is a TOML file: the device, the inputs over time, the length of the run, and what must hold.
 
@@ -66,11 +71,6 @@ A mistake is reported in one line with file, key and remedy:
 my_step.toml: run.stop_tme: unknown key 'stop_tme'; did you mean 'stop_time'? (must be one of ...)
 ```
 """
-
-
-def example_text(name: str) -> str:
-    """Return the text of an example file of this package, such as `template.toml`."""
-    return (resources.files(__package__) / "examples" / name).read_text(encoding="utf-8")
 
 
 def scene_page() -> str:
@@ -215,3 +215,8 @@ def _table(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 def _code(text: str) -> str:
     return f"`{text}`"
+
+
+if __name__ == "__main__":
+    page = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).with_name("scenes.md")
+    page.write_text(scene_page(), encoding="utf-8")
