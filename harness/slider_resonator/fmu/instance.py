@@ -86,6 +86,11 @@ class Instance:
         self.end()
         self._create()
 
+    def renew(self) -> None:
+        """Create a new instance, unless a process can have only one."""
+        if not self.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
+            self.recreate()
+
     def _create(self) -> None:
         self._name = f"harness{next(_numbers)}"
         self.messages, callbacks = fmu_log.collect(self._name)
@@ -122,7 +127,7 @@ class Instance:
         """Return a block of Real variables of the FMU; FmuError for an unknown name."""
         key = tuple(names)
         if key not in self._blocks:
-            references = [self._variable(name).valueReference for name in names]
+            references = [self.fmu.reference(name) for name in names]
             self._blocks[key] = Block(self.slave, references)
         return self._blocks[key]
 
@@ -205,7 +210,7 @@ class Instance:
         """
         if self._rates is None:
             self.fmu.require("canInterpolateInputs")
-            references = [self._variable(name).valueReference for name in INPUTS]
+            references = [self.fmu.reference(name) for name in INPUTS]
             self._rates = Derivatives(self.slave, references)
         self._rates.write(values)
 
@@ -224,7 +229,7 @@ class Instance:
 
     def read(self, names: Sequence[str]) -> dict[str, float]:
         """Return the current values of variables; FmuError for an unknown name."""
-        plan = self._plan(self._readable, names, self._variable)
+        plan = self._plan(self._readable, names, self.fmu.variable)
         found = dict(zip(plan.reals, plan.block.read(), strict=True))
         for name, reference in plan.integers.items():
             found[name] = float(self.slave.getInteger([reference])[0])
@@ -237,9 +242,6 @@ class Instance:
                 self.slave.terminate()
         self.slave.freeInstance()
         fmu_log.forget(self._name)
-
-    def _variable(self, name: str) -> ModelVariable:
-        return self.fmu.variable(name)
 
     def _plan(
         self,

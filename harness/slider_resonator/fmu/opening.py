@@ -10,7 +10,12 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import fmpy
-from fmpy.model_description import ModelDescription, ModelVariable, read_model_description
+from fmpy.model_description import (
+    CoSimulation,
+    ModelDescription,
+    ModelVariable,
+    read_model_description,
+)
 
 from slider_resonator.device.interface import FIRST, SETTABLE, VARIABLES
 from slider_resonator.errors import FmuError, NotApplicable, unknown_name
@@ -32,6 +37,11 @@ class Fmu:
     variables: Mapping[str, ModelVariable]
 
     @property
+    def offers(self) -> CoSimulation:
+        """The capability flags of its description, and the model identifier."""
+        return self.description.coSimulation
+
+    @property
     def version(self) -> str:
         """The version of FMI: 2.0 or 3.0."""
         return "3.0" if self.description.fmiVersion.startswith("3.") else "2.0"
@@ -39,7 +49,7 @@ class Fmu:
     @property
     def identifier(self) -> str:
         """The model identifier, which is also the name of the binary."""
-        return str(self.description.coSimulation.modelIdentifier)
+        return str(self.offers.modelIdentifier)
 
     @property
     def runs_without_python(self) -> bool:
@@ -49,12 +59,12 @@ class Fmu:
     @property
     def takes_equal_steps_only(self) -> bool:
         """Whether all communication steps of a run must have one size, by the FMU's description."""
-        return not self.description.coSimulation.canHandleVariableCommunicationStepSize
+        return not self.offers.canHandleVariableCommunicationStepSize
 
     @property
     def interpolates(self) -> bool:
         """Whether it takes derivatives of inputs, by its description; FMI 3.0 has none."""
-        return bool(self.description.coSimulation.canInterpolateInputs)
+        return bool(self.offers.canInterpolateInputs)
 
     @property
     def has_orders(self) -> bool:
@@ -74,6 +84,10 @@ class Fmu:
         if name in VARIABLES:
             raise self._lacks(name)
         raise FmuError(unknown_name("variable", name, self.variables))
+
+    def reference(self, name: str) -> int:
+        """Return the value reference of a variable; raises as `variable` does."""
+        return int(self.variable(name).valueReference)
 
     def settings(self, values: Mapping[str, float]) -> Mapping[str, float]:
         """Return the values to set, without variables that the FMU lacks.
@@ -96,7 +110,7 @@ class Fmu:
 
     def require(self, capability: str, *, of: bool = True) -> None:
         """Raise NotApplicable unless a capability flag of the description has the given value."""
-        if bool(getattr(self.description.coSimulation, capability)) is not of:
+        if bool(getattr(self.offers, capability)) is not of:
             raise NotApplicable(f"needs {capability} = {str(of).lower()}")
 
     @property

@@ -59,7 +59,7 @@ def host_faults(fmu: FmuSide) -> Findings:
     instance = fmu.instance
     slave = instance.slave
     if isinstance(slave, Fmi3Slave):
-        if not instance.fmu.description.coSimulation.hasEventMode:
+        if not instance.fmu.offers.hasEventMode:
             raise NotApplicable("needs FMI 2.0, whose calls are tried, or hasEventMode = true")
         return event_mode_faults(instance)
     faults = [*_version_faults(slave)]
@@ -175,7 +175,7 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
 
     An FMU with log categories must report them without debug logging, too.
     """
-    if instance.fmu.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
+    if instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
         return
     environments: list[int | None] = []
     wrong: list[str] = []
@@ -215,9 +215,9 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
 
 def _many_values_faults(instance: Instance) -> Iterator[str]:
     """Read one variable twice, and so often that it may be refused, but must not crash."""
-    reference = instance.fmu.variables["normal_force"].valueReference
+    reference = instance.fmu.reference("normal_force")
     expected, found = instance.value("normal_force"), (c_double * MANY)()
-    load = instance.fmu.variables["load"].valueReference
+    load = instance.fmu.reference("load")
     twice = list(instance.slave.getReal([reference, load, reference]))
     if twice != [expected, instance.value("load"), expected]:
         yield "normal_force read twice in a call is not the same"
@@ -247,10 +247,9 @@ def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
 
 def derivative_offer_faults(instance: Instance) -> Iterator[str]:
     """Ask for each kind of derivative that the description offers, and for those it does not."""
-    offers = instance.fmu.description.coSimulation
+    offers = instance.fmu.offers
     position, load = (
-        byref(fmi2ValueReference(instance.fmu.variables[name].valueReference))
-        for name in ("position", "load")
+        byref(fmi2ValueReference(instance.fmu.reference(name))) for name in ("position", "load")
     )
     order = offers.maxOutputDerivativeOrder or 0
     if order > 0:
@@ -273,10 +272,7 @@ def derivative_offer_faults(instance: Instance) -> Iterator[str]:
 
 def _wrong_derivative_faults(instance: Instance, order: int) -> Iterator[str]:
     """Ask for derivatives of outputs that there are not, and for two at once."""
-    variables = instance.fmu.variables
-    names = ("position", "velocity")
-    position, velocity = (int(variables[name].valueReference) for name in names)
-    load = int(variables["load"].valueReference)
+    position, velocity, load = map(instance.fmu.reference, ("position", "velocity", "load"))
 
     def derivatives(references: Sequence[int], order: int) -> list[float]:
         count = len(references)

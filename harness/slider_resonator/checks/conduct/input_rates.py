@@ -109,7 +109,7 @@ def _before_values(instance: Instance, schedule: Schedule, step: int) -> None:
 
 def _through_a_state(instance: Instance) -> None:
     """Serialise the state, set other derivatives, and go back, where the FMU offers that."""
-    offers = instance.fmu.description.coSimulation
+    offers = instance.fmu.offers
     if not (offers.canGetAndSetFMUstate and offers.canSerializeFMUstate):
         return
     state = SavedState.of(instance)
@@ -136,7 +136,7 @@ def _one_by_one(instance: Instance, schedule: Schedule, step: int) -> None:
 
 
 def _set_rate(instance: Instance, name: str, rate: float) -> None:
-    Derivatives(instance.slave, [instance.fmu.variables[name].valueReference]).write([rate])
+    Derivatives(instance.slave, [instance.fmu.reference(name)]).write([rate])
 
 
 WAYS: dict[str, Callable[[Instance, Schedule, int], None]] = {

@@ -45,15 +45,14 @@ def derivative_faults(
     the outputs in a run.
     """
     slave = instance.slave
-    offered = instance.fmu.description.coSimulation.maxOutputDerivativeOrder or 0
+    offered = instance.fmu.offers.maxOutputDerivativeOrder or 0
     if isinstance(slave, Fmi3Slave) or offered < 1:
         return []
     step = SHORT * tau / frequency
     outputs = (*OUTPUTS, SLOW) if _is_averaged(instance) else OUTPUTS
     held = [name for name in HELD if name not in outputs]
-    variables = instance.fmu.variables
     reported = {
-        name: _derivative(slave, variables[name].valueReference) for name in (*outputs, *held)
+        name: _derivative(slave, instance.fmu.reference(name)) for name in (*outputs, *held)
     }
     rows = [instance.read((*outputs, *HELD))]
     for _ in range(2):

@@ -180,7 +180,7 @@ class Trial:
             for order in DERIVATIVE_ORDERS:
                 what = f"a derivative of {name} of order {order}"
                 self.refuses(what, partial(derive, order, 0.1), name, [order])
-        load, phase = (self._reference(name) for name in ("load", "phase"))
+        load, phase = (self.instance.fmu.reference(name) for name in ("load", "phase"))
         pair = (c_uint * 2)(load, phase), 2, (c_int * 2)(1, 1), (c_double * 2)(0.1, math.nan)
         self.refuses(
             "a derivative of phase = nan after one of load",
@@ -194,7 +194,7 @@ class Trial:
             types |= {"Boolean", "String"}
         good: dict[str, Any] = {"Real": 0.5, "Integer": 1, "Boolean": True, "String": "1"}
         inputs = [v for v in present if v.causality == "input" or v.kind == "Integer"]
-        references: dict[str, int] = {v.kind: self._reference(v.name) for v in inputs}
+        references: dict[str, int] = {v.kind: self.instance.fmu.reference(v.name) for v in inputs}
         references[""] = UNKNOWN
         for kind in sorted(types):
             read, write = getattr(slave, f"get{kind}"), getattr(slave, f"set{kind}")
@@ -217,19 +217,16 @@ class Trial:
                     self.faults.append(f"{variable.name} = {bound!r} is refused, a bound")
 
     def _derive(self, variable: Variable, order: int, value: float) -> None:
-        reference = self._reference(variable.name)
+        reference = self.instance.fmu.reference(variable.name)
         arguments = (c_uint * 1)(reference), 1, (c_int * 1)(order), (c_double * 1)(value)
         self.instance.call("fmi2SetRealInputDerivatives", *arguments)
-
-    def _reference(self, name: str) -> int:
-        return int(self.instance.fmu.variables[name].valueReference)
 
     def _set(self, variable: Variable, value: float) -> None:
         self._set_all({variable: value})
 
     def _set_all(self, values: Mapping[Variable, float]) -> None:
         """Set variables of one type in one call."""
-        references = [self._reference(variable.name) for variable in values]
+        references = [self.instance.fmu.reference(variable.name) for variable in values]
         if next(iter(values)).kind == "Integer":
             self.instance.slave.setInteger(references, [int(v) for v in values.values()])
         else:

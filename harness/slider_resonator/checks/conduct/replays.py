@@ -82,8 +82,7 @@ def _another(instance: Instance) -> Iterator[Instance]:
 
 def reset_differences(fmu: FmuSide) -> Findings:
     """Compare a run on a new instance with one after a reset: after a run, and in its middle."""
-    if not fmu.instance.fmu.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
-        fmu.instance.recreate()
+    fmu.instance.renew()
     first = _Comparison(fmu)
     instance, schedule = fmu.instance, first.schedule
     again = plain_rows(instance, first.parameters, schedule)
@@ -328,17 +327,14 @@ def other_device_differences(fmu: FmuSide) -> Findings:
     Each of them is the first on its instance. A device that the FMU refuses is left out.
     """
     instance, schedule, given = fmu.instance, fmu.scene.schedule(), fmu.scene.parameters
-    renews = not instance.fmu.description.coSimulation.canBeInstantiatedOnlyOncePerProcess
-    if renews:
-        instance.recreate()
+    instance.renew()
     plain = plain_rows(instance, given, schedule)
     found = NOTHING
     for name in PARAMETERS:
         if name not in instance.fmu.variables or name in schedule.tuning:
             continue
         value = given.get(name, VARIABLES[name].start or 0.0)
-        if renews:
-            instance.recreate()  # for the other device to be the first one that is prepared
+        instance.renew()  # for the other device to be the first one that is prepared
         try:
             plain_rows(instance, {**given, name: other_value(name, value)}, schedule)
         except Refusal:

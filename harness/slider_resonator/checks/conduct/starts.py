@@ -17,8 +17,7 @@ def start_faults(fmu: FmuSide) -> Findings:
     Outputs that are read before initialization ends are those at its end.
     """
     instance = fmu.instance
-    if not instance.fmu.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
-        instance.recreate()
+    instance.renew()
     starts = {
         name: variable.start
         for name, variable in VARIABLES.items()

@@ -33,7 +33,7 @@ def state_faults(fmu: FmuSide) -> Findings:
         instance.start(fmu.scene.parameters)
         instance.step_by(STEP)
         faults = [*_overwriting_faults(instance)]
-        if instance.fmu.description.coSimulation.canSerializeFMUstate:
+        if instance.fmu.offers.canSerializeFMUstate:
             faults += _damage_faults(instance)
         faults += _freeing_faults(instance)
         faults += _early_faults(instance, fmu.scene.parameters)
@@ -133,7 +133,7 @@ def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
     instance.step_by(STEP)
     expected = instance.read(outputs)
     ways: list[Callable[[SavedState], None]] = [SavedState.restore]
-    if instance.fmu.description.coSimulation.canSerializeFMUstate:
+    if instance.fmu.offers.canSerializeFMUstate:
         ways.append(lambda state: state.transfer(instance))
     for go_back in ways:
         instance.set_up()
