@@ -32,6 +32,8 @@ CHANGES = 150
 DETUNING = 0.05
 BEAT = PERIOD / DETUNING
 BEATS = {"1 beat": 1.0, "90 beats": 90.0, "1/3 beat": 1.0 / 3.0}
+JUMPS = {"phase": -2.0, "load": 0.15, "frequency_ratio": 3.0}
+"""Inputs late in a run, by name."""
 BEYOND_NUMBERS = (
     *(("friction_coefficient", 1e308), ("friction_coefficient", 1.7e308)),
     *(("resonator_mass", 1e300), ("normal_preload", 1e308), ("bristle_stiffness", 1e300)),
@@ -77,8 +79,8 @@ class Axis:
     """The values of an axis, by name, and the models that take each of them.
 
     Without `steps` they are the usual ones at the drive frequency of the value. Inputs are those of
-    all steps, or with `late` of the last ones. `limits` are those of a value and a model,
-    `start_time` (s), `from_zero` and `restored` those of its cases.
+    all steps. `limits` are those of a value and a model, `start_time` (s) and `from_zero` those of
+    its cases.
     """
 
     name: str
@@ -86,10 +88,8 @@ class Axis:
     models: Sequence[Model] = MODELS
     steps: Steps | None = None
     limits: Mapping[tuple[str, Model], Sequence[Limit]] = field(default_factory=dict)
-    late: bool = False
     start_time: float = 0.0
     from_zero: bool = False
-    restored: bool = False
 
     def cases(self) -> Iterator[Case]:
         """Yield all values, each by all models."""
@@ -101,12 +101,11 @@ class Axis:
                     steps = usual_steps(model, tau / parameters.get("drive_frequency", W))
                 else:
                     steps = self.steps(model, value)
-                first, last = (steps[:-1], steps[-1:]) if self.late else ((), steps)
-                holds = (*first, *(hold.under(inputs) for hold in last))
+                holds = tuple(hold.under(inputs) for hold in steps)
                 limits = tuple(self.limits.get((value, model), ()))
                 yield Case(
                     *(self.name, value, model, parameters, holds),
-                    *(self.start_time, self.from_zero, self.restored, limits),
+                    *(self.start_time, self.from_zero, limits),
                 )
 
 
@@ -255,13 +254,7 @@ def _slow_axes() -> Iterator[Axis]:
         steps=lambda model, _: [Hold(_long(model, 1000.0, 50.0) * PERIOD, 3)],
         limits={("ratio 0.01", COULOMB_AVERAGE): [flown_velocity]},
     )
-    jumps = {"phase": -2.0, "load": 0.15, "frequency_ratio": 3.0}
-    yield Axis(
-        "late jump",
-        {name: {name: value} for name, value in jumps.items()},
-        steps=_steps_of_late_jump,
-        late=True,
-    )
+    yield Axis("late jump", {name: {} for name in JUMPS}, steps=_steps_of_late_jump)
     yield Axis(
         "neutral motions",
         {
@@ -290,7 +283,8 @@ def _long(model: Model, first_order: float, second_order: float) -> float:
 def _steps_of_late_jump(model: Model, value: str) -> list[Hold]:
     """Return a few long steps, and shorter ones after them."""
     before = Hold(_long(model, 400.0, 40.0) * PERIOD, 4)
-    return [before, replace(before, size=before.size / 20.0, count=20)]
+    after = replace(before, size=before.size / 20.0, count=20)
+    return [before, after.under({value: JUMPS[value]})]
 
 
 def _step_axes() -> Iterator[Axis]:
@@ -319,13 +313,6 @@ def _step_axes() -> Iterator[Axis]:
     # Time is known to 2^-13 s there, so the steps are multiples of it.
     late = [Hold(2.0**-13, 300), Hold(2.0**-5, 3)]
     yield Axis("start time", {"1e12 s": {}}, steps=lambda *_: late, start_time=1e12, from_zero=True)
-    sticking = {"friction_coefficient": 100.0, "normal_amplitude": 0.9}
-    yield Axis(
-        "state restored",
-        {"mid-stick": sticking, "table 1": {}},
-        steps=lambda *_: [Hold(PERIOD / 16.0, 160)],
-        restored=True,
-    )
     yield _drive_periods(1e8, AVERAGED)
     yield _drive_periods(1e5, COULOMB_RESOLVED)
     yield _drive_periods(1e3, LUGRE_RESOLVED)

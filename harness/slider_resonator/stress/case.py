@@ -81,7 +81,7 @@ class Case:
     """One run: the value `value` on the axis `axis`, by one model.
 
     `parameters` are those that differ from table 1. `from_zero` asks for the same motion when the
-    run starts at time 0, `restored` for the same one after a return to a stored state.
+    run starts at time 0.
     """
 
     axis: str
@@ -91,7 +91,6 @@ class Case:
     holds: tuple[Hold, ...]
     start_time: float = 0.0
     from_zero: bool = False
-    restored: bool = False
     limits: tuple[Limit, ...] = ()
 
     @property

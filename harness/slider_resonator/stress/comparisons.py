@@ -60,8 +60,8 @@ def equalities(case: Case, seen: Observation) -> Iterator[BoundCheck]:
     for name, other in (("other steps", seen.other), ("from time 0", seen.from_zero)):
         if other is not None:
             yield _largest(name, last, {key: np.array([other[key]]) for key in SIGNALS}, allowed)
-    words = "a run from the same start or stored state differs"
-    yield BoundCheck("replay", 0.0 if seen.replayed else 2.0, words)
+    replayed = 0.0 if seen.replayed else 2.0
+    yield BoundCheck("replay", replayed, "a run from the same start differs")
     for limit in case.limits:
         off = abs(float(seen.outputs[limit.output][-1]) - limit.value)
         words = f"{limit.output} off by {off:.3g}, allowed {limit.allowed:.3g}: {limit.why}"

@@ -29,7 +29,7 @@ class Observation:
 
     `outputs` start with the first moment, each of shape (n + 1,). `other` are the last ones in the
     other partition, `from_zero` those of a run from time 0, where one was made. `replayed` is
-    whether a second run, and steps after a return to a stored state, were equal bit by bit.
+    whether a second run was equal bit by bit.
     `worst_step` is the CPU time (s) of the most expensive step, the smaller of two runs, per drive
     period it spans (at least 1); `period_cost` is the median of a drive period of the device.
     `refusal` is the message of the FMU where it refused the case; all else is empty then.
@@ -64,8 +64,6 @@ def _observe(instance: Instance, case: Case) -> Observation:
         np.array_equal(first.outputs[name], second.outputs[name], equal_nan=True)
         for name in OUTPUTS
     )
-    if case.restored:
-        replayed = replayed and _replayed(instance, case)
     from_zero = _Run(instance, case, start_time=0.0).last if case.from_zero else None
     other = _Run(instance, case, holds=case.other_holds).last
     size = min(case.period, case.duration)
@@ -121,31 +119,3 @@ def _begin(instance: Instance, case: Case, start_time: float) -> None:
     first = dict(zip(INPUTS, case.holds[0].inputs, strict=True))
     settings = case.settings | dict(case.holds[0].tuned)
     instance.start({**settings, **first}, start_time=start_time)
-
-
-def _replayed(instance: Instance, case: Case) -> bool:
-    """Return whether every second step, repeated from a stored state, gives the same outputs."""
-    _begin(instance, case, 0.0)
-    block = instance.block(list(OUTPUTS))
-    slave = instance.slave
-    equal = True
-    with instance.explained():
-        for hold in case.holds:
-            instance.set_inputs(hold.inputs)
-            for index in range(hold.count):
-                if index % 2:
-                    instance.step_by(hold.size)
-                    continue
-                present = instance.time
-                state = slave.getFMUstate()
-                data = slave.serializeFMUstate(state)
-                slave.freeFMUstate(state)
-                instance.step_by(hold.size)
-                first = block.read()
-                state = slave.deSerializeFMUstate(data)
-                slave.setFMUstate(state)
-                slave.freeFMUstate(state)
-                instance.time = present
-                instance.step_by(hold.size)
-                equal = equal and block.read() == first
-    return equal
