@@ -21,7 +21,7 @@ from slider_resonator.output.progress import Progress
 class InProcess:
     """Runs tasks as an isolated FMU does: what is sent there and back must be picklable."""
 
-    instance: Instance
+    instance: Instance | None
 
     def run(self, task: Task, progress: Progress | None = None) -> Any:
         """Return the result of a task."""
@@ -37,18 +37,24 @@ def run_in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def _open(
-    self: Any, fmu: Path, time_limit: float = TIME_LIMIT, stop: threading.Event | None = None
+    self: Any,
+    fmu: Path | None,
+    time_limit: float = TIME_LIMIT,
+    stop: threading.Event | None = None,
 ) -> None:
     self.time_limit = time_limit
     self._killed = False
     self._stop = stop or threading.Event()
-    with ExitStack() as resources:
-        opened = resources.enter_context(open_fmu(fmu))
-        self._here = InProcess(resources.enter_context(instantiate(opened)))
-        self._resources = resources.pop_all()
-    self.runs_without_python = opened.runs_without_python
-    self.guid = str(opened.description.guid)
-    self.interpolates = opened.interpolates
+    self._resources = ExitStack()
+    self._here = InProcess(None)
+    if fmu is not None:
+        with ExitStack() as resources:
+            opened = resources.enter_context(open_fmu(fmu))
+            self._here = InProcess(resources.enter_context(instantiate(opened)))
+            self._resources = resources.pop_all()
+        self.runs_without_python = opened.runs_without_python
+        self.guid = str(opened.description.guid)
+        self.interpolates = opened.interpolates
 
 
 def _run(self: Any, task: Task, progress: Progress | None = None) -> Any:

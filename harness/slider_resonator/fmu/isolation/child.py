@@ -1,9 +1,10 @@
-"""The process of an isolated FMU, which runs tasks on one instance.
+"""The process of an isolated FMU, which runs tasks on one instance, or without an FMU on None.
 
-`python -m slider_resonator.fmu.isolation.child FMU SECONDS FOLDER` reads requests from its standard
-input and writes messages to its standard output, both pickled. The FMU itself sees an empty
-standard input and runs in a folder in FOLDER; what it prints goes to standard error. A call that
-takes longer than SECONDS ends the process, also inside native code, with a traceback in FOLDER.
+`python -m slider_resonator.fmu.isolation.child FMU SECONDS FOLDER`, where FMU may be empty, reads
+requests from its standard input and writes messages to its standard output, both pickled. The FMU
+itself sees an empty standard input and runs in a folder in FOLDER; what it prints goes to standard
+error. A call that takes longer than SECONDS ends the process, also inside native code, with a
+traceback in FOLDER.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import pickle
 import sys
 import traceback
 from collections.abc import Iterator
+from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
 from typing import BinaryIO
@@ -54,22 +56,24 @@ def main() -> None:
         _send(messages, Started())
 
     try:
-        with open_fmu(path) as fmu:
+        with ExitStack() as stack:
+            fmu = stack.enter_context(open_fmu(path)) if path else None
             (folder / WORK).mkdir()
             os.chdir(folder / WORK)
             begin()
-            with instantiate(fmu) as instance:
-                faulthandler.cancel_dump_traceback_later()
-                opened = Opened(
-                    fmu.runs_without_python, str(fmu.description.guid), fmu.interpolates
-                )
-                _send(messages, Result(opened))
-                for request in _read(requests):
-                    begin()
-                    message = _run(instance, request, messages)
-                    faulthandler.cancel_dump_traceback_later()
-                    _send(messages, message)
+            instance, opened = None, Opened()
+            if fmu is not None:
+                instance = stack.enter_context(instantiate(fmu))
+                guid = str(fmu.description.guid)
+                opened = Opened(fmu.runs_without_python, guid, fmu.interpolates)
+            faulthandler.cancel_dump_traceback_later()
+            _send(messages, Result(opened))
+            for request in _read(requests):
                 begin()
+                message = _run(instance, request, messages)
+                faulthandler.cancel_dump_traceback_later()
+                _send(messages, message)
+            begin()
     except HarnessError as error:
         _send(messages, Failure(error))
 
@@ -99,7 +103,7 @@ def _read(requests: BinaryIO) -> Iterator[Request]:
             return
 
 
-def _run(instance: Instance, request: Request, messages: BinaryIO) -> Message:
+def _run(instance: Instance | None, request: Request, messages: BinaryIO) -> Message:
     task = request.task
     if request.reports_progress:
         task = partial(task, progress=lambda *done: _send(messages, Progress(*done)))

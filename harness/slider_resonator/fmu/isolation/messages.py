@@ -24,8 +24,8 @@ class Started:
 class Opened:
     """The FMU is instantiated: whether it runs without Python and takes derivatives, its GUID."""
 
-    runs_without_python: bool
-    guid: str
+    runs_without_python: bool = False
+    guid: str = ""
     interpolates: bool = False
 
 

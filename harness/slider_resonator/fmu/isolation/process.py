@@ -95,7 +95,7 @@ class FmuDied(FmuError):
 
 
 class IsolatedFmu:
-    """A process that has instantiated an FMU and runs tasks on the instance.
+    """A process that has instantiated an FMU and runs tasks on the instance, without one on None.
 
     Opening the FMU and each task may take `time_limit` (s). Raises FmuError when the FMU cannot be
     used, FmuDied when it ends the process. Use it in a `with` block, or call `close` or `kill`.
@@ -103,7 +103,7 @@ class IsolatedFmu:
     """
 
     def __init__(
-        self, fmu: Path, time_limit: float = TIME_LIMIT, stop: threading.Event | None = None
+        self, fmu: Path | None, time_limit: float = TIME_LIMIT, stop: threading.Event | None = None
     ) -> None:
         self.time_limit = time_limit
         self._stop = stop or threading.Event()
@@ -121,13 +121,13 @@ class IsolatedFmu:
         self.guid = opened.guid
         self.interpolates = opened.interpolates
 
-    def _start(self, fmu: Path) -> None:
+    def _start(self, fmu: Path | None) -> None:
         with self._log.open("wb") as log:
             self._process = Supervised(
                 # -P: the present folder must not be on the search path.
                 [
                     *(sys.executable, "-P", "-m", "slider_resonator.fmu.isolation.child"),
-                    *(str(fmu), repr(self.time_limit), str(self._folder)),
+                    *(str(fmu or ""), repr(self.time_limit), str(self._folder)),
                 ],
                 self._folder,
                 child_environment(str(self._folder), os.environ.get("PYTHONPATH", "")),

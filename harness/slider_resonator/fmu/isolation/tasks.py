@@ -56,7 +56,7 @@ class Processes(Protocol):
 class Runner:
     """Runs tasks on an FMU; each thread that asks has a process for as long as its task takes."""
 
-    def __init__(self, fmu: Path, time_limit: float) -> None:
+    def __init__(self, fmu: Path | None, time_limit: float) -> None:
         self._fmu = fmu
         self._time_limit = time_limit
         self._idle: list[IsolatedFmu] = []
@@ -106,7 +106,7 @@ class Runner:
 class LocalProcesses:
     """Up to `count` processes on this machine, one for each thread that runs tasks."""
 
-    def __init__(self, fmu: Path, time_limit: float, count: int) -> None:
+    def __init__(self, fmu: Path | None, time_limit: float, count: int) -> None:
         self._runner = Runner(fmu, time_limit)
         self._threads = ThreadPoolExecutor(count)
 
