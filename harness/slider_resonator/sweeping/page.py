@@ -7,7 +7,7 @@ from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
-from matplotlib.colors import Normalize, to_hex
+from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
@@ -30,6 +30,7 @@ from slider_resonator.sweeping.picture import (
     NO_ANSWER,
     check_picture,
     measure_label,
+    scale_of,
     split_into_lines,
     variable_label,
 )
@@ -38,7 +39,6 @@ from slider_resonator.sweeping.table import Columns
 MAX_POINTS = 20_000
 """Points of a page, some 200 bytes each for every measure."""
 GREY = "#78909c"
-DIVERGING, SEQUENTIAL = "RdBu_r", "viridis"
 
 
 def check_page(sweep: Sweep, option: str) -> None:
@@ -141,18 +141,15 @@ def _coloured(result: Array, label: str) -> tuple[list[str], str]:
     answers = result[np.isfinite(result)]
     if not answers.size:
         return [], ""
-    low, high = float(answers.min()), float(answers.max())
-    signed = low < 0.0 < high
-    if signed:
-        low, high = -max(-low, high), max(-low, high)
-    colours = mpl.colormaps[DIVERGING if signed else SEQUENTIAL]
+    norm, name = scale_of(result)
+    colours = mpl.colormaps[name]
     shades = ",".join(to_hex(colours(share)) for share in np.linspace(0.0, 1.0, 9))
     scale = (
-        f'<div class="scale"><span>{low:.4g}</span>'
+        f'<div class="scale"><span>{norm.vmin:.4g}</span>'
         f'<i style="background:linear-gradient(to right,{shades})"></i>'
-        f"<span>{high:.4g}</span><span>{escaped(label)}</span></div>"
+        f"<span>{norm.vmax:.4g}</span><span>{escaped(label)}</span></div>"
     )
-    return [to_hex(one) for one in colours(Normalize(low, high)(answers))], scale
+    return [to_hex(one) for one in colours(norm(answers))], scale
 
 
 def _axis(sweep: Sweep, name: str) -> Axis:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -72,15 +72,23 @@ def _map(axes: Axes, sweep: Sweep, values: Mapping[str, Array], result: Array, l
     y, row = np.unique(values[other], return_inverse=True)
     image = np.full((len(y), len(x)), np.nan)
     image[row, column] = result
-    limit: dict[str, Any] = {}
-    if np.nanmin(image, initial=0.0) < 0.0 < np.nanmax(image, initial=0.0):
-        largest = float(np.nanmax(np.abs(image)))
-        limit = {"vmin": -largest, "vmax": largest, "cmap": "RdBu_r"}
-    mesh = axes.pcolormesh(x, y, image, shading="nearest", rasterized=True, **limit)
+    norm, colours = scale_of(result)
+    mesh = axes.pcolormesh(x, y, image, shading="nearest", rasterized=True, norm=norm, cmap=colours)
     _unanswered(axes, values[one], values[other], result)
     axes.grid(False)
     axes.set_ylabel(variable_label(other))
     axes.figure.colorbar(mesh, ax=axes, label=label)
+
+
+def scale_of(result: Array) -> tuple[Normalize, str]:
+    """Return scale and colours for answers (n,), some NaN: symmetric about 0 if of both signs."""
+    answers = result[np.isfinite(result)]
+    if not answers.size:
+        return Normalize(), "viridis"
+    low, high = float(answers.min()), float(answers.max())
+    if low < 0.0 < high:
+        return Normalize(-max(-low, high), max(-low, high)), "RdBu_r"
+    return Normalize(low, high), "viridis"
 
 
 def _scale(axes: Axes, sweep: Sweep, x: str, y: str | None) -> None:
