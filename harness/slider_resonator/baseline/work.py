@@ -10,22 +10,20 @@ from pathlib import Path
 from time import perf_counter
 
 from slider_resonator.baseline.judge import TOLERANCE, Golden, compare_golden, measure_golden
-from slider_resonator.baseline.provenance import (
+from slider_resonator.baseline.store import (
     BUILT_IN,
     FMU_DIGEST,
     SCENE_DIGEST,
     SCENE_FILE,
-    file_digest,
-    provenance,
-    scene_digest,
-)
-from slider_resonator.baseline.store import (
     At,
     Recorded,
+    file_digest,
     key,
+    provenance,
     read_recorded,
     recorded_scenes,
     replace_folder,
+    scene_digest,
     write_recorded,
 )
 from slider_resonator.checks.compare import Check

@@ -24,10 +24,10 @@ from slider_resonator.fitting.estimation import (
     Problem,
     minimise,
     open_directions,
+    predict,
     profile_end,
 )
 from slider_resonator.fitting.measurements import Measurements
-from slider_resonator.fitting.prediction import predict
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, Task
 from slider_resonator.fmu.isolation.tasks import run_all_tasks
 from slider_resonator.output.progress import Progress, counted, no_progress

@@ -11,10 +11,9 @@ import pytest
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import HarnessError
-from slider_resonator.fitting.estimation import Problem, minimise
+from slider_resonator.fitting.estimation import Problem, minimise, predict
 from slider_resonator.fitting.fit import Fit, fit, free_parameters
 from slider_resonator.fitting.measurements import Measurements, Point, Run, datasheet
-from slider_resonator.fitting.prediction import predict
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import Task
 
