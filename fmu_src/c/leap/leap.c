@@ -4,12 +4,8 @@
 #include "../base/runge_kutta.h"
 #include "../device/device.h"
 
-/* Evaluations in a step of the solver, and the share of the leapt periods that they may map: the rest is the gain. */
-#define EVALUATIONS 6.0
-#define MAX_COST 0.5
-
-/* Fewest periods of a step: its evaluations would map more. */
-#define SHORTEST_STEP 16.0
+/* Fewest periods of a step: its six evaluations map half as many. */
+#define SHORTEST_STEP (12.0 * DIFFERENCES)
 
 /* First step of the solver, over the time in which rates change, where all that the slow velocity still changes by is the
  * tolerance: what it accepts in most devices. */
@@ -99,8 +95,14 @@ static void guess_fast(const SlowMotion *motion, double n, double velocity, doub
     }
 }
 
-/* The rates at `n` periods and a slow velocity [m/s]. There are none where sliding does not repeat as it did at the start of
- * the step: they have a kink in between. */
+/* Whether rates are so exact that the slow velocity errs by no more than is allowed in the time in which friction changes it. */
+static bool are_exact(const PeriodMap *map, const SlowRates *rates) {
+    double allowed = map->tolerance * map->speed;
+    return rates->error <= map->share * allowed && rates->swing_error <= allowed;
+}
+
+/* The rates at `n` periods and a slow velocity [m/s]. There are none where they are not exact enough, nor where sliding does
+ * not repeat as it did at the start of the step: they have a kink in between. */
 static bool rate_at(void *data, double n, double velocity, SlowRate *rate) {
     SlowMotion *motion = data;
     const PeriodMap *map = motion->manifold.map;
@@ -111,21 +113,13 @@ static bool rate_at(void *data, double n, double velocity, SlowRate *rate) {
     moment_place(map, velocity, fast, psi_after(map, motion->psi, n), &visited.landing);
     if (!slow_rates(&motion->manifold, n, &visited.landing, &visited.after,
                     &visited.rates) ||
+        !are_exact(map, &visited.rates) ||
         visited.rates.itinerary != motion->here.rates.itinerary) {
         return false;
     }
     motion->other = visited;
     *rate = (SlowRate){visited.rates.acceleration, visited.rates.travel};
     return true;
-}
-
-/* Time, in periods, in which the rates change. */
-static double time_of_change(const SlowMotion *motion) {
-    const SlowRates *rates = &motion->here.rates;
-    bool moves = fabs(rates->acceleration) > rates->error;
-    double by_motion = moves ? fabs(rates->acceleration / rates->jerk) : INFINITY;
-    double by_drift = motion->varies ? 1.0 / fabs(motion->manifold.map->drift) : INFINITY;
-    return fmin(by_motion, by_drift);
 }
 
 /* Periods that a step may pass of a beat, in which the load's phase drifts by a turn. */
@@ -136,12 +130,10 @@ static double in_beat(const SlowMotion *motion, double n) {
 /* The step that the solver is expected to accept, in periods. */
 static double first_step(const SlowMotion *motion) {
     const PeriodMap *map = motion->manifold.map;
-    double acceleration = fabs(motion->here.rates.acceleration), time = time_of_change(motion);
-    if (acceleration == 0.0 || isinf(time)) {
-        return INFINITY;
-    }
-    double change = acceleration * time / map->speed;
-    return FIRST_STEP * time * pow(map->tolerance / change, 1.0 / ORDER);
+    double acceleration = fabs(motion->here.rates.acceleration);
+    double gain = fabs(motion->here.rates.jerk) / acceleration;
+    double change = acceleration / (gain * map->speed);
+    return gain > 0.0 ? FIRST_STEP / gain * pow(map->tolerance / change, 1.0 / ORDER) : INFINITY;
 }
 
 /* Largest transient of the fast states that may be left out, over their scales: its effect on the slow velocity, for as long
@@ -151,31 +143,21 @@ static double max_transient(const PeriodMap *map) {
     return fmin(MAX_TRANSIENT, FAST_SHARE * map->tolerance / effect);
 }
 
-/* Put the start of a leap on the manifold, with the lowest order at which the rates are as accurate as is allowed. `h` is the
- * first step to be tried. Return false where nothing would be gained. */
-static bool prepare(SlowMotion *motion, double longest, double *h) {
+/* Put the start of a leap on the manifold. Return false where there are no rates. */
+static bool place(SlowMotion *motion) {
     Manifold *manifold = &motion->manifold;
     const PeriodMap *map = manifold->map;
     Visited *here = &motion->here;
-    double time = time_of_change(motion), allowed = map->tolerance * map->speed;
-    bool placed = here->rates.offset <= FAST_SHARE * map->tolerance;
-    *h = fmin(first_step(motion), in_beat(motion, 0.0));
+    bool placed = here->rates.offset <= FAST_SHARE * map->tolerance && are_exact(map, &here->rates);
+    SlowRate rate;
     manifold->max_sequences = MAX_SEQUENCES;
     manifold->allowed = FAST_SHARE * map->tolerance;
     motion->other = *here;
-    for (; manifold->order <= MAX_ORDER; manifold->order++) {
-        SlowRate rate;
-        if (EVALUATIONS * manifold->order * ceil(longest / *h) > MAX_COST * longest ||
-            (!placed && !rate_at(motion, 0.0, here->velocity, &rate))) {
-            return false;
-        }
-        *here = motion->other;
-        if (here->rates.error * fmin(time, longest) <= allowed && here->rates.swing_error <= allowed) {
-            return true;
-        }
-        placed = false;
+    if (!placed && !rate_at(motion, 0.0, here->velocity, &rate)) {
+        return false;
     }
-    return false;
+    *here = motion->other;
+    return true;
 }
 
 /* Periods that the next step passes, of `h` that are wanted: a whole number. */
@@ -207,10 +189,10 @@ static bool settles(SlowMotion *motion, const SlowPoint *from, double h, SlowSte
 }
 
 /* Integrate the slow motion over at most `longest` periods, as far as that goes. `error` is that of the slow velocity. */
-static SlowPoint integrate(SlowMotion *motion, double longest, double h, double *error) {
+static SlowPoint integrate(SlowMotion *motion, double longest, double *error) {
     const PeriodMap *map = motion->manifold.map;
     Visited *here = &motion->here;
-    double allowed = STEP_TOLERANCE * map->tolerance * map->speed;
+    double allowed = STEP_TOLERANCE * map->tolerance * map->speed, h = first_step(motion);
     SlowPoint now = {.velocity = here->velocity,
                      .rate = {here->rates.acceleration, here->rates.travel}};
     while ((h = step_of(motion, &now, h, longest)) >= SHORTEST_STEP) {
@@ -240,7 +222,7 @@ static void land(const SlowMotion *motion, const SlowPoint *end, Moment *after) 
     after->position += end->travel;
     after->counts.reversals += end->t * here->rates.reversals;
     after->counts.sticks += end->t * here->rates.sticks;
-    if (after->event_age > motion->manifold.order * period) {
+    if (after->event_age > DIFFERENCES * period) {
         after->event_age += end->t * period;
     }
 }
@@ -248,15 +230,15 @@ static void land(const SlowMotion *motion, const SlowPoint *end, Moment *after) 
 Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *budget,
           Moment *after) {
     SlowMotion motion = {
-        .manifold = {map, budget, MIN_ORDER, 1, max_transient(map), 0},
+        .manifold = {map, budget, 1, max_transient(map), 0},
         .psi = moment->psi,
         .varies = fabs(map->drift) * longest > NO_DRIFT || is_ramped(&map->law.held.plant),
         .here = {.velocity = momentum_velocity(map, moment), .landing = *moment},
     };
     Manifold *manifold = &motion.manifold;
     Visited *here = &motion.here;
-    Leap done = {.outcome = NO_GAIN, .periods = MIN_ORDER};
-    double h, error = moment->leap_error;
+    Leap done = {.outcome = NO_GAIN, .periods = DIFFERENCES};
+    double error = moment->leap_error;
     bool found = slow_rates(manifold, 0.0, &here->landing, &here->after, &here->rates);
     if (!found && isinf(here->rates.offset)) {
         *after = *moment;
@@ -268,13 +250,13 @@ Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *bu
         done.wait = log(here->rates.offset / manifold->allowed) / -log(map->decay);
         return done;
     }
-    if (prepare(&motion, longest - MAX_ORDER, &h)) {
-        SlowPoint end = integrate(&motion, longest - manifold->order, h, &error);
+    if (place(&motion)) {
+        SlowPoint end = integrate(&motion, longest - DIFFERENCES, &error);
         if (end.t > 0.0) {
             land(&motion, &end, after);
             after->leap_error = error + here->rates.swing_error;
             done.outcome = LEAPT;
-            done.periods = end.t + manifold->order;
+            done.periods = end.t + DIFFERENCES;
         }
     }
     done.in_vain = (int)fmax(0.0, manifold->maps - done.periods);

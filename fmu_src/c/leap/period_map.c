@@ -118,9 +118,9 @@ void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_F
 }
 
 static Visit visit_of(const PeriodMap *map, const Moment *moment) {
-    return (Visit){{momentum_velocity(map, moment), moment->position, moment->counts.reversals,
-                    moment->counts.sticks, moment->state.displacement, moment->state.rate,
-                    moment->bristle}};
+    return (Visit){{momentum_velocity(map, moment), moment->state.displacement, moment->state.rate,
+                    moment->bristle, moment->position, moment->counts.reversals,
+                    moment->counts.sticks}};
 }
 
 /* Where the visits of a sequence are kept. */

@@ -18,8 +18,8 @@
 /* Largest number of fast states: Y [m], Y' [m/s], and the bristle's friction per unit load. */
 enum { MAX_FAST = 3 };
 
-/* The motion at a section, as numbers: slow velocity V [m/s], position X [m], counts so far, and the fast states. */
-enum { SLOW_VELOCITY, SLOW_POSITION, REVERSALS, STICKS, FAST_STATES, VISITED = FAST_STATES + MAX_FAST };
+/* The motion at a section, as numbers: slow velocity V [m/s], the fast states, position X [m], and counts so far. */
+enum { SLOW_VELOCITY, FAST_STATES, SLOW_POSITION = FAST_STATES + MAX_FAST, REVERSALS, STICKS, VISITED };
 
 typedef struct {
     double at[VISITED];

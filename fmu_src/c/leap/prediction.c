@@ -25,9 +25,6 @@ int turns_of_load(const Law *law) {
     return 0;
 }
 
-/* Unknowns, each over its scale: slow velocity, fast states and, for blocked motion, the load. */
-enum { VELOCITY, FIRST_FAST };
-
 /* Change of an unknown by which derivatives are taken. */
 #define BESIDE 1e-6
 
@@ -42,135 +39,128 @@ enum { MAX_ITERATIONS = 16 };
 enum { SQUARINGS = 24 };
 #define DECAYED 0.5
 
-/* A periodic motion that is looked for: `count` unknowns. */
+/* A periodic motion that is looked for. Unknowns are the slow velocity, the fast states and, for motion that is blocked, the
+ * load; `change` is what a period changes them by, in place of the load the position. */
 typedef struct {
     PeriodMap map;
-    Moment like;
-    double psi;
-    bool blocked;
-    int count;
+    double psi;                                /* normal phase at the section [rad] */
+    bool blocked;                              /* whether it must not travel, under a load that is looked for */
+    int count;                                 /* number of unknowns */
+    double scale[UNKNOWNS], unknown[UNKNOWNS]; /* scales, and unknowns over them */
+    double change[UNKNOWNS];                   /* in a period, over the scales */
+    double travel;                             /* displacement in a period [m] */
+    double jacobian[UNKNOWNS][UNKNOWNS];
 } Search;
 
-/* What a period changes: velocity, fast states and, for blocked motion, the position, each over its scale. `travel` [m] is the
- * displacement in the period. Return false where there is no motion. */
-static bool change_in_period(Search *search, const double unknowns[UNKNOWNS],
-                             double change[UNKNOWNS], double *travel) {
+/* What a period changes from `unknown` on. Return false where there is no motion. */
+static bool change_in_period(Search *search, const double unknown[UNKNOWNS],
+                             double change[UNKNOWNS]) {
     PeriodMap *map = &search->map;
-    int fast_count = map->fast_count;
-    double fast[MAX_FAST] = {0.0};
-    for (int i = 0; i < fast_count; i++) {
-        fast[i] = unknowns[FIRST_FAST + i] * map->scale[i];
+    int states = 1 + map->fast_count;
+    double at[UNKNOWNS] = {0.0}, fast[MAX_FAST] = {0.0};
+    for (int i = 0; i < search->count; i++) {
+        at[i] = unknown[i] * search->scale[i];
     }
     if (search->blocked) {
-        double force = map->law.held.plant.total_mass * map->speed / map->period;
-        law_change(&map->law, map->law.inputs.phase, unknowns[FIRST_FAST + fast_count] * force);
+        law_change(&map->law, map->law.inputs.phase, at[states]);
     }
-    Moment moment = search->like;
+    memcpy(fast, at + 1, map->fast_count * sizeof fast[0]);
+    Moment moment = {.mode = STICK};
     Visit visits[2];
     uint64_t itinerary;
     Budget budget = budget_of(map->period);
-    moment_place(map, unknowns[VELOCITY] * map->speed, fast, search->psi, &moment);
+    moment_place(map, at[0], fast, search->psi, &moment);
     if (!map_periods(map, 0.0, 1, &moment, &budget, visits, &itinerary)) {
         return false;
     }
-    change[VELOCITY] = (visits[1].at[SLOW_VELOCITY] - visits[0].at[SLOW_VELOCITY]) / map->speed;
-    for (int i = 0; i < fast_count; i++) {
-        int k = FAST_STATES + i;
-        change[FIRST_FAST + i] = (visits[1].at[k] - visits[0].at[k]) / map->scale[i];
+    for (int i = 0; i < states; i++) {
+        change[i] = (visits[1].at[i] - visits[0].at[i]) / search->scale[i];
     }
-    *travel = visits[1].at[SLOW_POSITION] - visits[0].at[SLOW_POSITION];
+    search->travel = visits[1].at[SLOW_POSITION] - visits[0].at[SLOW_POSITION];
     if (search->blocked) {
-        change[FIRST_FAST + fast_count] = *travel / (map->speed * map->period);
+        change[states] = search->travel / (map->speed * map->period);
     }
     return true;
 }
 
 /* The derivatives of `change` by the unknowns. */
-static bool differentiate(Search *search, const double unknowns[UNKNOWNS],
-                          const double change[UNKNOWNS], double jacobian[UNKNOWNS][UNKNOWNS]) {
+static bool differentiate(Search *search) {
     for (int j = 0; j < search->count; j++) {
-        double beside[UNKNOWNS], changed[UNKNOWNS], travel;
-        memcpy(beside, unknowns, sizeof beside);
+        double beside[UNKNOWNS], changed[UNKNOWNS];
+        memcpy(beside, search->unknown, sizeof beside);
         beside[j] += BESIDE;
-        if (!change_in_period(search, beside, changed, &travel)) {
+        if (!change_in_period(search, beside, changed)) {
             return false;
         }
         for (int i = 0; i < search->count; i++) {
-            jacobian[i][j] = (changed[i] - change[i]) / BESIDE;
+            search->jacobian[i][j] = (changed[i] - search->change[i]) / BESIDE;
         }
     }
     return true;
 }
 
 /* Broyden's update: makes the Jacobian map `step` to what the change has changed by; `left` is what remains of it. */
-static void update(double jacobian[UNKNOWNS][UNKNOWNS], const double step[UNKNOWNS],
-                   const double left[UNKNOWNS], int count) {
+static void update(Search *search, const double step[UNKNOWNS], const double left[UNKNOWNS]) {
     double square = 0.0;
-    for (int j = 0; j < count; j++) {
+    for (int j = 0; j < search->count; j++) {
         square += step[j] * step[j];
     }
-    for (int i = 0; i < count && square > 0.0; i++) {
-        for (int j = 0; j < count; j++) {
-            jacobian[i][j] += left[i] * step[j] / square;
+    for (int i = 0; i < search->count && square > 0.0; i++) {
+        for (int j = 0; j < search->count; j++) {
+            search->jacobian[i][j] += left[i] * step[j] / square;
         }
     }
 }
 
 /* Newton's method with Broyden's updates. Return false where it does not converge. */
-static bool solve(Search *search, double unknowns[UNKNOWNS],
-                  double jacobian[UNKNOWNS][UNKNOWNS], double *travel) {
-    double change[UNKNOWNS];
-    if (!change_in_period(search, unknowns, change, travel) ||
-        !differentiate(search, unknowns, change, jacobian)) {
+static bool solve(Search *search) {
+    if (!change_in_period(search, search->unknown, search->change) || !differentiate(search)) {
         return false;
     }
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        double step[UNKNOWNS], largest = 0.0;
+        double step[UNKNOWNS], left[UNKNOWNS], largest = 0.0;
         for (int i = 0; i < search->count; i++) {
-            step[i] = -change[i];
+            step[i] = -search->change[i];
         }
-        if (!solve_linear(jacobian, step, search->count)) {
+        if (!solve_linear(search->jacobian, step, search->count)) {
             return false;
         }
         for (int i = 0; i < search->count; i++) {
             largest = fmax(largest, fabs(step[i]));
         }
         double share = largest > MAX_CHANGE ? MAX_CHANGE / largest : 1.0;
-        double left[UNKNOWNS];
         for (int i = 0; i < search->count; i++) {
             step[i] *= share;
-            unknowns[i] += step[i];
-            left[i] = (share - 1.0) * change[i];
+            search->unknown[i] += step[i];
+            left[i] = (share - 1.0) * search->change[i];
         }
-        if (!change_in_period(search, unknowns, change, travel)) {
+        if (!change_in_period(search, search->unknown, search->change)) {
             return false;
         }
         if (largest <= CONVERGED) {
             return true;
         }
         for (int i = 0; i < search->count; i++) {
-            left[i] += change[i];
+            left[i] += search->change[i];
         }
-        update(jacobian, step, left, search->count);
+        update(search, step, left);
     }
     return false;
 }
 
 /* Whether the linear map of a period decays: its high powers do. */
-static bool is_stable(double jacobian[UNKNOWNS][UNKNOWNS], int count) {
-    double power[UNKNOWNS][UNKNOWNS], square[UNKNOWNS][UNKNOWNS];
-    for (int i = 0; i < count; i++) {
-        for (int j = 0; j < count; j++) {
-            power[i][j] = jacobian[i][j] + (i == j ? 1.0 : 0.0);
-        }
+static bool is_stable(const Search *search) {
+    double power[UNKNOWNS][UNKNOWNS], square[UNKNOWNS][UNKNOWNS], largest = 0.0;
+    memcpy(power, search->jacobian, sizeof power);
+    for (int i = 0; i < search->count; i++) {
+        power[i][i] += 1.0;
     }
-    double largest = 0.0;
     for (int k = 0; k < SQUARINGS && largest < 1e100; k++) {
         largest = 0.0;
-        for (int i = 0; i < count; i++) {
-            for (int j = 0; j < count; j++) {
+        for (int i = 0; i < search->count; i++) {
+            for (int j = 0; j < search->count; j++) {
                 square[i][j] = 0.0;
-                for (int l = 0; l < count; l++) {
+                for (int l = 0; l < search->count; l++) {
                     square[i][j] += power[i][l] * power[l][j];
                 }
                 largest = fmax(largest, fabs(square[i][j]));
@@ -181,43 +171,45 @@ static bool is_stable(double jacobian[UNKNOWNS][UNKNOWNS], int count) {
     return largest < DECAYED;
 }
 
-/* A search from the steady vibration without friction on. */
-static Search search_of(const PeriodMap *map, double psi, bool blocked,
-                        double unknowns[UNKNOWNS]) {
-    int count = FIRST_FAST + map->fast_count + (blocked ? 1 : 0);
-    Search search = {.map = *map, .psi = psi, .blocked = blocked, .count = count};
-    double w = map->law.held.plant.drive_frequency;
-    Response swing = steady_swing(map->vibration.resonator, map->section, w);
-    unknowns[FIRST_FAST] = swing.displacement / map->scale[0];
-    unknowns[FIRST_FAST + 1] = swing.rate / map->scale[1];
-    if (map->fast_count > 2) {
-        unknowns[FIRST_FAST + 2] = 1.0;
+/* A search at normal phase `psi` [rad], from a slow velocity [m/s] and a load [N] on, with fast states of the steady vibration
+ * without friction. The scale of loads is the force that stops v_q in a period. */
+static Search search_of(const PeriodMap *map, double psi, bool blocked, double velocity,
+                        double load) {
+    const Plant *plant = &map->law.held.plant;
+    int states = 1 + map->fast_count;
+    Search search = {.map = *map, .psi = psi, .blocked = blocked, .count = states + blocked};
+    Response swing = steady_swing(map->vibration.resonator, map->section, plant->drive_frequency);
+    const double fast[MAX_FAST] = {swing.displacement, swing.rate, map->scale[2]};
+    search.scale[0] = map->speed;
+    search.unknown[0] = velocity / map->speed;
+    for (int i = 0; i < map->fast_count; i++) {
+        search.scale[1 + i] = map->scale[i];
+        search.unknown[1 + i] = fast[i] / map->scale[i];
     }
+    search.scale[states] = plant->total_mass * map->speed / map->period;
+    search.unknown[states] = load / search.scale[states];
     return search;
 }
 
 /* Find the steady motion under the load of the map, at normal phase `psi` [rad] at the section, from a slow velocity [m/s] on;
  * `velocity` becomes its mean. Return false where none is found or where it is not stable. */
 static bool find_steady(const PeriodMap *map, double psi, double *velocity) {
-    double unknowns[UNKNOWNS] = {*velocity / map->speed}, jacobian[UNKNOWNS][UNKNOWNS], travel;
-    Search search = search_of(map, psi, false, unknowns);
-    if (!solve(&search, unknowns, jacobian, &travel) || !is_stable(jacobian, search.count)) {
+    Search search = search_of(map, psi, false, *velocity, 0.0);
+    if (!solve(&search) || !is_stable(&search)) {
         return false;
     }
-    *velocity = travel / map->period;
+    *velocity = search.travel / map->period;
     return true;
 }
 
 /* Find the motion without travel and the `load` [N] that it takes, likewise, from a load on. */
 static bool find_blocked(const PeriodMap *map, double psi, double *load) {
-    double unknowns[UNKNOWNS] = {0.0}, jacobian[UNKNOWNS][UNKNOWNS], travel;
-    Search search = search_of(map, psi, true, unknowns);
-    double force = map->law.held.plant.total_mass * map->speed / map->period;
-    unknowns[FIRST_FAST + map->fast_count] = *load / force;
-    if (!solve(&search, unknowns, jacobian, &travel)) {
+    Search search = search_of(map, psi, true, 0.0, *load);
+    int last = search.count - 1;
+    if (!solve(&search)) {
         return false;
     }
-    *load = unknowns[FIRST_FAST + map->fast_count] * force;
+    *load = search.unknown[last] * search.scale[last];
     return true;
 }
 

@@ -10,10 +10,10 @@
 /* Largest factor by which corrections shrink. */
 #define SHRINKS 0.5
 
-/* Replace the order + 1 visits of a sequence by their differences, of order 0 to `order`. */
-static void take_differences(Visit *visits, int order) {
-    for (int j = 1; j <= order; j++) {
-        for (int i = order; i >= j; i--) {
+/* Replace the visits of a sequence by their differences of all orders. */
+static void take_differences(Visit *visits) {
+    for (int j = 1; j <= DIFFERENCES; j++) {
+        for (int i = DIFFERENCES; i >= j; i--) {
             for (int k = 0; k < VISITED; k++) {
                 visits[i].at[k] -= visits[i - 1].at[k];
             }
@@ -22,9 +22,9 @@ static void take_differences(Visit *visits, int order) {
 }
 
 /* Rate per period of number `k` of a smooth sequence: the logarithm of the shift operator. */
-static double rate_of(const Visit *differences, int order, int k) {
+static double rate_of(const Visit *differences, int k) {
     double rate = 0.0;
-    for (int j = order; j >= 1; j--) {
+    for (int j = DIFFERENCES; j >= 1; j--) {
         rate += (j % 2 == 1 ? differences[j].at[k] : -differences[j].at[k]) / j;
     }
     return rate;
@@ -32,10 +32,9 @@ static double rate_of(const Visit *differences, int order, int k) {
 
 /* The factor by which differences of an order shrink to the next: the larger of the last two of the velocity, as either may
  * happen to be next to zero, but not more than the slow motion and the drift allow. */
-static double ratio_of(const PeriodMap *map, const Visit *differences, int order) {
-    double before = differences[order - 2].at[SLOW_VELOCITY];
-    double middle = differences[order - 1].at[SLOW_VELOCITY];
-    double larger = fmax(fabs(differences[order].at[SLOW_VELOCITY] / middle), fabs(middle / before));
+static double ratio_of(const PeriodMap *map, const Visit *differences) {
+    double first = differences[1].at[SLOW_VELOCITY], second = differences[2].at[SLOW_VELOCITY];
+    double larger = fmax(fabs(differences[3].at[SLOW_VELOCITY] / second), fabs(second / first));
     return fmin(MAX_RATE * map->share + fabs(map->drift), larger);
 }
 
@@ -45,19 +44,17 @@ static double next_difference(const Visit *differences, int order, double ratio,
     return ratio * fmax(last, ratio * before);
 }
 
-/* The correction of the fast states: their differences of the manifold's order must vanish. `missing` is the size of what
- * those differences are on the manifold, estimated from lower orders, as a change of the fast states. */
-static void correction_of(const Manifold *manifold, const Visit *differences, double ratio,
+/* The correction of the fast states: their last differences must vanish. `missing` is the size of what those are on the
+ * manifold, estimated from lower orders, as a change of the fast states. */
+static void correction_of(const PeriodMap *map, const Visit *differences, double ratio,
                           double correction[MAX_FAST], double *missing) {
-    const PeriodMap *map = manifold->map;
-    int order = manifold->order;
     double beyond[MAX_FAST];
     for (int i = 0; i < MAX_FAST; i++) {
-        correction[i] = -differences[order].at[FAST_STATES + i];
-        beyond[i] = next_difference(differences, order - 1, ratio, FAST_STATES + i);
+        correction[i] = -differences[DIFFERENCES].at[FAST_STATES + i];
+        beyond[i] = next_difference(differences, DIFFERENCES - 1, ratio, FAST_STATES + i);
     }
-    apply_resolvent(map, order, correction);
-    apply_resolvent(map, order, beyond);
+    apply_resolvent(map, DIFFERENCES, correction);
+    apply_resolvent(map, DIFFERENCES, beyond);
     *missing = fast_size(map, beyond);
 }
 
@@ -69,66 +66,43 @@ static double mean_velocity_of(const PeriodMap *map, double size) {
 }
 
 /* The rates of a sequence of visits. */
-static SlowRates rates_of(const Manifold *manifold, const Visit *differences, double ratio,
-                          const double step[MAX_FAST]) {
-    int order = manifold->order;
+static SlowRates rates_of(const Visit *differences, double ratio, const double step[MAX_FAST]) {
     double second = differences[2].at[SLOW_VELOCITY], third = differences[3].at[SLOW_VELOCITY];
-    SlowRates rates = {.acceleration = rate_of(differences, order, SLOW_VELOCITY),
-                       .travel = rate_of(differences, order, SLOW_POSITION),
+    SlowRates rates = {.acceleration = rate_of(differences, SLOW_VELOCITY),
+                       .travel = rate_of(differences, SLOW_POSITION),
                        .jerk = second - third};
     for (int i = 0; i < MAX_FAST; i++) {
-        rates.fast_rate[i] = rate_of(differences, order, FAST_STATES + i);
+        rates.fast_rate[i] = rate_of(differences, FAST_STATES + i);
         rates.fast[i] = differences[0].at[FAST_STATES + i] + step[i];
     }
-    rates.error = next_difference(differences, order, ratio, SLOW_VELOCITY) / (order + 1);
+    rates.error = next_difference(differences, DIFFERENCES, ratio, SLOW_VELOCITY) / (DIFFERENCES + 1);
     return rates;
-}
-
-/* Broyden's method with the closed form as first Jacobian: turns the correction after `count` earlier `steps`
- * into the next step. */
-static void improve(const PeriodMap *map, double steps[][MAX_FAST], int count) {
-    double *step = steps[count];
-    for (int j = 0; j < count; j++) {
-        const double *earlier = steps[j], *next = steps[j + 1];
-        double product = 0.0, square = 0.0;
-        for (int i = 0; i < map->fast_count; i++) {
-            double scale = map->scale[i];
-            product += earlier[i] / scale * (step[i] / scale);
-            square += earlier[i] / scale * (earlier[i] / scale);
-        }
-        double share = square > 0.0 ? product / square : 0.0;
-        for (int i = 0; i < map->fast_count; i++) {
-            step[i] = j + 1 < count ? step[i] + share * next[i] : step[i] / (1.0 - share);
-        }
-    }
 }
 
 bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
                 SlowRates *rates) {
     const PeriodMap *map = manifold->map;
     double velocity = momentum_velocity(map, moment), offset = 0.0, before = INFINITY;
-    double steps[MAX_SEQUENCES][MAX_FAST];
     for (int i = 0; i < manifold->max_sequences; i++) {
-        Visit visits[MAX_ORDER + 1];
-        double missing, *step = steps[i];
+        Visit visits[DIFFERENCES + 1];
+        double missing, step[MAX_FAST];
         uint64_t itinerary;
         *after = *moment;
-        manifold->maps += manifold->order;
-        if (!map_periods(map, begin, manifold->order, after, manifold->budget, visits,
-                         &itinerary)) {
+        manifold->maps += DIFFERENCES;
+        if (!map_periods(map, begin, DIFFERENCES, after, manifold->budget, visits, &itinerary)) {
             rates->offset = INFINITY;
             return false;
         }
-        Visit *last = &visits[manifold->order];
+        Visit *last = &visits[DIFFERENCES];
         double reversals = last->at[REVERSALS] - last[-1].at[REVERSALS];
         double sticks = last->at[STICKS] - last[-1].at[STICKS];
-        take_differences(visits, manifold->order);
-        double ratio = ratio_of(map, visits, manifold->order);
-        correction_of(manifold, visits, ratio, step, &missing);
+        take_differences(visits);
+        double ratio = ratio_of(map, visits);
+        correction_of(map, visits, ratio, step, &missing);
         double size = fast_size(map, step);
         offset = i == 0 ? size : offset;
         if (size <= manifold->allowed) {
-            *rates = rates_of(manifold, visits, ratio, step);
+            *rates = rates_of(visits, ratio, step);
             rates->reversals = reversals;
             rates->sticks = sticks;
             rates->error += map->share * map->speed * (missing + size);
@@ -142,7 +116,6 @@ bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
             return false;
         }
         before = size;
-        improve(map, steps, i);
         double fast[MAX_FAST];
         for (int j = 0; j < MAX_FAST; j++) {
             fast[j] = visits[0].at[FAST_STATES + j] + step[j];

@@ -9,18 +9,18 @@
 
 #include "period_map.h"
 
-/* Smallest and largest order of differences. */
-enum { MIN_ORDER = 3, MAX_ORDER = 5 };
+/* Order of the differences that vanish: a sequence maps so many periods. */
+enum { DIFFERENCES = 3 };
 
 /* Largest number of sequences that one evaluation maps. */
 enum { MAX_SEQUENCES = 6 };
 
-/* How to find the manifold: by differences of `order`, until a correction of the fast states is at most `allowed`, over
- * their scales. */
+/* How to find the manifold: until a correction of the fast states is at most `allowed`, over their scales. `maps` counts
+ * periods. */
 typedef struct {
     const PeriodMap *map;
     Budget *budget;
-    int order, max_sequences;
+    int max_sequences;
     double allowed;
     int maps;
 } Manifold;
@@ -39,7 +39,7 @@ typedef struct {
 
 /* The rates at the slow velocity V [m/s] and normal phase of a moment at the section, `begin` periods after the inputs of
  * the law began to grow. The fast states of the moment are a first guess; they are put on the manifold. `after` is the
- * moment `order` periods later. Return false where the manifold is not found; the offset is infinite where there is no motion
+ * moment a sequence later. Return false where the manifold is not found; the offset is infinite where there is no motion
  * to be mapped, and `after` then undefined. */
 bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
                 SlowRates *rates);
