@@ -22,13 +22,6 @@ static double first_bristle(const Law *law) {
     return 0.0;
 }
 
-static double bristle(const Law *law, const Moment *begin, double travelled) {
-    (void)law;
-    (void)begin;
-    (void)travelled;
-    return 0.0;
-}
-
 /* Friction force [N] that holds a slider at rest. */
 static double needed_force(const Plant *plant, const Moment *moment) {
     const State *state = &moment->state;
@@ -176,7 +169,6 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 const FrictionLaw COULOMB = {
     .prepare = prepare,
     .first_bristle = first_bristle,
-    .bristle = bristle,
     .mode = mode,
     .force = force,
     .follow = follow,

@@ -36,9 +36,6 @@ typedef struct FrictionLaw {
     /* Friction of the bristle at the start, per unit load. */
     double (*first_bristle)(const Law *law);
 
-    /* Friction of the bristle after a displacement [m] in one direction from a moment on, per unit load. */
-    double (*bristle)(const Law *law, const Moment *begin, double travelled);
-
     /* Contact mode under the held inputs. */
     int (*mode)(const Law *law, const Moment *moment);
 

@@ -184,9 +184,10 @@ static double travel_at(const void *motion, double t) {
     return NAN;
 }
 
-/* The state at a time [s], the displacement `travelled` then [m], and the phasors if they are `known`. */
-static State place_of(const Leg *leg, double t, double *travelled, KnownPhasors *known) {
+/* The state at the end, the displacement `travelled` then [m], and the phasors if they are `known`. */
+static State end_of(const Leg *leg, double *travelled, KnownPhasors *known) {
     State state = {NAN, NAN, NAN};
+    double t = leg->t;
     known->known = false;
     switch (leg->kind) {
     case RESTS:
@@ -203,14 +204,9 @@ static State place_of(const Leg *leg, double t, double *travelled, KnownPhasors 
     return state;
 }
 
-State leg_state_at(const Leg *leg, double t, double *travelled) {
-    KnownPhasors there;
-    return place_of(leg, t, travelled, &there);
-}
-
 void leg_finish(Leg *leg, const Held *held, Moment *now) {
     const Plant *plant = &held->plant;
-    now->state = place_of(leg, leg->t, &leg->travelled, &leg->known);
+    now->state = end_of(leg, &leg->travelled, &leg->known);
     Segment segment = {leg->t, leg->travelled, now->state.velocity, leg->kind == RESTS, travel_at, leg};
     now->theta = period_advance(&now->means, &segment, now->theta, plant->drive_frequency);
     now->psi = within_turn(now->psi + turned_by(plant, leg->t));

@@ -66,10 +66,6 @@ static inline bool leg_released(const Leg *leg) {
     return leg->zero_of >= 0 && leg->kind == RESTS;
 }
 
-/* The state at time `t` [s] on a leg that was followed, up to its end, and how far it has `travelled` [m]
- * then. */
-State leg_state_at(const Leg *leg, double t, double *travelled);
-
 /* Moves on to the end of the leg, in its mode. */
 void leg_finish(Leg *leg, const Held *held, Moment *now);
 

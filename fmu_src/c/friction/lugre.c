@@ -24,10 +24,6 @@ static double first_bristle(const Law *law) {
     return law->bristle.stiffness * law->device.initial_bristle_deflection;
 }
 
-static double bristle(const Law *law, const Moment *begin, double travelled) {
-    return bristle_after(&law->bristle, begin->bristle, travelled);
-}
-
 static int mode(const Law *law, const Moment *moment) {
     const Held *held = &law->held;
     return mode_by_velocity(&held->window, &held->plant, moment->state.velocity, moment->psi);
@@ -79,7 +75,7 @@ static void follow(Leg *leg, const Law *law, Moment *now, double longest, double
 
 static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) {
     bool lifted = (leg->mode == LIFTED) != switches;
-    now->bristle = bristle(law, now, leg->travelled);
+    now->bristle = bristle_after(&law->bristle, now->bristle, leg->travelled);
     now->mode = lifted ? LIFTED : direction_of(now->state.velocity);
     if (switches) {
         now->event_age = 0.0;
@@ -89,7 +85,6 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 const FrictionLaw LUGRE = {
     .prepare = prepare,
     .first_bristle = first_bristle,
-    .bristle = bristle,
     .mode = mode,
     .force = force,
     .follow = follow,

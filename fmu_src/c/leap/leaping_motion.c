@@ -21,7 +21,7 @@ enum { MAX_TURNS_OF_PERIOD = 4 };
 
 /* Periods that are resolved after an attempt, by period mapped in vain: attempts cost an eighth of resolved motion at most.
  * `MIN_WAIT` and `MIN_PAUSE` follow an attempt that told that fast states are off the manifold, or that nothing is to be
- * gained: to look at a period takes half as long again as to resolve it. */
+ * gained: to map a period takes half as long again as to resolve it. */
 #define PAUSE 8.0
 #define MIN_WAIT 8.0
 #define MIN_PAUSE 32.0
@@ -46,7 +46,7 @@ static bool resolve(Way *way, double duration, bool tight, Refusal *refusal) {
     Law law = law_after(way->law, way->clock.elapsed);
     law.device.tolerance *= tight ? TIGHT : 1.0;
     way->budget->passed = way->passed + way->clock.elapsed;
-    if (!events_advance(&law, &before, duration, NULL, way->budget, &way->now, refusal)) {
+    if (!events_advance(&law, &before, duration, NULL, NULL, way->budget, &way->now, refusal)) {
         return false;
     }
     way->left = duration == way->left ? 0.0 : clock_advance(&way->clock, duration);

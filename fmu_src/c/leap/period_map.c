@@ -123,33 +123,25 @@ static Visit visit_of(const PeriodMap *map, const Moment *moment) {
                     moment->counts.sticks}};
 }
 
-/* Where the visits of a sequence are kept. */
-typedef struct {
-    const PeriodMap *map;
-    Visit *visits;
-} Visitor;
-
-static void see(void *observer, int index, const Moment *moment) {
-    const Visitor *visitor = observer;
-    Moment visit = *moment;
-    visit.theta = visitor->map->section;
-    visitor->visits[index] = visit_of(visitor->map, &visit);
-}
-
 bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, Budget *budget,
                  Visit *visits, uint64_t *itinerary) {
     Refusal refusal;
-    Moment before = *moment;
     Law later = law_after(&map->law, begin * map->period);
-    Visitor visitor = {map, visits + 1};
-    Trace trace = {.first = map->period, .every = map->period, .count = count, .see = see,
-                   .observer = &visitor, .mode = NO_MODE};
+    Itinerary passed = {0, NO_MODE};
     visits[0] = visit_of(map, moment);
-    if (!events_trace(&later, &before, count * map->period, &trace, budget, moment, &refusal)) {
-        return false;
+    for (int k = 1; k <= count; k++) {
+        Moment before = *moment;
+        if (!events_advance(&later, &before, map->period, NULL, &passed, budget, moment,
+                            &refusal)) {
+            return false;
+        }
+        moment->theta = map->section;
+        visits[k] = visit_of(map, moment);
+        if (is_ramped(&map->law.held.plant)) {
+            later = law_after(&map->law, (begin + k) * map->period);
+        }
     }
-    moment->theta = map->section;
-    *itinerary = trace.itinerary;
+    *itinerary = passed.hash;
     double sum = 0.0;
     for (int k = 0; k < VISITED; k++) {
         sum += visits[count].at[k];

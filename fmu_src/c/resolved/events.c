@@ -99,46 +99,20 @@ static void ramp_to(Plant *plant, const Plant *begin, double elapsed, bool turne
         turned ? 0.0 : begin->normal_frequency + begin->normal_rate * elapsed;
 }
 
-/* Looks at the motion on a leg that begins at a moment, `elapsed` [s] after the beginning of the motion. */
-static void look(Trace *trace, const Law *law, const Leg *leg, const Moment *begin, double elapsed) {
-    for (; trace->seen < trace->count; trace->seen++) {
-        double t = trace->first + trace->seen * trace->every - elapsed, travelled;
-        if (t > leg->t) {
-            return;
-        }
-        Moment moment = *begin;
-        moment.state = leg_state_at(leg, fmax(t, 0.0), &travelled);
-        moment.position += travelled;
-        moment.bristle = law->friction->bristle(law, begin, travelled);
-        if (leg->turns) {
-            moment.counts = counts_slid(moment.counts, leg->direction);
-        }
-        trace->see(trace->observer, trace->seen, &moment);
-    }
-}
-
-/* Time [s] to the next look, `elapsed` [s] after the beginning of the motion; infinite if there is none. */
-static double time_to_look(const Trace *trace, double elapsed) {
-    double next = trace->first + trace->seen * trace->every - elapsed;
-    return trace->seen < trace->count ? fmax(next, 0.0) : INFINITY;
-}
-
-/* Looks at the end of a motion, where rounding puts the last looks behind it. */
-static void look_at_end(Trace *trace, const Moment *end) {
-    for (; trace->seen < trace->count; trace->seen++) {
-        trace->see(trace->observer, trace->seen, end);
+/* Add a contact mode to an itinerary, unless it is the last one. */
+static void pass_mode(Itinerary *itinerary, int mode) {
+    if (mode != itinerary->last) {
+        itinerary->hash = (itinerary->hash ^ (uint64_t)(mode + 2)) * UINT64_C(0x100000001b3);
+        itinerary->last = mode;
     }
 }
 
 /* In this order: refuse a motion of too much work, and enter the contact mode of the start. Then leg by leg: find how
  * long the leg may last, until the contact lifts or touches down, the arc ends or the normal frequency changes sign;
- * let the friction law follow it, up to a stop or a release; look at it on the way; move to its end; let the inputs
- * grow; change to the next contact mode. A search ends the motion at the first event.
- *
- * Either or both of `search` and `trace` may be NULL. */
-static bool follow_events(const Law *start, const Moment *moment, double duration,
-                          EventSearch *search, Trace *trace, Budget *budget, Moment *now,
-                          Refusal *refusal) {
+ * let the friction law follow it, up to a stop or a release; move to its end; let the inputs grow; change to the next
+ * contact mode. A search ends the motion at the first event. */
+bool events_advance(const Law *start, const Moment *moment, double duration, EventSearch *search,
+                    Itinerary *itinerary, Budget *budget, Moment *now, Refusal *refusal) {
     Law moving;
     const Law *law = start;
     if (is_ramped(&start->held.plant)) {
@@ -169,17 +143,12 @@ static bool follow_events(const Law *start, const Moment *moment, double duratio
                                    plant->normal_rate, now->mode == LIFTED);
         double turning = time_to_turn(plant);
         double longest = fmin(fmin(fmin(remaining, switching), held->arc), turning);
-        if (trace != NULL && law->bending != NULL) {
-            /* A panel has no state before its end. */
-            longest = fmin(longest, time_to_look(trace, clock.elapsed));
-        }
         if (search != NULL) {
             begin = *now;
         }
         friction->follow(&leg, law, now, longest, switching);
-        if (trace != NULL) {
-            look(trace, law, &leg, now, clock.elapsed);
-            trace_mode(trace, leg.mode == LIFTED ? LIFTED : leg.direction);
+        if (itinerary != NULL) {
+            pass_mode(itinerary, leg.mode == LIFTED ? LIFTED : leg.direction);
         }
         leg_finish(&leg, held, now);
         if (law == &moving) {
@@ -200,18 +169,5 @@ static bool follow_events(const Law *start, const Moment *moment, double duratio
         }
     }
     budget_spend(budget, work.all, MAX_STEP_LEGS);
-    if (trace != NULL) {
-        look_at_end(trace, now);
-    }
     return true;
-}
-
-bool events_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
-                    Budget *budget, Moment *now, Refusal *refusal) {
-    return follow_events(law, moment, duration, search, NULL, budget, now, refusal);
-}
-
-bool events_trace(const Law *law, const Moment *moment, double duration, Trace *trace, Budget *budget,
-                  Moment *now, Refusal *refusal) {
-    return follow_events(law, moment, duration, NULL, trace, budget, now, refusal);
 }

@@ -1,6 +1,8 @@
 /* Resolved motion, event by event: fidelity 1 and 2. */
 #include "resolved_motion.h"
 
+#include <stddef.h>
+
 #include "../base/elementary.h"
 #include "../base/refusal_texts.h"
 #include "../device/device.h"
@@ -42,7 +44,7 @@ static bool bounded_work_check(const Law *law, double duration, const Budget *bu
 static bool advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
                     Budget *budget, Moment *after, Refusal *refusal) {
     return bounded_work_check(law, duration, budget, refusal) &&
-           events_advance(law, moment, duration, search, budget, after, refusal);
+           events_advance(law, moment, duration, search, NULL, budget, after, refusal);
 }
 
 int resolved_mode(const Law *law, const Moment *moment) {
