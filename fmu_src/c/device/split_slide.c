@@ -5,14 +5,16 @@
 bool split_prepare(Split *split, const Plant *plant) {
     const Oscillator *slip = &plant->slip;
     double w = plant->drive_frequency, q = plant->normal_frequency, fraction = plant->mass_fraction;
-    bool follows = plant->resolves_resonator;
+    bool follows = plant->resolves_resonator, creeps = 0.0 < fabs(q) && fabs(q) < SLOW * w;
+    if (creeps) {
+        return false;
+    }
     if (follows && (slip->frequency < SLOW * fmax(w, fabs(q)) || resonates(slip, w) ||
                     resonates(slip, q))) {
         return false;
     }
     Complex zero = complex_of(0.0, 0.0), turn = complex_of(0.0, -1.0);
     split->merges = q == w || q == 0.0;
-    split->creeps = 0.0 < fabs(q) && fabs(q) < SLOW * w;
     Complex resonator_drive = zero, resonator_normal = zero, velocity_normal = zero;
     if (follows) {
         resonator_drive = complex_scale(plant->relative_drive, transfer(slip, w));
@@ -26,7 +28,7 @@ bool split_prepare(Split *split, const Plant *plant) {
         }
         Complex resisting = complex_scale(fraction * q * q, resonator_normal);
         resisting.re -= plant->friction_amplitude / plant->total_mass;
-        velocity_normal = split->creeps ? resisting : complex_div(resisting, complex_of(0.0, q));
+        velocity_normal = complex_div(resisting, complex_of(0.0, q));
     }
     split->fastest = fmax(fmax(w, fabs(q)), slip->frequency);
     split->resonator_drive = complex_mul(turn, resonator_drive);
@@ -203,13 +205,8 @@ static void match_state(SplitSlide *slide, const State *state) {
     if (!slide->split->merges) {
         aq = complex_mul(slide->resonator_normal, start->normal);
         normal = complex_abs(slide->velocity_normal);
-        if (slide->split->creeps) {
-            bound = normal * fabs(q);
-            normal = 0.0;
-        } else {
-            forced += complex_mul(slide->velocity_normal, start->normal).re;
-            bound = normal * q * q;
-        }
+        forced += complex_mul(slide->velocity_normal, start->normal).re;
+        bound = normal * q * q;
     }
     Response free = {0.0, 0.0};
     if (plant->resolves_resonator) {
@@ -274,22 +271,15 @@ void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex norm
     slide->anchored = true;
 }
 
-/* Velocity [m/s] by the changing normal load at turns. */
-static inline double normal_velocity(const SplitSlide *slide, const Turns *turns) {
-    if (!slide->split->creeps) {
-        return complex_mul(slide->velocity_normal, turns->phasors.normal).re;
-    }
-    Complex push = complex_mul(slide->velocity_normal, slide->start.phasors.normal);
-    Complex angle = complex_of(0.0, slide->plant->normal_frequency * turns->t);
-    return turns->t * complex_mul(push, growth_of(angle).once).re;
-}
-
 static inline double velocity_by(const SplitSlide *slide, const Turns *turns, double rate) {
     double t = turns->t;
     double velocity = slide->k0 + (slide->k1 + slide->k2 * t) * t +
                       complex_mul(slide->velocity_drive, turns->phasors.drive).re -
                       slide->plant->mass_fraction * rate;
-    return slide->split->merges ? velocity : velocity + normal_velocity(slide, turns);
+    if (slide->split->merges) {
+        return velocity;
+    }
+    return velocity + complex_mul(slide->velocity_normal, turns->phasors.normal).re;
 }
 
 static inline double acceleration_by(const SplitSlide *slide, const Turns *turns,
@@ -300,7 +290,7 @@ static inline double acceleration_by(const SplitSlide *slide, const Turns *turns
                    plant->mass_fraction * acceleration;
     if (!slide->split->merges) {
         Complex normal = complex_mul(slide->velocity_normal, turns->phasors.normal);
-        total += slide->split->creeps ? normal.re : -plant->normal_frequency * normal.im;
+        total -= plant->normal_frequency * normal.im;
     }
     return total;
 }
@@ -342,17 +332,6 @@ static double swing_travel(Complex amplitude, double frequency, Complex start, C
     return complex_mul(amplitude, complex_sub(end, start)).im / frequency;
 }
 
-/* Displacement [m] by the changing normal load. */
-static double normal_travel(const SplitSlide *slide, const Turns *turns) {
-    double q = slide->plant->normal_frequency;
-    Complex start = slide->start.phasors.normal;
-    if (!slide->split->creeps) {
-        return swing_travel(slide->velocity_normal, q, start, turns->phasors.normal);
-    }
-    Complex push = complex_mul(slide->velocity_normal, start);
-    return turns->t * turns->t * complex_mul(push, growth_of(complex_of(0.0, q * turns->t)).twice).re;
-}
-
 static inline double travel_by(const SplitSlide *slide, const Turns *turns,
                                double displacement) {
     const Plant *plant = slide->plant;
@@ -361,7 +340,8 @@ static inline double travel_by(const SplitSlide *slide, const Turns *turns,
                                  slide->start.phasors.drive, turns->phasors.drive) -
                     plant->mass_fraction * moved;
     if (!slide->split->merges) {
-        travel += normal_travel(slide, turns);
+        travel += swing_travel(slide->velocity_normal, plant->normal_frequency,
+                               slide->start.phasors.normal, turns->phasors.normal);
     }
     return (slide->k0 + (0.5 * slide->k1 + slide->k2 * t / 3.0) * t) * t + travel;
 }

@@ -2,7 +2,7 @@
  *
  * Velocity is v(t) = k0 + k1 t + k2 t^2 + Re(ve exp(i w t) + vq exp(i q t)) - r u(t): the particular
  * solutions at drive and normal frequency are split off from the free motion of the resonator, whose rate is
- * u. That loses digits near resonance and for soft resonators; `split_prepare` returns false there, and
+ * u. That loses digits near resonance, for soft resonators and under slow normal loads; `split_prepare` returns false there, and
  * series are used (taylor_slide.h). */
 #ifndef SLIDER_SPLIT_SLIDE_H
 #define SLIDER_SPLIT_SLIDE_H
@@ -16,10 +16,9 @@
 /* Complex amplitudes per unit exp(i theta) and, for s = 1, per unit exp(i chi): displacement of the
  * resonator (`resonator_*`), velocity of the slider (`velocity_*`). Where `merges`, drive and normal
  * load swing at one frequency, or the normal load is constant: one term of v(t) then stands for
- * both. Where the normal load `creeps`, its velocity would be far larger than what it changes between two
- * reversals: `velocity_normal` is then an acceleration, to be integrated from the start. */
+ * both. */
 typedef struct {
-    bool merges, creeps;
+    bool merges;
     double fastest;
     Complex resonator_drive, velocity_drive, resonator_normal, velocity_normal;
 } Split;
