@@ -95,6 +95,19 @@ def test_a_dip_below_the_fast_velocity_is_not_missed(
     assert ends[:2] == pytest.approx(ends[2:] * 2, abs=1e-8)
 
 
+def test_a_load_that_grows_beyond_friction_is_followed_in_one_step(
+    instantiate: Instantiate,
+) -> None:
+    """The slow velocity gets to -v_q slowly: there friction ceases to depend on it."""
+    start = {"normal_amplitude": 0.0, "friction_coefficient": 1.0}
+    ends = []
+    for steps in (1, 64):
+        instance = instantiate().initialize(**start, fidelity=0, averaging_order=1)
+        ends.append(run(instance, [(6.0 / PERIOD, {"load": 2.2 / 6.0})], steps)[-1, 0])
+    assert ends[0] == pytest.approx(ends[1], abs=1e-8)
+    assert ends[0] < -FAST
+
+
 @pytest.mark.parametrize("duration", [0.2, 40.0])
 @pytest.mark.parametrize("ratio", [0.0, 0.97, 1.0])
 @pytest.mark.parametrize("law", [0, 1])

@@ -20,7 +20,7 @@ static const char *const STEPS = "steps of averaged motion";
 #define MIN_SHARE 1e-9
 
 /* Shortest step to an edge of friction, as a share of the step tried first. */
-#define MIN_APPROACH 1e-9
+#define MIN_APPROACH 1e-7
 
 /* Change of the velocity up to which its rate may be linear, over the fast velocity; and the share of the tolerance for what
  * that leaves: no step corrects it. */
