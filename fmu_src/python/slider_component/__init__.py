@@ -9,7 +9,8 @@ the present inputs to advance a `moment`. There are three motions.
   what succeeds it. `sliding` has its closed forms, on `device` and `oscillator`; where these lose
   digits, and while bristles bend, `series` follows it. `first_zero` finds where it ends; `contact`
   says when the contact lifts.
-- Averaged to first order: `slow_motion`, under `mean_friction` and a `vibrating_load`.
+- Averaged to first order: `slow_motion`, under the `slow_friction` that `mean_friction` and a
+  `vibrating_load` give.
 - Leaping over periods: `leap`, on the `period_map` of resolved motion.
 
 `prediction` balances mean friction and load, then refines both by `steady_motion`. The interface is

@@ -19,7 +19,7 @@ from .contact import LIFTED, STICK
 from .device import System, Vibration
 from .events import advance, law_of
 from .moment import Moment
-from .slow_motion import full_friction
+from .slow_friction import full_friction
 
 MAP_TOLERANCE = 1e-10
 """Largest tolerance of LuGre friction in a map: differences of high order amplify its error."""
