@@ -42,6 +42,11 @@ from slider_resonator.output.hover_plot import (
 from slider_resonator.output.html_page import escaped, folded, rendered, section, write_page
 from slider_resonator.output.plot_style import COLOURS, png_data_uri, style
 from slider_resonator.output.readable import number_of
+from slider_resonator.output.start_beyond import (
+    limit_to_later,
+    range_after_start,
+    words_for_start,
+)
 from slider_resonator.output.table import Cell, Row, Table, numbers, texts, verdict
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -143,13 +148,17 @@ def _draw(above: Axes, below: Axes, curves: Curves, part: slice, *, joined: bool
     off = curves.fmu[part] - curves.reference[part]
     below.plot(times, off, difference, color=COLOURS["velocity"])
     below.set(xlabel="time [s]")
+    limit_to_later(above, times, curves.fmu[part], curves.reference[part])
+    limit_to_later(below, times, off)
     if curves.check.first_time is not None:
         for axes in (above, below):
             axes.axvline(curves.check.first_time, color="0.4", linewidth=0.8)
 
 
 DIGITS = 8
-HEIGHT = 240
+HEIGHT, DIFFERENCE_HEIGHT = 240, 170
+MAX_MARKERS = 60
+"""Points of a curve up to which each is marked."""
 REFERENCE, FMU = "#f0a58f", "#1f3b57"
 MAX_UNFOLDED = 3
 """Number of scenes up to which those that pass are unfolded, too."""
@@ -177,8 +186,8 @@ def scene_sections(validation: Validation, prefix: str) -> list[str]:
     rows = [_index_row(Cell(name, target=ids[name]), checks) for name, checks in scenes.items()]
     parts = ["<h3>Scenes</h3>", rendered(Table(columns, rows))]
     for name, checks in scenes.items():
-        plot = _of_signal(overviews[name]) if name in overviews else _over_sweep(checks)
-        drawn = "" if plot is None else plot_html(plot)
+        plots = _of_signal(overviews[name]) if name in overviews else _over_sweep(checks)
+        drawn = "".join(plot_html(plot) for plot in plots)
         table = rendered(Table(COLUMNS, [_row(check) for check in checks]))
         failed = sum(not check.passed for check in checks)
         note = f"{failed} of {number_of(len(checks), 'check')} failed" if failed else "pass"
@@ -194,19 +203,23 @@ def _index_row(name: Cell, checks: Sequence[Check]) -> Row:
     return (name, verdict(not failed), str(len(checks)), str(failed), share)
 
 
-def _of_signal(overview: Overview) -> HoverPlot:
-    times = overview.times.tolist()
-    label = _label(overview.quantity, overview.unit)
-    series = _pair(times, overview.fmu.tolist(), overview.reference.tolist())
+def _of_signal(overview: Overview) -> list[HoverPlot]:
+    times, fmu, reference = overview.times, overview.fmu, overview.reference
+    shown = range_after_start(times, fmu, reference)
     name = overview.quantity.replace("_", " ")
-    return HoverPlot(f"{name}: FMU on reference", Axis("time [s]"), Axis(label), series, HEIGHT)
+    return _overlay(
+        f"{name}: FMU on reference" + (f"; {words_for_start(fmu, reference)}" if shown else ""),
+        Axis("time [s]"),
+        Axis(_label(overview.quantity, overview.unit), range=shown),
+        *(times.tolist(), fmu.tolist(), reference.tolist()),
+    )
 
 
-def _over_sweep(checks: Sequence[Check]) -> HoverPlot | None:
-    """Return the plot of the first number that has a reference over the sweep, None without one."""
+def _over_sweep(checks: Sequence[Check]) -> list[HoverPlot]:
+    """Return the plots of the first number that has a reference over the sweep, if there is one."""
     swept = [check for check in checks if _is_swept_number(check)]
     if not swept:
-        return None
+        return []
     first, variable = swept[0], next(iter(swept[0].at))
     same = [c for c in swept if (c.quantity, c.against) == (first.quantity, first.against)]
     same.sort(key=lambda check: check.at[variable])
@@ -217,13 +230,31 @@ def _over_sweep(checks: Sequence[Check]) -> HoverPlot | None:
     )
     is_wide = x[0] > 0.0 and math.log10(x[-1] / x[0]) >= MIN_DECADES
     name = first.quantity.replace("_", " ")
-    return HoverPlot(
+    return _overlay(
         f"{name} over {variable.replace('_', ' ')}: FMU on reference",
         Axis(_label(variable, SETTABLE[variable]), log=is_wide),
         Axis(_label(first.quantity, first.unit)),
-        _pair(x, fmu, reference),
-        HEIGHT,
+        *(x, fmu, reference),
     )
+
+
+def _overlay(
+    title: str, x_axis: Axis, y_axis: Axis, x: list[float], fmu: list[float], reference: list[float]
+) -> list[HoverPlot]:
+    """Return the plot of FMU and reference, and below it that of their difference."""
+    marker = "●" if len(fmu) <= MAX_MARKERS else ""
+    both = [
+        Series("reference", x, reference, REFERENCE, "", 5.0),
+        Series("FMU", x, fmu, FMU, marker, 1.3),
+    ]
+    # Three digits are more than such a plot shows, and a report has a plot for each scene.
+    off = [float(f"{one - other:.3g}") for one, other in zip(fmu, reference, strict=True)]
+    difference = [Series("FMU - reference", x, off, FMU, marker, 1.3)]
+    below = Axis(f"difference {y_axis.label[y_axis.label.rindex('[') :]}")
+    return [
+        HoverPlot(title, x_axis, y_axis, both, HEIGHT),
+        HoverPlot("FMU - reference", x_axis, below, difference, DIFFERENCE_HEIGHT),
+    ]
 
 
 def _is_swept_number(check: Check) -> bool:
@@ -233,13 +264,6 @@ def _is_swept_number(check: Check) -> bool:
 
 def _label(name: str, unit: str) -> str:
     return f"{name.replace('_', ' ')} [{unit or 1}]"
-
-
-def _pair(x: Sequence[float], fmu: Sequence[float], reference: Sequence[float]) -> list[Series]:
-    return [
-        Series("reference", x, reference, REFERENCE, "", 5.0),
-        Series("FMU", x, fmu, FMU, "●" if len(fmu) <= 60 else "", 1.3),
-    ]
 
 
 def _row(check: Check) -> Row:

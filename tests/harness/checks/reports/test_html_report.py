@@ -77,17 +77,33 @@ def test_a_passing_scene_shows_the_fmu_on_the_reference(tmp_path: Path) -> None:
     overview = Overview("table_1", "position", "m", times, 1.0 + times, 1.0 + 2.0 * times)
     passed = replace(SIGNAL, passed=True, first_time=None, worst_time=None)
     good = Validation("good.fmu", (passed,), 1.0, overviews=(overview,))
-    (plot,) = plots_of(page(tmp_path, good)[0])
+    plot, below = plots_of(page(tmp_path, good)[0])
     assert (plot["x"]["label"], plot["y"]["label"]) == ("time [s]", "position [m]")
     reference, fmu = plot["series"]
     assert (reference["label"], reference["y"]) == ("reference", [1.0, 1.2, 1.4])
     assert (fmu["label"], fmu["y"]) == ("FMU", [1.0, 1.1, 1.2])
+    assert below["y"]["label"] == "difference [m]"
+    assert below["series"][0]["y"] == [0.0, -0.1, -0.2]
+
+
+def test_a_start_far_outside_does_not_set_the_axis_and_is_named(tmp_path: Path) -> None:
+    times = np.linspace(0.0, 1.0, 101)
+    velocity = 0.1 * (1.0 - np.exp(-5.0 * times))
+    velocity[1:3] = 2.0, -1.0
+    overview = Overview("table_1", "mean_velocity_in_run", "m/s", times, velocity, velocity)
+    passed = replace(SIGNAL, passed=True)
+    text, _ = page(tmp_path, Validation("good.fmu", (passed,), 1.0, overviews=(overview,)))
+    low, high = plots_of(text)[0]["y"]["range"]
+    assert -0.02 < low < 0.0
+    assert 0.1 < high < 0.12
+    assert "start beyond the axis: -1 to 2" in text
 
 
 def test_numbers_are_shown_over_the_sweep(tmp_path: Path) -> None:
     other = replace(PASSED, against="closed_form", reference=0.2)
     validation = Validation("bad.fmu", (SLOWER, other, PASSED), 1.0)
-    (plot,) = plots_of(page(tmp_path, validation)[0])
+    plot, below = plots_of(page(tmp_path, validation)[0])
+    assert below["series"][0]["y"] == [0.0, -0.00667]
     assert plot["x"]["label"] == "phase [rad]"
     assert plot["y"]["label"] == "steady velocity [m/s]"
     reference, fmu = plot["series"]
