@@ -63,6 +63,8 @@ def draw_signals(
 ) -> None:
     """Run the scene, and again for each overlay, and draw; by default `SIGNALS` and the whole run.
 
+    With an FMU among the overlays, differences are drawn, too.
+
     Raises HarnessError for a setting that the scene refuses, and as `IsolatedFmu` does.
     """
     from slider_resonator.scenes.signals_plot import SIGNALS, Run, plot_signals, schedule_for_window
@@ -84,4 +86,6 @@ def draw_signals(
             name, value = overlay
             varied = scene.with_values({name: value})
             runs.append(Run(f"{name} {value:g}", record(isolated, varied)))
-    plot_signals(runs, scene, drawing.signals or SIGNALS, shown, path)
+    differences = any(isinstance(overlay, Path) for overlay in drawing.overlays)
+    signals = drawing.signals or SIGNALS
+    plot_signals(runs, scene, signals, shown, path, differences=differences)

@@ -13,6 +13,7 @@ from slider_resonator.device.interface import INPUT_STARTS, INPUTS
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.record import Record
 from slider_resonator.output.plot_style import COLOURS, Picture, shade_directions, style
+from slider_resonator.output.start_beyond import limit_to_later
 from slider_resonator.scenes.plot_units import plot_unit
 from slider_resonator.scenes.scene import Scene
 
@@ -61,6 +62,7 @@ def run_figure(record: Record, scene: Scene) -> Figure:
 def _position(axes: Axes, record: Record, times: Array) -> None:
     factor, unit = plot_unit("m", record["position"])
     axes.plot(times, factor * record["position"], color=COLOURS["position"])
+    limit_to_later(axes, times, factor * record["position"])
     axes.set(ylabel=f"position [{unit}]", xlim=(times[0], times[-1]))
     axes.tick_params(labelbottom=False)
 
@@ -72,6 +74,7 @@ def _velocity(axes: Axes, record: Record, times: Array, time_unit: str) -> None:
     label = "steady, for these inputs"
     axes.plot(times, factor * steady, "--", color=COLOURS["theory"], label=label)
     axes.set(xlabel=f"time [{time_unit}]", ylabel=f"velocity [{unit}]", xlim=(times[0], times[-1]))
+    limit_to_later(axes, times, factor * mean, factor * steady)
     axes.legend()
 
 

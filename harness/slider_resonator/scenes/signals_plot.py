@@ -19,6 +19,7 @@ from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.record import Record
 from slider_resonator.output.plot_style import CONTACT, save, shade_directions, style
+from slider_resonator.output.start_beyond import limit_to_later
 from slider_resonator.scenes.plot_units import plot_unit
 from slider_resonator.scenes.scene import Scene
 
@@ -124,17 +125,33 @@ def plot_signals(
     signals: Sequence[str],
     window: tuple[float, float],
     path: Path,
+    *,
+    differences: bool = False,
 ) -> None:
-    """Write a plot with a panel for each signal; each run has its own colour and dash."""
+    """Write a plot with a panel for each signal; each run has its own colour and dash.
+
+    With `differences` a panel below that of an output has the other runs less the first.
+    """
+    rows = [(name, False) for name in signals]
+    if differences and _same_times(runs):
+        rows = [
+            (name, below)
+            for name in signals
+            for below in (False, True)
+            if not below or name in OUTPUTS.keys() - {"contact_mode"}
+        ]
+    heights = [1.2 if below else 1.9 for _, below in rows]
     with style():
-        figure = Figure(figsize=(8.0, 1.9 * len(signals) + 0.8), layout="constrained")
+        figure = Figure(figsize=(8.0, sum(heights) + 0.8), layout="constrained")
         figure.suptitle(f"{scene.title}  ({scene.name})")
-        panels = figure.subplots(len(signals), 1, sharex=True, squeeze=False)[:, 0]
+        panels = figure.subplots(len(rows), 1, sharex=True, squeeze=False, height_ratios=heights)[
+            :, 0
+        ]
         short = window[1] - window[0] <= BAND_PERIODS * scene.drive_period
         time_factor, time_unit = plot_unit("s", np.asarray(window))
         bands: dict[str, Patch] = {}
-        for axes, name in zip(panels, signals, strict=True):
-            _panel(axes, runs, name, window, time_factor, scene)
+        for axes, (name, below) in zip(panels, rows, strict=True):
+            _panel(axes, runs, name, window, time_factor, scene, differences=below)
             if short and len(runs) == 1 and name != "contact_mode":
                 bands |= _shade(axes, runs[0].record, window, time_factor)
         ends = (time_factor * window[0], time_factor * window[1])
@@ -154,13 +171,21 @@ def _panel(
     window: tuple[float, float],
     time_factor: float,
     scene: Scene,
+    *,
+    differences: bool,
 ) -> None:
     windows = [_inside(one.record, window) for one in runs]
     curves = [_values(one.record, name)[inside] for one, inside in zip(runs, windows, strict=True)]
+    if differences:
+        curves = [curve - curves[0] for curve in curves]
     factor, unit = plot_unit(INPUTS.get(name) or OUTPUTS[name], *curves)
     enveloped = is_long(scene, window) and name not in INPUTS
     held = name in INPUTS or (name == "contact_mode" and not enveloped)
+    if _same_times(runs) and not held:
+        limit_to_later(axes, runs[0].record.times[windows[0]], *(factor * one for one in curves))
     for index, (one, inside, curve) in enumerate(zip(runs, windows, curves, strict=True)):
+        if differences and index == 0:
+            continue
         times = one.record.times[inside]
         if enveloped:
             times, lowest, curve, highest = envelope(times, curve, window, scene.drive_period)
@@ -174,7 +199,8 @@ def _panel(
             drawstyle="steps-post" if held else "default",
             label=one.label,
         )
-    axes.set(ylabel=f"{name.replace('_', ' ')}\n[{unit}]")
+    words = "difference" if differences else name.replace("_", " ")
+    axes.set(ylabel=f"{words}\n[{unit}]")
     if name == "contact_mode":
         axes.set_yticks([*CONTACT], [words for words, _ in CONTACT.values()])
         axes.set(ylabel="contact")
@@ -188,6 +214,10 @@ def _shade(
     times = time_factor * record.times[inside]
     entries = shade_directions(axes, times, record["contact_mode"][inside])
     return {str(entry.get_label()): entry for entry in entries}
+
+
+def _same_times(runs: Sequence[Run]) -> bool:
+    return all(np.array_equal(one.record.times, runs[0].record.times) for one in runs[1:])
 
 
 def _inside(record: Record, window: tuple[float, float]) -> NDArray[np.bool_]:

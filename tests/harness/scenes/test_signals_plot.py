@@ -132,6 +132,27 @@ def test_overlaid_runs_can_be_told_apart(
     assert len(set(ends)) == 3, "each line is a run of its own"
 
 
+def test_differences_from_the_first_run_are_below(
+    instance: Instance, tmp_path: Path, drawn: list[Figure]
+) -> None:
+    scene = scene_called("table_1")
+    records = []
+    for fidelity in (2, 1):
+        varied = scene.with_values({"fidelity": fidelity})
+        records.append(run(instance, varied.parameters, schedule_for_window(varied, WINDOW)))
+    runs = [Run("a", records[0]), Run("b", records[1])]
+    signals = ("mean_velocity", "phase", "contact_mode")
+    plot_signals(runs, scene, signals, WINDOW, tmp_path / "a.png", differences=True)
+    labels = [axes.get_ylabel().split("\n")[0] for axes in drawn[0].axes]
+    assert labels == ["mean velocity", "difference", "phase", "contact"]
+    (line,) = drawn[0].axes[1].get_lines()
+    inside = (records[0].times >= WINDOW[0]) & (records[0].times <= WINDOW[1])
+    off = (records[1]["mean_velocity"] - records[0]["mean_velocity"])[inside]
+    assert np.abs(off).max() > 1e-6
+    factor = 1e3 if "mm/s" in drawn[0].axes[1].get_ylabel() else 1.0
+    assert np.asarray(line.get_ydata()) == pytest.approx(factor * off)
+
+
 @pytest.mark.parametrize(
     ("names", "message"),
     [
