@@ -13,9 +13,11 @@ from slider_resonator.fmu.provenance import (
     FmuIdentity,
     Provenance,
     identity_of,
+    provenance_of,
+)
+from slider_resonator.fmu.provenance_text import (
     provenance_html,
     provenance_markdown,
-    provenance_of,
     provenance_properties,
 )
 from slider_resonator.output.json_output import to_json

@@ -18,7 +18,7 @@ from slider_resonator.checks.verdict import (
     title,
 )
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.provenance import provenance_markdown
+from slider_resonator.fmu.provenance_text import provenance_markdown
 from slider_resonator.output.markdown import escaped, rendered
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
 
