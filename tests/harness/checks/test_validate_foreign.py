@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.checks.validate import Validation, validate
+from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.scenes.vocabulary import QUANTITIES
 from tests.harness import faulty_fmus
 from tests.harness.foreign_fmus import foreign
@@ -103,7 +104,8 @@ def test_a_scene_that_needs_a_later_variable_does_not_apply(
     (missing,) = validation.not_applied
     assert (missing.scene, missing.quantity) == ("order_2", "position")
     assert missing.reason == "needs averaging_order = 2, which came with interface 0.2.0"
-    assert set(validation.lacks) == {"averaging_order", "prediction_valid", "slow_motion_error"}
+    later = {"averaging_order", "prediction_valid", "slow_motion_error", *DEVIATIONS}
+    assert set(validation.lacks) == later
 
 
 def test_a_run_with_unequal_steps_is_refused_where_the_fmu_takes_equal_ones(
