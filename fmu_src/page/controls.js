@@ -75,7 +75,7 @@ function makeControls(onText, onValue) {
   const isNarrow = window.matchMedia("(max-width: 56rem)").matches;
   const grouped = GROUPS.flatMap(([, names]) => names);
   const rest = SETTABLE.map(({ name }) => name).filter((name) => !grouped.includes(name));
-  [...GROUPS, ["Tolerance and start values", rest]].forEach(([title, names], i) => {
+  [...GROUPS, ["More settings", rest]].forEach(([title, names], i) => {
     const group = element("details", {}, element("summary", {}, title));
     group.open = i === 0 || (!isNarrow && names !== rest);
     for (const name of names) {

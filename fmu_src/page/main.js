@@ -57,7 +57,7 @@ async function showAddress(isNew = false) {
       () => showMessage("computing", true));
     if (results) {
       showMessage("");
-      controls.get("t").field.placeholder = `auto: ${results.end}`;
+      controls.get("t").field.placeholder = `auto ${results.end}`;
       showSummary(results);
       showPlots(results);
       sketch.show(results);

@@ -18,7 +18,8 @@ function settlingTime(settings, period, velocities) {
 /** Compute what the page shows of settings; yield where it may wait. */
 function* work(component, settings) {
   component.start(valuesOf(settings));
-  const period = (2 * Math.PI) / settingOf(settings, "drive_frequency");
+  const frequency = settingOf(settings, "drive_frequency") * (1 + settingOf(settings, "frequency_deviation"));
+  const period = (2 * Math.PI) / frequency;
   const overPhase = yield* predictOver(component, "phase", evenly(Math.PI, PHASE_STEPS));
   const full = fullFriction(settings);
   const overLoad = yield* predictOver(component, "load", full > 0 ? evenly(full, LOAD_STEPS) : []);

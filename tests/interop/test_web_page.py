@@ -471,9 +471,12 @@ def test_in_the_dark_the_page_is_dark(browser: Chrome, page: str) -> None:
     assert paper == "rgb(20, 24, 27)"
 
 
-def test_narrow_screens_scroll_only_downwards(browser: Chrome, page: str) -> None:
-    phone = {"width": 360, "height": 740, "deviceScaleFactor": 2, "mobile": True}
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", phone)
+@pytest.mark.parametrize("screen", [*SCREENS.values(), (360, 740, True)])
+def test_screens_scroll_only_downwards(
+    browser: Chrome, page: str, screen: tuple[int, int, bool]
+) -> None:
+    size = dict(zip(("width", "height", "mobile"), screen, strict=True)) | {"deviceScaleFactor": 2}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
     show(browser, page)
     browser.execute_script("document.querySelectorAll('details').forEach((d) => d.open = true)")
     widths = browser.execute_script(

@@ -40,5 +40,5 @@ def limit_to_later(axes: Axes, times: Array, *curves: Array) -> None:
     found = range_after_start(times, *curves)
     if found is not None:
         axes.set_ylim(found)
-        words = axes.text(0.99, 0.97, words_for_start(*curves), transform=axes.transAxes)
-        words.set(ha="right", va="top", fontsize=8)
+        words = axes.text(0.02, 0.97, words_for_start(*curves), transform=axes.transAxes)
+        words.set(ha="left", va="top", fontsize=8)
