@@ -12,6 +12,8 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from tests.harness.scene_text import scene_of
 
+pytestmark = pytest.mark.usefixtures("stated_costs")
+
 
 def test_inputs_that_vary_are_sampled_as_often_as_the_need_is_tight(instance: Instance) -> None:
     """Holding an input errs in proportion to the step, and the steps go by powers of two."""

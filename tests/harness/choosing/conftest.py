@@ -1,0 +1,41 @@
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import pytest
+
+from slider_resonator.choosing import choosing, probe, reference
+from slider_resonator.choosing.steady_need import timed_run
+from slider_resonator.device.device import Device
+from slider_resonator.device.schedule import Schedule
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.record import Record
+
+STEP_COST = 1e-6
+"""Stated cost of a communication step, s."""
+PERIOD_COST = {0: 0.7e-6, 1: 5e-6}
+"""Stated cost of a resolved drive period by friction law, s."""
+LEAP_PERIODS = 300.0
+"""Most drive periods that order 2 resolves."""
+
+
+@pytest.fixture
+def stated_costs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let runs cost what they cost on a quiet machine, about, so that choices do not scatter."""
+
+    def run(
+        instance: Instance, parameters: Mapping[str, float], schedule: Schedule
+    ) -> tuple[Record, float]:
+        record, _ = timed_run(instance, parameters, schedule)
+        values = {**vars(Device()), **parameters}
+        duration = float(schedule.times[-1] - schedule.times[0])
+        periods = duration * values["drive_frequency"] / math.tau
+        if values["fidelity"] == 0:
+            periods = min(periods, LEAP_PERIODS) if values["averaging_order"] == 2 else 0.0
+        law = int(values["friction_law"])
+        return record, STEP_COST * len(schedule.times) + PERIOD_COST[law] * periods
+
+    for module in (probe, reference):
+        monkeypatch.setattr(module, "timed_run", run)
+    monkeypatch.setattr(choosing, "ROUNDS", 1)
