@@ -79,6 +79,7 @@ print(json.dumps([[x.hex() for x in row] for row in instance.run(30, step)]))
 """
 
 
+@pytest.mark.parametrize("on_its_way", [SITUATIONS["sticking"]], indirect=True)
 def test_replay_in_a_new_process(fmu: Path, on_its_way: Instance, tmp_path: Path) -> None:
     (tmp_path / "state").write_bytes(on_its_way.state())
     replayed = json.loads(run_python(REPLAY, fmu, tmp_path, STEP, on_its_way.time.hex()))

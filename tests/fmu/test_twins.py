@@ -98,7 +98,13 @@ def both(twins: Twins, values: Mapping[str, float], course: Schedule) -> tuple[R
 
 
 SCENES = {scene.name: scene for scene in find_scenes([])}
-IN_BOTH = [name for name, s in SCENES.items() if s.stop_time and not s.interpolates]
+EXPENSIVE = ("averaged_lugre_beat", "averaged_lugre", "tuned_lugre_stiff", "long_run")
+"""Scenes that take a second in the Python FMU."""
+IN_BOTH = [
+    pytest.param(name, marks=pytest.mark.slow if name in EXPENSIVE else ())
+    for name, scene in SCENES.items()
+    if scene.stop_time and not scene.interpolates
+]
 """Scenes with a run that both can do: the Python FMU takes no derivatives of inputs."""
 
 
@@ -106,7 +112,7 @@ IN_BOTH = [name for name, s in SCENES.items() if s.stop_time and not s.interpola
 def test_scenes(twins: Twins, name: str) -> None:
     scene = SCENES[name]
     course = scene.schedule()
-    shortened = replace(course, times=course.times[:2000])
+    shortened = replace(course, times=course.times[:500])
     native, python = both(twins, scene.parameters, shortened)
     device = scene.device
     allowed = device.tolerance if device.friction_law == 1 else ROUNDING

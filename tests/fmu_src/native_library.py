@@ -8,22 +8,30 @@ import subprocess
 from pathlib import Path
 
 from fmu_src.building.c_sources import slider_sources, write_sources
+from fmu_src.building.cache import cached
 from studies.hosts.compiler import native_compiler
 
 PROBES = Path(__file__).parent / "c"
 FLAGS = ("-std=c99", "-O1", "-ffp-contract=off", "-fPIC", "-shared")
 """As in the FMU without fused products and sums."""
 
-_SHELL = re.compile(r"fmi2_(?!version)")
+_SHELL = re.compile(r"(^|/)fmi2_(?!version)[^/]*$")
 """Files of the FMI functions; the numbers need the names of their version only."""
 
 
 def compiled_library(folder: Path) -> ctypes.CDLL:
-    """Compile the sources and all probes into a folder."""
+    """Load the sources and all probes, compiled unless they are as they were last time."""
     probes = {path.name: path.read_text() for path in PROBES.glob("*.c")}
-    write_sources(slider_sources() | probes, folder)
+    sources = slider_sources() | probes
     library = folder / "probes.so"
-    sources = sorted(str(path) for path in folder.rglob("*.c") if not _SHELL.match(path.name))
-    command = [*native_compiler(), *FLAGS, *sources, "-o", str(library), "-lm"]
-    subprocess.run(command, check=True)
+    files = sorted(name for name in sources if name.endswith(".c") and not _SHELL.search(name))
+    command = [*native_compiler(), *FLAGS, *files, "-o", library.name, "-lm"]
+
+    def compile_all() -> bytes:
+        write_sources(sources, folder)
+        subprocess.run(command, check=True, cwd=folder)
+        return library.read_bytes()
+
+    origin = repr((command, sorted(sources.items()))).encode()
+    library.write_bytes(cached("probes-of-tests", origin, compile_all))
     return ctypes.CDLL(str(library))

@@ -46,6 +46,7 @@ def test_a_failure_exits_with_1(native_fmu: Path, tmp_path: Path) -> None:
     assert "data:image/png" in (tmp_path / "report.html").read_text(encoding="utf-8")
 
 
+@pytest.mark.isolated
 @pytest.mark.slow
 @pytest.mark.parametrize("fault", faulty_fmus.BROKEN)
 def test_run_failures_exit_with_2_and_all_reports(

@@ -19,8 +19,7 @@ PERIOD = 2.0 * pi / 3500.0
 LUGRE = {"friction_law": 1.0}
 
 
-@pytest.mark.parametrize("fidelity", [1.0, 2.0])
-@pytest.mark.parametrize("stiffness", [50.0, 1e4, 1e5, 1e6, 1e8])
+@pytest.mark.parametrize(("fidelity", "stiffness"), [(1.0, 1e4), (2.0, 50.0), (2.0, 1e6)])
 def test_soft_and_hard_bristles_match_the_reference(
     instance: Instance, fidelity: float, stiffness: float
 ) -> None:

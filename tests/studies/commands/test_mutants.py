@@ -63,6 +63,7 @@ def test_native_changes_are_listed(native_fmu: Path) -> None:
     assert len(json.loads(result.output)["changes"]) == 5
 
 
+@pytest.mark.isolated
 @pytest.mark.slow
 def test_a_native_run_counts_what_is_rejected(native_fmu: Path) -> None:
     scenes = ("--scene", "averaged_long_steps", "--scene", "averaged_weak_drive")

@@ -36,6 +36,7 @@ def run() -> MutationRun[Mutant]:
 
 
 @pytest.mark.isolated
+@pytest.mark.slow
 def test_mutants_are_judged_once_and_kept(
     python_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -63,7 +63,7 @@ CASES: dict[str, tuple[Device, dict[str, float]]] = {
     "medium, lifting": (replace(BRISTLES, normal_amplitude=2.0), {"phase": -0.4}),
     "medium, overload": (BRISTLES, {"load": -1.4}),
 }
-QUICK = ("Coulomb", "Coulomb, lifting", "Coulomb, overload", "soft", "medium, lifting")
+QUICK = ("Coulomb, lifting", "Coulomb, overload", "soft")
 
 
 @pytest.mark.parametrize(
