@@ -4,17 +4,27 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import product
 
 import pytest
 
+from slider_resonator.device.device import Device
 from slider_resonator.device.interface import OUTPUTS
+from slider_resonator.scenes.device_file import example_devices, read_device
 from slider_resonator.scenes.expansion import bundles
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.scene_files import built_in_scenes, find_scene, find_scenes, is_core
 
 SCENES = {scene.name: scene for scene in find_scenes([])}
 
+EXAMPLES = {
+    "conveyor": "device_conveyor",
+    "lugre_steel": "device_lugre_steel",
+    "stick_slip": "device_stick_slip",
+    "ultrasonic_slider": "device_ultrasonic",
+}
+"""The scenes of example devices that have another name."""
 NEED_EXTRAS = {"taylor"}
 """References that need heyoka, which the extra `taylor` installs."""
 
@@ -37,6 +47,14 @@ def test_table_1_and_the_core_come_first() -> None:
     core = [is_core(scene) for scene in SCENES.values()]
     assert core == sorted(core, reverse=True)
     assert 35 <= sum(core) <= 50
+
+
+@pytest.mark.parametrize("name", example_devices())
+def test_an_example_device_is_one_of_a_core_scene(name: str) -> None:
+    scene = SCENES[EXAMPLES.get(name, name)]
+    assert is_core(scene)
+    stated = replace(scene.device, averaging_order=Device().averaging_order)
+    assert stated == Device.from_mapping(read_device(name))
 
 
 def test_the_scenes_that_the_paper_calls_for_are_built_in() -> None:
