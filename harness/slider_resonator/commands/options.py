@@ -22,8 +22,10 @@ from slider_resonator.scenes.device_file import (
     device_values,
     find_device,
     possible_slips,
+    refuse_other_kinds,
 )
 from slider_resonator.scenes.scene_files import find_scene
+from slider_resonator.scenes.toml_file import read_toml
 
 SET = "--set"
 Value = TypeVar("Value")
@@ -129,6 +131,18 @@ def check_left_to_choose(settings: Mapping[str, float]) -> None:
         )
 
 
+def _fmu_file(text: str) -> Path:
+    """Return the path of an FMU; SceneError for a scene, grid or device file in its place."""
+    path = Path(text)
+    if path.suffix == ".toml" and path.is_file():
+        refuse_other_kinds(read_toml(path), text, "FMU")
+    return path
+
+
+FMU_FILE = Parsed("path", _fmu_file)
+"""An FMU; a file of another kind in its place is named as what it is."""
+
+
 class Renamed(click.Option):
     """An option whose help shows its first name only; the others are those that it once had."""
 
@@ -176,16 +190,16 @@ def _fmu_argument(
         scene = others.get("scene", "")
         if scene is None:  # one argument is the scene
             fmu, others["scene"] = None, _scene_alone(fmu)
+        fmu = fmu and _fmu_file(str(fmu))
         if fmu is not None and fmu_given is not None:
             raise click.UsageError(f"{fmu} and --fmu {fmu_given}: must be one FMU")
         return command(fmu=chosen(fmu or fmu_given), **others)
 
-    file = click.Path(path_type=Path)
-    argument = click.argument("fmu", type=file, required=False)
+    argument = click.argument("fmu", type=click.Path(path_type=Path), required=False)
     option = click.option(
         "--fmu",
         "fmu_given",
-        type=file,
+        type=FMU_FILE,
         help="The FMU, instead of as an argument." + (f"  [default: {default}]" if default else ""),
     )
     return argument(option(with_fmu))
@@ -206,12 +220,11 @@ def fmus_argument(command: Callable[..., Any]) -> Callable[..., Any]:
     def with_fmus(fmus: tuple[Path, ...], fmus_given: tuple[Path, ...], **others: Any) -> Any:
         return command(fmus=fmus + fmus_given, **others)
 
-    file = click.Path(path_type=Path)
-    argument = click.argument("fmus", type=file, nargs=-1)
+    argument = click.argument("fmus", type=FMU_FILE, nargs=-1)
     option = click.option(
         "--fmu",
         "fmus_given",
-        type=file,
+        type=FMU_FILE,
         multiple=True,
         help="An FMU, instead of as an argument. Repeatable.",
     )
@@ -229,7 +242,7 @@ jobs_option = click.option(
 
 fmu_option = click.option(
     "--fmu",
-    type=click.Path(path_type=Path),
+    type=FMU_FILE,
     help="FMU to run.  [default: the native one in dist]",
 )
 
@@ -244,7 +257,11 @@ _set_option = click.option(
 )
 
 
-def _device(_: click.Context, __: click.Option, name_or_file: str | None) -> dict[str, float]:
+def device_named(name_or_file: str | None) -> dict[str, float]:
+    """Return the parameters of a device file or an example, none without a name; note slips.
+
+    Raises SceneError as `read_device` does.
+    """
     if name_or_file is None:
         return {}
     content = device_content(find_device(name_or_file))
@@ -257,7 +274,6 @@ def _device(_: click.Context, __: click.Option, name_or_file: str | None) -> dic
 device_option = click.option(
     "--device",
     metavar="NAME|FILE",
-    callback=_device,
     help="A device file, or an example of `slider-resonator device`.  [default: table 1]",
 )
 
@@ -266,8 +282,8 @@ def set_option(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add --device and --set; `settings` has the values of both, where both set one, of --set."""
 
     @wraps(command)
-    def with_device(device: dict[str, float], settings: dict[str, float], **others: Any) -> Any:
-        return command(settings={**device, **settings}, **others)
+    def with_device(device: str | None, settings: dict[str, float], **others: Any) -> Any:
+        return command(settings={**device_named(device), **settings}, **others)
 
     return device_option(_set_option(with_device))
 

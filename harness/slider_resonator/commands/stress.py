@@ -13,6 +13,8 @@ import click
 
 from slider_resonator.commands.options import (
     default_fmus,
+    device_named,
+    device_option,
     fmus_argument,
     jobs_option,
     json_option,
@@ -27,8 +29,8 @@ from slider_resonator.output.progress import part_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.output.targets import distinct, make_folder
-from slider_resonator.stress.axes import axis_cases
-from slider_resonator.stress.case import RANDOM, Case
+from slider_resonator.stress.axes import axis_cases, device_cases
+from slider_resonator.stress.case import DEVICE, RANDOM, Case
 from slider_resonator.stress.listing import (
     Files,
     as_plain,
@@ -42,6 +44,7 @@ from slider_resonator.stress.run import TIME_LIMIT, StressResult, applicable, ru
 
 CASES = 1000
 """Random devices of a campaign."""
+_OWN = re.compile(rf"{DEVICE} (.+?): ")
 _DRAWN = re.compile(rf"{RANDOM}: seed (\d+), case (\d+)(?:: .*)?")
 
 
@@ -84,6 +87,7 @@ def seed_options(command: Callable[..., Any]) -> Callable[..., Any]:
 )
 @seed_options
 @long_option
+@device_option
 @click.option("--case", "name", metavar="NAME", help="Run the case of this name alone.")
 @time_limit_option(TIME_LIMIT, "For each case; one that hangs fails.")
 @jobs_option
@@ -99,6 +103,7 @@ def stress_command(
     first: int,
     seed: int,
     long: bool,
+    device: str | None,
     name: str | None,
     time_limit: float,
     jobs: int | None,
@@ -110,19 +115,27 @@ def stress_command(
     A case on an axis takes a parameter, an input or the steps to an extreme. It passes the bounds
     that follow from the equations, agrees with other steps and, where one is in reach, with a
     reference, or is refused by name. With --random devices lie over decades; inputs, tunable
-    parameters and step sizes change in the run, and each is compared with its reference. A hang or
-    a crash fails its case. Without FMUS: those in dist. Exit code: 0 when no case fails, 1 when one
-    does, 2 when an FMU could not run or no case applies to it. What has run is written when the
-    command is interrupted.
+    parameters and step sizes change in the run, and each is compared with its reference. With
+    --device the cases are those of a device of yours: several inputs and steps, by all models. A
+    hang or a crash fails its case. Without FMUS: those in dist. Exit code: 0 when no case fails, 1
+    when one does, 2 when an FMU could not run or no case applies to it. What has run is written
+    when the command is interrupted.
 
     \b
     Examples:
       slider-resonator stress --out stress
       slider-resonator stress my.fmu --random 10000 --out stress --json
+      slider-resonator stress --device mine.toml --out stress
       slider-resonator stress my.fmu --case "r_m: 1e-12: Coulomb, fidelity 1"
     """
+    given = {"--random": count, "--device": device, "--case": name}
+    several = [f"{option} {value}" for option, value in given.items() if value is not None]
+    if len(several) > 1:
+        raise click.UsageError(f"{' and '.join(several)}: must be only one")
     if name is not None:
         cases = [case_named(name, "--case")]
+    elif device is not None:
+        cases = device_cases(device, device_named(device))
     elif count is not None:
         cases = [random_case(seed, number) for number in range(first, first + count)]
     else:
@@ -136,7 +149,9 @@ def case_named(name: str, option: str) -> Case:
     drawn = _DRAWN.fullmatch(name)
     if drawn:
         return random_case(int(drawn[1]), int(drawn[2]))
-    cases = {case.name: case for case in axis_cases(long=True)}
+    own = _OWN.match(name)
+    found = device_cases(own[1], device_named(own[1])) if own else axis_cases(long=True)
+    cases = {case.name: case for case in found}
     if name not in cases:
         near = get_close_matches(name, cases, n=1)
         hint = f"; did you mean {near[0]!r}?" if near else ""

@@ -8,6 +8,7 @@ import click
 
 from slider_resonator.commands.options import (
     default_fmu,
+    device_named,
     device_option,
     fmu_option,
     jobs_option,
@@ -47,7 +48,7 @@ def sweep_command(
     out: Path,
     plot: Path | None,
     html: Path | None,
-    device: dict[str, float],
+    device: str | None,
     fmu: Path | None,
     jobs: int | None,
     dask: str | None,
@@ -86,7 +87,7 @@ def sweep_command(
     """
     sources = {"the grid": grid} | ({} if fmu is None else {"the FMU": fmu})
     distinct({"--out": out, "--plot": plot, "--html": html}, sources)
-    sweep = read_grid(grid, device)
+    sweep = read_grid(grid, device_named(device))
     _check_drawable(sweep, plot, html)
     path = default_fmu(fmu)
     provenance = provenance_of(path)

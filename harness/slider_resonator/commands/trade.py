@@ -10,9 +10,12 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import (
+    FMU_FILE,
+    SettingsCommand,
     default_fmus,
     json_option,
     out_folder_option,
+    set_option,
     target,
     time_limit_option,
 )
@@ -36,13 +39,13 @@ TIME_LIMIT = 600.0
 """Default time limit of a run or a search of an FMU, s."""
 
 
-@click.command("trade")
+@click.command("trade", cls=SettingsCommand)
 @click.argument("scenes", nargs=-1)
 @out_folder_option("trade.csv, omissions.csv and index.html")
 @click.option(
     "--fmu",
     "fmus",
-    type=click.Path(path_type=Path),
+    type=FMU_FILE,
     multiple=True,
     help="FMU to measure. Repeatable.  [default: those in dist]",
 )
@@ -77,10 +80,12 @@ TIME_LIMIT = 600.0
     help="Markdown or HTML file for the tables from need to model to cost, which go between the "
     "lines <!-- trade --> and <!-- end of trade --> if the file has them. Repeatable.",
 )
+@set_option
 @time_limit_option(TIME_LIMIT, "For each run and search of an FMU.")
 @json_option
 def trade_command(
     scenes: Sequence[str],
+    settings: dict[str, float],
     out: Path,
     fmus: Sequence[Path],
     repeats: int,
@@ -106,9 +111,11 @@ def trade_command(
     Examples:
       slider-resonator trade --out trade
       slider-resonator trade table_1 lugre detuned_beat --out trade --picture trade.png
+      slider-resonator trade table_1 --device mine.toml --out trade
       slider-resonator trade my.toml --out trade --fmu my.fmu --json
     """
-    points = [point for name in scenes or ("table_1",) for point in find_scene(name).points()]
+    read = [find_scene(name, settings) for name in scenes or ("table_1",)]
+    points = [point for scene in read for point in scene.points()]
     problems = [problem_of(point.scene, point.at, periods) for point in points]
     paths = fmus or default_fmus()
     provenance = provenance_of(*paths)

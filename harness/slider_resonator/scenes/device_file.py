@@ -38,7 +38,8 @@ def refuse_other_kinds(content: Mapping[str, Any], source: str, expected: str) -
     found = next((kind for kind, marks in _MARKS.items() if content.keys() & set(marks)), expected)
     if found != expected:
         use = _USES[found].format(file=source)
-        raise SceneError(f"{source}: is a {found} file; must be a {expected} file. Use it in {use}")
+        must = "an FMU" if expected == "FMU" else f"a {expected} file"
+        raise SceneError(f"{source}: is a {found} file; must be {must}. Use it in {use}")
 
 
 def with_si_device(content: Mapping[str, Any], source: str) -> Mapping[str, Any]:

@@ -12,7 +12,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.model import Model
 from slider_resonator.references.closed_forms import device_blocking_force
-from slider_resonator.stress.case import MODELS, Case, Hold, Limit
+from slider_resonator.stress.case import DEVICE, MODELS, Case, Hold, Limit
 
 TABLE_1 = Device()
 W = TABLE_1.drive_frequency
@@ -114,6 +114,30 @@ def axis_cases(*, long: bool = False) -> list[Case]:
     axes = chain(_device_axes(), _input_axes(), _slow_axes(), _step_axes(), _event_axes())
     added = (_drive_periods(1e8, COULOMB_RESOLVED), _drive_periods(1e6, LUGRE_RESOLVED))
     return [case for axis in chain(axes, added if long else ()) for case in axis.cases()]
+
+
+def device_cases(name: str, parameters: Settings) -> list[Case]:
+    """Return the cases of a device by all models: under several inputs, and in uneven steps.
+
+    `parameters` are those that differ from table 1; what they say of the model does not count.
+    """
+    device = Device.from_mapping(parameters)
+    period = tau / device.drive_frequency
+    inputs: dict[str, Settings] = {
+        "driven": {"phase": 0.4},
+        "against the phase": {"phase": -2.0},
+        "pulled": {"phase": 0.4, "load": 0.2 * device.mean_friction},
+        "pushed": {"phase": 0.4, "load": -0.2 * device.mean_friction},
+        "twice the frequency": {"phase": 0.4, "frequency_ratio": 2.0},
+        "a beat": {"phase": 0.4, "frequency_ratio": 1.0 + DETUNING},
+    }
+    values = {text: {**parameters, **setting} for text, setting in inputs.items()}
+    uneven = tuple(Hold(period * share) for share in 20 * (0.013, 0.21, 1.7))
+    axes = (
+        Axis(f"{DEVICE} {name}", values),
+        Axis(f"{DEVICE} {name}", {"uneven steps": parameters}, steps=lambda *_: uneven),
+    )
+    return [case for axis in axes for case in axis.cases()]
 
 
 def _device_axes() -> list[Axis]:

@@ -23,6 +23,8 @@ LEAP_TOLERANCE = 1e-6
 """Tolerance under which averages of second order leap over periods, where none is given."""
 RANDOM = "random device"
 """Axis of the cases that are drawn."""
+DEVICE = "device"
+"""Beginning of the axis of the cases of a device file or an example."""
 
 
 @dataclass(frozen=True)

@@ -50,3 +50,25 @@ def test_settings_replace_the_device(native_fmu: Path) -> None:
 def test_other_files_are_named_as_what_they_are() -> None:
     assert "is a grid file" in refused("device", "docs/steady_velocity.toml")
     assert "did you mean 'stick_slip'?" in refused("steady", "--device", "stick_slp")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        *[(name,) for name in ("steady", "blocking", "validate", "stress")],
+        ("choose", "feed_forward", "--fmu"),
+        ("trade", "--out", "out", "--fmu"),
+        ("sweep", "grid.toml", "--out", "a.csv", "--fmu"),
+        ("fit", "--velocity", "1", "--free", "slider_mass", "--fmu"),
+        ("baseline", "check"),
+    ],
+)
+def test_a_device_file_in_place_of_an_fmu_is_named(
+    tmp_path: Path, arguments: tuple[str, ...]
+) -> None:
+    mine = tmp_path / "mine.toml"
+    mine.write_text('[device]\nslider_mass = "2 kg"\n', encoding="utf-8")
+    more = ("--dir", tmp_path) if arguments[0] == "baseline" else ()
+    said = " ".join(refused(*arguments, mine, *more).split())
+    assert "mine.toml: is a device file; must be an FMU." in said
+    assert "`--device " in said

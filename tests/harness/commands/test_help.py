@@ -79,8 +79,8 @@ def test_every_command_has_the_common_options_that_make_sense_for_it() -> None:
     assert having("--scene") == {
         *("baseline accept", "baseline check", "baseline record", "mutants", "validate")
     }
-    assert having("--set") == {"blocking", "choose", "fit", "run", "steady"}
-    assert having("--device") == {*having("--set"), "sweep"}
+    assert having("--set") == {"blocking", "choose", "fit", "run", "steady", "trade"}
+    assert having("--device") == {*having("--set"), "stress", "sweep"}
     own = {"--python-fmu", "--fmi3-fmu"}  # further FMUs of `hosts`
     looks_alike = re.compile("fmu|job|worker|limit|timeout|json")
     common = {"--fmu", "--jobs", "--time-limit", "--json", "--workers", "--limit"}

@@ -7,7 +7,8 @@ import pytest
 
 from slider_resonator.commands import extremes, stress
 from slider_resonator.device.model import Model
-from slider_resonator.stress.case import Case, Hold, Limit
+from slider_resonator.stress.axes import device_cases
+from slider_resonator.stress.case import MODELS, Case, Hold, Limit
 from tests.harness.calling import call
 from tests.harness.faulty_fmus import without_later_variables
 from tests.harness.public_json import assert_public_keys
@@ -76,6 +77,23 @@ def test_a_random_device_is_run_by_its_name_and_by_its_number(
     assert "Coulomb, fidelity 0" in page.read_text(encoding="utf-8")
     first = json.loads(text_of("stress", native_fmu, "--random", 1, "--first", 10, "--json"))
     assert first["fmus"][0]["verdicts"] == written["verdicts"]
+
+
+def test_a_device_is_run_by_all_models_and_again_by_the_name_of_a_case(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mine = tmp_path / "mine.toml"
+    mine.write_text('[device]\nslider_mass = "2 kg"\n', encoding="utf-8")
+    every = device_cases(str(mine), {"slider_mass": 2.0})
+    assert {case.model for case in every} == set(MODELS)
+    assert {case.device.slider_mass for case in every} == {2.0}
+    monkeypatch.setattr(stress, "device_cases", lambda *_: every[:1])
+    text = text_of("stress", native_fmu, "--device", mine, "--json")
+    (verdict,) = json.loads(text)["fmus"][0]["verdicts"]
+    assert (verdict["verdict"], verdict["axis"]) == ("passed", f"device {mine}")
+    assert "slider_mass = 2.0" in text_of("stress", native_fmu, "--case", every[0].name)
+    refusal = text_of("stress", "--device", mine, "--random", 3, code=2)
+    assert "must be only one" in " ".join(refusal.split())
 
 
 def test_a_failed_case_exits_with_1(native_fmu: Path, few_cases: list[Case]) -> None:
