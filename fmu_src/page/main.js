@@ -1,3 +1,6 @@
+/** Milliseconds after which a message says that the page computes. */
+const PATIENCE = 400;
+
 const byId = (id) => document.getElementById(id);
 
 function showMessage(text, isBusy = false) {
@@ -53,8 +56,9 @@ async function showAddress(isNew = false) {
     if (settings.refused) {
       throw settings.refused;
     }
+    const begin = performance.now();
     const results = await computeResults(component, settings, () => mine === runs,
-      () => showMessage("computing", true));
+      () => performance.now() - begin > PATIENCE && showMessage("computing", true));
     if (results) {
       showMessage("");
       controls.get("t").field.placeholder = `auto ${results.end}`;

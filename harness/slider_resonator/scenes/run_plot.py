@@ -69,12 +69,15 @@ def _position(axes: Axes, record: Record, times: Array) -> None:
 
 def _velocity(axes: Axes, record: Record, times: Array, time_unit: str) -> None:
     mean, steady = record["mean_velocity"], record["steady_velocity"]
-    factor, unit = plot_unit("m/s", mean, steady)
+    valid = record.outputs.get("prediction_valid", np.ones_like(steady)) == 1.0
+    factor, unit = plot_unit("m/s", mean, steady[valid])
     axes.plot(times, factor * mean, color=COLOURS["slow"], label="mean velocity")
-    label = "steady, for these inputs"
-    axes.plot(times, factor * steady, "--", color=COLOURS["theory"], label=label)
+    if valid.any():
+        predicted = np.where(valid, factor * steady, np.nan)
+        label = "steady, for these inputs"
+        axes.plot(times, predicted, "--", color=COLOURS["theory"], label=label)
     axes.set(xlabel=f"time [{time_unit}]", ylabel=f"velocity [{unit}]", xlim=(times[0], times[-1]))
-    limit_to_later(axes, times, factor * mean, factor * steady)
+    limit_to_later(axes, times, factor * mean, np.where(valid, factor * steady, 0.0))
     axes.legend()
 
 

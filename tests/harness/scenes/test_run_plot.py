@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -59,3 +60,20 @@ def test_the_lines_and_constant_inputs_are_named(instance: Instance, tmp_path: P
     assert "steady, for these inputs" in text
     assert "phase 0.4 rad, load 0.05 N" in text
     assert "frequency_ratio" not in text, "it is at its start"
+
+
+def test_a_prediction_is_drawn_where_it_is_valid(instance: Instance) -> None:
+    scene = find_scene("table_1", {"load": 0.5})  # above the friction of both faces
+    axes = run_figure(run(instance, scene.parameters, scene.schedule()), scene).axes[1]
+    assert [line.get_label() for line in axes.get_lines()] == ["mean velocity"]
+
+
+def test_a_start_far_outside_does_not_set_the_axis(instance: Instance) -> None:
+    scene = find_scene("table_1")
+    record = run(instance, scene.parameters, scene.schedule())
+    spike = np.where(record.times < 0.02 * record.times[-1], 5.0, record["mean_velocity"])
+    kicked = replace(record, outputs={**record.outputs, "mean_velocity": spike})
+    axes = run_figure(kicked, scene).axes[1]
+    assert axes.get_ylim()[1] < 0.2, "5 m/s is named, not drawn"
+    (words,) = [text.get_text() for text in axes.texts]
+    assert words == f"start beyond the axis: {spike.min():.3g} to 5"
