@@ -26,6 +26,7 @@ UNITS: dict[str, Unit] = {
     "m/s": Unit({"m": 1, "s": -1}, {"mm/s": 1e3}),
     "s": Unit({"s": 1}, {"ms": 1e3}),
     "N": Unit({"kg": 1, "m": 1, "s": -2}, {"mN": 1e3}),
+    "W": Unit({"kg": 1, "m": 2, "s": -3}, {"mW": 1e3}),
     "1/m": Unit({"m": -1}),
     "s/m": Unit({"s": 1, "m": -1}),
 }

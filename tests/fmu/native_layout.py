@@ -15,7 +15,8 @@ FIELDS = (
     *("ratio_derivative", "ratio_is_new", "moving"),
     *("velocity", "displacement", "rate", "position", "theta", "psi", "mode"),
     *("sliding", "reversals", "sticks", "event_age"),
-    *("travel", "elapsed", "sticking", "complete", "mean_velocity", "stick_fraction", "bristle"),
+    *("travel", "work", "elapsed", "sticking", "complete"),
+    *("mean_velocity", "friction_power", "stick_fraction", "bristle"),
     *("backward_stop", "backward_drift", "forward_stop", "forward_drift"),
     "leap_error",
 )

@@ -16,7 +16,10 @@ STEP = 1e-7
 """Between the samples of a difference quotient [s]."""
 MOVING = ("position", "velocity", "resonator_displacement", "resonator_velocity", "normal_force")
 JUMPING = ("contact_mode", "reversals", "stick_fraction", "last_event_time", "prediction_valid")
-WITHOUT = ("friction_force", "steady_velocity", "blocking_force", "slow_motion_error")
+WITHOUT = (
+    *("friction_force", "steady_velocity", "blocking_force", "slow_motion_error"),
+    "friction_power",
+)
 
 DEVICES: dict[str, dict[str, float]] = {
     "table 1": {},

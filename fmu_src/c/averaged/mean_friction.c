@@ -27,21 +27,23 @@ static const double EDGE[EDGES] = {0.0, 0.05, 0.15, 0.35, 0.65, 1.0};
 
 /* What the quadrature is over: `waves` of the integrand over a turn, and the load (`load`), with its kinks, or, where
  * that is NULL, unit loads: 1 and sine and cosine of `waves` times the angle. The `sum` of friction beyond
- * Coulomb's under these loads is its result; under a load it has one part, PLAIN. */
+ * Coulomb's under these loads is its result; under a load it has one part, PLAIN. With `powers` it is that of friction
+ * times velocity, which is `beyond` [m/s] that by which the slider turns. */
 typedef struct {
     const Bristle *bristle;
     const FastMotion *fast;
-    double waves;
+    bool powers;
+    double waves, beyond;
     const VibratingLoad *load;
     double sum[MEANS];
 } Quadrature;
 
 /* A part of the turn with one direction of sliding, from the angle `begin` on for `length` [rad], and
  * cosine and sine of where it begins. `unbent` is what the bristle friction there is beyond the limit
- * `direction` mu. */
+ * `direction` mu; for full friction it is 0, and `full` is that limit. */
 typedef struct {
     int direction;
-    double begin, length, cosine, sine, unbent;
+    double begin, length, cosine, sine, unbent, full;
 } Arc;
 
 /* Terms of the series of x - sin(x), good to rounding up to `SERIES` rad. */
@@ -116,9 +118,15 @@ static void integrate_panel(Quadrature *over, const Arc *arc, double low, double
     for (int i = 0; i < GAUSS_NODES; i++) {
         double ahead = low + half * (1.0 + GAUSS_NODE[i]);
         Way gone = way(over, arc, ahead);
-        double fade = exp(-bristle->stiffness * gone.path / mu);
-        double drag = bristle->damping * over->fast->velocity * gone.speed;
-        double friction = arc->unbent * fade * (1.0 - drag / mu);
+        double friction = arc->full;
+        if (arc->unbent != 0.0) {
+            double fade = exp(-bristle->stiffness * gone.path / mu);
+            double drag = bristle->damping * over->fast->velocity * gone.speed;
+            friction = arc->unbent * fade * (1.0 - drag / mu);
+        }
+        if (over->powers) {
+            friction *= arc->direction * over->fast->velocity * gone.speed + over->beyond;
+        }
         gather(over, arc->begin + ahead, GAUSS_WEIGHT[i] * half * friction);
     }
 }
@@ -132,10 +140,10 @@ static double smooth_until(const VibratingLoad *load, double begin, double low, 
 
 /* Panels between edges and kinks, none wider than WIDEST of the normal load. */
 static void integrate_arc(Quadrature *over, const Arc *arc) {
-    if (!(fabs(arc->unbent) > EPSILON * over->bristle->coefficient)) {
+    if (!(fabs(arc->unbent + arc->full) > EPSILON * over->bristle->coefficient)) {
         return;
     }
-    double length = bent_at(over, arc), low = 0.0;
+    double length = arc->full != 0.0 ? arc->length : bent_at(over, arc), low = 0.0;
     for (int edge = 1; edge < EDGES; edge++) {
         double last = length * EDGE[edge];
         while (low < last) {
@@ -155,8 +163,8 @@ static void integrate_arc(Quadrature *over, const Arc *arc) {
 static void integrate_turn(Quadrature *over, double turning) {
     double stiffness = over->bristle->stiffness, mu = over->bristle->coefficient;
     double sine = sin(turning), cosine = cos(turning);
-    Arc forward = {1, turning, TAU - 2.0 * turning, cosine, sine, 0.0};
-    Arc backward = {-1, -turning, 2.0 * turning, cosine, -sine, 0.0};
+    Arc forward = {1, turning, TAU - 2.0 * turning, cosine, sine, 0.0, 0.0};
+    Arc backward = {-1, -turning, 2.0 * turning, cosine, -sine, 0.0, 0.0};
     double bent_forward = -expm1(-stiffness * way(over, &forward, forward.length).path / mu);
     double bent_backward = -expm1(-stiffness * way(over, &backward, backward.length).path / mu);
     double bent = bent_forward + bent_backward - bent_forward * bent_backward;
@@ -171,16 +179,36 @@ static void integrate_turn(Quadrature *over, double turning) {
     integrate_arc(over, &backward);
 }
 
+/* The load with its mean alone where it has too many waves for bristles to follow. */
+static VibratingLoad counted_load(const Bristle *bristle, const VibratingLoad *load) {
+    bool is_many = is_elastic(bristle) && fabs(vibrating_load_waves(load)) > MAX_WAVES;
+    return is_many ? vibrating_load_flattened(load) : *load;
+}
+
+double mean_power(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load, double turning,
+                  double velocity) {
+    VibratingLoad counted = counted_load(bristle, load);
+    double mu = bristle->coefficient, sine = sin(turning), cosine = cos(turning);
+    Quadrature over = {.bristle = bristle, .fast = fast, .load = &counted, .powers = true};
+    over.waves = vibrating_load_waves(&counted);
+    over.beyond = velocity - fast->velocity * cosine;
+    if (is_elastic(bristle)) {
+        integrate_turn(&over, turning);
+    }
+    Arc forward = {1, turning, TAU - 2.0 * turning, cosine, sine, 0.0, mu};
+    Arc backward = {-1, -turning, 2.0 * turning, cosine, -sine, 0.0, -mu};
+    integrate_arc(&over, &forward);
+    integrate_arc(&over, &backward);
+    return over.sum[PLAIN] / TAU;
+}
+
 double mean_friction(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load,
                      double turning) {
     double mu = bristle->coefficient;
     if (!is_elastic(bristle)) {
         return mu / TAU * vibrating_load_difference(load, turning);
     }
-    VibratingLoad counted = *load;
-    if (fabs(vibrating_load_waves(load)) > MAX_WAVES) {
-        counted = vibrating_load_flattened(load);
-    }
+    VibratingLoad counted = counted_load(bristle, load);
     Quadrature over = {.bristle = bristle, .fast = fast, .load = &counted};
     over.waves = vibrating_load_waves(&counted);
     integrate_turn(&over, turning);

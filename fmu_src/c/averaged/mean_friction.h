@@ -22,6 +22,10 @@ enum { PLAIN, SINE, COSINE, MEANS };
 double mean_friction(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load,
                      double turning);
 
+/* Mean power of friction [W] of one face at the slow velocity `velocity` [m/s], at which sliding turns by `turning`. */
+double mean_power(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load, double turning,
+                  double velocity);
+
 /* The parts of the mean friction under a load N0 + dN sin(n tau + delta), n not 0: per face it is N0 plain + dN
  * (cos(delta) sine + sin(delta) cosine). */
 void friction_means(const Bristle *bristle, const FastMotion *fast, double n, double turning,

@@ -109,3 +109,8 @@ double slow_friction_at(const SlowFriction *slow, double t, double velocity) {
     }
     return slow->law->device.friction_faces * face;
 }
+
+double slow_friction_power(const SlowFriction *slow, double velocity) {
+    double turning = turning_at(velocity, slow->fast.velocity);
+    return slow->law->device.friction_faces * mean_power(&slow->bristle, &slow->fast, &slow->load, turning, velocity);
+}

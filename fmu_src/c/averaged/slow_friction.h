@@ -43,6 +43,9 @@ double slow_friction_sway(const SlowFriction *slow);
 /* The mean friction [N] at time `t` [s] from now and slow velocity `velocity` [m/s]. */
 double slow_friction_at(const SlowFriction *slow, double t, double velocity);
 
+/* The mean power of friction [W] now, at slow velocity `velocity` [m/s]. */
+double slow_friction_power(const SlowFriction *slow, double velocity);
+
 /* The next ratio above (`direction` 1) or below (-1) `ratio` at which the phase of the load begins or ceases to count. */
 double next_slow_boundary(const Device *device, double ratio, double direction);
 

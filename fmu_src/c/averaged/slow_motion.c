@@ -77,6 +77,16 @@ static double force(const Law *law, const Moment *moment, int contact_mode) {
     return slow_friction_at(&friction, 0.0, velocity);
 }
 
+/* Mean power of friction [W] over a drive period, of slow motion and vibration. */
+static double power(const Law *law, const Moment *moment) {
+    double velocity = period_mean_velocity(&moment->means, moment->state.velocity);
+    if (law->fast.velocity == 0.0) {
+        return force(law, moment, STICK) * velocity;
+    }
+    SlowFriction friction = slow_friction_of(law, moment->theta, moment->psi);
+    return slow_friction_power(&friction, velocity);
+}
+
 /* The slow acceleration and the steady vibration. */
 static Rates rates(const Law *law, const Moment *moment) {
     double w = law->held.plant.drive_frequency, share = device_mass_fraction(&law->device);
@@ -146,6 +156,7 @@ const Motion AVERAGED_MOTION = {
     .advance = advance,
     .mode = mode,
     .force = force,
+    .power = power,
     .rates = rates,
     .error = error,
     .part = part,

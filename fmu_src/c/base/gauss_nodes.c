@@ -49,6 +49,15 @@ void gauss_integrals_prepare(GaussIntegrals *gauss) {
     }
 }
 
+double gauss_integral(const GaussIntegrals *gauss, double end, const double *values) {
+    double integral[GAUSS_NODES], sum = 0.0;
+    integrate(gauss, end, integral);
+    for (int j = 0; j < GAUSS_NODES; j++) {
+        sum += integral[j] * values[j];
+    }
+    return sum;
+}
+
 /* Legendre coefficient `k` of the polynomial through `values`. */
 static double coefficient(const GaussIntegrals *gauss, const double *values, int k) {
     double sum = 0.0;

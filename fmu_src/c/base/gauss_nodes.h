@@ -19,6 +19,9 @@ typedef struct {
 
 void gauss_integrals_prepare(GaussIntegrals *gauss);
 
+/* The integral from 0 to `end` <= 1 of the polynomial through `values`. */
+double gauss_integral(const GaussIntegrals *gauss, double end, const double *values);
+
 /* Legendre polynomials P_0 to P_GAUSS_NODES at x in [-1, 1]. */
 void legendre(double x, double polynomials[GAUSS_NODES + 1]);
 

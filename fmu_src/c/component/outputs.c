@@ -83,6 +83,8 @@ double output_value(unsigned reference, const Law *law, const Moment *moment,
         return theory_of(law, moment, theory)->blocking_force;
     case VR_PREDICTION_VALID:
         return theory_of(law, moment, theory)->valid ? 1.0 : 0.0;
+    case VR_FRICTION_POWER:
+        return law->motion->power(law, moment);
     case VR_SLOW_MOTION_ERROR:
         return law->motion->error(law, moment);
     }
@@ -129,6 +131,7 @@ bool output_derivative(unsigned reference, const Law *law, const Moment *moment,
     case VR_STEADY_VELOCITY:
     case VR_BLOCKING_FORCE:
     case VR_SLOW_MOTION_ERROR:
+    case VR_FRICTION_POWER:
         return refuse(refusal, "derivative of %s refused: this FMU does not provide it",
                       VARIABLES[reference].name);
     }

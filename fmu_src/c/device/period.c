@@ -4,14 +4,15 @@
 
 #include "device.h"
 
-/* Displacement [m] at time `t` [s]. Close to the end of the segment, where steps of whole periods ask for
- * it, it follows from the displacement at the end. */
-static double travel_until(const Segment *segment, double t, double frequency) {
+/* The passage at time `t` [s]. Close to the end of the segment, where steps of whole periods ask for it, the
+ * displacement follows from that at the end. */
+static Passage passage_until(const Segment *segment, double t, double frequency) {
     double rest = segment->duration - t;
+    Passage passage = rest == 0.0 ? segment->passed : segment->passage_at(segment->motion, t);
     if (fabs(rest) * frequency <= MARK_TOLERANCE) {
-        return segment->travelled - segment->velocity * rest;
+        passage.travel = segment->passed.travel - segment->velocity * rest;
     }
-    return segment->travel_at(segment->motion, t);
+    return passage;
 }
 
 double period_last_end(double theta, double frequency, double duration) {
@@ -23,26 +24,31 @@ double period_advance(PeriodMeans *means, const Segment *segment, double theta, 
     double duration = segment->duration, end = theta + frequency * duration;
     double ended = end + MARK_TOLERANCE < TAU ? 0.0 : floor((end + MARK_TOLERANCE) / TAU);
     if (!(ended > 0.0)) {
-        means->travel += segment->travelled;
+        means->travel += segment->passed.travel;
+        means->work += segment->passed.work;
         means->elapsed += duration;
         means->sticking += segment->sticks ? duration : 0.0;
         return end;
     }
     double last = (TAU * ended - theta) / frequency;
-    double travel_last = travel_until(segment, last, frequency), fraction;
+    Passage until = passage_until(segment, last, frequency);
+    double fraction;
     if (ended == 1.0) {
         double length = means->elapsed + last;
-        means->mean_velocity = (means->travel + travel_last) / length;
+        means->mean_velocity = (means->travel + until.travel) / length;
+        means->friction_power = (means->work + until.work) / length;
         fraction = (means->sticking + (segment->sticks ? last : 0.0)) / length;
     } else {
         double length = TAU / frequency;
-        means->mean_velocity =
-            (travel_last - travel_until(segment, last - length, frequency)) / length;
+        Passage before = passage_until(segment, last - length, frequency);
+        means->mean_velocity = (until.travel - before.travel) / length;
+        means->friction_power = (until.work - before.work) / length;
         fraction = segment->sticks ? 1.0 : 0.0;
     }
     means->complete = true;
     means->stick_fraction = fmin(fmax(fraction, 0.0), 1.0);
-    means->travel = segment->travelled - travel_last;
+    means->travel = segment->passed.travel - until.travel;
+    means->work = segment->passed.work - until.work;
     means->elapsed = duration - last;
     means->sticking = segment->sticks ? means->elapsed : 0.0;
     return end - TAU * ended;
@@ -53,6 +59,13 @@ double period_mean_velocity(const PeriodMeans *means, double velocity) {
         return means->mean_velocity;
     }
     return means->elapsed > 0.0 ? means->travel / means->elapsed : velocity;
+}
+
+double period_friction_power(const PeriodMeans *means, double power) {
+    if (means->complete) {
+        return means->friction_power;
+    }
+    return means->elapsed > 0.0 ? means->work / means->elapsed : power;
 }
 
 double period_stick_fraction(const PeriodMeans *means, bool sticks) {

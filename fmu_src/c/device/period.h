@@ -10,23 +10,29 @@
 
 /* Sums since the last period ended, and the means of the last whole period.
  *
- * `travel` [m], `elapsed` [s] and `sticking` [s] since the last period ended (or the start);
- * `mean_velocity` [m/s] and `stick_fraction` of the last whole period once `complete`. */
+ * `travel` [m], `work` of friction [J], `elapsed` [s] and `sticking` [s] since the last period ended (or the start);
+ * `mean_velocity` [m/s], `friction_power` [W] and `stick_fraction` of the last whole period once `complete`. */
 typedef struct {
-    double travel, elapsed, sticking;
+    double travel, work, elapsed, sticking;
     bool complete;
-    double mean_velocity, stick_fraction;
+    double mean_velocity, friction_power, stick_fraction;
 } PeriodMeans;
 
-/* Displacement [m] of a motion after `t` [s]. */
-typedef double (*TravelFunction)(const void *motion, double t);
-
-/* A segment of motion of `duration` [s]: `travel_at(motion, t)` is its displacement [m]; `travelled`
- * [m] and `velocity` [m/s] are those at its end. */
+/* Displacement [m] and work of friction [J] since a motion began. */
 typedef struct {
-    double duration, travelled, velocity;
+    double travel, work;
+} Passage;
+
+/* The passage of a motion after `t` [s]. */
+typedef Passage (*PassageFunction)(const void *motion, double t);
+
+/* A segment of motion of `duration` [s]: `passage_at(motion, t)` is its passage; `passed` and `velocity` [m/s] are those
+ * at its end. */
+typedef struct {
+    double duration, velocity;
+    Passage passed;
     bool sticks;
-    TravelFunction travel_at;
+    PassageFunction passage_at;
     const void *motion;
 } Segment;
 
@@ -41,6 +47,9 @@ double period_advance(PeriodMeans *means, const Segment *segment, double theta, 
 /* Mean velocity [m/s] of the last whole period; before one has ended the mean since the start, and at the
  * start `velocity`. */
 double period_mean_velocity(const PeriodMeans *means, double velocity);
+
+/* Mean power of friction [W], likewise; at the start `power`. */
+double period_friction_power(const PeriodMeans *means, double power);
 
 /* Fraction of time that the slider sticks, likewise. */
 double period_stick_fraction(const PeriodMeans *means, bool sticks);

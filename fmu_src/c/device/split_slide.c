@@ -29,6 +29,7 @@ bool split_prepare(Split *split, const Plant *plant) {
         Complex resisting = complex_scale(fraction * q * q, resonator_normal);
         resisting.re -= plant->friction_amplitude / plant->total_mass;
         velocity_normal = complex_div(resisting, complex_of(0.0, q));
+        split->work = slide_work_of(plant);
     }
     split->fastest = fmax(fmax(w, fabs(q)), slip->frequency);
     split->resonator_drive = complex_mul(turn, resonator_drive);
@@ -226,6 +227,8 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
     slide->split = split;
     slide->plant = plant;
     slide->direction = direction;
+    slide->sign = sign;
+    slide->begin = *state;
     slide->theta = theta;
     slide->chi = chi;
     slide->start.t = 0.0;
@@ -254,6 +257,10 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
 }
 
 void split_slide_change(SplitSlide *slide, double momentum, Complex swing) {
+    Complex rate = complex_mul(slide->plant->slip.eigenvalue, swing);
+    slide->begin.velocity += momentum - slide->plant->mass_fraction * rate.re;
+    slide->begin.displacement += swing.re;
+    slide->begin.rate += rate.re;
     slide->k0 += momentum;
     double decaying = swing_freely(slide, complex_add(slide->resonator_free, swing));
     slide->noise += 2.0 * EPSILON * (fabs(momentum) + decaying);
@@ -346,14 +353,27 @@ static inline double travel_by(const SplitSlide *slide, const Turns *turns,
     return (slide->k0 + (0.5 * slide->k1 + slide->k2 * t / 3.0) * t) * t + travel;
 }
 
-double split_slide_travel(const void *motion, double t) {
-    const SplitSlide *slide = motion;
-    Turns place;
-    const Turns *turns = turns_at(slide, t, &place, &place);
-    return travel_by(slide, turns, free_motion_at(slide, turns).displacement);
+static SlideEnd end_by(const Plant *plant, const Turns *turns, State state) {
+    return (SlideEnd){turns->phasors.drive, normal_phasor(plant, &turns->phasors), state};
 }
 
-State split_slide_end(const SplitSlide *slide, double t, double *travel, KnownPhasors *known) {
+/* Work of friction [J] up to turns, where the displacement [m] and the state are known. */
+static double work_by(const SplitSlide *slide, const Turns *turns, State state, double travelled) {
+    const Plant *plant = slide->plant;
+    if (slide->sign == 0) {
+        return 0.0;
+    }
+    double swung;
+    if (plant->normal_frequency == 0.0) {
+        swung = slide->start.phasors.normal.im * travelled;
+    } else {
+        SlideEnd first = end_by(plant, &slide->start, slide->begin), last = end_by(plant, turns, state);
+        swung = slide_work_swung(&slide->split->work, plant, slide->sign, turns->t, &first, &last);
+    }
+    return slide->sign * (plant->friction_preload * travelled + plant->friction_amplitude * swung);
+}
+
+State split_slide_end(const SplitSlide *slide, double t, Passage *passed, KnownPhasors *known) {
     const Plant *plant = slide->plant;
     Turns place;
     const Turns *turns = turns_at(slide, t, &place, &place);
@@ -367,7 +387,8 @@ State split_slide_end(const SplitSlide *slide, double t, double *travel, KnownPh
         state.displacement += aq.re;
         state.rate -= plant->normal_frequency * aq.im;
     }
-    *travel = travel_by(slide, turns, free.displacement);
+    passed->travel = travel_by(slide, turns, free.displacement);
+    passed->work = work_by(slide, turns, state, passed->travel);
     *known = (KnownPhasors){!is_soon(slide, t), turns->phasors};
     return state;
 }

@@ -11,7 +11,9 @@
 
 #include "../base/first_zero.h"
 #include "device.h"
+#include "period.h"
 #include "plant.h"
+#include "slide_work.h"
 
 /* Complex amplitudes per unit exp(i theta) and, for s = 1, per unit exp(i chi): displacement of the
  * resonator (`resonator_*`), velocity of the slider (`velocity_*`). Where `merges`, drive and normal
@@ -20,6 +22,7 @@
 typedef struct {
     bool merges;
     double fastest;
+    SlideWork work; /* of friction, where the normal load swings */
     Complex resonator_drive, velocity_drive, resonator_normal, velocity_normal;
 } Split;
 
@@ -66,12 +69,15 @@ typedef struct {
  * [m/s^3] bound the second derivative of the velocity: of its forced part, and of the part by a free
  * oscillation at the start. `noise` [m/s] is the rounding error of the velocity.
  *
+ * It begins at `begin`. The velocity is watched in `direction`; `sign` is that of friction, 0 in flight.
+ *
  * Turns at the latest time for which sines were computed are kept in `anchor`, if `anchored`. Close to the
  * anchor or the `start` these are rotated instead of computing sines. */
 typedef struct {
     const Split *split;
     const Plant *plant;
-    int direction;
+    int direction, sign;
+    State begin;
     double theta, chi;
     double constant, slope, k0, k1, k2;
     Complex resonator_drive, resonator_normal, velocity_drive, velocity_normal;
@@ -99,10 +105,7 @@ void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex norm
 /* The velocity in the direction to watch. */
 Watch split_slide_watch(SplitSlide *slide);
 
-/* Displacement of the slider after `t` [s], in m; a TravelFunction of a SplitSlide. */
-double split_slide_travel(const void *motion, double t);
-
-/* State after `t` [s], the displacement [m] in `travel`, and the phasors. */
-State split_slide_end(const SplitSlide *slide, double t, double *travel, KnownPhasors *known);
+/* State after `t` [s], the passage until then, and the phasors. */
+State split_slide_end(const SplitSlide *slide, double t, Passage *passed, KnownPhasors *known);
 
 #endif

@@ -49,6 +49,17 @@ static void prepare_interpolation(BendingKernels *kernels) {
         }
         kernels->interpolating[i] = 1.0 / product;
     }
+    for (int i = 0; i < GAUSS_NODES; i++) {
+        double sum = 0.0;
+        for (int j = 0; j <= END; j++) {
+            if (j != i) {
+                double share = kernels->interpolating[j] / kernels->interpolating[i];
+                kernels->slope[j][i] = share / (kernels->time[i] - kernels->time[j]);
+                sum += kernels->slope[j][i];
+            }
+        }
+        kernels->slope[i][i] = -sum;
+    }
 }
 
 static void prepare(BendingKernels *kernels, const GaussIntegrals *gauss, const Plant *plant,

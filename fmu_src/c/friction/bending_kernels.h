@@ -33,7 +33,8 @@ enum { IMPULSE, LEVER, BACK_RE, BACK_IM, LEFT };
  *
  * Matrices, the node as first index: `travel` [m/N] turns forces a into displacements at the points (by
  * G), `speed` [m/(N s)] does so for impulses b, which act as forces b' (by G'). `left_even` and
- * `left_late` turn a and b into the integrals over the panel. */
+ * `left_late` turn a and b into the integrals over the panel. `slope` [1/s] turns a polynomial over the time, at the
+ * points but the last, into its derivative at the nodes. */
 typedef struct {
     const GaussIntegrals *gauss;
     bool has_normal;
@@ -42,6 +43,7 @@ typedef struct {
     Complex end_drive, end_free;
     double travel[GAUSS_NODES][POINTS], speed[GAUSS_NODES][POINTS];
     double left_even[GAUSS_NODES][LEFT], left_late[GAUSS_NODES][LEFT];
+    double slope[POINTS - 1][GAUSS_NODES];
 } BendingKernels;
 
 /* Largest length of a panel over the length asked for. */

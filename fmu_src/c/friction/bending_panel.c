@@ -240,6 +240,28 @@ static void sum_up(const BendingPanel *panel, double left[LEFT]) {
     }
 }
 
+/* The power of friction at the nodes. The path over the time is a polynomial; E' = -k |x'| E. */
+static void find_power(BendingPanel *panel) {
+    const BendingKernels *kernels = panel->kernels;
+    const Plant *plant = panel->slide.plant;
+    Complex normal = normal_phasor(plant, &panel->slide.start.phasors);
+    double mean[POINTS - 1], slope[GAUSS_NODES] = {0.0};
+    for (int j = 0; j <= END; j++) {
+        mean[j] = panel->exponent[j] / kernels->time[j];
+        for (int i = 0; i < GAUSS_NODES; i++) {
+            slope[i] += kernels->slope[j][i] * mean[j];
+        }
+    }
+    for (int i = 0; i < GAUSS_NODES; i++) {
+        double fading = mean[i] + kernels->time[i] * slope[i];
+        Complex turn = complex_of(kernels->turn.re[i], kernels->turn.im[i]);
+        double limit = limit_at(plant, complex_mul(normal, turn)).re;
+        double bend = panel->slide.direction * panel->scale * fast_decay(panel->exponent[i]);
+        double friction = limit * (1.0 - bend * (1.0 - panel->lag * fading));
+        panel->power[i] = friction * fading / panel->rate;
+    }
+}
+
 /* Turns the motion under full friction into that after the panel. */
 static void end_panel(BendingPanel *panel) {
     const BendingKernels *kernels = panel->kernels;
@@ -257,6 +279,14 @@ static void end_panel(BendingPanel *panel) {
     split_slide_anchor(&panel->slide, panel->length, kernels->end_drive,
                        complex_of(kernels->turn.re[END], kernels->turn.im[END]),
                        kernels->end_free);
+    Passage slid;
+    KnownPhasors there;
+    find_power(panel);
+    split_slide_end(&panel->slide, panel->length, &slid, &there);
+    panel->work = -slid.work;
+    for (int i = 0; i < GAUSS_NODES; i++) {
+        panel->work += kernels->left_even[i][IMPULSE] * panel->power[i];
+    }
 }
 
 BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, const Held *held,
@@ -314,13 +344,21 @@ static double travel_within(const BendingPanel *panel, double t) {
     return panel->slide.direction * t * sum / (weights * panel->rate);
 }
 
-double bending_panel_travel(const BendingPanel *panel, double t) {
-    return t < panel->length ? travel_within(panel, t)
-                             : split_slide_travel(&panel->slide, t) + panel->offset;
+Passage bending_panel_passage(const BendingPanel *panel, double t) {
+    if (t < panel->length) {
+        const GaussIntegrals *gauss = panel->kernels->gauss;
+        double work = panel->length * gauss_integral(gauss, t / panel->length, panel->power);
+        return (Passage){travel_within(panel, t), work};
+    }
+    Passage passed;
+    KnownPhasors there;
+    bending_panel_end(panel, t, &passed, &there);
+    return passed;
 }
 
-State bending_panel_end(const BendingPanel *panel, double t, double *travel, KnownPhasors *known) {
-    State state = split_slide_end(&panel->slide, t, travel, known);
-    *travel += panel->offset;
+State bending_panel_end(const BendingPanel *panel, double t, Passage *passed, KnownPhasors *known) {
+    State state = split_slide_end(&panel->slide, t, passed, known);
+    passed->travel += panel->offset;
+    passed->work += panel->work;
     return state;
 }

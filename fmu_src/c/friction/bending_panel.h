@@ -31,12 +31,13 @@ typedef enum { BY_PANEL, AS_BENT, BY_SERIES } BendingMotion;
 /* `slide` is the motion after the panel, whose length is `length` [s]; it holds up to `reach` [s]. Of f are
  * kept: a (`even`) [N] and b (`late`) [N s] at the points, b at the start (`first`) [N s], and the
  * displacement that f leaves beyond that of the `slide` (`offset`) [m]. `exponent` is k |x - x_r| at the points,
- * with `rate` k [1/m]. */
+ * with `rate` k [1/m]. `power` is that of friction at the nodes [W], `work` what friction does in the panel beyond what it
+ * would do on the `slide` [J]. */
 typedef struct {
     SplitSlide slide;
     BendingKernels *kernels;
-    double length, reach, rate, scale, lag, first, offset;
-    double exponent[POINTS], even[POINTS], late[POINTS];
+    double length, reach, rate, scale, lag, first, offset, work;
+    double exponent[POINTS], even[POINTS], late[POINTS], power[GAUSS_NODES];
 } BendingPanel;
 
 /* Begin motion in contact from `now` on in `direction`, that of its velocity or, from rest, of its
@@ -47,10 +48,10 @@ BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, co
                                   const Bristle *bristle, int direction, const Moment *now,
                                   const Phasors *start, double longest, double tolerance);
 
-/* Displacement of the slider after `t` [s], in m. */
-double bending_panel_travel(const BendingPanel *panel, double t);
+/* Displacement [m] of the slider and work of friction [J] after `t` [s]. */
+Passage bending_panel_passage(const BendingPanel *panel, double t);
 
-/* State after `t` [s], not before the end of the panel; displacement [m] and phasors as of a slide. */
-State bending_panel_end(const BendingPanel *panel, double t, double *travel, KnownPhasors *known);
+/* State after `t` [s], not before the end of the panel; passage and phasors as of a slide. */
+State bending_panel_end(const BendingPanel *panel, double t, Passage *passed, KnownPhasors *known);
 
 #endif

@@ -169,45 +169,42 @@ void leg_follow(Leg *leg, const Held *held, Moment *now, double longest) {
     }
 }
 
-static double travel_at(const void *motion, double t) {
-    const Leg *leg = motion;
-    switch (leg->kind) {
-    case RESTS:
-        return 0.0;
-    case SLIDES:
-        return split_slide_travel(&leg->motion.slide, t);
-    case FOLLOWS_SERIES:
-        return taylor_slide_travel(&leg->motion.series, t);
-    case BENDS_AND_SLIDES:
-        return bending_panel_travel(&leg->motion.panel, t);
-    }
-    return NAN;
-}
-
-/* The state at the end, the displacement `travelled` then [m], and the phasors if they are `known`. */
-static State end_of(const Leg *leg, double *travelled, KnownPhasors *known) {
+/* The state at a time [s], the passage until then, and the phasors if they are `known`. */
+static State place_of(const Leg *leg, double t, Passage *passed, KnownPhasors *known) {
     State state = {NAN, NAN, NAN};
-    double t = leg->t;
     known->known = false;
     switch (leg->kind) {
     case RESTS:
-        *travelled = 0.0;
+        *passed = (Passage){0.0, 0.0};
         return stick_state(&leg->motion.stick, t);
     case SLIDES:
-        return split_slide_end(&leg->motion.slide, t, travelled, known);
+        return split_slide_end(&leg->motion.slide, t, passed, known);
     case FOLLOWS_SERIES:
-        *travelled = taylor_slide_travel(&leg->motion.series, t);
+        *passed = taylor_slide_passage(&leg->motion.series, t);
         return taylor_slide_state(&leg->motion.series, t);
     case BENDS_AND_SLIDES:
-        return bending_panel_end(&leg->motion.panel, t, travelled, known);
+        return bending_panel_end(&leg->motion.panel, t, passed, known);
     }
     return state;
 }
 
+static Passage passage_at(const void *motion, double t) {
+    const Leg *leg = motion;
+    Passage passed;
+    KnownPhasors there;
+    if (leg->kind == BENDS_AND_SLIDES) {
+        return bending_panel_passage(&leg->motion.panel, t);
+    }
+    place_of(leg, t, &passed, &there);
+    return passed;
+}
+
 void leg_finish(Leg *leg, const Held *held, Moment *now) {
     const Plant *plant = &held->plant;
-    now->state = end_of(leg, &leg->travelled, &leg->known);
-    Segment segment = {leg->t, leg->travelled, now->state.velocity, leg->kind == RESTS, travel_at, leg};
+    Passage passed;
+    now->state = place_of(leg, leg->t, &passed, &leg->known);
+    leg->travelled = passed.travel;
+    Segment segment = {leg->t, now->state.velocity, passed, leg->kind == RESTS, passage_at, leg};
     now->theta = period_advance(&now->means, &segment, now->theta, plant->drive_frequency);
     now->psi = within_turn(now->psi + turned_by(plant, leg->t));
     now->position += leg->travelled;

@@ -142,6 +142,7 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
         double product = k == 0 ? v[0] : passed[k] + v[0] * decay[k] + v[k];
         double bent = drag * product + direction * lost;
         double force = share * limit[k] + bend * (resisting[k] + limit[0] * bent);
+        slide->force[k] = force;
         double held = hold.re * drive.re - hold.im * drive.im - load - force;
         if (slide->resonates) {
             double acceleration = (held + damper * u[k] + spring * y[k]) * per_mass;
@@ -201,13 +202,20 @@ Watch taylor_slide_watch(TaylorSlide *slide, double horizon) {
     return (Watch){velocity_ahead, slide, 4.0 * EPSILON * scale, 1.0 / horizon, INFINITY};
 }
 
-double taylor_slide_travel(const void *slide, double t) {
-    const double *velocity = ((const TaylorSlide *)slide)->velocity;
-    double total = 0.0;
-    for (int k = TAYLOR_ORDER; k >= 0; k--) {
-        total = total * t + velocity[k] * INVERSE[k + 1];
+Passage taylor_slide_passage(const TaylorSlide *slide, double t) {
+    const double *velocity = slide->velocity;
+    double power[TAYLOR_TERMS] = {0.0};
+    Passage passage = {0.0, 0.0};
+    for (int i = 0; i < TAYLOR_ORDER; i++) {
+        for (int k = 0; k < TAYLOR_ORDER - i; k++) {
+            power[i + k] += slide->force[i] * velocity[k];
+        }
     }
-    return total * t;
+    for (int k = TAYLOR_ORDER; k >= 0; k--) {
+        passage.travel = passage.travel * t + velocity[k] * INVERSE[k + 1];
+        passage.work = passage.work * t + power[k] * INVERSE[k + 1];
+    }
+    return (Passage){passage.travel * t, passage.work * t};
 }
 
 State taylor_slide_state(const TaylorSlide *slide, double t) {

@@ -22,12 +22,12 @@
 /* Order of the series: close to the cheapest one at any tolerance. */
 enum { TAYLOR_ORDER = 22, TAYLOR_TERMS = TAYLOR_ORDER + 1 };
 
-/* Taylor coefficients of the slider's velocity and of the resonator's `displacement` and velocity (`rate`);
- * they hold up to `reach` [s]. `bound` is that of the watched curvature. */
+/* Taylor coefficients of the slider's velocity, of the resonator's `displacement` and velocity (`rate`), and of the
+ * friction `force` [N]; they hold up to `reach` [s]. `bound` is that of the watched curvature. */
 typedef struct {
     int direction;
     bool resonates;
-    double velocity[TAYLOR_TERMS], displacement[TAYLOR_TERMS], rate[TAYLOR_TERMS];
+    double velocity[TAYLOR_TERMS], displacement[TAYLOR_TERMS], rate[TAYLOR_TERMS], force[TAYLOR_ORDER];
     double reach, bound;
 } TaylorSlide;
 
@@ -45,8 +45,8 @@ bool taylor_slide_departs(const TaylorSlide *slide);
 /* The velocity in the direction of sliding, up to `horizon` [s]. */
 Watch taylor_slide_watch(TaylorSlide *slide, double horizon);
 
-/* Displacement of the slider after `t` [s], in m; a TravelFunction of a TaylorSlide. */
-double taylor_slide_travel(const void *slide, double t);
+/* Displacement [m] of the slider and work of friction [J] after `t` [s]. */
+Passage taylor_slide_passage(const TaylorSlide *slide, double t);
 
 /* State after `t` [s]. */
 State taylor_slide_state(const TaylorSlide *slide, double t);

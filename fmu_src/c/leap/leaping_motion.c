@@ -124,6 +124,7 @@ const Motion LEAPING_MOTION = {
     .advance = advance,
     .mode = resolved_mode,
     .force = resolved_force,
+    .power = resolved_power,
     .rates = resolved_rates,
     .error = resolved_error,
 };

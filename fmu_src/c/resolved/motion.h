@@ -41,6 +41,9 @@ typedef struct Motion {
     /* Friction force [N] on the slider in contact mode `mode`, positive against +X. */
     double (*force)(const Law *law, const Moment *moment, int mode);
 
+    /* Mean power of friction [W] of the last whole drive period, or since the start. */
+    double (*power)(const Law *law, const Moment *moment);
+
     Rates (*rates)(const Law *law, const Moment *moment);
 
     /* Estimate of the error of the slow velocity [m/s]. */

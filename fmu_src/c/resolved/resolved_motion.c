@@ -55,6 +55,11 @@ double resolved_force(const Law *law, const Moment *moment, int mode) {
     return law->friction->force(law, moment, mode);
 }
 
+double resolved_power(const Law *law, const Moment *moment) {
+    double force = resolved_force(law, moment, resolved_mode(law, moment));
+    return period_friction_power(&moment->means, force * moment->state.velocity);
+}
+
 /* The equations of motion (26)-(27). */
 Rates resolved_rates(const Law *law, const Moment *moment) {
     const Plant *plant = &law->held.plant;
@@ -89,6 +94,7 @@ const Motion RESOLVED_MOTION = {
     .advance = advance,
     .mode = resolved_mode,
     .force = resolved_force,
+    .power = resolved_power,
     .rates = resolved_rates,
     .error = resolved_error,
 };

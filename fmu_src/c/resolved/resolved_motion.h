@@ -10,6 +10,8 @@ extern const Motion RESOLVED_MOTION;
 Moment resolved_start(const Law *law);
 int resolved_mode(const Law *law, const Moment *moment);
 double resolved_force(const Law *law, const Moment *moment, int mode);
+double resolved_power(const Law *law, const Moment *moment);
+
 Rates resolved_rates(const Law *law, const Moment *moment);
 
 /* The error that leaps have left in the slow velocity. */

@@ -96,7 +96,7 @@ def _leg(law: FrictionLaw, system: System, now: Moment, longest: float) -> float
     near_switch = rests and zero_of is not None and switching - t < SAME * system.arc
     if near_switch and _lifts_first(system, now.psi + system.normal_frequency * t):
         t, zero_of = switching, None
-    now.velocity, now.displacement, now.rate, travelled = motion.at(t)
+    now.velocity, now.displacement, now.rate, travelled, work = motion.at(t)
     if zero_of is not None and not rests:
         now.velocity = 0.0
     if direction not in (0, now.sliding) and watches:
@@ -104,7 +104,7 @@ def _leg(law: FrictionLaw, system: System, now: Moment, longest: float) -> float
         # Most travel is far more than rounding; where it is not, the velocity in the middle tells.
         if direction * travelled * fastest > MOVES * noise or signal(0.5 * t)[0] > noise:
             now.turn(direction)
-    now.pass_time(t, system.drive_frequency, rests, travelled, motion.at)
+    now.pass_time(t, system.drive_frequency, rests, travelled, work, motion.at)
     now.psi = (now.psi + system.normal_frequency * t) % tau
     law.succeed(system, now, travelled, zero_of, switches=zero_of is None and t == switching)
     return t

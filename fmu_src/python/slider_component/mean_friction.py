@@ -9,6 +9,7 @@ quadrature. Soft bristles give the paper's slow manifold (17), hard ones Coulomb
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import acos, cos, exp, expm1, hypot, pi, sin, sqrt, tau
@@ -88,19 +89,39 @@ class MeanFriction:
         total *= self.coefficient
         if self.is_expensive:
             total += sum(
-                load.at(angle) * friction for angle, friction in self._bending(turning, load)
+                load.at(angle) * friction for angle, _, friction in self._bending(turning, load)
             )
         return total / tau
 
-    def _bending(self, turning: float, load: VibratingLoad) -> list[tuple[float, float]]:
-        """Quadrature over both arcs of what the bristle still lacks of being fully bent.
+    def power(self, load: VibratingLoad, velocity: float) -> float:
+        """Mean power of friction [W] of one face at a slow velocity [m/s]."""
+        if self.is_expensive and abs(load.wave_number) > MAX_WAVES:
+            load = load.flattened()
+        turning = self.turning(velocity)
+        beyond = velocity - self.fast * cos(turning)
+        nodes = self._bending(turning, load) if self.is_expensive else []
+        for arc in self._arcs(turning):
+            full = arc.direction * self.coefficient
+            for ahead, weight in _nodes(arc, arc.length, load):
+                swing = arc.direction * self.fast * arc.way(ahead)[0]
+                nodes.append((arc.begin + ahead, swing, weight * full))
+        total = sum(load.at(angle) * (swing + beyond) * force for angle, swing, force in nodes)
+        return total / tau
 
-        Angles [rad], and friction per unit load beyond Coulomb's times a weight.
-        """
-        mu, stiffness = self.coefficient, self.stiffness or 0.0
+    def _arcs(self, turning: float) -> tuple[_Arc, _Arc]:
+        """Sliding forward and backward."""
         reach = self.fast / self.frequency
         forward = _Arc(reach, 1, turning, tau - 2.0 * turning)
-        backward = _Arc(reach, -1, -turning, 2.0 * turning)
+        return forward, _Arc(reach, -1, -turning, 2.0 * turning)
+
+    def _bending(self, turning: float, load: VibratingLoad) -> list[tuple[float, float, float]]:
+        """Quadrature over both arcs of what the bristle still lacks of being fully bent.
+
+        Angles [rad], velocities [m/s] beyond that where the slider turns, and friction per unit
+        load beyond Coulomb's times a weight.
+        """
+        mu, stiffness = self.coefficient, self.stiffness or 0.0
+        forward, backward = self._arcs(turning)
         paths = forward.way(forward.length)[1], backward.way(backward.length)[1]
         begins = _periodic_friction(mu, *(-expm1(-stiffness * path / mu) for path in paths))
         nodes = []
@@ -109,15 +130,11 @@ class MeanFriction:
             if not abs(unbent) > EPSILON * mu:
                 continue
             last = arc.bent_after(BENT * mu, stiffness)
-            edges = [last * share for share in PANELS]
-            edges += [kink - arc.begin for kink in load.kinks(arc.begin, arc.begin + last)]
-            for low, high in _panels(edges, load.wave_number):
-                half = 0.5 * (high - low)
-                for node, weight in _RULE:
-                    ahead = low + half * (1.0 + node)
-                    speed, path = arc.way(ahead)
-                    lacking = unbent * exp(-stiffness * path / mu) * (1.0 - self.drag * speed / mu)
-                    nodes.append((arc.begin + ahead, weight * half * lacking))
+            for ahead, weight in _nodes(arc, last, load):
+                speed, path = arc.way(ahead)
+                lacking = unbent * exp(-stiffness * path / mu) * (1.0 - self.drag * speed / mu)
+                swing = arc.direction * self.fast * speed
+                nodes.append((arc.begin + ahead, swing, weight * lacking))
         return nodes
 
 
@@ -171,6 +188,16 @@ def _beyond_sine(x: float, sine: float) -> float:
     for divisor in _DIVISORS:
         total = 1.0 - square / divisor * total
     return x * square / 6.0 * total
+
+
+def _nodes(arc: _Arc, last: float, load: VibratingLoad) -> Iterator[tuple[float, float]]:
+    """Nodes up to `last` [rad] ahead of where an arc begins, and weights [rad]."""
+    edges = [last * share for share in PANELS]
+    edges += [kink - arc.begin for kink in load.kinks(arc.begin, arc.begin + last)]
+    for low, high in _panels(edges, load.wave_number):
+        half = 0.5 * (high - low)
+        for node, weight in _RULE:
+            yield low + half * (1.0 + node), weight * half
 
 
 def _panels(edges: list[float], wave_number: float) -> list[tuple[float, float]]:

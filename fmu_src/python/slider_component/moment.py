@@ -8,9 +8,9 @@ from math import floor, inf, tau
 
 from .contact import STICK
 
-Place = tuple[float, float, float, float]
-"""Velocity of the slider [m/s], displacement [m] and rate [m/s] of the resonator, and how far the
-slider has moved [m]."""
+Place = tuple[float, float, float, float, float]
+"""Velocity of the slider [m/s], displacement [m] and rate [m/s] of the resonator, how far the
+slider has moved [m], and the work of friction on the way [J]."""
 
 MARK_TOLERANCE = 1e-7
 """Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps
@@ -26,10 +26,10 @@ class Moment:
     the drive `theta` and of the normal load `psi` [rad]. `event_age` is the time since the last
     event [s], infinite before any; `sliding` the direction of the last sliding, 0 before any;
     `reversals` and `sticks` count.
-    `travel` [m], `elapsed` [s] and `sticking` [s] are sums since the last drive period ended (or
-    the start), `mean_velocity` [m/s] and `stick_fraction` the means of the last whole one once it
-    is `complete`. `leap_error` [m/s] is what leaps over periods have erred by so far in the slow
-    velocity.
+    `travel` [m], `work` of friction [J], `elapsed` [s] and `sticking` [s] are sums since the last
+    drive period ended (or the start), `mean_velocity` [m/s], `friction_power` [W] and
+    `stick_fraction` the means of the last whole one once it is `complete`. `leap_error` [m/s] is
+    what leaps over periods have erred by so far in the slow velocity.
 
     Only a motion changes a moment, and it begins with a copy.
     """
@@ -47,10 +47,12 @@ class Moment:
     event_age: float = inf
     bristle: float = 0.0
     travel: float = 0.0
+    work: float = 0.0
     elapsed: float = 0.0
     sticking: float = 0.0
     complete: bool = False
     mean_velocity: float = 0.0
+    friction_power: float = 0.0
     stick_fraction: float = 0.0
     leap_error: float = 0.0
 
@@ -75,12 +77,13 @@ class Moment:
         frequency: float,
         sticks: bool,
         travelled: float,
+        work: float,
         place_at: Callable[[float], Place],
     ) -> None:
         """Advance position, drive phase and means over a motion of `t` [s] that has `travelled`.
 
-        The last number that `place_at` gives is the displacement [m] after a time [s]; `frequency`
-        [rad/s] is the drive's.
+        The last numbers that `place_at` gives are the displacement [m] and the `work` of friction
+        [J] after a time [s]; `frequency` [rad/s] is the drive's.
         """
         end = self.theta + frequency * t
         self.position += travelled
@@ -88,22 +91,26 @@ class Moment:
         ended = 0 if end + MARK_TOLERANCE < tau else floor((end + MARK_TOLERANCE) / tau)
         if ended <= 0:
             self.travel += travelled
+            self.work += work
             self.elapsed += t
             self.sticking += t if sticks else 0.0
             self.theta = end
             return
         last = (tau * ended - self.theta) / frequency
-        travel_last = place_at(last)[-1]
+        *_, travel_last, work_last = place_at(last)
         if ended == 1:
             length = self.elapsed + last
             self.mean_velocity = (self.travel + travel_last) / length
+            self.friction_power = (self.work + work_last) / length
             fraction = (self.sticking + (last if sticks else 0.0)) / length
         else:
             length = tau / frequency
-            self.mean_velocity = (travel_last - place_at(last - length)[-1]) / length
+            *_, travel_first, work_first = place_at(last - length)
+            self.mean_velocity = (travel_last - travel_first) / length
+            self.friction_power = (work_last - work_first) / length
             fraction = 1.0 if sticks else 0.0
         rest = t - last
-        self.travel, self.elapsed = travelled - travel_last, rest
+        self.travel, self.work, self.elapsed = travelled - travel_last, work - work_last, rest
         self.sticking = rest if sticks else 0.0
         self.complete, self.stick_fraction = True, min(max(fraction, 0.0), 1.0)
         self.theta = end - tau * ended

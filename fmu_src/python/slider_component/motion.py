@@ -46,6 +46,14 @@ class Resolved:
         """Friction force [N] on the slider, positive against +X."""
         return self.law.force(self.system, now, mode)
 
+    def friction_power(self, now: Moment, mode: int) -> float:
+        """Mean power of friction [W] of the last whole period, or since the start, or there."""
+        if now.complete:
+            return now.friction_power
+        if now.elapsed > 0.0:
+            return now.work / now.elapsed
+        return self.friction_force(now, mode) * now.velocity
+
     def resonator(self, now: Moment) -> tuple[float, float]:
         """Displacement [m] and velocity [m/s] of the resonator."""
         return self.system.resonator(now.displacement, now.rate, now.theta)

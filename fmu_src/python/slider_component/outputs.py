@@ -58,5 +58,6 @@ OUTPUTS: dict[str, Callable[[View], float]] = {
     "steady_velocity": lambda view: _theory(view).steady_velocity,
     "blocking_force": lambda view: _theory(view).blocking_force,
     "prediction_valid": lambda view: float(_theory(view).valid),
+    "friction_power": lambda view: view.motion.friction_power(view.now, view.mode),
     "slow_motion_error": lambda view: view.motion.slow_motion_error(view.now),
 }

@@ -7,6 +7,7 @@ near resonance without damping, near critical damping, on soft resonators, under
 from __future__ import annotations
 
 from cmath import rect
+from functools import cached_property
 from math import inf
 from operator import mul, truediv
 from typing import NamedTuple
@@ -80,11 +81,12 @@ class Series:
         drive = -1j * rect(1.0, now.theta)
         normal = -1j * system.friction_amplitude * rect(1.0, now.psi + system.phase)
         v, y, u = [now.velocity], [now.displacement], [now.rate]
-        limit, needed = [system.friction_preload + normal.real], []
+        limit, needed, self._force = [system.friction_preload + normal.real], [], list[float]()
         for k, step in enumerate(_STEPS):
             pull = (system.holding_drive * drive).real + damper * u[k] + spring * y[k] - load
             needed.append(pull)
             friction = sign * limit[k] if bending is None else bending.friction(v, limit, step)
+            self._force.append(friction)
             acceleration = 0.0 if rests else (pull - friction) / mass
             v.append(acceleration * step)
             swing = 0.0
@@ -129,7 +131,15 @@ class Series:
         """See Motion."""
         series = self._velocity, self._displacement, self._rate, self._position
         velocity, displacement, rate, travelled = (_value(c, t) for c in series)
-        return velocity, displacement, rate, travelled
+        work = 0.0 if self.rests else _value(self._work, t)
+        return velocity, displacement, rate, travelled, work
+
+    @cached_property
+    def _work(self) -> list[float]:
+        """The series of the work of friction [J]."""
+        force, velocity = self._force, self._velocity
+        powers = (sum(map(mul, force[: k + 1], reversed(velocity[: k + 1]))) for k in range(ORDER))
+        return [0.0, *map(truediv, powers, _COUNT)]
 
 
 class _Bending:

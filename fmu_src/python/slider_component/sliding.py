@@ -18,6 +18,7 @@ from typing import Protocol
 from .contact import LIFTED
 from .device import EPSILON, System, Term
 from .first_zero import Watch
+from .friction_work import State
 from .moment import Moment, Place
 
 SURE = 0.999999
@@ -98,16 +99,22 @@ class Exponentials:
     def at(self, t: float) -> Place:
         """See Motion."""
         k0, k1 = self._k0, self._k1
-        swing = passed = moved = rate = 0j
+        swing = passed = moved = turning = 0j
         for z, _, v, y in self._terms:
             turn = exp(z * t)
             y *= turn
             swing += v * turn
             passed += v / z * (turn - 1.0)
             moved += y
-            rate += z * y
+            turning += z * y
         travelled = (k0 + 0.5 * k1 * t) * t + passed.real
-        return k0 + k1 * t + swing.real, self._offset + moved.real, rate.real, travelled
+        velocity, displacement = k0 + k1 * t + swing.real, self._offset + moved.real
+        work = self._work(t, (velocity, displacement, turning.real), travelled)
+        return velocity, displacement, turning.real, travelled, work
+
+    def _work(self, t: float, state: State, travelled: float) -> float:
+        """Work of friction [J] up to `t` [s], where `state` and the displacement are known."""
+        return 0.0
 
 
 class Slide(Exponentials):
@@ -116,7 +123,7 @@ class Slide(Exponentials):
     The velocity is watched in that direction, unless it is 0.
     """
 
-    __slots__ = ("_fastest",)
+    __slots__ = ("_begin", "_chi", "_fastest", "_sign", "_system", "_theta")
 
     def __init__(self, system: System, now: Moment, direction: int) -> None:
         assert system.slide_split is not None
@@ -147,6 +154,18 @@ class Slide(Exponentials):
                 terms.append((z, square, v, y))
         self._k0, self._k1, self._offset = k0, -resisting / system.total_mass, offset
         self._terms, self.direction, self._fastest = terms, direction, system.fastest
+        self._begin = now.velocity, now.displacement, now.rate
+        self._system, self._sign, self._theta, self._chi = system, sign, now.theta, chi
+
+    def _work(self, t: float, state: State, travelled: float) -> float:
+        system, sign, chi = self._system, self._sign, self._chi
+        if sign == 0:
+            return 0.0
+        if system.slide_work is None:
+            swung = sin(chi) * travelled
+        else:
+            swung = system.slide_work.over(sign, self._theta, chi, t, self._begin, state)
+        return sign * (system.friction_preload * travelled + system.friction_amplitude * swung)
 
     def watches(self, horizon: float) -> tuple[Watch, ...]:
         """The velocity in the direction to watch."""

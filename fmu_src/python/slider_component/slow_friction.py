@@ -74,6 +74,11 @@ class SlowFriction:
         load = VibratingLoad(device, self.waves, self.phase + self.drift * t)
         return device.friction_faces * self.law.mean(load, turning)
 
+    def power(self, velocity: float) -> float:
+        """Mean power of friction [W] of all faces now, at a slow velocity [m/s]."""
+        load = VibratingLoad(self.system.device, self.waves, self.phase)
+        return self.system.device.friction_faces * self.law.power(load, velocity)
+
     def smooth_until(self, t: float, end: float) -> float:
         """The time [s] up to which friction is smooth from `t` on, `end` at most.
 

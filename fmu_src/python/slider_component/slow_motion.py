@@ -92,6 +92,13 @@ class Averaged:
             return max(-full, min(full, -self.system.load))
         return friction.at(0.0, velocity)
 
+    def friction_power(self, now: Moment, mode: int) -> float:
+        """Mean power of friction [W] over a drive period, of slow motion and vibration."""
+        velocity = now.present_mean_velocity()
+        if self.fast.velocity == 0.0:
+            return self.friction_force(now, mode) * velocity
+        return self._friction(now).power(velocity)
+
     def resonator(self, now: Moment) -> tuple[float, float]:
         """Displacement [m] and velocity [m/s] of the steady vibration."""
         return steady_swing(self.fast.resonator, now.theta, self.system.drive_frequency)

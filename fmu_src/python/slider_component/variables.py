@@ -182,6 +182,12 @@ output slow_motion_error m/s (mm/s), from 0
     0 at fidelity 1 and 2
     depends on: INPUTS
     initially on: WHICH_MOTION load
+output friction_power W (mW), nominal 0.01
+    Mean power of friction over the last whole drive period (since the start before the first period
+    is complete): friction force times slider velocity, positive as heat; by averages of first order
+    that at the present slow velocity and vibration
+    depends on: INPUTS
+    initially on: FRICTION
 """
 
 

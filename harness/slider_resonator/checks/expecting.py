@@ -133,6 +133,7 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         **_resolved("in_run", stick_fractions),
         "averaged": lambda references: np.zeros_like(references.times),
     },
+    "friction_power": _resolved("friction_power"),
     "reversals": _resolved("reversals"),
     "reversals_in_run": {
         **_resolved("in_run", reversal_counts),

@@ -15,7 +15,10 @@ from slider_resonator.scenes.scene import Scene, ScenePoint
 from slider_resonator.steady.blocking_force import Blocking, find_blocking
 from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
 
-PREDICTIONS = ("steady_velocity", "blocking_force", "prediction_valid", "slow_motion_error")
+PREDICTIONS = (
+    *("steady_velocity", "blocking_force", "prediction_valid", "slow_motion_error"),
+    "friction_power",
+)
 """Outputs that can cost more than the motion: an FMU computes them when they are read."""
 
 PREDICTED = {
@@ -26,6 +29,7 @@ PREDICTED = {
     "prediction_valid",
     "slow_motion_error",
     "error_over_estimate",
+    "friction_power",
 }
 """Quantities that are measured from `PREDICTIONS` in a run."""
 

@@ -157,6 +157,7 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "error_over_estimate": error_over_estimate,
     "stick_fraction": _final("stick_fraction"),
     "stick_fraction_in_run": _output("stick_fraction"),
+    "friction_power": _final("friction_power"),
     "reversals": _final("reversals"),
     "reversals_in_run": _output("reversals"),
     "event_times": lambda fmu: (

@@ -70,6 +70,7 @@ _SCALES: Mapping[str, Callable[[Device], float]] = {
     "resonator_velocity": lambda device: _resonator(device) * device.drive_frequency,
     "stick_fraction": lambda device: 1.0,
     "stick_fraction_in_run": lambda device: 1.0,
+    "friction_power": lambda device: device.max_friction * fast_velocity(device),
     "last_event_time": lambda device: 2.0 * pi / device.drive_frequency,
 }
 

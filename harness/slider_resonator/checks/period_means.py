@@ -14,6 +14,9 @@ from slider_resonator.references.resolved.trajectory import Trajectory
 COINCIDENCE = 1e-6
 """Share of a drive period within which an event and a communication point coincide."""
 
+NODES, PANELS = 12, 16
+"""Nodes of each panel of a quadrature, and panels between two events."""
+
 _ENDED = 1e-9
 """Share of a drive period that may be missing from one that counts as ended."""
 
@@ -83,6 +86,20 @@ def stick_fractions(run: Trajectory, times: Array, periods: DrivePeriods) -> Arr
     ends, lengths = periods.ends(times), periods.lengths(times)
     shares = np.diff(stick_time(ends), axis=1)[:, 0] / np.where(lengths > 0.0, lengths, 1.0)
     return np.where(lengths > 0.0, shares, float(run.modes[0] == STICK))
+
+
+def quadrature(run: Trajectory, begin: float, end: float) -> tuple[Array, Array]:
+    """Return nodes and weights (s) between two times (s), each of shape (n,).
+
+    By Gauss between events, and closer after them: a bristle bends in a short time.
+    """
+    inside = run.event_times[(run.event_times > begin) & (run.event_times < end)]
+    events = np.concatenate([[begin], inside, [end]])
+    shares = np.concatenate([[0.0], np.geomspace(1e-5, 1.0, PANELS)])
+    edges = events[:-1, None] + np.diff(events)[:, None] * shares
+    half = 0.5 * np.diff(edges, axis=1)[:, :, None]
+    nodes, weights = np.polynomial.legendre.leggauss(NODES)
+    return (edges[:, :-1, None] + half * (1.0 + nodes)).ravel(), (half * weights).ravel()
 
 
 def reversal_counts(run: Trajectory, times: Array, periods: DrivePeriods) -> Tube:

@@ -18,6 +18,7 @@ from slider_resonator.checks.period_means import (
     DrivePeriods,
     last_events,
     mean_velocities,
+    quadrature,
     stick_fractions,
 )
 from slider_resonator.checks.steady_references import SteadyReferences
@@ -152,6 +153,13 @@ class ReferenceSide:
         """Return the mean velocity (m/s) over the last whole drive period of the run."""
         run, end = self.trajectory(reference), self.times[-1:]
         return float(mean_velocities(run, end, self.periods)[0])
+
+    def friction_power(self, reference: str) -> float:
+        """Return the mean power (W) of friction over the last whole drive period of the run."""
+        begin, end = self.periods.ends(self.times[-1:])[0].tolist()
+        times, weights = quadrature(self.trajectory(reference), begin, end)
+        run = self._simulate(reference, times)
+        return float(np.sum(weights * run.friction_force * run.velocity) / (end - begin))
 
     def stick_fraction(self, reference: str) -> float:
         """Return the share of the last whole drive period of the run that is spent sticking."""

@@ -90,6 +90,7 @@ _ALL = (
     ),
     _count("prediction_valid", unit="1", minimum=0.0, maximum=1.0, depends_on=None, since="0.2.0"),
     _output("slow_motion_error", unit="m/s", minimum=0.0, depends_on=None, since="0.2.0"),
+    _output("friction_power", unit="W", nominal=0.01, depends_on=None, since="0.3.0"),
 )
 
 VARIABLES: Mapping[str, Variable] = {variable.name: variable for variable in _ALL}

@@ -29,6 +29,7 @@ DIMENSIONS: Mapping[str, Mapping[str, int]] = {
     "N": {"kg": 1, "m": 1, "s": -2},
     "1/m": {"m": -1},
     "s/m": {"s": 1, "m": -1},
+    "W": {"kg": 1, "m": 2, "s": -3},
 }
 """Unit of the interface to its exponents of SI base units; to the SI a radian is 1."""
 

@@ -183,6 +183,11 @@ QUANTITIES: Mapping[str, Quantity] = {
         "start",
         *(*RESOLVED, "averaged"),
     ),
+    "friction_power": _number_of_run(
+        "W",
+        "friction force times velocity, mean over the last whole drive period of the run",
+        *RESOLVED,
+    ),
     "reversals": _number_of_run("1", "reversals of sliding during the run", *RESOLVED, exact=True),
     "reversals_in_run": _signal(
         "1",

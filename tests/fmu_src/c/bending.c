@@ -55,7 +55,7 @@ int run_bending(const double *values, double tolerance, int panels, int warm, do
     }
     for (int i = 0; done && i < steps; i++) {
         Budget budget = budget_of(step_size);
-        done = events_advance(&law, &now, step_size, NULL, &budget, &after, &refusal);
+        done = events_advance(&law, &now, step_size, NULL, NULL, &budget, &after, &refusal);
         const double state[STATES] = {after.position, after.state.velocity, after.state.displacement,
                                       after.state.rate, after.bristle};
         for (int k = 0; k < STATES; k++) {
@@ -76,18 +76,18 @@ static bool compare(const Law *series, const BendingPanel *panel, const Moment *
     Moment after;
     Refusal refusal;
     KnownPhasors known;
-    double travel = bending_panel_travel(panel, t);
+    double travel = bending_panel_passage(panel, t).travel;
     Budget budget = budget_of(t);
-    if (!events_advance(series, now, t, NULL, &budget, &after, &refusal)) {
+    if (!events_advance(series, now, t, NULL, NULL, &budget, &after, &refusal)) {
         return false;
     }
     *travelled = fabs(travel - (after.position - now->position));
     *velocity = 0.0;
     if (t >= panel->length) {
-        double ended;
+        Passage ended;
         State state = bending_panel_end(panel, t, &ended, &known);
         *velocity = fabs(state.velocity - after.state.velocity);
-        *travelled += fabs(travel - ended);
+        *travelled += fabs(travel - ended.travel);
     }
     return true;
 }
@@ -109,8 +109,8 @@ int panel_errors(const double *values, double start, double tolerance, double sh
     now = resolved_start(&law);
     EventSearch search = event_search(0.0);
     Budget budget = budget_of(start);
-    if (!events_advance(&law, &now, start, NULL, &budget, &later, &refusal) ||
-        !events_advance(&law, &later, TAU / plant->drive_frequency, &search, &budget, &reversal,
+    if (!events_advance(&law, &now, start, NULL, NULL, &budget, &later, &refusal) ||
+        !events_advance(&law, &later, TAU / plant->drive_frequency, &search, NULL, &budget, &reversal,
                      &refusal) ||
         !search.found || reversal.mode == LIFTED || reversal.state.velocity != 0.0) {
         return 0;

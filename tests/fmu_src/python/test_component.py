@@ -94,7 +94,7 @@ ODD = ["x", [], {}, True, 1.5, -7, 10**400, -(10**400), math.nan, math.inf, nest
 NUMBERS = {
     *("time", "stop_time", "last_event_time", "position", "theta", "psi", "event_age"),
     *("bristle", "velocity", "displacement", "rate", "travel", "elapsed", "sticking"),
-    *("mean_velocity", "stick_fraction", "leap_error"),
+    *("work", "mean_velocity", "friction_power", "stick_fraction", "leap_error"),
 }
 
 

@@ -1,0 +1,163 @@
+"""The mean power of friction over a drive period, against the balance of energy and the force."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from tests.fmu.host import Instance, Instantiate
+from tests.fmus import both_fmus
+
+pytestmark = both_fmus
+
+TURN = 2.0 * math.pi / 3500.0
+BEGIN = 5
+"""Drive periods before the one that is balanced."""
+
+PIECES = 8
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
+
+READ = ("friction_force", "velocity", "resonator_velocity")
+
+COULOMB: dict[str, dict[str, float]] = {
+    "table 1": {},
+    "under a load": {"phase": 0.7, "load": 0.05},
+    "third multiple": {"frequency_ratio": 3.0, "phase": 1.0},
+    "normal load backwards": {"frequency_ratio": -1.0, "phase": 1.0},
+    "constant normal load": {"frequency_ratio": 0.0, "phase": 0.5},
+    "normal load that creeps": {"frequency_ratio": 0.01, "phase": 0.5},
+    "a beat": {"frequency_ratio": 1.0001},
+    "with flight": {"normal_amplitude": 1.8, "phase": 0.4},
+    "stick and slip": {"friction_coefficient": 4.0, "base_amplitude": 2e-5},
+    "resonance without damping": {"damping_ratio": 0.0, "resonator_frequency": 3337.0},
+    "overdamped": {"damping_ratio": 1.3},
+    "direct drive": {"tangential_force": 200.0, "amplitude_deviation": 0.2},
+}
+LUGRE: dict[str, dict[str, float]] = {
+    "hard bristles": {"bristle_stiffness": 1e6},
+    "bristles": {},
+    "soft bristles": {"bristle_stiffness": 1e3},
+    "bristles, flight": {"normal_amplitude": 1.5, "frequency_ratio": 0.5},
+}
+TOLERANCE = 1e-8
+
+
+def energy(instance: Instance) -> float:
+    """Energy of slider and resonator [J]."""
+    velocity, swing, displacement, mass, small, frequency = instance.get(
+        *("velocity", "resonator_velocity", "resonator_displacement"),
+        *("slider_mass", "resonator_mass", "resonator_frequency"),
+    )
+    spring = small * frequency * frequency
+    moving = mass * velocity**2 + small * (velocity + swing) ** 2
+    return 0.5 * (moving + spring * displacement**2)
+
+
+def works(instance: Instance) -> tuple[float, float, float]:
+    """Of a period: the heat by the output, by the balance of energy, by force times velocity [J].
+
+    The last two by Gauss quadrature between events.
+    """
+    begin = BEGIN * TURN
+    state, energy_before = instance.state(), energy(instance)
+    (before,) = instance.get("position")
+    events = {begin, begin + TURN, *(begin + TURN * k / PIECES for k in range(1, PIECES))}
+    for _ in range(400):
+        instance.step(TURN / 400)
+        events.add(instance.get("last_event_time")[0])
+    edges = sorted(t for t in events if begin <= t <= begin + TURN)
+    instance.restore(state)
+    instance.time = begin
+    mass, frequency, damping, base, force, deviation, load = instance.get(
+        *("resonator_mass", "resonator_frequency", "damping_ratio", "base_amplitude"),
+        *("tangential_force", "amplitude_deviation", "load"),
+    )
+    drive, direct = (x * (1.0 + deviation) for x in (mass * base * 3500.0**2, force))
+    supplied = heat = 0.0
+    for low, high in pairwise(edges):
+        half = 0.5 * (high - low)
+        for node, weight in zip((NODES + 1.0) * half + low, WEIGHTS * half, strict=True):
+            instance.step(float(node) - instance.time)
+            friction, velocity, swing = instance.get(*READ)
+            sine = math.sin(3500.0 * instance.time)
+            lost = 2.0 * damping * mass * frequency * swing * swing
+            supplied += weight * (drive * sine * (velocity + swing) + direct * sine * velocity)
+            supplied -= weight * lost
+            heat += weight * friction * velocity
+    instance.step(begin + TURN - instance.time)
+    (after, power) = instance.get("position", "friction_power")
+    supplied -= load * (after - before) + energy(instance) - energy_before
+    return power * TURN, supplied, heat
+
+
+def moving(instantiate: Instantiate, values: Mapping[str, float]) -> Instance:
+    instance = instantiate().initialize(**values)
+    instance.step(BEGIN * TURN)
+    instance.time = BEGIN * TURN
+    return instance
+
+
+@pytest.mark.parametrize("case", COULOMB)
+def test_coulomb_friction_balances_energy(instantiate: Instantiate, case: str) -> None:
+    heat, balance, work = works(moving(instantiate, COULOMB[case]))
+    assert heat > 0.0, "friction heats"
+    assert heat == pytest.approx(work, rel=1e-9), "force times velocity"
+    assert heat == pytest.approx(balance, rel=1e-9), "what the drive supplies and is not kept"
+
+
+@pytest.mark.parametrize("case", LUGRE)
+def test_bristles_balance_energy_to_the_tolerance(instantiate: Instantiate, case: str) -> None:
+    """The energy of the vibration is known to the tolerance of its velocity."""
+    instance = moving(instantiate, {"friction_law": 1, "tolerance": TOLERANCE, **LUGRE[case]})
+    heat, balance, _ = works(instance)
+    assert heat == pytest.approx(balance, abs=2.0 * TOLERANCE * energy(instance))
+
+
+@pytest.mark.parametrize("law", [0, 1])
+def test_a_rigid_vibration_heats_as_force_times_velocity(
+    instantiate: Instantiate, law: int
+) -> None:
+    """At fidelity 1 the resonator acts by its steady force."""
+    heat, _, work = works(moving(instantiate, {"fidelity": 1, "friction_law": law, "phase": 0.4}))
+    assert heat == pytest.approx(work, rel=1e-9 if law == 0 else 1e-6)
+
+
+def test_before_a_period_is_complete_it_is_the_mean_since_the_start(
+    instantiate: Instantiate,
+) -> None:
+    instance = instantiate().initialize(initial_velocity=0.3)
+    friction, velocity, power = instance.get("friction_force", "velocity", "friction_power")
+    assert power == friction * velocity
+    instance.step(0.3 * TURN)
+    half = instance.get("friction_power")[0]
+    instance.step(0.7 * TURN)
+    whole = instance.get("friction_power")[0]
+    assert 0.0 < half != whole > 0.0
+    instance.step(0.4 * TURN)
+    assert instance.get("friction_power") == (whole,), "then that of the last whole one"
+
+
+@pytest.mark.parametrize("law", [0, 1])
+def test_averages_and_leaps_heat_as_resolved_motion(instantiate: Instantiate, law: int) -> None:
+    """Leaps to their error, averages of first order to theirs."""
+    powers = []
+    for values in ({}, {"fidelity": 0}, {"fidelity": 0, "averaging_order": 1}):
+        instance = instantiate().initialize(friction_law=law, phase=0.4, load=0.02, **values)
+        instance.step(200 * TURN)
+        powers.append(instance.get("friction_power")[0])
+    resolved, leaping, averaged = powers
+    assert leaping == pytest.approx(resolved, rel=1e-6)
+    assert averaged == pytest.approx(resolved, rel=0.03)
+
+
+def test_nothing_heats_at_rest_or_in_flight(instantiate: Instantiate) -> None:
+    instance = instantiate().initialize(base_amplitude=0.0)
+    instance.step(3 * TURN)
+    assert instance.get("friction_power") == (0.0,)
+    instance = instantiate().initialize(normal_preload=0.0, normal_amplitude=0.0)
+    instance.step(3 * TURN)
+    assert instance.get("friction_power") == (0.0,)
