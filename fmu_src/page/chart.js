@@ -5,11 +5,12 @@ const PLOT_HEIGHT = 190;
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
-/** Return [low, high] with a margin; a width even for equal values, or none. */
+/** Return [low, high] with a margin; a width even for values that are equal to rounding, or none. */
 function rangeOf(values) {
   const found = values.filter((value) => value !== null);
   const [low, high] = found.length ? [Math.min(...found), Math.max(...found)] : [-1, 1];
-  const margin = 0.06 * (high - low) || 0.1 * Math.abs(high) || 1;
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  const margin = high - low > 1e-6 * size ? 0.06 * (high - low) : 0.1 * size || 1;
   return [low - margin, high + margin];
 }
 
@@ -95,7 +96,7 @@ class Chart {
     save.addEventListener("click", () => {
       download(`${this.content.title.toLowerCase().replaceAll(" ", "_")}.csv`, csvOf(this.content));
     });
-    this.area = element("div", { class: "area" });
+    this.area = element("div", { class: "area", role: "img" });
     this.key = element("p", { class: "key" });
     this.box = element("div", { class: "chart" },
       element("header", {}, this.title, this.reading, save), this.area, this.key);
@@ -106,6 +107,7 @@ class Chart {
     const { title, x, y, curves, marks = [], bands = [], isLoop = false, note = "" } = content;
     this.content = content;
     this.title.textContent = title;
+    this.area.setAttribute("aria-label", title);
     this.reading.textContent = "";
     const labels = new Set(bands.map(({ label }) => label));
     this.#showKey([

@@ -1,7 +1,9 @@
 /** Ranges of sliders in SI units, which follow the device: the value itself is a step of its range. */
 const SLIDER_STEPS = 360;
 
-const fromZero = (value, settings, { start }) => [0, 4 * (value || start || settingOf(settings, "normal_preload") || 1)];
+const ascending = (...ends) => ends.sort((one, other) => one - other);
+const fromZero = (value, settings, { start }) =>
+  ascending(0, 4 * (value || start || settingOf(settings, "normal_preload") || 1));
 const around = (value) => [value / 2, 1.5 * value];
 const RANGES = new Map([
   ["phase", () => [-Math.PI, Math.PI]],
@@ -9,7 +11,7 @@ const RANGES = new Map([
     const full = fullFriction(settings) || 1;
     return [-full, full];
   }],
-  ["frequency_ratio", () => [0, 4]],
+  ["frequency_ratio", (value) => [Math.min(0, 2 * value), Math.max(4, 2 * value)]],
   ["friction_coefficient", fromZero],
   ["normal_preload", fromZero],
   ["normal_amplitude", fromZero],

@@ -4,11 +4,11 @@ const SLICE = 40;
 const MIN_PERIODS = 20;
 const MAX_PERIODS = 20000;
 
-/** Return a time from rest to steady motion, rounded up to 1, 2 or 5 times a power of ten: friction
- * changes the momentum by that of the largest steady velocity in a quarter of it. */
+/** Return a time from the start to steady motion, rounded up to 1, 2 or 5 times a power of ten: four
+ * times that in which friction changes the velocity by the largest of those at the start and steady. */
 function settlingTime(settings, period, velocities) {
   const mass = settingOf(settings, "slider_mass") + settingOf(settings, "resonator_mass");
-  const fastest = Math.max(...velocities.map(Math.abs));
+  const fastest = Math.max(...[...velocities, settingOf(settings, "initial_velocity")].map(Math.abs));
   const time = Math.min(MAX_PERIODS * period,
     Math.max(MIN_PERIODS * period, (4 * mass * fastest) / fullFriction(settings) || 0));
   const power = 10 ** Math.floor(Math.log10(time));
