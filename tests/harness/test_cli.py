@@ -255,9 +255,7 @@ def test_run_as_json_with_another_load(python_fmu: Path) -> None:
     assert summary["mean_velocity"] < weaker["mean_velocity"], "0.3 N brakes more than 0.25 N"
 
 
-@pytest.mark.isolated
 def test_an_fmu_with_wrong_physics_is_rejected(python_fmu: Path, tmp_path: Path) -> None:
-    """Isolated, for two FMUs with one package name would share their modules."""
     wrong = faulty_fmus.other_friction(python_fmu, tmp_path / "wrong.fmu")
     result = call("validate", wrong, "--scene", "table_1")
     assert result.exit_code == 1, result.stderr
@@ -265,13 +263,11 @@ def test_an_fmu_with_wrong_physics_is_rejected(python_fmu: Path, tmp_path: Path)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX closes the streams")
-@pytest.mark.parametrize("closed", [">&- 2>&-", "<&-"])
-def test_closed_streams_do_no_harm(closed: str, tmp_path: Path) -> None:
+def test_closed_streams_do_no_harm(tmp_path: Path) -> None:
     out = tmp_path / "report.json"
     missing = tmp_path / "none.fmu"
-    call = f"{sys.executable} -m slider_resonator validate {missing} --json {out} {closed}"
-    shell = f"set -o pipefail; {call}"
-    done = subprocess.run(["bash", "-c", shell], capture_output=True, text=True, check=False)
+    call = f"{sys.executable} -m slider_resonator validate {missing} --json {out} <&- >&- 2>&-"
+    done = subprocess.run(["bash", "-c", call], capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert "Traceback" not in done.stderr
     assert "no such file" in out.read_text()

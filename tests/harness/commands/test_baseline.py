@@ -71,7 +71,6 @@ def test_both_builds_give_the_same_golden_results(python_fmu: Path, baseline: Pa
     assert "baseline" not in result.stdout, "nothing has changed, nothing is shown"
 
 
-@pytest.mark.isolated
 def test_a_change_is_shown_kept_and_accepted(
     native_fmu: Path, other_fmu: Path, baseline: Path, scene: Path, tmp_path: Path
 ) -> None:
@@ -108,7 +107,6 @@ def test_a_change_is_shown_kept_and_accepted(
     assert run("check", native_fmu, baseline).exit_code == 1
 
 
-@pytest.mark.isolated
 def test_a_tolerance_may_be_wider(other_fmu: Path, baseline: Path) -> None:
     assert run("check", other_fmu, baseline, "--tolerance", 0.1).exit_code == 0
 
@@ -192,7 +190,6 @@ def test_a_folder_that_cannot_be_made_is_refused(native_fmu: Path, scenes: Path)
     )
 
 
-@pytest.mark.isolated
 def test_changes_that_cannot_be_kept_are_shown(other_fmu: Path, baseline: Path) -> None:
     (baseline / ".changed").write_text("in the way of what accept takes over")
     result = run("check", other_fmu, baseline)

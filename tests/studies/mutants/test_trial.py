@@ -50,6 +50,7 @@ def test_a_failed_check_rejects(outcome: Outcome) -> None:
     assert "off by" in rejection.reason
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("error", "differs"), [(3e-9, True), (1e-14, False)])
 def test_small_changes_pass_and_smaller_ones_count_as_none(
     outcome: Outcome, error: float, differs: bool
@@ -75,12 +76,14 @@ def test_a_hang_a_crash_and_an_error_reject(outcome: Outcome, new: str, reason: 
     assert not rejection.quantity
 
 
+@pytest.mark.slow
 def test_an_fmu_that_cannot_be_loaded_is_rejected(outcome: Outcome) -> None:
     rejection = outcome("budget.py", "class Clock", "1 / 0\nclass Clock").rejection
     assert rejection is not None
     assert not rejection.scene
 
 
+@pytest.mark.slow
 def test_an_fmu_that_is_rejected_unchanged_is_refused(python_fmu: Path, tmp_path: Path) -> None:
     fmu = read_python_fmu(python_fmu)
     faulty = tmp_path / "faulty.fmu"
