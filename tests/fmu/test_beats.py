@@ -59,21 +59,6 @@ def reference(
     return [float(v) for v in simulate_averaged(device, [held], times).mean_velocity]
 
 
-def test_a_start_in_flight_below_ratio_0(instance: Instance) -> None:
-    """Nothing acts at first, so that steps grow; they must not miss that the contact touches."""
-    inputs = {"frequency_ratio": 0.01, "phase": -math.pi / 2.0}
-    found = velocities(instance, {"normal_preload": 0.5}, inputs, 1000.0 * PERIOD)
-    assert found[:3] == pytest.approx([0.0186197, 0.0109032, 0.0063860], abs=1e-7)
-
-
-def test_steps_of_whole_beats(instance: Instance) -> None:
-    """All stages of a step of whole beats see one phase of the normal load."""
-    device = {"normal_preload": 0.01, "normal_amplitude": 0.01, "initial_velocity": -0.144}
-    inputs = {"frequency_ratio": 1.05, "phase": 0.5}
-    found = velocities(instance, device, inputs, 90.0 / 0.05 * PERIOD)
-    assert found[-1] == pytest.approx(-0.0984, abs=1e-5)
-
-
 def test_without_vibration_the_load_varies_too(instance: Instance) -> None:
     """A block that brakes under a load that stands still but for its own slow frequency."""
     device = {"base_amplitude": 0.0, "initial_velocity": 0.3, "normal_amplitude": 0.7}

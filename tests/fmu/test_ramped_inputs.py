@@ -112,20 +112,6 @@ def test_motion_is_that_of_the_reference(instantiate: Instantiate, name: str) ->
             assert last == pytest.approx(reference.event_times[-1], abs=1e-12)
 
 
-@pytest.mark.parametrize(
-    "rates", [PHASE, LOAD, CHIRP, BACK], ids=["phase", "load", "chirp", "back"]
-)
-@pytest.mark.parametrize("fidelity", [1, 2])
-def test_table_1_under_ramps_is_that_of_the_reference(
-    instantiate: Instantiate, rates: dict[str, float], fidelity: int
-) -> None:
-    times = STEP * np.arange(1.0, 11.0)
-    instance = start(instantiate, {"fidelity": fidelity}, {})
-    signals = ramped(instance, {}, rates, times)
-    reference = simulate(Device(fidelity=fidelity), straight({}, rates, times[-1]), times)
-    assert_equal(signals, reference, 1e-9)
-
-
 @pytest.mark.parametrize("lifts", [False, True])
 @pytest.mark.parametrize("fidelity", [1, 2])
 @pytest.mark.parametrize(
@@ -153,24 +139,6 @@ def test_lugre_motion_under_ramps_is_within_its_tolerance(
         assert 0 <= reference.reversals - reversals <= below_rounding, (
             "every reversal beyond rounding is counted"
         )
-
-
-@pytest.mark.parametrize("law", [0, 1])
-@pytest.mark.parametrize("rates", [PHASE, LOAD, CHIRP], ids=["phase", "load", "chirp"])
-def test_held_steps_approach_the_ramp_with_second_order(
-    instantiate: Instantiate, law: int, rates: dict[str, float]
-) -> None:
-    """Richardson extrapolation from held steps of 20 us and 10 us to a step size of 0."""
-    stop, parameters = 2.0 * STEP, {"friction_law": law}
-    signals = ramped(start(instantiate, parameters, {}), {}, rates, np.array([STEP, stop]))[-1]
-    coarse, fine = (
-        staircase(start(instantiate, parameters, {}), {}, rates, stop, count)
-        for count in (1000, 2000)
-    )
-    extrapolated = fine + (fine - coarse) / 3.0
-    allowed = 1e-9 if law == 0 else 1e-7
-    np.testing.assert_allclose(signals[1:4], extrapolated[1:4], rtol=allowed, atol=0.0)
-    assert signals[0] == pytest.approx(extrapolated[0], abs=allowed * abs(signals[0]))
 
 
 @pytest.mark.parametrize("law", [0, 1])
@@ -217,30 +185,6 @@ def test_a_derivative_of_zero_is_a_held_input_bit_for_bit(
             instance.ramp(phase=0.0, load=0.0, frequency_ratio=0.0)
         rows.append(instance.run(20, 1.3e-3))
     assert rows[0] == rows[1], "inputs with derivatives of zero are held"
-
-
-def test_the_slow_drift_of_a_phase_ramp_is_a_detuned_load(instantiate: Instantiate) -> None:
-    """A ratio of 1 + 2 / 3500 moves the normal load as a phase does that grows by 2 rad/s."""
-    ramp, detuned = start(instantiate, {}, {}), start(instantiate, {}, {})
-    detuned.set(frequency_ratio=1.0 + 2.0 / 3500.0)
-    ramp.ramp(**PHASE)
-    for _ in range(20):
-        ramp.step(STEP)
-        detuned.step(STEP)
-    assert ramp.get(*SIGNALS) == pytest.approx(detuned.get(*SIGNALS), rel=1e-10, abs=1e-14)
-
-
-def test_a_long_ramp_loses_no_digits(instantiate: Instantiate) -> None:
-    """2000 steps of a ramp, against one."""
-    rows = []
-    for count in (1, 2000):
-        instance = start(instantiate, {}, {})
-        for k in range(count):
-            instance.set(phase=2.0 * k * 2.0 / count)
-            instance.ramp(**PHASE)
-            instance.step(2.0 / count)
-        rows.append(instance.get(*SIGNALS[:4]))
-    assert rows[1] == pytest.approx(rows[0], rel=1e-9, abs=1e-12), "rounding does not add up"
 
 
 def test_short_steps_under_ramps_stay_close_to_held_inputs(instantiate: Instantiate) -> None:

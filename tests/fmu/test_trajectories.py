@@ -14,7 +14,7 @@ from slider_resonator.references.resolved.trajectory import Trajectory
 from tests.fmu.host import Instantiate, Unpacked
 from tests.fmu.trajectories import assert_equal, fmu_run
 from tests.fmus import both_fmus
-from tests.problems import DURATION, PROBLEMS, SIGNALS, Problem
+from tests.problems import DURATION, PROBLEMS, SIGNALS, STEADY_VELOCITIES, Problem
 
 pytestmark = both_fmus
 
@@ -56,6 +56,16 @@ def test_independent_of_the_partition(instantiate: Instantiate, name: str, count
     expected = [getattr(reference, signal)[-1] for signal in SIGNALS[:4]]
     assert signals[-1, :4] == pytest.approx(expected, rel=1e-9, abs=1e-13)
     assert ends["reversals"] == reference.reversals, "no partition hides or adds a reversal"
+
+
+@pytest.mark.parametrize(("ratio", "phase"), STEADY_VELOCITIES)
+def test_steady_velocity_is_that_of_another_program(
+    instantiate: Instantiate, ratio: int, phase: float
+) -> None:
+    scale = 2.0 / 11.0  # x0 w0 of table 1, m/s
+    instance = instantiate().initialize(frequency_ratio=ratio, phase=phase)
+    expected = STEADY_VELOCITIES[ratio, phase] * scale
+    assert instance.get("steady_velocity") == pytest.approx((expected,), abs=2e-4 * scale)
 
 
 @pytest.mark.slow

@@ -269,7 +269,6 @@ def test_closed_streams_do_no_harm(tmp_path: Path) -> None:
     call = f"{sys.executable} -m slider_resonator validate {missing} --json {out} <&- >&- 2>&-"
     done = subprocess.run(["bash", "-c", call], capture_output=True, text=True, check=False)
     assert done.returncode == 2
-    assert "Traceback" not in done.stderr
     assert "no such file" in out.read_text()
 
 
