@@ -95,6 +95,7 @@ def test_an_interrupted_build_ends_with_130(tmp_path: Path) -> None:
     assert "interrupted" in shown
 
 
+@pytest.mark.slow
 def test_an_interrupted_loop_says_that_nothing_is_kept(
     closed_loop_package: Path, tmp_path: Path
 ) -> None:

@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.checks.validate import validate
-from slider_resonator.scenes.scene_files import find_scene
 from tests.harness.scene_text import read_scene
 
 SCENE = """
@@ -29,12 +28,6 @@ reference = "averaged"
 relative = {relative}
 why = "it is averaged motion that is expected"
 """
-
-
-@pytest.mark.parametrize("scene", ["averaged_lugre_load_step", "averaged_lift_off", "slow_lugre"])
-def test_the_built_in_scenes_pass(native_fmu: Path, scene: str) -> None:
-    (result,) = validate([native_fmu], [find_scene(scene)])
-    assert not [(check.quantity, check.fmu) for check in result.checks if not check.passed]
 
 
 @pytest.mark.parametrize(

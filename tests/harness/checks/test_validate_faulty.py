@@ -26,23 +26,6 @@ def scene(tmp_path: Path) -> Path:
     return faulty_fmus.scene(tmp_path)
 
 
-@pytest.mark.parametrize(
-    ("define", "reason"),
-    [
-        ("IN_INSTANTIATE=LOOP", "no answer within the time limit of 1 s in fmi2Instantiate"),
-        ("IN_FREE=CRASH", "fmi2FreeInstance"),
-    ],
-)
-def test_a_crash_or_an_endless_loop_elsewhere(
-    native_fmu: Path, tmp_path: Path, scene: Path, define: str, reason: str
-) -> None:
-    fmu = compiled(native_fmu, tmp_path / "faulty.fmu", define)
-    validation = judged(fmu, scene, time_limit=1.0)
-    assert validation.exit_code == 2
-    (run_failure,) = validation.run_failures
-    assert reason in run_failure.reason
-
-
 def test_an_fmu_that_does_nothing_fails_and_its_output_does_no_harm(
     native_fmu: Path, tmp_path: Path, scene: Path
 ) -> None:

@@ -11,8 +11,6 @@ from pathlib import Path
 import pytest
 
 from studies.closed_loop import prediction
-from studies.closed_loop.judge import Agreement
-from studies.commands import closed_loop
 from studies.hosts.ssp_package import WITH_CONNECTORS
 from tests.harness import faulty_fmus
 from tests.harness.calling import call, refused
@@ -130,13 +128,3 @@ def test_a_package_of_an_earlier_version_is_named_with_what_it_lacks(
     said = refused("closed-loop", old, "--out", tmp_path)
     assert f"old.ssp: has no {WITH_CONNECTORS}" in said
     assert "`make build` builds one" in said
-
-
-def test_differences_are_shown_with_two_digits_however_small(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    agreement = Agreement("fmpy", 2.0, 0.03, 9.1e-9, 2.16, 7.2e-9, passed=True)
-    closed_loop._print([], [agreement])
-    shown = capsys.readouterr().out
-    assert "0.0091" in shown
-    assert "0.0072" in shown

@@ -1,17 +1,11 @@
 from __future__ import annotations
 
-import sys
-from importlib.metadata import version
 from pathlib import Path
 
 import pytest
 
 from slider_resonator.errors import HarnessError
 from studies.hosts.hosts import hosts, package_version, wine_version
-
-
-def test_the_version_is_that_of_the_environment() -> None:
-    assert package_version("fmpy") == version("fmpy")
 
 
 def test_a_package_that_is_missing_is_named_with_what_installs_it() -> None:
@@ -29,15 +23,3 @@ def test_wine_that_is_missing_is_named(monkeypatch: pytest.MonkeyPatch, tmp_path
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(HarnessError, match=r"wine: not found.*`make hosts`"):
         wine_version()
-
-
-def test_hosts_that_need_another_fmpy_have_environments_of_their_own() -> None:
-    others = {host.name: host.python for host in hosts() if host.python != Path(sys.executable)}
-    assert set(others) == {"cofmupy", "newest fmpy", "pathsim-fmi"}
-    assert others["newest fmpy"] == others["pathsim-fmi"] != others["cofmupy"]
-
-
-def test_fmpy_comes_first_and_names_differ() -> None:
-    names = [host.name for host in hosts()]
-    assert names[0] == "fmpy"
-    assert len(set(names)) == len(names)

@@ -11,7 +11,6 @@ from studies.hosts.job import HostAnswer
 from studies.hosts.runs import (
     ALLOWED,
     CASES,
-    by_case,
     compare,
     coupled,
     run_jobs,
@@ -79,12 +78,6 @@ def test_an_answer_that_cannot_be_compared_fails() -> None:
     assert short.error == "(1, 1) values, not (2, 1)"
     not_a_number = compare([[1.0]], HostAnswer([[math.nan]]))
     assert not any(found.passed for found in (refused, short, not_a_number))
-
-
-def test_cases_keep_their_order() -> None:
-    theirs = [HostAnswer([[1.0]])] * (len(CASES) - 1) + [HostAnswer([], "last")]
-    compared = by_case([[[1.0]]] * len(CASES), theirs)
-    assert [case for case, comparison in compared.items() if comparison.error] == [CASES[-1]]
 
 
 def test_the_leaders_blocking_force_becomes_the_load() -> None:

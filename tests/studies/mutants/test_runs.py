@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.scenes.scene_files import find_scene
 from studies.mutants import judging
 from studies.mutants.archive import read_python_fmu
@@ -18,7 +17,6 @@ from studies.mutants.listing import print_run, summary
 from studies.mutants.mutant import Mutant
 from studies.mutants.runs import run_changes, run_mutants
 from studies.mutants.verdict import EQUIVALENT, REJECTED, SURVIVED, MutationRun, Verdict
-from studies.mutants.workshop import read_native_sources
 from tests.harness import faulty_fmus
 from tests.harness.scene_text import read_scene
 
@@ -67,18 +65,6 @@ def test_faults_are_rejected_and_variants_accepted(native_fmu: Path) -> None:
     assert run.false_alarms == []
     assert run.rate == pytest.approx(2.0 / 3.0)
     assert all(verdict.quantity for verdict in run.verdicts if verdict.rejected)
-
-
-def test_fmus_without_sources_and_changes_that_do_not_fit_are_refused(
-    python_fmu: Path, native_fmu: Path
-) -> None:
-    with pytest.raises(FmuError, match="has no C sources to change"):
-        read_native_sources(python_fmu)
-    with pytest.raises(FmuError, match="no such file"):
-        read_native_sources(Path("no.fmu"))
-    stale = Change("stale", "device/stick.c", "no such text", "", "m")
-    with pytest.raises(HarnessError, match=r"stale: 'no such text' occurs 0 times in device/sti"):
-        run_changes(native_fmu, [stale], Judging([]))
 
 
 def test_the_rate_counts_only_what_changes_a_result(run: MutationRun[Mutant]) -> None:

@@ -1,18 +1,13 @@
 from __future__ import annotations
 
-import inspect
 import json
-import re
 from dataclasses import replace
 from html import escape
 from pathlib import Path
 
-from studies.paper import figure_2, figure_3, figure_5, figure_7, figure_8, labels
-from studies.paper.claim import Claim, near, statements
+from studies.paper.claim import Claim, statements
 from studies.paper.listing import (
-    verdicts,
     write_claims,
-    write_figures,
     write_index,
     write_tables,
 )
@@ -37,23 +32,6 @@ def test_every_statement_is_complete() -> None:
     for name, statement in statements().items():
         assert list(statement) == ["where", "statement", "verdict", "why"], name
         assert statement["verdict"] in ("agrees", "agrees in part", "disagrees"), name
-
-
-def test_verdicts_are_counted() -> None:
-    wrong = replace(CLAIM, confirmed=False)
-    assert verdicts([CLAIM, CLAIM, wrong]) == ("3 statements: 2 agrees, 1 not confirmed.")
-
-
-def test_figures_are_listed_with_their_captions(tmp_path: Path) -> None:
-    write_figures(tmp_path, [figure_2.FIGURE], PROVENANCE)
-    text = (tmp_path / "FIGURES.md").read_text(encoding="utf-8")
-    assert "(figure_2.png)" in text
-    assert figure_2.FIGURE.caption in text
-
-
-def test_near_is_relative() -> None:
-    assert near(-1.01, -1.0, 0.02)
-    assert not near(1.03, 1.0, 0.02)
 
 
 def test_tables_are_written_as_markdown_and_json(tmp_path: Path) -> None:
@@ -101,19 +79,3 @@ def test_the_index_has_all_figures_tables_and_claims_escaped(tmp_path: Path) -> 
     assert "&lt;a&gt;.fmu" in page
     assert "0123abcd" in page
     assert "img-src data: 'self' file:" in page
-
-
-SCALED = re.compile(r"\[[^]]+\]|before the end")
-"""A unit, a scale or a count in a label."""
-
-
-def test_every_label_of_an_axis_has_its_scale() -> None:
-    for module in (figure_2, figure_3, figure_5, figure_7, figure_8):
-        source = inspect.getsource(module)
-        for found in re.findall(r'[xy]label="([^"]+)"', source):
-            assert SCALED.search(found), f"{module.__name__}: {found}"
-    for name, value in vars(labels).items():
-        if name.isupper():
-            assert SCALED.search(value), name
-    for panel in (*figure_3.PANELS, *figure_5.PANELS):
-        assert SCALED.search(panel.label), panel.label
