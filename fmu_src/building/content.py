@@ -32,3 +32,15 @@ def icon_and_licences(*licences: str, icon: str = "model.png") -> dict[str, byte
     for name in licences:
         files[f"documentation/licenses/{name}"] = (ASSETS / "licenses" / name).read_bytes()
     return files
+
+
+def reference_experiments() -> dict[str, bytes]:
+    """Return path in the FMU -> bytes of its reference experiments (FMI-LS-REF).
+
+    `harness/studies/reference_experiments.py` writes them.
+    """
+    folder = ASSETS / "reference_experiments"
+    return {
+        f"extra/org.fmi-standard.fmi-ls-ref/{path.name}": path.read_bytes()
+        for path in sorted(folder.iterdir())
+    }

@@ -24,7 +24,12 @@ from fmu_src.building.compiling import (
     default_compiler,
     named_compiler,
 )
-from fmu_src.building.content import digest_of, guid_of, icon_and_licences
+from fmu_src.building.content import (
+    digest_of,
+    guid_of,
+    icon_and_licences,
+    reference_experiments,
+)
 from fmu_src.building.dates import EPOCH, date_of_build, date_text
 from fmu_src.building.platforms import HOST, Platform, host_platform, platforms_named
 from fmu_src.building.web_page import NAME as PAGE
@@ -46,7 +51,7 @@ class NativeModel:
     `code` is its C sources: path in the folder `sources` -> text. `details` are arguments of both
     the model description and the documentation page, `page` of the page alone. `version` is that of
     FMI. `takes_derivatives` is for one of FMI 2.0 that takes derivatives of inputs.
-    `runs_in_browser` adds the page that runs the component.
+    `is_slider` adds the page that runs the component, and reference experiments.
     """
 
     name: str
@@ -55,7 +60,7 @@ class NativeModel:
     page: str
     version: FmiVersion = "2.0"
     takes_derivatives: bool = False
-    runs_in_browser: bool = False
+    is_slider: bool = False
 
 
 def build_native(
@@ -74,7 +79,7 @@ def build_native(
         about,
         "page.html",
         takes_derivatives=True,
-        runs_in_browser=True,
+        is_slider=True,
     )
     return build_model(dest, model, platforms=platforms, compiler=compiler, progress=progress)
 
@@ -88,9 +93,7 @@ def build_native_3(
 ) -> Path:
     """Build the native slider for FMI 3.0; see `build_model`."""
     about = {"about": DESCRIPTION, "variables": VARIABLES}
-    model = NativeModel(
-        MODEL_3, slider_sources("3.0"), about, "page.html", "3.0", runs_in_browser=True
-    )
+    model = NativeModel(MODEL_3, slider_sources("3.0"), about, "page.html", "3.0", is_slider=True)
     return build_model(dest, model, platforms=platforms, compiler=compiler, progress=progress)
 
 
@@ -126,9 +129,11 @@ def build_model(
         page=model.page,
         **model.details,
     )
+    if model.is_slider:
+        files |= reference_experiments()
     undated = _description(model, generation_tool, "", EPOCH)
     hashed = files | _encoded(model.code) | {"modelDescription.xml": undated}
-    if model.runs_in_browser:
+    if model.is_slider:
         hashed |= {f"page/{name}": text.encode() for name, text in page_files().items()}
         if not platforms and compiler is None:
             progress("compiling for WebAssembly")

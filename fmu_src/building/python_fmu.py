@@ -15,7 +15,12 @@ from pathlib import Path
 from fmu_src import __version__
 from fmu_src.building.archive import check_folder, write_archive
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.content import digest_of, guid_of, icon_and_licences
+from fmu_src.building.content import (
+    digest_of,
+    guid_of,
+    icon_and_licences,
+    reference_experiments,
+)
 from fmu_src.building.dates import EPOCH, date_of_build, date_text
 from fmu_src.documentation import documentation_page
 from fmu_src.model_description import model_description
@@ -80,7 +85,7 @@ def _collect(package: Path) -> _Content:
     except metadata.PackageNotFoundError:
         raise BuildError("pythonfmu is not installed here; `make setup` installs it") from None
     page = documentation_page(model=MODEL, generation_tool=tool, host="python")
-    extras = icon_and_licences("license.txt", "pythonfmu.txt")
+    extras = icon_and_licences("license.txt", "pythonfmu.txt") | reference_experiments()
     extras["documentation/index.html"] = page
     hashed = {f"package/{name}": text for name, text in sources.items()} | extras
     hashed["modelDescription.xml"] = _description(tool, guid="", generated=EPOCH)

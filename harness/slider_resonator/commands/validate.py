@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from slider_resonator.checks.own_experiments import validate_own
 from slider_resonator.checks.validate import validate
 from slider_resonator.checks.verdict import TITLE
 from slider_resonator.commands.options import (
@@ -27,6 +28,12 @@ from slider_resonator.scenes.scene_files import find_scenes
 @fmus_argument
 @scenes_option("all built-in")
 @click.option(
+    "--own",
+    is_flag=True,
+    help="In place of scenes run the experiments that each FMU carries (FMI-LS-REF), and compare "
+    "with the results beside them.",
+)
+@click.option(
     "--details",
     is_flag=True,
     help="Show every check of many scenes, every point of a sweep, and why it is expected.",
@@ -39,6 +46,7 @@ def validate_command(
     context: click.Context,
     fmus: tuple[Path, ...],
     scenes: tuple[str, ...],
+    own: bool,
     details: bool,
     jobs: int | None,
     time_limit: float,
@@ -62,17 +70,23 @@ def validate_command(
       slider-resonator validate my.fmu --scene table_1 --details
       slider-resonator validate my.fmu --scene scenes/mine.toml --json > report.json
       slider-resonator validate my.fmu --scene my_scenes --junit report.xml --html report.html
+      slider-resonator validate my.fmu --own
     """
+    if own and scenes:
+        raise click.UsageError(f"--own and --scene {scenes[0]}: must be one of them")
     sources = {f"the FMU {path}": path for path in fmus}
     sources |= {f"the scene {scene}": Path(scene) for scene in scenes}
     reports = Reports.requested(TITLE, junit, html, json, sources)
     try:
-        found = find_scenes(scenes)
+        found = [] if own else find_scenes(scenes)
         paths = fmus or default_fmus()
         with progress_bar() as progress:
-            validations = validate(
-                paths, found, progress, time_limit=time_limit, jobs=jobs or available_cores()
-            )
+            if own:
+                validations = validate_own(paths, progress, time_limit=time_limit)
+            else:
+                validations = validate(
+                    paths, found, progress, time_limit=time_limit, jobs=jobs or available_cores()
+                )
     except HarnessError as error:
         reports.write([], str(error))
         raise

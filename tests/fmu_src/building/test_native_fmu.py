@@ -82,6 +82,7 @@ def test_nothing_of_python_is_inside(native_fmu: Path) -> None:
     assert {name.split("/")[0] for name in contents(native_fmu)} == {
         "binaries",
         "documentation",
+        "extra",
         "model.png",
         "modelDescription.xml",
         "sources",

@@ -1,0 +1,236 @@
+"""The experiments that an FMU carries (FMI-LS-REF): run them and compare with their results."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from math import isfinite, nan
+from pathlib import Path
+from time import perf_counter
+from xml.etree import ElementTree as ET
+
+import numpy as np
+
+from slider_resonator.arrays import Array
+from slider_resonator.checks.compare import Check, Comparison, Tolerance, compare
+from slider_resonator.checks.measuring import Measurement
+from slider_resonator.checks.validate import Curves, RunFailure, Validation, curves_of
+from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.errors import HarnessError, SceneError, unknown_name
+from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
+from slider_resonator.fmu.opening import lacking, open_fmu
+from slider_resonator.fmu.provenance import identity_of
+from slider_resonator.fmu.run import run
+from slider_resonator.output.progress import Progress, no_progress
+from slider_resonator.scenes.csv_signal import csv_points, csv_rows
+from slider_resonator.scenes.scene import Scene, ScenePoint, scene_from
+from slider_resonator.scenes.vocabulary import QUANTITIES
+
+OWN_NAME = "org.fmi-standard.fmi-ls-ref"
+"""The layered standard, and its folder in `extra`."""
+MANIFEST = "fmi-ls-manifest.xml"
+NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"
+EXPERIMENTS_TYPE = "application/x-ma-hs-experiments"
+ALLOWED = "slider-resonator.deviation-of-peak"
+"""Type of the annotation with the allowed deviation, as a share of the peak of each result."""
+USUAL_DEVIATION = 1e-4
+"""Allowed deviation of results without that annotation."""
+
+
+@dataclass(frozen=True)
+class OwnExperiment:
+    """An experiment of an FMU: `results` by output at `times` (s), shape (n,)."""
+
+    scene: Scene
+    times: Array
+    results: Mapping[str, Array]
+    allowed: float
+
+
+def own_experiments(fmu: Path) -> list[OwnExperiment]:
+    """Return the experiments that an FMU carries.
+
+    Raises FmuError for a file that is no usable FMU, SceneError for one without experiments and for
+    experiments that cannot be read.
+    """
+    with open_fmu(fmu) as opened:
+        folder = opened.folder / "extra" / OWN_NAME
+        manifest = folder / MANIFEST
+        if not manifest.is_file():
+            missing = f"extra/{OWN_NAME}/{MANIFEST} is missing"
+            raise SceneError(f"{fmu}: carries no experiments: {missing}")
+        found = [
+            _experiment(entry, file, opened.folder)
+            for related in _root(manifest).iter("Related")
+            if related.get("type") == EXPERIMENTS_TYPE
+            for file in [_source(related, folder, opened.folder)]
+            for entry in _root(file).iter("Experiment")
+        ]
+    if not found:
+        raise SceneError(f"{fmu}: carries no experiments: {MANIFEST} names none")
+    return found
+
+
+def validate_own(
+    fmus: Iterable[Path], progress: Progress = no_progress, *, time_limit: float = TIME_LIMIT
+) -> tuple[Validation, ...]:
+    """Run the experiments that each FMU carries, and compare with the results beside them.
+
+    An FMU that has none, or cannot run one within `time_limit` (s), is a run failure.
+    """
+    return tuple(_validate(fmu, progress, time_limit) for fmu in fmus)
+
+
+def _validate(fmu: Path, progress: Progress, time_limit: float) -> Validation:
+    began, checks, failures = perf_counter(), list[Check](), list[RunFailure]()
+    curves: list[Curves | None] = []
+    try:
+        experiments = own_experiments(fmu)
+    except HarnessError as error:
+        return Validation(str(fmu), (), perf_counter() - began, (RunFailure.of(fmu, None, error),))
+    for index, experiment in enumerate(experiments):
+        point = ScenePoint(experiment.scene)
+        progress(f"{fmu.name}: {experiment.scene.name}", index / len(experiments))
+        try:
+            for check, measured, expected in _judged(fmu, experiment, point, time_limit):
+                checks.append(check)
+                curves.append(curves_of(check, measured, expected))
+        except HarnessError as error:
+            failures.append(RunFailure.of(fmu, point, error))
+    return Validation(
+        str(fmu),
+        tuple(checks),
+        perf_counter() - began,
+        tuple(failures),
+        tuple(curve for curve in curves if curve is not None),
+        lacking(fmu),
+        identity=identity_of(fmu),
+    )
+
+
+def _judged(
+    fmu: Path, experiment: OwnExperiment, point: ScenePoint, time_limit: float
+) -> list[tuple[Check, Measurement, Array]]:
+    scene, times = experiment.scene, experiment.times
+    with IsolatedFmu(fmu, time_limit) as isolated:
+        task = partial(run, parameters=scene.parameters, schedule=scene.schedule())
+        record = isolated.run(task)
+    rows = np.abs(record.times[:, None] - times).argmin(axis=0)
+    late = np.abs(record.times[rows] - times) > 1e-6 * (scene.step_size or 0.0)
+    if late.any():
+        raise SceneError(f"result at time = {times[late][0]:.9g}: must be a communication point")
+    judged = []
+    for name, expected in experiment.results.items():
+        measured = Measurement(record[name][rows], times=times)
+        comparison = Comparison(
+            name,
+            "own result",
+            Tolerance(relative=experiment.allowed),
+            "the FMU carries this result of its experiment",
+        )
+        judged.append((compare(comparison, measured, expected, point), measured, expected))
+    return judged
+
+
+def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
+    """Return an experiment of a file of the FMU that is unpacked in `root`.
+
+    Drafts of the format have times as attributes of it or of <TransientSimulation>.
+    """
+    name = re.sub(r"[^\w-]", "_", entry.get("name", "")) or "experiment"
+    where = f"{file.name}: experiment {name}"
+    run = {**entry.attrib, **getattr(entry.find("TransientSimulation"), "attrib", {})}
+    sources = {
+        kind: _source(found, file.parent, root)
+        for kind in ("Parameters", "Stimuli", "References")
+        if (found := entry.find(kind)) is not None
+    }
+    if "References" not in sources:
+        raise SceneError(f"{where}: <References> is missing; must name a CSV file")
+    scene = scene_from(
+        {
+            "name": name,
+            "title": entry.get("description") or name,
+            "device": _parameters(sources["Parameters"]) if "Parameters" in sources else {},
+            "inputs": _inputs(sources["Stimuli"]) if "Stimuli" in sources else {},
+            "run": {
+                "stop_time": _number(run.get("stopTime"), f"{where}: stopTime"),
+                "step_size": _number(run.get("stepSize"), f"{where}: stepSize"),
+                "start_time": _number(run.get("startTime", "0"), f"{where}: startTime"),
+            },
+        },
+        where,
+    )
+    times, results = _results(sources["References"])
+    annotation = entry.find(f"References/Annotations/Annotation[@type='{ALLOWED}']")
+    given = None if annotation is None else _number(annotation.text, f"{where}: {ALLOWED}")
+    return OwnExperiment(scene, times, results, given or USUAL_DEVIATION)
+
+
+def _parameters(file: Path) -> dict[str, float]:
+    """Return the values of a parameter set (SSV), whatever the version of its namespace."""
+    found: dict[str, float] = {}
+    for entry in _root(file).findall(".//{*}Parameter"):
+        name = entry.get("name", "")
+        if name not in PARAMETERS:
+            raise SceneError(f"{file.name}: {unknown_name('parameter', name, PARAMETERS)}")
+        found[name] = _number(
+            next((one.get("value") for one in entry), None), f"{file.name}: {name}"
+        )
+    return found
+
+
+def _inputs(file: Path) -> dict[str, dict[str, str]]:
+    """Return the inputs of a table of values at communication points, held until the next."""
+    return {
+        name: {"csv": str(file), "column": name, "between": "hold"}
+        for name in _columns(file, INPUTS)
+    }
+
+
+def _results(file: Path) -> tuple[Array, dict[str, Array]]:
+    """Return times (s) and outputs, (n,) each."""
+    signals = [name for name, one in QUANTITIES.items() if one.kind == "signal"]
+    points = {name: np.array(csv_points(file, name)) for name in _columns(file, signals)}
+    if not points:
+        raise SceneError(f"{file.name}: no column but time; must have one for each result")
+    return next(iter(points.values()))[:, 0], {name: one[:, 1] for name, one in points.items()}
+
+
+def _columns(file: Path, allowed: Collection[str]) -> list[str]:
+    try:
+        _, *names = csv_rows(file)[0]
+    except ValueError as error:
+        raise SceneError(str(error)) from error
+    for name in names:
+        if name not in allowed:
+            raise SceneError(f"{file.name}: {unknown_name('column', name, allowed)}")
+    return names
+
+
+def _source(element: ET.Element, folder: Path, root: Path) -> Path:
+    """Return the file that an element names, from the folder of its own; it must be in the FMU."""
+    source = element.get("source", "")
+    file = (folder / source).resolve()
+    if not (file.is_file() and file.is_relative_to(root.resolve())):
+        raise SceneError(f"{element.tag}: source = {source!r}: must be a file in the FMU")
+    return file
+
+
+def _root(file: Path) -> ET.Element:
+    try:
+        return ET.fromstring(file.read_bytes())
+    except ET.ParseError as error:
+        raise SceneError(f"{file.name}: {error}; must be XML") from error
+
+
+def _number(text: str | None, where: str) -> float:
+    try:
+        number = float(text or "")
+    except ValueError:
+        number = nan
+    if not isfinite(number):
+        raise SceneError(f"{where} = {text!r}: must be a finite number")
+    return number

@@ -1,0 +1,107 @@
+"""The experiments that an FMU carries: found, run, and compared with the results beside them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy import simulate_fmu
+from fmpy.util import read_csv
+
+from slider_resonator.checks.own_experiments import own_experiments
+from slider_resonator.fmu.opening import Fmu
+from tests.fmus import every_slider
+from tests.harness.calling import call, refused
+from tests.harness.faulty_fmus import altered
+
+OWN = "extra/org.fmi-standard.fmi-ls-ref/"
+
+
+def with_file(fmu: Path, folder: Path, name: str, old: bytes, new: bytes) -> Path:
+    def alter(place: str, content: bytes) -> bytes:
+        return content.replace(old, new, 1) if place == OWN + name else content
+
+    return altered(fmu, folder / "altered.fmu", alter)
+
+
+@every_slider
+def test_every_build_carries_experiments_and_agrees_with_them(fmu: Fmu) -> None:
+    result = call("validate", fmu.path, "--own")
+    assert result.exit_code == 0, result.output
+    assert "12 of 12 checks passed" in result.output
+    for name in ("table_1", "lugre", "changing_inputs"):
+        assert name in result.output
+
+
+def test_a_wrong_result_fails_with_experiment_variable_and_time(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    (experiment,) = (e for e in own_experiments(native_fmu) if e.scene.name == "table_1")
+    value = f"{experiment.results['velocity'][50]:.12g}".encode()
+    wrong = with_file(native_fmu, tmp_path, "table_1_ref.csv", b"," + value, b"," + value + b"1e-3")
+    result = call("validate", wrong, "--own")
+    assert result.exit_code == 1, result.output
+    said = " ".join(result.output.split())
+    assert "FAIL table_1: velocity:" in said
+    assert "from 0.05 s on, most at 0.05 s" in said
+    assert "11 of 12 checks passed" in said
+
+
+def test_another_device_is_seen(native_fmu: Path, tmp_path: Path) -> None:
+    other = with_file(
+        native_fmu, tmp_path, "changing_inputs.ssv", b'value="0.05"', b'value="0.051"'
+    )
+    result = call("validate", other, "--own")
+    assert result.exit_code == 1
+    assert "8 of 12 checks passed" in result.output
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "text"),
+    [
+        ("fmi-ls-manifest.xml", b"x-ma-hs-exp", b"x-other", "fmi-ls-manifest.xml names none"),
+        ("fmi-ls-manifest.xml", b"<fmiReferences", b"<", "must be XML"),
+        ("fmi-ls-manifest.xml", b'"experiments.exp"', b'"../../../a"', "must be a file in the FMU"),
+        ("experiments.exp", b'stepSize="0.001"', b"", "stepSize = None: must be a finite number"),
+        ("experiments.exp", b"table_1_in.csv", b"no.csv", "'no.csv': must be a file in the FMU"),
+        ("lugre.ssv", b"friction_law", b"friction_lab", "did you mean 'friction_law'?"),
+        ("lugre_ref.csv", b"position", b"positron", "unknown column 'positron'"),
+        ("lugre_ref.csv", b"\n0.0005,", b"\n0.00051,", "must be a communication point"),
+    ],
+)
+def test_experiments_that_cannot_be_read_are_named(
+    native_fmu: Path, tmp_path: Path, name: str, old: bytes, new: bytes, text: str
+) -> None:
+    said = refused("validate", with_file(native_fmu, tmp_path, name, old, new), "--own")
+    assert text in " ".join(said.split())
+
+
+def test_an_fmu_without_experiments_could_not_be_judged(native_fmu: Path, tmp_path: Path) -> None:
+    def alter(name: str, content: bytes) -> bytes | None:
+        return None if name.startswith(OWN) else content
+
+    bare = altered(native_fmu, tmp_path / "bare.fmu", alter)
+    assert "carries no experiments" in " ".join(refused("validate", bare, "--own").split())
+    assert "must be one of them" in refused("validate", bare, "--own", "--scene", "table_1")
+
+
+@every_slider
+def test_another_tool_gets_the_results(fmu: Fmu) -> None:
+    """The files of the FMU are enough: fmpy runs each experiment with its table of inputs."""
+    experiments = own_experiments(fmu.path)
+    assert len(experiments) == 3
+    for experiment in experiments:
+        scene = experiment.scene
+        found = simulate_fmu(
+            str(fmu.path),
+            start_values=dict(scene.parameters),
+            input=read_csv(str(fmu.folder / OWN / f"{scene.name}_in.csv")),
+            output=list(experiment.results),
+            stop_time=scene.stop_time,
+            output_interval=scene.step_size,
+        )
+        assert np.allclose(found["time"], experiment.times, rtol=0.0, atol=1e-9)
+        for name, expected in experiment.results.items():
+            off = np.abs(found[name] - expected).max() / np.abs(expected).max()
+            assert off <= experiment.allowed, f"{scene.name}: {name}"
