@@ -26,7 +26,6 @@ from slider_resonator.scenes.input_tables import (
 )
 from slider_resonator.scenes.key_table import KeyTable
 from slider_resonator.scenes.need_table import AllowedTable, NeedTable
-from slider_resonator.scenes.scene_files import example_text
 from slider_resonator.scenes.schema import RunTable, SceneTable, SweepTable
 from slider_resonator.scenes.toml_file import toml_value
 from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES, Quantity
@@ -101,11 +100,16 @@ def scene_page() -> str:
         "not a failed check.\n",
         "## A scene with every key\n",
         "It is valid, and passes. A line that begins with `# or:` can replace the one above it.\n",
-        f"```toml\n{example_text('every_key.toml').rstrip()}\n```\n",
+        f"```toml\n{beside('every_key.toml').rstrip()}\n```\n",
         "The file `recorded.csv` beside it:\n",
-        f"```text\n{example_text('recorded.csv').rstrip()}\n```\n",
+        f"```text\n{beside('recorded.csv').rstrip()}\n```\n",
     ]
     return "\n".join(parts)
+
+
+def beside(name: str) -> str:
+    """Return the text of a file beside this one."""
+    return Path(__file__).with_name(name).read_text(encoding="utf-8")
 
 
 def _section(heading: str, model: type[KeyTable]) -> str:

@@ -15,7 +15,7 @@ from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.expansion import variants
 from slider_resonator.scenes.json_schema import scene_schema
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.scenes.scene_files import example_text, find_scene, find_scenes, is_core
+from slider_resonator.scenes.scene_files import find_scene, find_scenes, is_core, template
 from slider_resonator.scenes.toml_file import read_toml, toml_text
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -72,7 +72,7 @@ def scenes_command(as_json: bool, **chosen: Any) -> None:
     if chosen["show"]:
         click.echo(escaped(_text(find_scene(chosen["show"]))), nl=False)
     elif chosen["template"]:
-        click.echo(example_text("template.toml"), nl=False)
+        click.echo(template(), nl=False)
     elif chosen["check"]:
         _check(chosen["check"])
     elif chosen["schema"]:

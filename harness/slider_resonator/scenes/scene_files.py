@@ -75,9 +75,9 @@ def _scenes_of(name_or_file: str, *, folders: bool = False) -> Sequence[Scene]:
     raise SceneError(f"{unknown}; `slider-resonator scenes --all` lists all")
 
 
-def example_text(name: str) -> str:
-    """Return the text of an example file of this package, such as `template.toml`."""
-    return (resources.files(__package__) / "examples" / name).read_text(encoding="utf-8")
+def template() -> str:
+    """Return a commented scene to start from."""
+    return (resources.files(__package__) / "template.toml").read_text(encoding="utf-8")
 
 
 def _names_in(folder: str) -> dict[str, Path]:

@@ -11,19 +11,19 @@ from typing import Any
 import jsonschema
 import pytest
 
-from docs.scene_page import TABLES, scene_page
+from docs.scene_page import TABLES, beside, scene_page
 from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
 from slider_resonator.scenes.json_schema import scene_schema
 from slider_resonator.scenes.scene import Scene, scene_from
-from slider_resonator.scenes.scene_files import built_in_scenes, example_text
+from slider_resonator.scenes.scene_files import built_in_scenes, template
 from slider_resonator.scenes.schema import SceneTable
 from slider_resonator.scenes.toml_file import toml_value
 from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES
 from tests.harness.scenes.test_mistakes import MISTAKES
 from tests.processes import ROOT
 
-EVERY_KEY = example_text("every_key.toml").splitlines()
+EVERY_KEY = beside("every_key.toml").splitlines()
 OR = "# or: "
 ALTERNATIVES = [number for number, line in enumerate(EVERY_KEY) if line.startswith(OR)]
 VALIDATOR = jsonschema.Draft202012Validator(scene_schema())
@@ -49,7 +49,7 @@ VARIANTS = ["\n".join(EVERY_KEY), steady(), FAMILY, *map(replaced, ALTERNATIVES)
 
 
 def scene_of_text(text: str, folder: Path) -> Scene:
-    (folder / "recorded.csv").write_text(example_text("recorded.csv"))
+    (folder / "recorded.csv").write_text(beside("recorded.csv"))
     return scene_from(tomllib.loads(text), "x.toml", folder)
 
 
@@ -135,7 +135,7 @@ def test_every_reference_of_a_quantity_is_described() -> None:
 
 
 def test_the_template_is_valid_with_and_without_its_comments(tmp_path: Path) -> None:
-    text = example_text("template.toml")
+    text = template()
     assert len(scene_of_text(text, tmp_path).expect) == 2
     commented = re.findall(r"^# (\[\w+\]|\w+ = .*)$", text, re.M)
     assert len(commented) >= 7
@@ -147,7 +147,7 @@ def test_the_json_schema_is_one_and_accepts_what_is_valid() -> None:
     jsonschema.Draft202012Validator.check_schema(scene_schema())
     for path in set(built_in_scenes().values()):
         VALIDATOR.validate(tomllib.loads(path.read_text(encoding="utf-8")))
-    VALIDATOR.validate(tomllib.loads(example_text("template.toml")))
+    VALIDATOR.validate(tomllib.loads(template()))
 
 
 NOT_IN_A_SCHEMA = {
