@@ -9,12 +9,7 @@ from functools import partial
 from math import inf
 from pathlib import Path
 
-from slider_resonator.choosing.candidate import (
-    START_TOLERANCE,
-    Candidate,
-    models,
-    tolerances,
-)
+from slider_resonator.choosing.candidate import START_TOLERANCE, Candidate, models, tolerances
 from slider_resonator.choosing.choice import Choice, Evaluation, RuledOut, cheapest
 from slider_resonator.choosing.errors import Estimates
 from slider_resonator.choosing.ladder import coarsest

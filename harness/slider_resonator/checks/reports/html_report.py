@@ -21,14 +21,7 @@ from slider_resonator.checks.validate import (
     provenance_of_all,
     worst_of_sweeps,
 )
-from slider_resonator.checks.verdict import (
-    TITLE,
-    measure_of,
-    place,
-    sentence,
-    title,
-    value_text,
-)
+from slider_resonator.checks.verdict import TITLE, measure_of, place, sentence, title, value_text
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.fmu.provenance_text import provenance_html
 from slider_resonator.output.hover_plot import (
@@ -42,11 +35,7 @@ from slider_resonator.output.hover_plot import (
 from slider_resonator.output.html_page import escaped, folded, rendered, section, write_page
 from slider_resonator.output.plot_style import COLOURS, png_data_uri, style
 from slider_resonator.output.readable import number_of
-from slider_resonator.output.start_beyond import (
-    limit_to_later,
-    range_after_start,
-    words_for_start,
-)
+from slider_resonator.output.start_beyond import limit_to_later, range_after_start, words_for_start
 from slider_resonator.output.table import Cell, Row, Table, numbers, texts, verdict
 from slider_resonator.scenes.vocabulary import QUANTITIES
 

@@ -14,12 +14,7 @@ from slider_resonator.checks.validate import (
     not_applied,
     provenance_of_all,
 )
-from slider_resonator.checks.verdict import (
-    TITLE,
-    place,
-    sentence,
-    title,
-)
+from slider_resonator.checks.verdict import TITLE, place, sentence, title
 from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.fmu.provenance_text import provenance_properties
 from slider_resonator.output.atomic import replacing

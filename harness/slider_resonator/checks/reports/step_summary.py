@@ -11,12 +11,7 @@ from slider_resonator.checks.validate import (
     not_applied,
     provenance_of_all,
 )
-from slider_resonator.checks.verdict import (
-    TITLE,
-    place,
-    sentence,
-    title,
-)
+from slider_resonator.checks.verdict import TITLE, place, sentence, title
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.provenance_text import provenance_markdown
 from slider_resonator.output.markdown import escaped, rendered

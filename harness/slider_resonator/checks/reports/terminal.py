@@ -15,13 +15,7 @@ from slider_resonator.checks.validate import (
     not_applied,
     worst_of_sweeps,
 )
-from slider_resonator.checks.verdict import (
-    called,
-    measure_of,
-    place,
-    sentence,
-    value_text,
-)
+from slider_resonator.checks.verdict import called, measure_of, place, sentence, value_text
 from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
 from slider_resonator.output.terminal import STYLES, aligned, rendered, words
