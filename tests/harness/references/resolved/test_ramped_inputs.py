@@ -26,6 +26,8 @@ DEVICE = Device()
 PHASE = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, phase_rate=2.0)
 LOAD = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, load_rate=3.0)
 CHIRP = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, ratio_rate=13.0)
+BACK = HeldInputs(0.0, STOP, 0.2, 0.01, frequency_ratio=0.4, ratio_rate=-40.0)
+"""The normal load turns back."""
 ALL = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, phase_rate=2.0, load_rate=3.0, ratio_rate=13.0)
 LIFTS = replace(DEVICE, normal_amplitude=1.6)
 STICKS = replace(DEVICE, friction_coefficient=30.0)
@@ -77,8 +79,16 @@ def test_cutting_lines_into_pieces_changes_nothing(device: Device) -> None:
     assert off(position(device, cut(ALL, 7)), position(device, [ALL])) < 1e-11
 
 
-@pytest.mark.parametrize("device", [DEVICE, LUGRE])
-@pytest.mark.parametrize("inputs", [PHASE, LOAD, CHIRP])
+@pytest.mark.parametrize(
+    ("device", "inputs"),
+    [
+        (DEVICE, PHASE),
+        (DEVICE, CHIRP),
+        (LUGRE, LOAD),
+        (LIFTS, BACK),
+        (replace(LUGRE, normal_amplitude=1.6), BACK),
+    ],
+)
 def test_held_steps_tend_to_the_line_with_second_order(device: Device, inputs: HeldInputs) -> None:
     line = position(device, [inputs])
     coarse, fine = (off(position(device, staircase(inputs, n)), line) for n in (200, 800))
@@ -99,21 +109,10 @@ def test_contact_changes_of_a_chirp_are_exact() -> None:
     assert np.abs(1.0 + 1.6 * np.sin(angle)).max() < 1e-11
 
 
-BACK = HeldInputs(0.0, STOP, 0.2, 0.01, frequency_ratio=0.4, ratio_rate=-40.0)
-
-
 @pytest.mark.parametrize("device", [LIFTS, replace(LUGRE, normal_amplitude=1.6)])
 def test_references_agree_under_a_normal_load_that_turns_back(device: Device) -> None:
     one, other = (position(device, [BACK], taylor_series=series) for series in (True, False))
     assert off(other, one) < 2e-9
-
-
-@pytest.mark.parametrize("device", [LIFTS, replace(LUGRE, normal_amplitude=1.6)])
-def test_held_steps_tend_to_a_normal_load_that_turns_back(device: Device) -> None:
-    line = position(device, [BACK])
-    coarse, fine = (off(position(device, staircase(BACK, n)), line) for n in (300, 1200))
-    assert fine < 1e-4
-    assert fine < coarse / 8.0, "sixteen, but for where steps lie in a period"
 
 
 def test_flight_under_a_chirp_that_fades_is_seen() -> None:
