@@ -9,6 +9,8 @@ from pathlib import Path
 
 from fmu_src.building.archive import replace_file
 
+KEPT = 6
+"""Contents that are kept of one name: those of branches and changes that alternate."""
 _DIGEST = hashlib.sha256().digest_size
 
 
@@ -23,14 +25,15 @@ def cache_folder() -> Path | None:
 
 
 def cached(name: str, origin: bytes, make: Callable[[], bytes]) -> bytes:
-    """Return what `make` returned last under this name, if it was of this origin, or make it anew.
+    """Return what `make` returned under this name from this origin, or make it anew.
 
-    `origin` is all that it depends on. A file that is damaged does not count.
+    `origin` is all that it depends on. The last KEPT of a name are kept. A file that is damaged
+    does not count.
     """
     folder = cache_folder()
     if folder is None:
         return make()
-    path = folder / f"{name}.made"
+    path = folder / f"{name}.{hashlib.sha256(origin).hexdigest()[:16]}.made"
     with suppress(OSError):
         kept = path.read_bytes()
         content = kept[_DIGEST:]
@@ -39,6 +42,10 @@ def cached(name: str, origin: bytes, make: Callable[[], bytes]) -> bytes:
     content = make()
     with suppress(OSError):  # a full disk: the next build makes it again
         replace_file(path, _digest(origin, content) + content)
+        others = folder.glob(f"{name}.{'?' * 16}.made")
+        of_the_name = sorted(others, key=lambda made: made.stat().st_mtime)
+        for old in of_the_name[:-KEPT]:
+            old.unlink()
     return content
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.cache import cache_folder, cached
+from fmu_src.building.cache import KEPT, cache_folder, cached
 from fmu_src.building.compiling import Compiler, compile_binary
 
 
@@ -42,7 +42,15 @@ def test_equal_origins_are_made_once(make: Maker) -> None:
     assert cached("library.so", b"sources", make) == b"binary 1"
     assert cached("library.dll", b"sources", make) == b"binary 2"
     assert cached("library.so", b"other sources", make) == b"binary 3"
-    assert cached("library.so", b"sources", make) == b"binary 4", "only the last one is kept"
+    assert cached("library.so", b"sources", make) == b"binary 1"
+
+
+def test_the_last_few_of_a_name_are_kept(folder: Path, make: Maker) -> None:
+    cached("library", b"another name", make)
+    for number in range(KEPT + 1):
+        cached("library.so", b"sources %d" % number, make)
+    assert len(list(folder.glob("library.so.*.made"))) == KEPT
+    assert len(list(folder.glob("library.*.made"))) == KEPT + 1
 
 
 @pytest.mark.parametrize(
@@ -52,7 +60,7 @@ def test_what_is_damaged_is_made_again(
     folder: Path, make: Maker, damage: Callable[[bytes], bytes]
 ) -> None:
     cached("library.so", b"sources", make)
-    path = folder / "library.so.made"
+    (path,) = folder.glob("library.so.*.made")
     path.write_bytes(damage(path.read_bytes()))
     assert cached("library.so", b"sources", make) == b"binary 2"
 
