@@ -36,7 +36,7 @@ function cardsOf({ outputs, isPredicted, end, phase, load, faces, fullFriction: 
       isPredicted ? "the load that stops the slider" : remark],
     ["run", "mean velocity", shown("mean_velocity"), `of the last period, after ${factor * end}\u00a0${unit}`],
     ["friction", `friction of ${facesOf(faces)}`, shown("load", friction),
-      "while sliding, under the mean normal load"],
+      `while sliding; it heats by ${shown("friction_power")}`],
   ];
 }
 

@@ -172,7 +172,7 @@ def test_validation(browser: Chrome, native_fmu_for_wine: Path, tmp_path: Path) 
     scenes = [find_scene(name) for name in ("table_1", "load_speed")]
     page = tmp_path / "report.html"
     write_html(page, validate([native_fmu_for_wine], scenes))
-    assert opened(browser, page) == 2
+    assert opened(browser, page) == 4, "FMU on reference, and their difference, of each scene"
     text = hovered(browser)
     assert "time [s]: " in text
     assert re.search(r"\w \[m/?s?\]: \d", text), "the quantity that is drawn, with its unit"

@@ -130,7 +130,10 @@ def assert_outputs_are_those_of_fmpy(
     record = simulate_fmu(
         str(fmu),
         start_values=values,
-        output=["position", "mean_velocity", "steady_velocity", "blocking_force", "reversals"],
+        output=[
+            *("position", "mean_velocity", "steady_velocity", "blocking_force", "reversals"),
+            "friction_power",
+        ],
         stop_time=end,
         output_interval=end / STEPS,
         step_size=end / STEPS,

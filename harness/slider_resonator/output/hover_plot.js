@@ -206,7 +206,7 @@ function draw(box) {
     scales: { x: scaleOf(spec.x), y: scaleOf(spec.y) },
     axes: [axisOf(spec.x, { size: 34 }), axisOf(spec.y, { size: 64 })],
     cursor: { points: { show: false }, drag: { x: true, y: true, uni: 20 } },
-    legend: { show: !spec.series.every(({ cells }) => cells), live: false, markers: { show: false } },
+    legend: { show: spec.series.length > 1 && !spec.series.every(({ cells }) => cells), live: false, markers: { show: false } },
     series: [{}, ...spec.series.map((one) => {
       const shown = document.createElement("span");
       shown.append(sampleOf(one), one.label);
