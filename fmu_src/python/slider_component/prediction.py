@@ -25,9 +25,6 @@ from .vibrating_load import EXACT, VibratingLoad
 BISECTIONS = 52
 """Halvings of [0, pi] in which the angle of balance is found."""
 
-FLAT = 3e-3
-"""Width [rad] of a balance from which on it is flat, not just uncertain by rounding."""
-
 ROUNDING = 8.0
 """Rounding error of a mean friction, in units of the last place of the largest friction."""
 
@@ -142,19 +139,11 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
 def _balance(excess: Callable[[float], float], noise: float) -> float:
     """The angle Theta [rad] at which the excess of friction and load falls through 0.
 
-    Where it is 0 over a range (even ratios, with flight while sliding turns) it is the end of the
-    highest velocity; where it stays above or below 0, pi or 0.
+    Where it is 0 within its `noise` over a range (even ratios, with flight while sliding turns) it
+    is the end of the highest velocity; where it stays above or below 0, pi or 0.
     """
-    balance = _bisected(excess, 0.0)
-    beside = (balance - FLAT, balance + FLAT)
-    if any(0.0 < turning < pi and abs(excess(turning)) <= noise for turning in beside):
-        return _bisected(excess, noise)
-    return balance
-
-
-def _bisected(excess: Callable[[float], float], above: float) -> float:
     low, high = 0.0, pi
     for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if excess(middle) > above else (low, middle)
+        low, high = (middle, high) if excess(middle) > noise else (low, middle)
     return 0.5 * (low + high)
