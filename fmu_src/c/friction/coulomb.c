@@ -5,9 +5,6 @@
 #include "../base/elementary.h"
 #include "law.h"
 
-/* Share of the longest arc within which a release and a lift-off may be the same event. */
-#define SAME 1e-6
-
 /* Relative difference of the forces on a slider up to which they count as balanced. */
 #define BALANCED 1e-12
 
@@ -80,24 +77,6 @@ static double force(const Law *law, const Moment *moment, int mode) {
     return mode * friction_limit(&law->held.plant, moment->psi);
 }
 
-/* Whether a stick ends because the contact lifts: friction is 0 there. */
-static bool lifts_first(const Plant *plant, double chi) {
-    double limit = plant->friction_preload + plant->friction_amplitude * sin(chi);
-    return limit <= 16.0 * EPSILON * (plant->friction_preload + plant->friction_amplitude);
-}
-
-static void stick(Leg *leg, const Held *held, Moment *now, double longest, double switching) {
-    const Plant *plant = &held->plant;
-    leg_begin_rest(leg, held, now);
-    leg_follow(leg, held, now, longest);
-    bool near_switch = switching == longest && switching - leg->t < SAME * held->arc;
-    double chi = now->psi + plant->phase + turned_by(plant, leg->t);
-    if (leg_released(leg) && near_switch && lifts_first(plant, chi)) {
-        leg->t = switching;
-        leg->zero_of = -1;
-    }
-}
-
 /* A time [s] up to which a slider released in direction `sign` is guaranteed to move on; 0 if there is no
  * guarantee.
  *
@@ -136,10 +115,11 @@ static double departure_time(const Plant *plant, int sign, const State *state, d
     return 3.0 * jerk >= force_bound * horizon ? horizon : 3.0 * jerk / force_bound;
 }
 
-static void follow(Leg *leg, const Law *law, Moment *now, double longest, double switching) {
+static void follow(Leg *leg, const Law *law, Moment *now, double longest) {
     const Held *held = &law->held;
     if (now->mode == STICK) {
-        stick(leg, held, now, longest, switching);
+        leg_begin_rest(leg, held, now);
+        leg_follow(leg, held, now, longest);
         return;
     }
     int direction = now->mode == LIFTED ? 0 : now->mode;

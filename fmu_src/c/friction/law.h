@@ -42,9 +42,8 @@ typedef struct FrictionLaw {
     /* Friction force [N] on the slider in contact mode `mode`, positive against +X. */
     double (*force)(const Law *law, const Moment *moment, int mode);
 
-    /* Begin the leg that starts at `now`, in the contact mode of `now`, and follow it for up to `longest`
-     * [s]. The contact lifts or touches down after `switching` [s]. */
-    void (*follow)(Leg *leg, const Law *law, Moment *now, double longest, double switching);
+    /* Begin the leg that starts at `now`, in the contact mode of `now`, and follow it for up to `longest` [s]. */
+    void (*follow)(Leg *leg, const Law *law, Moment *now, double longest);
 
     /* Change from the end of a finished leg to the next contact mode; `switches` is true where the
      * contact lifts or touches down there. */

@@ -64,8 +64,7 @@ static int likely_direction(Leg *leg, const Law *law, const Moment *now) {
     return force_by(plant, &now->state, &leg->known.phasors) < resisting ? BACKWARD : FORWARD;
 }
 
-static void follow(Leg *leg, const Law *law, Moment *now, double longest, double switching) {
-    (void)switching;
+static void follow(Leg *leg, const Law *law, Moment *now, double longest) {
     begin(leg, law, now, likely_direction(leg, law, now), longest);
     if (now->state.velocity == 0.0 && !leg_departs(leg)) {
         begin(leg, law, now, -leg->direction, longest);

@@ -146,7 +146,7 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
         if (search != NULL) {
             begin = *now;
         }
-        friction->follow(&leg, law, now, longest, switching);
+        friction->follow(&leg, law, now, longest);
         if (itinerary != NULL) {
             pass_mode(itinerary, leg.mode == LIFTED ? LIFTED : leg.direction);
         }

@@ -13,7 +13,7 @@ from .budget import Budget, Clock
 from .constants import MAX_STEP_LEGS, PYTHON_SLOWDOWN
 from .contact import LIFTED
 from .coulomb import Coulomb
-from .device import EPSILON, LONGEST_ARC, System
+from .device import LONGEST_ARC, System
 from .first_zero import first_zero
 from .lugre import LuGre
 from .moment import Moment
@@ -21,10 +21,6 @@ from .moment import Moment
 MAX_LEGS = 20_000
 """Largest number of legs accepted in a turn of the fastest oscillation: several times as many as
 presliding on the hardest bristles takes."""
-
-SAME = 1e-6
-"""Share of the longest arc within which a release and a lift-off may be the same event."""
-
 
 MOVES = 64.0
 """Travel beyond which a slider has surely moved, in rounding errors of its velocity times the time
@@ -93,9 +89,6 @@ def _leg(law: FrictionLaw, system: System, now: Moment, longest: float) -> float
         zero = first_zero(watch, t)
         if zero is not None:
             t, zero_of = zero, index
-    near_switch = rests and zero_of is not None and switching - t < SAME * system.arc
-    if near_switch and _lifts_first(system, now.psi + system.normal_frequency * t):
-        t, zero_of = switching, None
     now.velocity, now.displacement, now.rate, travelled, work = motion.at(t)
     if zero_of is not None and not rests:
         now.velocity = 0.0
@@ -108,9 +101,3 @@ def _leg(law: FrictionLaw, system: System, now: Moment, longest: float) -> float
     now.psi = (now.psi + system.normal_frequency * t) % tau
     law.succeed(system, now, travelled, zero_of, switches=zero_of is None and t == switching)
     return t
-
-
-def _lifts_first(system: System, psi: float) -> bool:
-    """Whether a stick ends because the contact lifts: friction is 0 there."""
-    limit = system.friction_preload + system.friction_amplitude
-    return system.friction_limit(psi) <= 16.0 * EPSILON * limit
