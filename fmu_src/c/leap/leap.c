@@ -33,17 +33,11 @@
 /* Drift of the load's phase [rad] over a leap up to which its rates depend on the slow velocity alone. */
 #define NO_DRIFT 1e-9
 
-/* Acceleration, over that under full friction, up to which the motion is steady: fast states then stay. */
-#define STILL 1e-9
-
 /* Change of the slow velocity up to which its rate may be linear, over v_q and the root of the tolerance. */
 #define LINEAR 0.3
 
 /* Largest decay of the slow velocity in a period, over the share of friction: beyond, it is noise. */
 #define MAX_DECAY 4.0
-
-/* How far fast states are extrapolated by a cubic, over the distance of its two points. */
-#define FARTHEST 8.0
 
 /* A point of the slow motion, `n` periods after the start: the slow velocity [m/s], its rates, the moment there (`landing`)
  * and the one a few periods later (`after`). */
@@ -54,51 +48,36 @@ typedef struct {
 } Visited;
 
 /* The slow motion from a moment at the section on, at normal phase `psi` [rad]. `varies`: its rates depend on time, too. Fast
- * states are extrapolated from two points, that where the present step begins (`here`) and another. */
+ * states are extrapolated from two points, that where the present step begins (`here`) and the one found last. */
 typedef struct {
     Manifold manifold;
     double psi;
     bool varies;
-    Visited here, other;
+    Visited here, last;
 } SlowMotion;
 
-/* What fast states are smooth functions of: the slow velocity or, under rates that vary, the number of periods. */
-static double coordinate(const SlowMotion *motion, double n, double velocity) {
-    return motion->varies ? n : velocity;
+/* Periods on the tangent of a point to one at `n` periods and a slow velocity [m/s]: by the velocity, unless rates depend on
+ * time or are no larger than their error. */
+static double periods_from(const Visited *point, double n, double velocity, bool varies) {
+    double acceleration = point->rates.acceleration;
+    bool moves = fabs(acceleration) > point->rates.error;
+    return moves && !varies ? (velocity - point->velocity) / acceleration : n - point->n;
 }
 
-/* The derivative of a fast state by the coordinate. */
-static double slope(const SlowMotion *motion, const Visited *point, int i) {
-    const SlowRates *rates = &point->rates;
-    const PeriodMap *map = motion->manifold.map;
-    if (motion->varies) {
-        return rates->fast_rate[i];
-    }
-    bool moves = fabs(rates->acceleration) > STILL * map->share * map->speed;
-    return moves ? rates->fast_rate[i] / rates->acceleration : 0.0;
-}
-
-/* Fast states at a point: by Hermite's cubic through two points, or along the tangent of one. */
+/* Fast states at a point, along the tangent of the nearer one of two known points. */
 static void guess_fast(const SlowMotion *motion, double n, double velocity, double fast[MAX_FAST]) {
-    const Visited *a = &motion->here, *b = &motion->other;
-    double from = coordinate(motion, a->n, a->velocity);
-    double width = coordinate(motion, b->n, b->velocity) - from;
-    double way = coordinate(motion, n, velocity) - from, s = width != 0.0 ? way / width : INFINITY;
+    double to_here = periods_from(&motion->here, n, velocity, motion->varies);
+    double to_last = periods_from(&motion->last, n, velocity, motion->varies);
+    bool is_last = fabs(to_last) < fabs(to_here);
+    const SlowRates *near = is_last ? &motion->last.rates : &motion->here.rates;
     for (int i = 0; i < MAX_FAST; i++) {
-        double tangent = slope(motion, a, i);
-        fast[i] = a->rates.fast[i] + tangent * way;
-        if (fabs(s) < FARTHEST) {
-            double rise = b->rates.fast[i] - a->rates.fast[i] - width * tangent;
-            double bend = width * (slope(motion, b, i) - tangent);
-            fast[i] += s * s * (3.0 * rise - bend + s * (bend - 2.0 * rise));
-        }
+        fast[i] = near->fast[i] + (is_last ? to_last : to_here) * near->fast_rate[i];
     }
 }
 
 /* Whether rates are so exact that the slow velocity errs by no more than is allowed in the time in which friction changes it. */
 static bool are_exact(const PeriodMap *map, const SlowRates *rates) {
-    double allowed = map->tolerance * map->speed;
-    return rates->error <= map->share * allowed && rates->swing_error <= allowed;
+    return rates->error <= map->share * map->tolerance * map->speed;
 }
 
 /* The rates at `n` periods and a slow velocity [m/s]. There are none where they are not exact enough, nor where sliding does
@@ -108,7 +87,7 @@ static bool rate_at(void *data, double n, double velocity, SlowRate *rate) {
     const PeriodMap *map = motion->manifold.map;
     Visited visited = {.n = n, .velocity = velocity, .landing = motion->here.landing};
     double fast[MAX_FAST];
-    visited.landing.stops = motion->other.after.stops;
+    visited.landing.stops = motion->last.after.stops;
     guess_fast(motion, n, velocity, fast);
     moment_place(map, velocity, fast, psi_after(map, motion->psi, n), &visited.landing);
     if (!slow_rates(&motion->manifold, n, &visited.landing, &visited.after,
@@ -117,7 +96,7 @@ static bool rate_at(void *data, double n, double velocity, SlowRate *rate) {
         visited.rates.itinerary != motion->here.rates.itinerary) {
         return false;
     }
-    motion->other = visited;
+    motion->last = visited;
     *rate = (SlowRate){visited.rates.acceleration, visited.rates.travel};
     return true;
 }
@@ -152,11 +131,11 @@ static bool place(SlowMotion *motion) {
     SlowRate rate;
     manifold->max_sequences = MAX_SEQUENCES;
     manifold->allowed = FAST_SHARE * map->tolerance;
-    motion->other = *here;
+    motion->last = *here;
     if (!placed && !rate_at(motion, 0.0, here->velocity, &rate)) {
         return false;
     }
-    *here = motion->other;
+    *here = motion->last;
     return true;
 }
 
@@ -174,7 +153,7 @@ static double error_behind(const SlowMotion *motion, const SlowStep *step, doubl
                            double before) {
     double gain = fmax(step->gain, -MAX_DECAY * motion->manifold.map->share);
     double decay = gain < 0.0 ? exp(gain * h) : 1.0;
-    double of_rates = fmax(motion->here.rates.error, motion->other.rates.error);
+    double of_rates = fmax(motion->here.rates.error, motion->last.rates.error);
     return decay * before + of_step + h * of_rates;
 }
 
@@ -196,20 +175,20 @@ static SlowPoint integrate(SlowMotion *motion, double longest, double *error) {
     SlowPoint now = {.velocity = here->velocity,
                      .rate = {here->rates.acceleration, here->rates.travel}};
     while ((h = step_of(motion, &now, h, longest)) >= SHORTEST_STEP) {
-        SlowStep step = {.error = INFINITY};
+        SlowStep step;
         Visited before = *here;
         double rest = longest - now.t;
         bool is_linear = settles(motion, &now, rest, &step);
-        if (is_linear ||
-            (runge_kutta_step(rate_at, motion, &now, h, &step) && step.error <= allowed)) {
+        bool found = is_linear || (runge_kutta_step(rate_at, motion, &now, h, &step) && isfinite(step.error));
+        if (found && step.error <= allowed) {
             double of_step = is_linear ? step.error : step.error / OVERESTIMATE;
             h = step.to.t - now.t;
             *error = error_behind(motion, &step, of_step, h, *error);
             now = step.to;
-            *here = motion->other;
+            *here = motion->last;
         }
-        motion->other = before;
-        h *= isfinite(step.error) ? step_growth(step.error, allowed) : ON_KINK;
+        motion->last = before;
+        h *= found ? step_growth(step.error, allowed) : ON_KINK;
     }
     return now;
 }
@@ -254,7 +233,7 @@ Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *bu
         SlowPoint end = integrate(&motion, longest - DIFFERENCES, &error);
         if (end.t > 0.0) {
             land(&motion, &end, after);
-            after->leap_error = error + here->rates.swing_error;
+            after->leap_error = error;
             done.outcome = LEAPT;
             done.periods = end.t + DIFFERENCES;
         }

@@ -58,13 +58,6 @@ static void correction_of(const PeriodMap *map, const Visit *differences, double
     *missing = fast_size(map, beyond);
 }
 
-/* What a free swing of a size, over the scale of the resonator's displacement, adds at most to the mean velocity of a turn
- * [m/s]: it is of the other sign half a turn later. */
-static double mean_velocity_of(const PeriodMap *map, double size) {
-    const Plant *plant = &map->law.held.plant;
-    return plant->mass_fraction * size * map->scale[0] * plant->drive_frequency / PI;
-}
-
 /* The rates of a sequence of visits. */
 static SlowRates rates_of(const Visit *differences, double ratio, const double step[MAX_FAST]) {
     double second = differences[2].at[SLOW_VELOCITY], third = differences[3].at[SLOW_VELOCITY];
@@ -106,7 +99,6 @@ bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
             rates->reversals = reversals;
             rates->sticks = sticks;
             rates->error += map->share * map->speed * (missing + size);
-            rates->swing_error = mean_velocity_of(map, missing + size);
             rates->offset = offset;
             rates->itinerary = itinerary;
             return true;

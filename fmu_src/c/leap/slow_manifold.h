@@ -26,14 +26,13 @@ typedef struct {
 } Manifold;
 
 /* Change of the slow velocity [m/s] and of the position [m] by period, and that of `acceleration`; the fast states and
- * their change by period; reversals and sticks by period. `error` is the estimated error of `acceleration`, and
- * `swing_error` that of the mean velocity of a turn [m/s] by the error of the resonator's displacement; `offset` is the size
- * of the first correction of the fast states, over their scales. */
+ * their change by period; reversals and sticks by period. `error` is the estimated error of `acceleration`,
+ * `offset` the size of the first correction of the fast states, over their scales. */
 typedef struct {
     double acceleration, travel, jerk;
     double fast[MAX_FAST], fast_rate[MAX_FAST];
     double reversals, sticks;
-    double error, swing_error, offset;
+    double error, offset;
     uint64_t itinerary;
 } SlowRates;
 
