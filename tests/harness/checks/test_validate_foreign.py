@@ -104,7 +104,13 @@ def test_a_scene_that_needs_a_later_variable_does_not_apply(
     (missing,) = validation.not_applied
     assert (missing.scene, missing.quantity) == ("order_2", "position")
     assert missing.reason == "needs averaging_order = 2, which came with interface 0.2.0"
-    later = {"averaging_order", "prediction_valid", "slow_motion_error", *DEVIATIONS}
+    later = {
+        "averaging_order",
+        "prediction_valid",
+        "slow_motion_error",
+        "friction_power",
+        *DEVIATIONS,
+    }
     assert set(validation.lacks) == later
 
 

@@ -32,13 +32,12 @@ def long_is_expensive(monkeypatch: pytest.MonkeyPatch) -> None:
         (RUN.format(20_000, "mean_velocity", 0.1), "leaps"),
         (RUN.format(20_000, "mean_velocity", 1e-11), "whole"),
         (RUN.format(20_000, "event_times", 0.1), "whole"),
-        (f"[device]\nbase_amplitude = 1e-8\n{RUN.format(20_000, 'mean_velocity', 0.1)}", "whole"),
     ],
 )
 def test_leaps_replace_a_resolved_run_where_they_serve(
     instance: Instance, scene: str, covers: str
 ) -> None:
-    """Not for needs near their own error, nor for events or friction that sticks."""
+    """Not for needs near their own error, nor for events."""
     probe = Probe(instance, scene_of(scene))
     probe.resolve()
     assert probe.covers == covers

@@ -47,9 +47,9 @@ def test_settings_replace_the_device(native_fmu: Path) -> None:
     assert other != pytest.approx(expected, rel=1e-3)
 
 
-def test_other_files_are_named_as_what_they_are() -> None:
+def test_other_files_are_named_as_what_they_are(native_fmu: Path) -> None:
     assert "is a grid file" in refused("device", "docs/steady_velocity.toml")
-    assert "did you mean 'stick_slip'?" in refused("steady", "--device", "stick_slp")
+    assert "did you mean 'stick_slip'?" in refused("steady", native_fmu, "--device", "stick_slp")
 
 
 @pytest.mark.parametrize(
