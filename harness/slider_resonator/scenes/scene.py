@@ -173,13 +173,16 @@ class Scene(Shown):
 
         The values must be ones that `check_value` accepts.
         """
-        inputs = {name: constant(value) for name, value in values.items() if name in INPUTS}
-        parameters = {name: value for name, value in values.items() if name not in INPUTS}
+        tuning = {name: s for name, s in self.tuning.items() if name not in values}
+        held = (*INPUTS, *(DEVIATIONS if tuning else ()))
+        inputs = {name: constant(value) for name, value in values.items() if name in held}
+        tuning |= {name: inputs.pop(name) for name in DEVIATIONS if name in inputs}
+        parameters = {name: value for name, value in values.items() if name not in held}
         return replace(
             self,
             parameters={**self.parameters, **parameters},
             signals={**self.signals, **inputs},
-            tuning={name: s for name, s in self.tuning.items() if name not in values},
+            tuning=tuning,
         )
 
     def with_step(self, step_size: float) -> Scene:

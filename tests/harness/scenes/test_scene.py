@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator.device.device import Device
 from slider_resonator.device.interface import TUNABLES
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.input_tables import TuningTable
@@ -51,6 +52,45 @@ def test_tuned_parameters_start_as_the_tuning_says_and_a_value_replaces_it(tmp_p
     replaced = scene.with_values({"normal_preload": 5.0})
     assert replaced.device.normal_preload == 5.0
     assert not replaced.schedule().tuning
+
+
+DEVIATING = """
+[run]
+stop_time = 0.1
+step_size = 0.01
+[inputs]
+frequency_deviation = 0.1
+"""
+
+
+def test_a_constant_deviation_is_that_of_the_device(tmp_path: Path) -> None:
+    scene = read_scene(scene_file(tmp_path, DEVIATING))
+    assert scene.parameters == {"frequency_deviation": 0.1}
+    assert scene.device == Device(drive_frequency=3500.0 * 1.1)
+    assert not scene.tuning
+
+
+def test_deviations_over_time_are_of_what_the_drive_is_tuned_to(tmp_path: Path) -> None:
+    text = (
+        DEVIATING
+        + """
+amplitude_deviation = { steps = [[0.0, -1.0], [0.05, 0.5]] }
+[tuning]
+base_amplitude = { steps = [[0.0, 1e-4], [0.07, 2e-4]] }
+"""
+    )
+    scene = read_scene(scene_file(tmp_path, text))
+    assert scene.device == Device(), "that of the parameters"
+    found = [held.tuned_device(scene.device) for held in scene.schedule().held()]
+    w = 3500.0 * 1.1
+    assert [(d.base_amplitude, d.drive_frequency) for d in found] == [
+        (0.0, w),
+        (1e-4 * 1.5, w),
+        (2e-4 * 1.5, w),
+    ]
+    off = scene.with_values({"amplitude_deviation": -0.5})
+    found = [held.tuned_device(off.device) for held in off.schedule().held()]
+    assert [d.base_amplitude for d in found] == [0.5e-4, 1e-4]
 
 
 def test_commands_that_ignore_the_tuning_refuse_it(tmp_path: Path) -> None:
