@@ -228,6 +228,7 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
     slide->plant = plant;
     slide->direction = direction;
     slide->sign = sign;
+    slide->works = false;
     slide->begin = *state;
     slide->theta = theta;
     slide->chi = chi;
@@ -360,7 +361,7 @@ static SlideEnd end_by(const Plant *plant, const Turns *turns, State state) {
 /* Work of friction [J] up to turns, where the displacement [m] and the state are known. */
 static double work_by(const SplitSlide *slide, const Turns *turns, State state, double travelled) {
     const Plant *plant = slide->plant;
-    if (slide->sign == 0) {
+    if (!slide->works) {
         return 0.0;
     }
     double swung;

@@ -70,6 +70,7 @@ typedef struct {
  * oscillation at the start. `noise` [m/s] is the rounding error of the velocity.
  *
  * It begins at `begin`. The velocity is watched in `direction`; `sign` is that of friction, 0 in flight.
+ * Set after the beginning, `works` says whether the work of friction is wanted.
  *
  * Turns at the latest time for which sines were computed are kept in `anchor`, if `anchored`. Close to the
  * anchor or the `start` these are rotated instead of computing sines. */
@@ -77,6 +78,7 @@ typedef struct {
     const Split *split;
     const Plant *plant;
     int direction, sign;
+    bool works;
     State begin;
     double theta, chi;
     double constant, slope, k0, k1, k2;

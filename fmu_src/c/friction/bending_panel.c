@@ -240,8 +240,8 @@ static void sum_up(const BendingPanel *panel, double left[LEFT]) {
     }
 }
 
-/* The power of friction at the nodes. The path over the time is a polynomial; E' = -k |x'| E. */
-static void find_power(BendingPanel *panel) {
+/* The power of friction at the nodes: the path over the time is a polynomial, and E' = -k |x'| E. */
+void bending_panel_weigh(BendingPanel *panel) {
     const BendingKernels *kernels = panel->kernels;
     const Plant *plant = panel->slide.plant;
     Complex normal = normal_phasor(plant, &panel->slide.start.phasors);
@@ -259,6 +259,14 @@ static void find_power(BendingPanel *panel) {
         double bend = panel->slide.direction * panel->scale * fast_decay(panel->exponent[i]);
         double friction = limit * (1.0 - bend * (1.0 - panel->lag * fading));
         panel->power[i] = friction * fading / panel->rate;
+    }
+    Passage slid;
+    KnownPhasors there;
+    panel->slide.works = true;
+    split_slide_end(&panel->slide, panel->length, &slid, &there);
+    panel->work = -slid.work;
+    for (int i = 0; i < GAUSS_NODES; i++) {
+        panel->work += kernels->left_even[i][IMPULSE] * panel->power[i];
     }
 }
 
@@ -279,14 +287,7 @@ static void end_panel(BendingPanel *panel) {
     split_slide_anchor(&panel->slide, panel->length, kernels->end_drive,
                        complex_of(kernels->turn.re[END], kernels->turn.im[END]),
                        kernels->end_free);
-    Passage slid;
-    KnownPhasors there;
-    find_power(panel);
-    split_slide_end(&panel->slide, panel->length, &slid, &there);
-    panel->work = -slid.work;
-    for (int i = 0; i < GAUSS_NODES; i++) {
-        panel->work += kernels->left_even[i][IMPULSE] * panel->power[i];
-    }
+    panel->work = 0.0;
 }
 
 BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, const Held *held,
@@ -347,8 +348,11 @@ static double travel_within(const BendingPanel *panel, double t) {
 Passage bending_panel_passage(const BendingPanel *panel, double t) {
     if (t < panel->length) {
         const GaussIntegrals *gauss = panel->kernels->gauss;
-        double work = panel->length * gauss_integral(gauss, t / panel->length, panel->power);
-        return (Passage){travel_within(panel, t), work};
+        Passage within = {travel_within(panel, t), 0.0};
+        if (panel->slide.works) {
+            within.work = panel->length * gauss_integral(gauss, t / panel->length, panel->power);
+        }
+        return within;
     }
     Passage passed;
     KnownPhasors there;

@@ -48,6 +48,9 @@ BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, co
                                   const Bristle *bristle, int direction, const Moment *now,
                                   const Phasors *start, double longest, double tolerance);
 
+/* Find the work of friction in the panel; until then it is 0. */
+void bending_panel_weigh(BendingPanel *panel);
+
 /* Displacement [m] of the slider and work of friction [J] after `t` [s]. */
 Passage bending_panel_passage(const BendingPanel *panel, double t);
 

@@ -46,6 +46,7 @@ void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int directio
     leg->kind = SLIDES;
     split_slide_begin(&leg->motion.slide, &held->split, &held->plant, sign, &now->state, now->theta,
                       now->psi + held->plant.phase, &leg->known.phasors, direction);
+    leg->motion.slide.works = leg->counts_work && sign != 0;
 }
 
 static void begin_series(Leg *leg, const Held *held, const Bristle *bristle, const Moment *now,
@@ -79,6 +80,9 @@ void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const 
         leg->mode = now->mode;
         leg->direction = direction;
         leg->watched_from = panel->length;
+        if (leg->counts_work) {
+            bending_panel_weigh(panel);
+        }
         return;
     }
 }
@@ -180,7 +184,7 @@ static State place_of(const Leg *leg, double t, Passage *passed, KnownPhasors *k
     case SLIDES:
         return split_slide_end(&leg->motion.slide, t, passed, known);
     case FOLLOWS_SERIES:
-        *passed = taylor_slide_passage(&leg->motion.series, t);
+        *passed = taylor_slide_passage(&leg->motion.series, t, leg->counts_work);
         return taylor_slide_state(&leg->motion.series, t);
     case BENDS_AND_SLIDES:
         return bending_panel_end(&leg->motion.panel, t, passed, known);

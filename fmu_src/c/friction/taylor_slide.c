@@ -202,20 +202,26 @@ Watch taylor_slide_watch(TaylorSlide *slide, double horizon) {
     return (Watch){velocity_ahead, slide, 4.0 * EPSILON * scale, 1.0 / horizon, INFINITY};
 }
 
-Passage taylor_slide_passage(const TaylorSlide *slide, double t) {
-    const double *velocity = slide->velocity;
-    double power[TAYLOR_TERMS] = {0.0};
-    Passage passage = {0.0, 0.0};
+/* Work of friction [J] after `t` [s]: the integral of the product of force and velocity. */
+static double work_until(const TaylorSlide *slide, double t) {
+    double power[TAYLOR_ORDER] = {0.0}, total = 0.0;
     for (int i = 0; i < TAYLOR_ORDER; i++) {
         for (int k = 0; k < TAYLOR_ORDER - i; k++) {
-            power[i + k] += slide->force[i] * velocity[k];
+            power[i + k] += slide->force[i] * slide->velocity[k];
         }
     }
-    for (int k = TAYLOR_ORDER; k >= 0; k--) {
-        passage.travel = passage.travel * t + velocity[k] * INVERSE[k + 1];
-        passage.work = passage.work * t + power[k] * INVERSE[k + 1];
+    for (int k = TAYLOR_ORDER - 1; k >= 0; k--) {
+        total = total * t + power[k] * INVERSE[k + 1];
     }
-    return (Passage){passage.travel * t, passage.work * t};
+    return total * t;
+}
+
+Passage taylor_slide_passage(const TaylorSlide *slide, double t, bool counts_work) {
+    double total = 0.0;
+    for (int k = TAYLOR_ORDER; k >= 0; k--) {
+        total = total * t + slide->velocity[k] * INVERSE[k + 1];
+    }
+    return (Passage){total * t, counts_work ? work_until(slide, t) : 0.0};
 }
 
 State taylor_slide_state(const TaylorSlide *slide, double t) {

@@ -45,8 +45,8 @@ bool taylor_slide_departs(const TaylorSlide *slide);
 /* The velocity in the direction of sliding, up to `horizon` [s]. */
 Watch taylor_slide_watch(TaylorSlide *slide, double horizon);
 
-/* Displacement [m] of the slider and work of friction [J] after `t` [s]. */
-Passage taylor_slide_passage(const TaylorSlide *slide, double t);
+/* Displacement [m] of the slider and, if it counts, work of friction [J] after `t` [s]. */
+Passage taylor_slide_passage(const TaylorSlide *slide, double t, bool counts_work);
 
 /* State after `t` [s]. */
 State taylor_slide_state(const TaylorSlide *slide, double t);

@@ -12,6 +12,10 @@
  * presliding on the hardest bristles takes. */
 enum { MAX_LEGS = 20000 };
 
+/* Drive periods before the end of a motion from which the work of friction counts: its mean is that of the last
+ * whole one, and the first that ends is counted in part. */
+#define COUNTED 3.0
+
 /* Legs since a turn of the fastest oscillation began at `began` [s], and `all` legs, of which there may be
  * `max_all`; a turn takes `turn` [s]. */
 typedef struct {
@@ -123,6 +127,7 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
     const Held *held = &law->held;
     const Plant *plant = &held->plant;
     double remaining = duration;
+    double counted = COUNTED * TAU / plant->drive_frequency;
     Clock clock = clock_of(duration);
     Work work = {.turn = TAU / LONGEST_ARC * held->arc, .max_all = budget_left(budget, MAX_STEP_LEGS)};
     Leg leg;
@@ -146,6 +151,7 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
         if (search != NULL) {
             begin = *now;
         }
+        leg.counts_work = search != NULL || remaining - fmin(remaining, held->arc) <= counted;
         friction->follow(&leg, law, now, longest);
         if (itinerary != NULL) {
             pass_mode(itinerary, leg.mode == LIFTED ? LIFTED : leg.direction);

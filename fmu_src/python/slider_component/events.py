@@ -26,6 +26,10 @@ MOVES = 64.0
 """Travel beyond which a slider has surely moved, in rounding errors of its velocity times the time
 in which the fastest oscillation advances by a radian: more than a leg can add up."""
 
+COUNTED = 3.0
+"""Drive periods before the end of a motion from which the work of friction counts: its mean is that
+of the last whole one, and the first that ends is counted in part."""
+
 FrictionLaw = Coulomb | LuGre
 
 FRICTION_LAWS: tuple[FrictionLaw, ...] = (Coulomb(), LuGre())
@@ -55,7 +59,7 @@ def advance(
         raise budget.refusal(allowed * arc, max_legs, "legs of motion")
     clock, remaining = Clock(duration), duration
     legs, all_legs, turn_began = 0, 0, 0.0
-    turn = tau / LONGEST_ARC * arc
+    turn, counted = tau / LONGEST_ARC * arc, COUNTED * tau / system.drive_frequency
     now = moment.copied()
     now.enter(law.mode(system, now))
     while remaining > 0.0:
@@ -67,7 +71,8 @@ def advance(
             raise budget.refusal(clock.elapsed, MAX_LEGS, what)
         if all_legs > allowed:
             raise budget.refusal(clock.elapsed, max_legs, "legs of motion")
-        t = _leg(law, system, now, min(remaining, arc))
+        longest = min(remaining, arc)
+        t = _leg(law, system, now, longest, counts_work=remaining - longest <= counted)
         if modes is not None and modes[-1] != now.mode:
             modes.append(now.mode)
         remaining = clock.advance(t) if t != remaining else 0.0
@@ -75,13 +80,16 @@ def advance(
     return now
 
 
-def _leg(law: FrictionLaw, system: System, now: Moment, longest: float) -> float:
+def _leg(
+    law: FrictionLaw, system: System, now: Moment, longest: float, *, counts_work: bool
+) -> float:
     """Advance `now` by one leg of up to `longest` [s], and return its time [s]."""
     switching = inf
     if system.switches:
         chi, lifted = now.psi + system.phase, now.mode == LIFTED
         switching = system.window.time_to_switch(chi, system.normal_frequency, lifted)
     motion = law.begin(system, now)
+    motion.counts_work = counts_work
     rests, direction = motion.rests, motion.direction
     t, zero_of = min(longest, switching, motion.reach), None
     watches = motion.watches(t) if t > 0.0 else ()

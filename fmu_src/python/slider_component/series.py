@@ -100,6 +100,7 @@ class Series:
             normal *= complex(0.0, q * step)
             limit.append(normal.real)
         self._velocity, self._displacement, self._rate = v, y, u
+        self.counts_work = True
         self._position = [0.0, *map(truediv, v, _COUNT)]
         scale = velocity_scale(system, now.velocity, now.displacement, now.rate)
         self.reach = min(
@@ -131,7 +132,8 @@ class Series:
         """See Motion."""
         series = self._velocity, self._displacement, self._rate, self._position
         velocity, displacement, rate, travelled = (_value(c, t) for c in series)
-        work = 0.0 if self.rests else _value(self._work, t)
+        counts = self.counts_work and not self.rests
+        work = _value(self._work, t) if counts else 0.0
         return velocity, displacement, rate, travelled, work
 
     @cached_property

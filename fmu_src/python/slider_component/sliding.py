@@ -28,12 +28,14 @@ SURE = 0.999999
 class Motion(Protocol):
     """Motion from a given moment on, inputs held, contact mode unchanged.
 
-    It holds up to its `reach` [s]; its velocity is watched in `direction` unless that is 0.
+    It holds up to its `reach` [s]; its velocity is watched in `direction` unless that is 0. Without
+    `counts_work` the work of friction is left out.
     """
 
     reach: float
     direction: int
     rests: bool
+    counts_work: bool
 
     def watches(self, horizon: float) -> tuple[Watch, ...]:
         """Signals that are positive while the mode lasts, up to `horizon` [s].
@@ -87,7 +89,7 @@ def watch_of(
 class Exponentials:
     """A motion of such terms (methods as of `Motion`)."""
 
-    __slots__ = ("_k0", "_k1", "_offset", "_terms", "direction")
+    __slots__ = ("_k0", "_k1", "_offset", "_terms", "counts_work", "direction")
     reach = inf
     rests = False
     _k0: float
@@ -95,6 +97,7 @@ class Exponentials:
     _offset: float
     _terms: list[Term]
     direction: int
+    counts_work: bool
 
     def at(self, t: float) -> Place:
         """See Motion."""
@@ -109,8 +112,10 @@ class Exponentials:
             turning += z * y
         travelled = (k0 + 0.5 * k1 * t) * t + passed.real
         velocity, displacement = k0 + k1 * t + swing.real, self._offset + moved.real
-        work = self._work(t, (velocity, displacement, turning.real), travelled)
-        return velocity, displacement, turning.real, travelled, work
+        rate, work = turning.real, 0.0
+        if self.counts_work:
+            work = self._work(t, (velocity, displacement, rate), travelled)
+        return velocity, displacement, rate, travelled, work
 
     def _work(self, t: float, state: State, travelled: float) -> float:
         """Work of friction [J] up to `t` [s], where `state` and the displacement are known."""
@@ -156,6 +161,7 @@ class Slide(Exponentials):
         self._terms, self.direction, self._fastest = terms, direction, system.fastest
         self._begin = now.velocity, now.displacement, now.rate
         self._system, self._sign, self._theta, self._chi = system, sign, now.theta, chi
+        self.counts_work = True
 
     def _work(self, t: float, state: State, travelled: float) -> float:
         system, sign, chi = self._system, self._sign, self._chi
@@ -196,6 +202,7 @@ class Rest(Exponentials):
             free = system.stick.free(now.displacement - y.real, now.rate + w * y.imag)
             terms += [(z, square, 0j, y) for z, square, y in free]
         self._k0 = self._k1 = self._offset = 0.0
+        self.counts_work = False
         self._terms, self.direction = terms, 0
         self._direct, self._sys = -1j * system.holding_drive * turn, system
         self._normal = -1j * system.friction_amplitude * rect(1.0, now.psi + system.phase)
