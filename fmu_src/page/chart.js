@@ -73,7 +73,46 @@ function lineOf({ label, colour: name, dash }) {
 
 function dotOf({ label, colour: name }) {
   const fill = () => colour(name);
-  return { label, stroke: fill, width: 0, points: { show: true, size: 10, width: 2, fill, stroke: () => colour("paper") } };
+  const points = { show: true, size: 10, width: 2, fill, stroke: () => colour("paper") };
+  return { label, stroke: fill, width: 0, points };
+}
+
+/** Return the options of uPlot for a plot but its size. */
+function optionsOf({ x, y, curves, marks = [], bands = [], isLoop = false }) {
+  const drawn = [...curves, ...marks];
+  const [xs, ys] = [drawn.flatMap((one) => one.x), drawn.flatMap((one) => one.y)];
+  const ends = isLoop || marks.length ? rangeOf(xs) : [xs[0], xs.at(-1)];
+  return {
+    pxAlign: 0,
+    legend: { show: false },
+    padding: [8, 26, 0, 0],
+    cursor: { points: { show: !isLoop }, y: false, drag: { x: false, y: false } },
+    scales: { x: { time: false, range: () => ends }, y: { range: () => rangeOf(ys) } },
+    axes: [axis(x, X_AXIS), axis(y, Y_AXIS)],
+    series: isLoop ? [{}, {}] : [{}, ...curves.map(lineOf), ...marks.map(dotOf)],
+    hooks: {
+      drawClear: [(plot) => drawBands(plot, bands)],
+      draw: [(plot) => isLoop && drawLoop(plot, curves[0])],
+    },
+  };
+}
+
+/** Return the columns of uPlot: all x, and for each curve and mark its y. */
+function dataOf({ curves, marks = [], isLoop = false }) {
+  return isLoop ? [rangeOf(curves[0].x), [null, null]]
+    : uPlot.join([...curves, ...marks].map((one) => [one.x, one.y]));
+}
+
+/** Return an entry of the key for each curve that is drawn, mark and kind of band, if several. */
+function keyOf({ curves, marks = [], bands = [] }) {
+  const entries = [
+    ...curves.filter(({ y }) => y.some(Number.isFinite))
+      .map((curve) => [curve.label, curve.dash ? "dash" : "line", curve.colour]),
+    ...marks.map((mark) => [mark.label, "dot", mark.colour]),
+    ...new Map(bands.map((band) => [band.label, [band.label, "band", band.colour]])).values(),
+  ];
+  return (entries.length > 1 ? entries : []).map(([label, kind, name]) =>
+    element("span", { class: kind, style: `--mark: var(--${name})` }, label));
 }
 
 /** Return the curves as text of a CSV file, each under its own x where these differ. */
@@ -98,44 +137,20 @@ class Chart {
     });
     this.area = element("div", { class: "area", role: "img" });
     this.key = element("p", { class: "key" });
-    this.box = element("div", { class: "chart" },
-      element("header", {}, this.title, this.reading, save), this.area, this.key);
-    parent.append(this.box);
+    parent.append(element("div", { class: "chart" },
+      element("header", {}, this.title, this.reading, save), this.area, this.key));
   }
 
   show(content) {
-    const { title, x, y, curves, marks = [], bands = [], isLoop = false, note = "" } = content;
+    const { title, note } = content;
     this.content = content;
     this.title.textContent = title;
     this.area.setAttribute("aria-label", title);
     this.reading.textContent = "";
-    const labels = new Set(bands.map(({ label }) => label));
-    this.#showKey([
-      ...curves.filter((curve) => curve.y.some(Number.isFinite)),
-      ...marks.map((mark) => ({ ...mark, kind: "dot" })),
-      ...[...MODES.values()].filter(({ label }) => labels.has(label)).map((mode) => ({ ...mode, kind: "band" })),
-    ]);
-    const allX = [...curves, ...marks].flatMap((one) => one.x);
-    const allY = [...curves, ...marks].flatMap((one) => one.y);
-    const extent = rangeOf(allX);
+    this.key.replaceChildren(...keyOf(content));
     this.plot?.destroy();
-    this.plot = new uPlot({
-      ...this.#size(), pxAlign: 0,
-      legend: { show: false },
-      padding: [8, 26, 0, 0],
-      cursor: { points: { show: !isLoop }, y: false, drag: { x: false, y: false } },
-      scales: {
-        x: { time: false, range: () => (isLoop || marks.length ? extent : [curves[0].x[0], curves[0].x.at(-1)]) },
-        y: { range: () => rangeOf(allY) },
-      },
-      axes: [axis(x, X_AXIS), axis(y, Y_AXIS)],
-      series: isLoop ? [{}, {}] : [{}, ...curves.map(lineOf), ...marks.map(dotOf)],
-      hooks: {
-        drawClear: [(plot) => drawBands(plot, bands)],
-        draw: [(plot) => isLoop && drawLoop(plot, curves[0])],
-        setCursor: [(plot) => this.#read(plot)],
-      },
-    }, isLoop ? [extent, [null, null]] : uPlot.join([...curves, ...marks].map((one) => [one.x, one.y])), this.area);
+    this.plot = new uPlot({ ...optionsOf(content), ...this.#size() }, dataOf(content), this.area);
+    this.plot.hooks.setCursor = [() => this.#read()];
     if (note) {
       this.plot.over.append(element("p", { class: "note" }, note));
     }
@@ -153,17 +168,12 @@ class Chart {
     this.plot?.redraw();
   }
 
-  #showKey(entries) {
-    this.key.replaceChildren(...(entries.length > 1 ? entries : []).map(({ label, colour: name, dash, kind = dash ? "dash" : "line" }) =>
-      element("span", { class: kind, style: `--mark: var(--${name})` }, label)));
-  }
-
-  #read(plot) {
-    const { idx: i } = plot.cursor;
+  #read() {
+    const { cursor: { idx: i }, data } = this.plot;
     const { x, y, curves, isLoop } = this.content;
-    const values = curves.map((_, k) => plot.data[k + 1][i]).filter(Number.isFinite);
+    const values = curves.map((_, k) => data[k + 1][i]).filter(Number.isFinite);
     const round = (value) => Number(value.toPrecision(4));
     this.reading.textContent = i === null || isLoop || values.length === 0 ? ""
-      : `${round(plot.data[0][i])} ${x.unit}: ${values.map(round).join(", ")} ${y.unit}`;
+      : `${round(data[0][i])} ${x.unit}: ${values.map(round).join(", ")} ${y.unit}`;
   }
 }

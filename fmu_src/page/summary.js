@@ -3,7 +3,8 @@ function addOutputs() {
   const body = document.querySelector("#outputs tbody");
   for (const { name, description } of OUTPUTS) {
     const value = element("td", { class: "value" }, element("output", { name }));
-    body.append(element("tr", {}, element("th", { scope: "row" }, name), value, element("td", {}, description)));
+    const head = element("th", { scope: "row" }, name);
+    body.append(element("tr", {}, head, value, element("td", {}, description)));
   }
 }
 
@@ -41,8 +42,9 @@ function cardsOf({ outputs, isPredicted, end, phase, load, faces, fullFriction: 
 }
 
 function showSummary(results) {
-  document.getElementById("cards").replaceChildren(...cardsOf(results).map(([kind, title, value, remark]) =>
-    element("div", { class: `card ${kind}` }, element("h3", {}, title), element("strong", {}, value), element("small", {}, remark))));
+  document.getElementById("cards").replaceChildren(
+    ...cardsOf(results).map(([kind, title, value, remark]) => element("div", { class: `card ${kind}` },
+      element("h3", {}, title), element("strong", {}, value), element("small", {}, remark))));
   OUTPUTS.forEach((variable) => showOutput(variable, results.outputs.get(variable.name)));
   const periods = Number((results.end / results.period).toPrecision(4));
   document.getElementById("cost").textContent =

@@ -36,20 +36,29 @@ function unitOf(text) {
   return { factor, dimension: String(dimension) };
 }
 
+const NUMBER_WITH_UNIT = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$/;
+
 /** Return a value in SI units from a text like "20 kHz"; a bare number is in `bareUnit`.
  * Throw Refused unless the whole text is a number with a unit of the variable. */
-function valueOf({ name, unit, display_unit: display }, text, bareUnit = unit) {
-  const [, number, given] = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$/.exec(text) ?? [];
-  const bare = bareUnit === "1" ? "a finite number" : `a finite number in ${bareUnit}`;
-  const must = `must be ${bareUnit ? `${bare}, or ` : ""}a text with a unit such as "2 ${display ?? (unit === "1" ? "%" : unit)}"`;
-  const scale = number && unitOf(given || bareUnit);
-  if (!Number.isFinite(Number(number)) || (!given && !bareUnit)) {
-    throw new Refused(`${name} = ${text} refused: ${must}`);
+function valueOf(variable, text, bareUnit = variable.unit) {
+  const { name, unit } = variable;
+  const [, number, given] = NUMBER_WITH_UNIT.exec(text) ?? [];
+  if (!Number.isFinite(Number(number)) || !(given || bareUnit)) {
+    throw new Refused(`${name} = ${text} refused: ${mustBe(variable, bareUnit)}`);
   }
+  const scale = unitOf(given || bareUnit);
   if (scale?.dimension !== unitOf(unit).dimension) {
-    throw new Refused(`${name} = ${text} refused: ${given} is no unit of ${unit === "1" ? "a ratio" : unit} that is known here; ${must}`);
+    const of = unit === "1" ? "a ratio" : unit;
+    throw new Refused(
+      `${name} = ${text} refused: ${given} is no unit of ${of} that is known here; ${mustBe(variable, bareUnit)}`);
   }
   return Number(number) * scale.factor;
+}
+
+function mustBe({ unit, display_unit: display }, bareUnit) {
+  const number = bareUnit === "1" ? "a finite number, or " : `a finite number in ${bareUnit}, or `;
+  const example = display ?? (unit === "1" ? "%" : unit);
+  return `must be ${bareUnit ? number : ""}a text with a unit such as "2 ${example}"`;
 }
 
 const displayUnit = ({ display_unit: display, unit }) => display ?? unit;
