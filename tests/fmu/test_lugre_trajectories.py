@@ -8,8 +8,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.references.resolved.trajectory import LugreTrajectory
+from slider_resonator.references.resolved.simulate import simulate
+from slider_resonator.references.resolved.trajectory import Trajectory
 from tests.fmu.host import Instantiate
 from tests.fmu.trajectories import assert_equal, fmu_run
 from tests.fmus import both_fmus, native_fmu_only
@@ -32,11 +32,11 @@ def on_bristles(case: str, stiffness: float, damping: float) -> Problem:
 
 
 @cache
-def reference_of(case: str, stiffness: float, damping: float, duration: float) -> LugreTrajectory:
+def reference_of(case: str, stiffness: float, damping: float, duration: float) -> Trajectory:
     """The reference at a hundred moments, for both FMUs."""
     problem = on_bristles(case, stiffness, damping)
     held = replace(problem.held[0], stop=duration)
-    return simulate_lugre(problem.device, [held], np.linspace(0.0, duration, 101)[1:])
+    return simulate(problem.device, [held], np.linspace(0.0, duration, 101)[1:])
 
 
 @both_fmus
@@ -77,6 +77,6 @@ def test_small_signals_are_held_to_the_tolerance(instantiate: Instantiate, case:
     parameters, duration = SMALL[case]
     problem = Problem({"friction_law": 1, "tolerance": 1e-8, **parameters})
     held = replace(problem.held[0], stop=duration)
-    reference = simulate_lugre(problem.device, [held], np.linspace(0.0, duration, 41)[1:])
+    reference = simulate(problem.device, [held], np.linspace(0.0, duration, 41)[1:])
     signals, _ = fmu_run(instantiate, problem, reference.time)
     assert_equal(signals, reference, 1e-7)

@@ -11,8 +11,7 @@ import pytest
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.references.resolved.taylor import simulate
+from slider_resonator.references.resolved.simulate import simulate
 from tests.fmu.host import Instance, Instantiate
 from tests.fmu.trajectories import assert_equal
 from tests.fmus import native_fmu_only
@@ -131,7 +130,7 @@ def test_lugre_motion_under_ramps_is_within_its_tolerance(
         instance = start(instantiate, parameters, {})
         signals = ramped(instance, {}, rates, times)
         held = straight({}, rates, times[-1])
-        reference = simulate_lugre(Device.from_mapping(parameters), held, times)
+        reference = simulate(Device.from_mapping(parameters), held, times)
         assert_equal(signals, reference, 1e-7)
         # From rest a growing load moves the slider by 1e-27 m before the resonator turns it.
         below_rounding = np.count_nonzero(reference.event_times < 1e-8)

@@ -7,7 +7,7 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved.taylor import simulate
+from slider_resonator.references.resolved.simulate import simulate
 from tests.fmu.host import Instantiate
 from tests.fmus import native_fmu_only
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from slider_resonator.references.resolved.taylor import simulate
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 from tests.fmu.host import Instantiate, Unpacked
 from tests.fmu.trajectories import assert_equal, fmu_run

@@ -14,7 +14,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.schedule import schedule
 from slider_resonator.device.signal import ramp
-from slider_resonator.references.resolved import taylor
+from slider_resonator.references.resolved.simulate import simulate
 
 pytestmark = pytest.mark.interop
 
@@ -63,7 +63,7 @@ def test_lines_of_a_csv_are_exact_in_long_steps(native_fmu: Path, tmp_path: Path
         for name, column in zip(NAMES, columns, strict=True)
     }
     held = schedule(STOP, STOP, None, True, **signals).held()
-    exact = taylor.simulate(Device(), held, TIMES).position
+    exact = simulate(Device(), held, TIMES).position
     peak = np.abs(exact).max()
     off = {
         on: np.abs(positions(native_fmu, tmp_path / str(on), csv, derivatives=on) - exact).max()

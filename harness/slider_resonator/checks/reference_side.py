@@ -29,15 +29,12 @@ from slider_resonator.references.averaged.averaged_outputs import (
     AveragedOutputs,
     averaged_outputs,
 )
-from slider_resonator.references.resolved import located_events, lugre_scipy, taylor
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.scenes.scene import Scene
 
-_SIMULATORS: Mapping[str, Callable[..., Trajectory]] = {
-    "located_events": located_events.simulate,
-    "taylor": taylor.simulate,
-    "bristle_state": lugre_scipy.simulate_lugre,
-}
+_FRICTION_LAWS: Mapping[str, int] = {"located_events": 0, "bristle_state": 1}
+"""The friction law of each resolved reference."""
 
 TUBE_POINTS = 3
 """Points on each side of a time at which a tube samples the reference."""
@@ -63,7 +60,7 @@ class ReferenceSide:
         return self.scene.schedule().readings()
 
     def trajectory(self, reference: str) -> Trajectory:
-        """Return the trajectory of `located_events`, `taylor` or, for LuGre, `bristle_state`.
+        """Return the trajectory of `located_events` or, for LuGre, `bristle_state`.
 
         Its times are the communication points and the ends of drive periods that means need.
         """
@@ -135,9 +132,11 @@ class ReferenceSide:
         # What averaged motion comes close to is the full device.
         fidelity = self.device.fidelity or FULL
         device = replace(self.device, fidelity=fidelity)
+        law = _FRICTION_LAWS[reference]
+        if device.friction_law != law:
+            raise ValueError(f"friction_law = {device.friction_law!r}: {reference} is for {law}")
         *held, last = self.scene.schedule().held()
-        inputs = [*held, replace(last, stop=self._simulated_until)]
-        return _SIMULATORS[reference](device, inputs, times)
+        return simulate(device, [*held, replace(last, stop=self._simulated_until)], times)
 
     @cached_property
     def averaged_motion(self) -> AveragedMotion:

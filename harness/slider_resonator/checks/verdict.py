@@ -13,7 +13,6 @@ TITLE = "Slider-resonator validation"
 DIGITS = 9
 CALLED: Mapping[str, str] = {
     "located_events": "events",
-    "taylor": "series",
     "bristle_state": "bristles",
     "averaged": "averages",
     "closed_form": "formula",

@@ -32,8 +32,8 @@ class ExpectTable(KeyTable):
         "The allowed deviation of a signal is `relative`, a share of the reference's peak; "
         "`absolute` beside it is for a reference near zero.",
         "A real number needs a tolerance, be it 0; counts, words and contact modes need none.",
-        "`tube` allows a signal to be early or late, with the references `located_events`, "
-        "`taylor` and `bristle_state`. For `event_times` it is the tolerance, alone.",
+        "`tube` allows a signal to be early or late, with the references `located_events` "
+        "and `bristle_state`. For `event_times` it is the tolerance, alone.",
         "`quantity` may be a list of names, which is short for an [[expect]] of each.",
         "`absolute = 0.001` with a unit of m means 1 mm: all values are in the unit of the "
         "quantity.",

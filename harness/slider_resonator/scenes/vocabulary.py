@@ -15,16 +15,14 @@ Kind = Literal["number", "word", "signal"]
 MAX_TUBE = 0.25
 """Upper bound of a tube, in drive periods: at 0.5 it would contain a signal of opposite sign."""
 
-RESOLVED = ("located_events", "taylor", "bristle_state")
+RESOLVED = ("located_events", "bristle_state")
 """References with the fast motion, known at any time; `bristle_state` is for LuGre friction."""
 
 REFERENCES: Mapping[str, str] = {
     "located_events": "The device of `fidelity` 1 or 2 with Coulomb friction, at `fidelity` 0 that "
-    "of 2, integrated between located events. Steady velocity and blocking force: by shooting, "
-    "with either friction law.",
-    "taylor": "The same motion by Taylor series, an independent program: `fidelity` 1 or 2, "
-    "Coulomb friction.",
-    "bristle_state": "The full device with LuGre friction, the bristle as an integrated state.",
+    "of 2, by Taylor series between located events. Steady velocity and blocking force: by "
+    "shooting, with either friction law.",
+    "bristle_state": "The same with LuGre friction, the bristle as an integrated state.",
     "averaged": "Averaged theory of first order, with an error of the order of 1 / Omega: any "
     "frequency ratio, either friction law, with lift-off.",
     "closed_form": "Closed forms of the paper. Steady motion: constant inputs, `frequency_ratio` "

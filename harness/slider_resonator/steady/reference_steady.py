@@ -1,8 +1,4 @@
-"""Steady velocity and blocking force of the references, by the same shooting.
-
-With Coulomb friction it is the reference with located events that is run, with LuGre friction the
-one that integrates the bristle as a state.
-"""
+"""Steady velocity and blocking force of the references, by the same shooting."""
 
 from __future__ import annotations
 
@@ -16,8 +12,8 @@ import numpy as np
 from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved import located_events, lugre_scipy
 from slider_resonator.references.resolved.equations import initial_state
+from slider_resonator.references.resolved.simulate import simulate as simulate_resolved
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.newton import Vector
 from slider_resonator.steady.search import WARM_UP, WarmedUp, blocked_point, steady_point
@@ -27,17 +23,11 @@ STATE = ("velocity", "resonator_displacement", "resonator_velocity", "bristle_de
 _INITIAL = tuple(f"initial_{name}" for name in ("position", *STATE))
 SAMPLES = 16
 TOLERANCE = 1e-9
-"""Accuracy in units of the scale: the integrator's own 1e-12 per period, amplified by
-the time constant of the slow velocity, a thousand periods."""
+"""Accuracy in units of the scale."""
 
 
 Simulate = Callable[[Device, Sequence[HeldInputs], Vector], Trajectory]
 """A reference: device, held inputs and times (n,) to its motion."""
-
-
-def simulator(device: Device) -> Simulate:
-    """Return the reference for the friction law of a device."""
-    return lugre_scipy.simulate_lugre if device.friction_law == 1 else located_events.simulate
 
 
 def reference_steady_velocity(
@@ -47,13 +37,13 @@ def reference_steady_velocity(
     ratio: float,
     guess: float = 0.0,
     *,
-    simulate: Simulate | None = None,
+    simulate: Simulate = simulate_resolved,
     tolerance: float = TOLERANCE,
 ) -> float | None:
     """Return the mean velocity (m/s) of the steady motion, None where none is found.
 
     `phase` in rad, `load` in N; `guess` (m/s) is where the search begins. `simulate` is any
-    reference instead of that for the friction law, `tolerance` that of the state in units of its
+    integrator, `tolerance` that of the state in units of its
     scale.
     """
     period_map = _period_map(device, phase, ratio, simulate)
@@ -69,7 +59,7 @@ def reference_blocking_force(
     ratio: float,
     guess: float = 0.0,
     *,
-    simulate: Simulate | None = None,
+    simulate: Simulate = simulate_resolved,
     tolerance: float = TOLERANCE,
 ) -> float | None:
     """Return the load (N) that makes the mean velocity zero, None where none is found.
@@ -86,13 +76,13 @@ def reference_blocking_force(
 
 
 def _period_map(
-    device: Device, phase: float, ratio: float, simulate: Simulate | None
+    device: Device, phase: float, ratio: float, simulate: Simulate
 ) -> _ReferencePeriodMap | None:
     """Return the map of the period after which drive and normal load repeat, None without one."""
     count = common_period(ratio)
     if count is None:
         return None
-    return _ReferencePeriodMap(device, phase, ratio, count, simulate or simulator(device))
+    return _ReferencePeriodMap(device, phase, ratio, count, simulate)
 
 
 class _ReferencePeriodMap:

@@ -17,9 +17,7 @@ from slider_resonator.checks.natural_scale import (
 )
 from slider_resonator.device.device import FULL
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
-from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.references.resolved.taylor import simulate
-from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.stress.case import MIN_DIVISIBLE, Case
 from slider_resonator.stress.observe import MEAN, SIGNALS, Observation
 from slider_resonator.stress.verdict import NO_REFERENCE, REFERENCE, BoundCheck
@@ -153,8 +151,7 @@ def _expected(case: Case) -> Signals:
         motion = simulate_averaged(device, held, times)
         return _compared(case, {name: getattr(motion, name) for name in MEAN})
     with np.errstate(over="ignore", invalid="ignore"):
-        resolve = simulate_lugre if device.friction_law else simulate
-        resolved: Trajectory | LugreTrajectory = resolve(device, held, times)
+        resolved = simulate(device, held, times)
     signals = {name: getattr(resolved, name) for name in SIGNALS}
     if not all(np.isfinite(signal).all() for signal in signals.values()):
         raise ArithmeticError("its motion leaves the range of floating point numbers")

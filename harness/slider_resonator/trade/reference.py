@@ -1,4 +1,4 @@
-"""The reference of all errors: Taylor integration with located events, and shooting with it."""
+"""The reference of all errors: Taylor series with located events, and shooting with it."""
 
 from __future__ import annotations
 
@@ -8,9 +8,7 @@ from math import inf
 import numpy as np
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.references.resolved import taylor
-from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.steady.reference_steady import Simulate
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trade.peer_methods import shoot
 from slider_resonator.trade.peers.peer import solution_of
 from slider_resonator.trade.problem import Problem
@@ -36,7 +34,6 @@ class Reference:
 
 def find_reference(problem: Problem) -> Reference:
     """Compute the reference; HarnessError where that is impossible."""
-    simulate: Simulate = simulate_lugre if problem.device.friction_law == 1 else taylor.simulate
     try:
         held, periods = problem.lines(problem.periods), problem.periods
         run = simulate(problem.device, held, problem.readings(periods))
@@ -47,7 +44,7 @@ def find_reference(problem: Problem) -> Reference:
             answers[quantity] = (
                 shoot(problem, quantity, simulate, SHOOTING, inf).value if problem.steady else None
             )
-    except (ModuleNotFoundError, ValueError, RuntimeError) as error:
+    except (ValueError, RuntimeError) as error:
         raise HarnessError(
             f"scene {problem.name}: the reference cannot follow it: {error}"
         ) from error

@@ -14,7 +14,7 @@ from slider_resonator.checks.period_means import (
 )
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved import located_events
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 PERIOD = 2.0 * np.pi / 3500.0
@@ -26,7 +26,7 @@ STICKY = Device(base_amplitude=5e-8)
 def run_of(device: Device, times: np.ndarray = TIMES) -> Trajectory:
     held = [HeldInputs(0.0, float(TIMES[-1]))]
     every = np.union1d(times, PERIODS.ends(times))
-    return located_events.simulate(device, held, every)
+    return simulate(device, held, every)
 
 
 def test_ends_are_those_of_the_last_whole_period_and_first_since_the_start() -> None:

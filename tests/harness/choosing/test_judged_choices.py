@@ -10,7 +10,7 @@ import pytest
 
 from slider_resonator.choosing.choosing import choose_with
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.resolved import located_events
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.scenes.scene import Scene
 from tests.harness.choosing.generated_scenes import COUNT, generated_scene
 from tests.harness.choosing.judging import Judge, judge
@@ -85,7 +85,7 @@ def test_the_judge_agrees_with_an_independent_reference(instance: Instance, seed
     record = Judge(instance, scene).reference_record(scene.step_size)
     schedule = scene.schedule()
     at = np.searchsorted(record.times, schedule.times)
-    true = located_events.simulate(scene.device, schedule.held(), schedule.times)
+    true = simulate(scene.device, schedule.held(), schedule.times)
     for name in ("position", "velocity"):
         reference = getattr(true, name)
         off = float(np.abs(record[name][at] - reference).max() / np.abs(reference).max())

@@ -30,7 +30,7 @@ def test_what_scenes_can_expect_is_listed() -> None:
     listed = json.loads(printed)
     assert [row["name"] for row in listed] == list(QUANTITIES)
     (events,) = [row for row in listed if row["name"] == "event_times"]
-    assert events["references"] == ["located_events", "taylor", "bristle_state", "averaged"]
+    assert events["references"] == ["located_events", "bristle_state", "averaged"]
     assert events["unit"] == "drive periods"
     text = call("scenes", "--quantities").stdout
     assert "shooting" in text

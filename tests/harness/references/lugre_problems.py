@@ -1,6 +1,8 @@
-"""Motions on bristles that the tests of the LuGre references share."""
+"""Motions on bristles that tests of references share."""
 
 from __future__ import annotations
+
+from functools import partial
 
 import numpy as np
 
@@ -21,19 +23,21 @@ SCHEDULE = [
     HeldInputs(0.0077, DURATION, phase=-1.0, load=-0.05, frequency_ratio=1.37),
 ]
 
+Lugre = partial(Device, friction_law=1)
+
 PROBLEMS = {
-    "table 1": (Device(), constant()),
-    "soft": (Device(bristle_stiffness=1.0, bristle_damping=100.0), constant(load=0.05)),
-    "undamped": (Device(bristle_stiffness=1e3, bristle_damping=0.0), constant()),
-    "ratio 3": (Device(bristle_stiffness=1e4), constant(frequency_ratio=3.0, phase=0.4)),
-    "ratio 1.37, lift-off": (Device(normal_amplitude=2.0), constant(frequency_ratio=1.37)),
-    "presliding": (Device(base_amplitude=5e-8), constant()),
-    "deep presliding": (Device(base_amplitude=1e-12, bristle_damping=100.0), constant()),
-    "presliding, lift-off": (Device(base_amplitude=5e-8, normal_amplitude=2.0), constant()),
-    "fidelity 1, lift-off": (Device(fidelity=1, normal_amplitude=2.0), constant(phase=0.4)),
-    "one face": (Device(friction_faces=1, friction_coefficient=0.3), constant(phase=1.0)),
+    "table 1": (Lugre(), constant()),
+    "soft": (Lugre(bristle_stiffness=1.0, bristle_damping=100.0), constant(load=0.05)),
+    "undamped": (Lugre(bristle_stiffness=1e3, bristle_damping=0.0), constant()),
+    "ratio 3": (Lugre(bristle_stiffness=1e4), constant(frequency_ratio=3.0, phase=0.4)),
+    "ratio 1.37, lift-off": (Lugre(normal_amplitude=2.0), constant(frequency_ratio=1.37)),
+    "presliding": (Lugre(base_amplitude=5e-8), constant()),
+    "deep presliding": (Lugre(base_amplitude=1e-12, bristle_damping=100.0), constant()),
+    "presliding, lift-off": (Lugre(base_amplitude=5e-8, normal_amplitude=2.0), constant()),
+    "fidelity 1, lift-off": (Lugre(fidelity=1, normal_amplitude=2.0), constant(phase=0.4)),
+    "one face": (Lugre(friction_faces=1, friction_coefficient=0.3), constant(phase=1.0)),
     "initial state": (
-        Device(
+        Lugre(
             initial_position=0.01,
             initial_velocity=-0.2,
             initial_resonator_displacement=3e-4,
@@ -42,14 +46,14 @@ PROBLEMS = {
         ),
         constant(),
     ),
-    "schedule": (Device(), SCHEDULE),
+    "schedule": (Lugre(), SCHEDULE),
 }
 
 STIFF = {
-    "1e6": (Device(bristle_stiffness=1e6), constant(phase=0.4)),
-    "1e8, presliding": (Device(bristle_stiffness=1e8, base_amplitude=5e-8), constant()),
+    "1e6": (Lugre(bristle_stiffness=1e6), constant(phase=0.4)),
+    "1e8, presliding": (Lugre(bristle_stiffness=1e8, base_amplitude=5e-8), constant()),
     "1e8, deep presliding": (
-        Device(bristle_stiffness=1e8, base_amplitude=1e-9, bristle_damping=0.0),
+        Lugre(bristle_stiffness=1e8, base_amplitude=1e-9, bristle_damping=0.0),
         constant(frequency_ratio=1.37),
     ),
 }

@@ -117,7 +117,7 @@ def test_own_expectations_replace_those_of_a_bundle(tmp_path: Path) -> None:
     scene = scene_read(tmp_path, text)
     assert len(scene.expect) == len(bundle.expect)
     assert bounds(scene) == {**bounds(bundle), "position": 1e-5, "velocity": 1e-5}
-    other = scene_read(tmp_path, text.replace("located_events", "taylor") + 'why = "x"\n')
+    other = scene_read(tmp_path, text.replace("located_events", "averaged") + 'why = "x"\n')
     assert len(other.expect) == len(bundle.expect) + 2, "another reference is another expectation"
 
 

@@ -165,28 +165,28 @@ BELOW_THE_HEAD = {
     ),
     "single brackets": Mistake('[expect]\nquantity = "position"\n', "expect", "headed [[expect]]"),
     "unknown quantity": Mistake(
-        expect('quantity = "positon"', 'reference = "taylor"', "relative = 1e-6"),
-        "expect[positon, taylor].quantity",
+        expect('quantity = "positon"', 'reference = "located_events"', "relative = 1e-6"),
+        "expect[positon, located_events].quantity",
         "did you mean 'position'",
     ),
     "unknown reference": Mistake(
-        expect('quantity = "position"', 'reference = "tailor"', "relative = 1e-6"),
-        "expect[position, tailor]",
-        "did you mean 'taylor'",
+        expect('quantity = "position"', 'reference = "located_event"', "relative = 1e-6"),
+        "expect[position, located_event]",
+        "did you mean 'located_events'",
     ),
     "reference of another quantity": Mistake(
         expect('quantity = "position"', 'reference = "closed_form"', "relative = 1e-6"),
         "expect[position, closed_form]",
-        "must be one of averaged, bristle_state, located_events, taylor",
+        "must be one of averaged, bristle_state, located_events",
     ),
     "no tolerance": Mistake(
-        expect('quantity = "position"', 'reference = "taylor"'),
-        "expect[position, taylor]",
+        expect('quantity = "position"', 'reference = "located_events"'),
+        "expect[position, located_events]",
         "needs a tolerance",
     ),
     "negative tolerance": Mistake(
-        expect('quantity = "position"', 'reference = "taylor"', "relative = -1e-6"),
-        "expect[position, taylor].relative",
+        expect('quantity = "position"', 'reference = "located_events"', "relative = -1e-6"),
+        "expect[position, located_events].relative",
         "must be a number not below 0",
     ),
     "no reason": Mistake(
@@ -238,7 +238,7 @@ BELOW_THE_HEAD = {
     ),
     "a leading zero": Mistake("[device]\ndrive_frequency = 0350\n", "drive_frequency", "write 350"),
     "a share in percent": Mistake(
-        expect('quantity = "position"', 'reference = "taylor"', "relative = 1%"),
+        expect('quantity = "position"', 'reference = "located_events"', "relative = 1%"),
         "relative",
         "write 1e-2",
     ),

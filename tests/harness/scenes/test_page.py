@@ -86,7 +86,7 @@ def test_every_key_is_described_and_its_example_is_valid(heading: str) -> None:
         value = tomllib.loads(text)[name]
         assert value == field.examples[0]
         validator = model.__pydantic_validator__
-        given = {} if name != "quantity" else {"reference": "taylor"}
+        given = {} if name != "quantity" else {"reference": "located_events"}
         # Keys that other keys need may be missing; the value itself must do.
         try:
             validator.validate_python({name: value, **given})

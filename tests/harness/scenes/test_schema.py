@@ -147,15 +147,15 @@ def test_a_mistake_is_named_with_key_value_and_requirement(
     [
         ('quantity = "velocity"\nvalue = 1.0', ["signal", "needs a reference"]),
         (
-            'quantity = "event_times"\nreference = "taylor"\nrelative = 1e-6',
+            'quantity = "event_times"\nreference = "located_events"\nrelative = 1e-6',
             ["event_times needs a tube"],
         ),
         (
             'quantity = "position"\nreference = "averaged"\nrelative = 1e-6\ntube = 0.01',
-            ["tube = 0.01", "located_events or taylor or bristle_state"],
+            ["tube = 0.01", "located_events or bristle_state"],
         ),
         (
-            'quantity = "position"\nreference = "taylor"\nrelative = 1e-6\ntube = 0.5',
+            'quantity = "position"\nreference = "located_events"\nrelative = 1e-6\ntube = 0.5',
             ["tube", "0.5", "0.25"],
         ),
         ('quantity = "steady_velocity"\nvalue = 1.0\nat_most = 2.0', ["exactly one"]),
@@ -169,9 +169,12 @@ def test_a_mistake_is_named_with_key_value_and_requirement(
             ["[steady_velocity].value = nan", "finite"],
         ),
         ('quantity = "steady_velocity"\nvalue = 0.1', ["steady_velocity", "needs a tolerance"]),
-        ('quantity = "velocity"\nreference = "taylor"', ["velocity", "a share of the peak"]),
         (
-            'quantity = "velocity"\nreference = "taylor"\nabsolute = 1e-6',
+            'quantity = "velocity"\nreference = "located_events"',
+            ["velocity", "a share of the peak"],
+        ),
+        (
+            'quantity = "velocity"\nreference = "located_events"\nabsolute = 1e-6',
             ["velocity is a signal", "relative, not absolute"],
         ),
         ('quantity = "steady_status"\nat_most = 1.0', ["cannot have a bound"]),
@@ -188,7 +191,7 @@ def test_an_expectation_that_cannot_be_judged_is_refused(
     [
         'quantity = "reversals"\nvalue = 3',
         'quantity = "steady_status"\nvalue = "stuck"',
-        'quantity = "contact_mode"\nreference = "taylor"',
+        'quantity = "contact_mode"\nreference = "located_events"',
         'quantity = "steady_velocity"\nat_most = 1.0',
         'quantity = "steady_velocity"\nvalue = 0.0\nabsolute = 0.0',
     ],

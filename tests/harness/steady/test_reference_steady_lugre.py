@@ -12,7 +12,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged import uniform_average
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
     reference_steady_velocity,
@@ -29,13 +29,13 @@ KAPPAS = [
 def steady_velocity(
     device: Device, phase: float, load: float = 0.0, ratio: float = 1.0, guess: float = 0.0
 ) -> float:
-    found = reference_steady_velocity(device, phase, load, ratio, guess, simulate=simulate_lugre)
+    found = reference_steady_velocity(device, phase, load, ratio, guess, simulate=simulate)
     assert found is not None, "there is a steady motion"
     return found
 
 
 def blocking_force(device: Device, phase: float, guess: float) -> float:
-    found = reference_blocking_force(device, phase, 1.0, guess, simulate=simulate_lugre)
+    found = reference_blocking_force(device, phase, 1.0, guess, simulate=simulate)
     assert found is not None, "there is a load that stops the device"
     return found
 
@@ -52,7 +52,7 @@ def test_long_run_converges_to_the_steady_motion(fidelity: int) -> None:
     for side in (-1.0, 1.0):
         fast = equivalent_force(device).velocity_amplitude
         start = replace(device, initial_velocity=steady + side * 0.2 * fast - fast)
-        run = simulate_lugre(start, [HeldInputs(0.0, times[-1], 0.4, 0.1)], times)
+        run = simulate(start, [HeldInputs(0.0, times[-1], 0.4, 0.1)], times)
         means.append(float(np.diff(run.position)[0]) / (20.0 * period))
     assert means == pytest.approx([steady, steady], abs=1e-4 * fast), "a long run ends there too"
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from slider_resonator.references.resolved import taylor
-from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.steady.reference_steady import Simulate
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trade.peers.peer import solution_of
 from slider_resonator.trade.problem import Problem, problem_of
 from slider_resonator.trade.solution import WindowReadings, windows
@@ -18,7 +16,6 @@ def problem(text: str, max_periods: int | None = None) -> Problem:
 def reference_of(problem: Problem) -> WindowReadings:
     """The readings of a problem by the Taylor references, over its whole run."""
     periods = problem.periods
-    simulate: Simulate = simulate_lugre if problem.device.friction_law else taylor.simulate
     run = simulate(problem.device, problem.lines(periods), problem.readings(periods))
     return windows(problem, solution_of(run, located=True), periods)
 

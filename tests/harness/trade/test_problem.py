@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from slider_resonator.references.resolved.located_events import simulate
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trade.problem import MIN_PERIODS
 from tests.harness.trade.problems import (
     BEAT,

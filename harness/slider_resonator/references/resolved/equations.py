@@ -15,8 +15,9 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.references.resolved.contact import LIFTED, STICK
 
-State = tuple[float, float, float, float]
-"""Position m, velocity m/s, resonator displacement m, resonator velocity m/s."""
+State = tuple[float, ...]
+"""Position m, velocity m/s, resonator displacement m and velocity m/s; with LuGre friction also the
+deflection of the bristle, m."""
 
 Number = TypeVar("Number", float, Array)
 
@@ -37,6 +38,11 @@ class Equations:
     In fidelity 1 the force terms carry the whole vibration, ``steady_resonator`` is the complex
     amplitude of the resonator, Im(steady_resonator e^{i theta}), and the Y of these equations is
     an idle state without any effect on X.
+
+    With LuGre friction (8), ``path_rate`` > 0, the bristle has the stretch W = path_rate z, 1 in
+    steady sliding, and the friction is that at W + path_damping |X'| (s - W) in place of s::
+
+        W' = path_rate |X'| (s - W)
     """
 
     drive_frequency: float
@@ -53,6 +59,8 @@ class Equations:
     damping_rate: float = 0.0
     stiffness_rate: float = 0.0
     steady_resonator: complex | None = None
+    path_rate: float = 0.0
+    path_damping: float = 0.0
 
     def needed_force(
         self, load: float | Number, theta: Number, displacement: Number, velocity: Number
@@ -138,13 +146,17 @@ class Equations:
         angle: Array,
         states: Array,
     ) -> tuple[Array, Array]:
-        """Return normal and friction force in N along states of shape (n, 4) in one mode."""
+        """Return normal and friction force in N along states (n, 4) or (n, 5) in one mode."""
         if mode == LIFTED:
             return np.zeros(len(theta)), np.zeros(len(theta))
         normal = np.maximum(0.0, self.normal_preload + self.normal_amplitude * np.sin(angle))
         if mode == STICK:
             return normal, self.needed_force(load, theta, states[:, 2], states[:, 3])
-        return normal, mode * np.maximum(0.0, self.friction_limit(angle))
+        grip: float | Array = mode
+        if self.path_rate:
+            velocity, stretch = states[:, 1], self.path_rate * states[:, 4]
+            grip = stretch + self.path_damping * (velocity - np.abs(velocity) * stretch)
+        return normal, grip * np.maximum(0.0, self.friction_limit(angle))
 
     def resonator_motion(self, theta: Array, states: Array) -> tuple[Array, Array]:
         """Return the displacement in m and velocity in m/s of the resonator along states (n, 4)."""
@@ -184,13 +196,12 @@ class Equations:
 
 
 def equations_of(device: Device) -> Equations:
-    """Return the equations of motion of a device with Coulomb friction.
+    """Return the equations of motion of a device.
 
-    Raises ValueError for another friction law, for fidelity 0, for a negative normal load, and in
-    fidelity 1 for an undamped resonator at its slipping resonance, where (32) has no value.
+    Raises ValueError for fidelity 0, for a negative normal load, for LuGre friction without
+    stiffness or coefficient or with negative damping, and in fidelity 1 for an undamped resonator
+    at its slipping resonance, where (32) has no value.
     """
-    if device.friction_law != 0:
-        raise ValueError(f"friction_law = {device.friction_law!r}: only 0 (Coulomb) is covered")
     if device.fidelity not in (1, 2):
         raise ValueError(f"fidelity = {device.fidelity!r}: only 1 and 2 are covered")
     for name in ("normal_preload", "normal_amplitude"):
@@ -202,6 +213,7 @@ def equations_of(device: Device) -> Equations:
         "friction_amplitude": coefficient * device.normal_amplitude,
         "normal_preload": device.normal_preload,
         "normal_amplitude": device.normal_amplitude,
+        **_bristle(device),
     }
     frequency = device.drive_frequency
     if device.fidelity == 1:
@@ -227,6 +239,22 @@ def equations_of(device: Device) -> Equations:
     )
 
 
+def _bristle(device: Device) -> dict[str, float]:
+    """Return the coefficients of LuGre friction, none with Coulomb friction."""
+    if device.friction_law == 0:
+        return {}
+    for name in ("friction_coefficient", "bristle_stiffness"):
+        value = getattr(device, name)
+        if not 0.0 < value < math.inf:
+            raise ValueError(f"{name} = {value!r} must be greater than 0 for LuGre friction")
+    if not 0.0 <= device.bristle_damping < math.inf:
+        raise ValueError(f"bristle_damping = {device.bristle_damping!r} s/m must be at least 0")
+    return {
+        "path_rate": device.bristle_stiffness / device.friction_coefficient,
+        "path_damping": device.bristle_damping / device.friction_coefficient,
+    }
+
+
 def initial_state(device: Device) -> State:
     """Return the initial state; in fidelity 1 the resonator has none of its own.
 
@@ -234,18 +262,15 @@ def initial_state(device: Device) -> State:
     velocities: the slider takes what the resonator does not have. Raises ValueError as
     `equations_of` does.
     """
+    velocity, displacement = device.initial_velocity, device.initial_resonator_displacement
+    resonator_velocity = device.initial_resonator_velocity
     if device.fidelity == 1:
         amplitude, _ = steady_vibration(device)
-        momentum = device.total_mass * device.initial_velocity
-        momentum += device.resonator_mass * device.initial_resonator_velocity
+        momentum = device.total_mass * velocity + device.resonator_mass * resonator_velocity
         momentum -= device.resonator_mass * device.drive_frequency * amplitude.real
-        return (device.initial_position, momentum / device.total_mass, 0.0, 0.0)
-    return (
-        device.initial_position,
-        device.initial_velocity,
-        device.initial_resonator_displacement,
-        device.initial_resonator_velocity,
-    )
+        velocity, displacement, resonator_velocity = momentum / device.total_mass, 0.0, 0.0
+    bristle = (device.initial_bristle_deflection,) if device.friction_law == 1 else ()
+    return (device.initial_position, velocity, displacement, resonator_velocity, *bristle)
 
 
 def steady_vibration(device: Device) -> tuple[complex, complex]:

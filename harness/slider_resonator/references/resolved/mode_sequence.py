@@ -1,4 +1,7 @@
-"""The order of contact modes: which segment of motion follows which, and with what state."""
+"""The order of contact modes: which segment of motion follows which, and with what state.
+
+Bristles never stick: the modes of LuGre friction are the directions of the motion, and flight.
+"""
 
 from __future__ import annotations
 
@@ -48,6 +51,8 @@ class ModeSequence:
         self._theta = 0.0
         self._psi = 0.0
         self._events_at_this_instant = 0
+        self._bends = device.friction_law == 1
+        self._direction = -1 if self.state[1] < 0.0 else 1
 
     def run(self, held: Sequence[HeldInputs]) -> Trajectory:
         """Return the motion through the held inputs, or ones with rates.
@@ -62,34 +67,43 @@ class ModeSequence:
         for inputs in turning_apart(with_steady_phase(held, self._device)):
             self._equations = equations_of(inputs.tuned_device(self._device))
             self._run_held(inputs)
+        if self._bends:
+            return self._recorder.lugre_trajectory()
         return self._recorder.trajectory()
 
     def _run_held(self, inputs: HeldInputs) -> None:
         elapsed = Elapsed()
         span = inputs.stop - inputs.start
         mode = self._mode_now(inputs)
-        self._contact.enter(mode, inputs.start)
         self._keep_present(mode, inputs, self._recorder.pending(inputs.start))
+        began = inputs.start
+        if not self._bends:
+            self._contact.enter(mode, began)
         while (remaining := elapsed.until(span)) > 0.0:
-            now = inputs.later(elapsed.seconds + elapsed.carry)
+            now = _present(inputs, elapsed)
             contact_span = self._time_to_contact_change(mode, now)
             result = self._pass(mode, inputs, now, elapsed, min(remaining, contact_span))
+            if self._bends and result.duration:
+                # Of a start at rest the first instant only shows the direction.
+                self._contact.slide(self._direction, began)
+                self._contact.enter(mode, began)
             elapsed.add(result.duration)
             self._theta = advanced(self._theta, self._equations.drive_frequency * result.duration)
             self._psi = advanced(
                 self._psi, now.turned(result.duration, self._equations.drive_frequency)
             )
             self.state = result.state
-            time = inputs.start + elapsed.seconds
-            now = inputs.later(elapsed.seconds + elapsed.carry)
-            self._guard_progress(result.duration, time)
+            began = inputs.start + elapsed.seconds
+            now = _present(inputs, elapsed)
+            self._guard_progress(result.duration, began)
             if result.event:
                 mode = self._mode_after_event(mode, result.event, now)
             elif contact_span < remaining:
                 mode = self._mode_in_contact(now) if mode == LIFTED else LIFTED
             else:
                 break
-            self._contact.enter(mode, time)
+            if not self._bends:
+                self._contact.enter(mode, began)
         # An event at the stop, to rounding, has passed over the samples there.
         end = inputs.later(span)
         self._keep_present(mode, end, self._recorder.pending(inputs.stop))
@@ -98,8 +112,8 @@ class ModeSequence:
         self, mode: int, inputs: HeldInputs, now: HeldInputs, elapsed: Elapsed, span: float
     ) -> SegmentResult:
         """Follow a mode; ``now`` are the inputs as they are at present."""
-        local = elapsed.until(self._recorder.pending() - inputs.start)
-        samples = local[: np.searchsorted(local, span, side="right")]
+        local = elapsed.until(self._recorder.pending(inputs.stop) - inputs.start)
+        samples = local[: np.searchsorted(local, span, side="right")] if len(local) else local
         segment = Segment(
             equations=self._equations,
             mode=mode,
@@ -111,11 +125,13 @@ class ModeSequence:
             frequency_ratio=now.frequency_ratio,
             span=span,
             samples=samples,
+            direction=self._direction if self._bends else mode,
             load_rate=now.load_rate,
             ratio_rate=now.ratio_rate,
         )
         result = self._follow(segment)
-        self._keep(mode, now, samples[: len(result.samples)], result.samples)
+        if len(result.samples):
+            self._keep(mode, now, samples[: len(result.samples)], result.samples)
         self._contact.stay(result.duration)
         self._recorder.steps += result.steps
         self._recorder.evaluations += result.evaluations
@@ -135,12 +151,16 @@ class ModeSequence:
         resonator = equations.resonator_motion(theta, states)
         load = inputs.load + inputs.load_rate * local
         forces = equations.contact_forces(mode, load, theta, angle, states)
-        self._recorder.keep(states, resonator, forces, mode)
+        deflection, modes = None, np.full(len(states), float(mode))
+        if self._bends:
+            deflection = states[:, 4]
+            modes = modes if mode == LIFTED else np.sign(states[:, 1])
+        self._recorder.keep(states, resonator, forces, modes, deflection)
 
     def _keep_present(self, mode: int, inputs: HeldInputs, times: Array) -> None:
         """Keep the present state as the sample of each of the times."""
-        count = len(times)
-        self._keep(mode, inputs, np.zeros(count), np.tile(self.state, (count, 1)))
+        if count := len(times):
+            self._keep(mode, inputs, np.zeros(count), np.tile(self.state, (count, 1)))
 
     def _mode_now(self, inputs: HeldInputs) -> int:
         equations = self._equations
@@ -154,6 +174,8 @@ class ModeSequence:
         return self._mode_in_contact(inputs)
 
     def _mode_in_contact(self, inputs: HeldInputs) -> int:
+        if self._bends:
+            return self._direction
         _, velocity, displacement, resonator_velocity = self.state
         if velocity:
             return SLIP_FORWARD if velocity > 0.0 else SLIP_BACKWARD
@@ -164,8 +186,11 @@ class ModeSequence:
         return mode_at_rest(needed, max(0.0, limit))
 
     def _mode_after_event(self, mode: int, event: int, inputs: HeldInputs) -> int:
-        position, _, displacement, resonator_velocity = self.state
-        self.state = (position, 0.0, displacement, resonator_velocity)
+        position, _, *others = self.state
+        self.state = (position, 0.0, *others)
+        if self._bends:
+            self._direction = event
+            return mode if mode == LIFTED else event
         now = self._mode_now(inputs)
         if mode == STICK and now != LIFTED:
             return SLIP_FORWARD if event > 0 else SLIP_BACKWARD
@@ -193,3 +218,8 @@ class ModeSequence:
                 f"times at one instant (state {self.state!r}): stick and slip cannot be "
                 "distinguished there; perturb the initial state or an input"
             )
+
+
+def _present(inputs: HeldInputs, elapsed: Elapsed) -> HeldInputs:
+    """Return the inputs as they are after a time."""
+    return inputs.later(elapsed.seconds + elapsed.carry) if inputs.vary else inputs

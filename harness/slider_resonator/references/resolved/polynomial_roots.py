@@ -11,34 +11,32 @@ from functools import cache
 from math import comb
 
 import numpy as np
-from scipy.optimize import brentq
 
 from slider_resonator.arrays import Array
 
 _HALVINGS = 40
+_ITERATIONS = 100
+_LAST_STEP = 1e-12
+"""Step of Newton's method after which the root is known to rounding: the error is its square."""
 
 
-def first_fall(coefficients: Array, stop: float, noise: float) -> float | None:
-    """Return the first time in ``[0, stop]`` at which a polynomial turns negative, None if never.
+def first_fall(terms: Array, noise: float) -> float | None:
+    """Return the first share in ``[0, 1]`` at which a polynomial turns negative, None if never.
 
-    ``coefficients`` (shape (n + 1,)) belong to ascending powers of time. What is smaller than
+    ``terms`` (shape (n + 1,)) are its coefficients, of ascending powers. What is smaller than
     ``noise``, the rounding error of the values, counts as zero, leading coefficients too: a
     polynomial may begin on a root, single or double, and is judged by what follows.
     """
-    scaled = coefficients * stop ** np.arange(len(coefficients))
-    above_noise = np.flatnonzero(np.abs(scaled) > noise)
-    if not above_noise.size:
+    above_noise = np.abs(terms) > noise
+    first = int(above_noise.argmax())
+    if not above_noise[first]:
         return None
-    deflated = scaled[above_noise[0] :]
+    deflated = terms[first:]
     if deflated[0] < 0.0:
         return 0.0
     bernstein = _to_bernstein(len(deflated) - 1) @ deflated
     bracket = _first_bracket(bernstein, 0.0, 1.0, noise, _HALVINGS)
-    if bracket is None:
-        return None
-    descending = deflated[::-1].tolist()
-    root: float = brentq(_horner, *bracket, args=(descending,), xtol=1e-18, rtol=1e-15)
-    return root * stop
+    return None if bracket is None else _root(deflated[::-1].tolist(), *bracket)
 
 
 @cache
@@ -61,25 +59,44 @@ def _first_bracket(
         return None
     if changes == 1 and bernstein[0] > 0.0 > bernstein[-1]:
         return left, right
-    first, second = _halved(bernstein)
+    halving = _halving(len(bernstein) - 1)
     middle = 0.5 * (left + right)
-    bracket = _first_bracket(first, left, middle, noise, halvings - 1)
-    return bracket or _first_bracket(second, middle, right, noise, halvings - 1)
+    bracket = _first_bracket(halving @ bernstein, left, middle, noise, halvings - 1)
+    if bracket is not None:
+        return bracket
+    second = halving[::-1, ::-1] @ bernstein
+    return _first_bracket(second, middle, right, noise, halvings - 1)
 
 
-def _halved(bernstein: Array) -> tuple[Array, Array]:
-    """Split by de Casteljau's algorithm; both halves hold the same polynomial."""
-    row = bernstein
-    first, second = [row[0]], [row[-1]]
-    while len(row) > 1:
-        row = 0.5 * (row[1:] + row[:-1])
-        first.append(row[0])
-        second.append(row[-1])
-    return np.array(first), np.array(second[::-1])
+@cache
+def _halving(degree: int) -> Array:
+    """Return the matrix of de Casteljau's algorithm for the first half of an interval."""
+    return np.array(
+        [
+            [comb(row, column) / 2.0**row for column in range(degree + 1)]
+            for row in range(degree + 1)
+        ]
+    )
 
 
-def _horner(time: float, descending: list[float]) -> float:
-    value = 0.0
-    for coefficient in descending:
-        value = value * time + coefficient
-    return value
+def _root(descending: list[float], left: float, right: float) -> float:
+    """Return the root between a positive left and a negative right end, by Newton's method.
+
+    A step that leaves the bracket halves it instead.
+    """
+    share = 0.5 * (left + right)
+    for _ in range(_ITERATIONS):
+        value = slope = 0.0
+        for coefficient in descending:
+            slope = slope * share + value
+            value = value * share + coefficient
+        if value > 0.0:
+            left = share
+        else:
+            right = share
+        before, share = share, share - value / slope if slope else left
+        if not left <= share <= right:
+            share = 0.5 * (left + right)
+        if abs(share - before) <= _LAST_STEP:
+            break
+    return share

@@ -29,6 +29,7 @@ class Segment:
     frequency_ratio: float
     span: float
     samples: Array
+    direction: int
     load_rate: float = 0.0
     ratio_rate: float = 0.0
 
@@ -51,7 +52,8 @@ class SegmentResult:
 
     ``event`` is 0 if the span ended without one. In a slip it is the sign of the acceleration at
     which the velocity vanished; in a stick the direction in which the slider breaks loose.
-    ``samples`` has shape (k, 4), the states at the sample times that lie within ``duration`` s.
+    ``samples`` has shape (k, 4), with LuGre friction (k, 5): the states at the sample times within
+    ``duration`` s.
     """
 
     duration: float

@@ -27,13 +27,13 @@ from slider_resonator.device.held_inputs import (
 from slider_resonator.references.resolved.contact import LIFTED
 from slider_resonator.references.resolved.equations import Number, equations_of, initial_state
 from slider_resonator.references.resolved.recorder import Recorder
-from slider_resonator.references.resolved.scipy_methods import (
+from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.trade.peers.scipy_methods import (
     Method,
     Solver,
     scipy_method,
     take_step,
 )
-from slider_resonator.references.resolved.trajectory import Trajectory
 
 
 class RunWithoutEvents(ABC):
@@ -44,6 +44,8 @@ class RunWithoutEvents(ABC):
 
     def __init__(self, device: Device, times: Array) -> None:
         self.recorder = Recorder(times)
+        if device.friction_law != 0:
+            raise ValueError(f"friction_law = {device.friction_law!r}: only 0 is covered")
         self.device = device
         self.equations = equations_of(device)
         self.state: Array = np.array(initial_state(device))
@@ -193,7 +195,7 @@ class _Run(RunWithoutEvents):
             raise RuntimeError(
                 f"{type(solver).__name__} has used {evaluations} evaluations up to t = {time!r} s, "
                 f"max_evaluations = {self._max_evaluations}: it chatters in a stick; use a "
-                "greater atol, or located_events"
+                "greater atol, or located events"
             )
 
     def _friction(self, inputs: HeldInputs, local: Array, velocity: Array) -> Array:

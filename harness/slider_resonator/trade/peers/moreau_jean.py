@@ -30,7 +30,7 @@ def simulate(
 ) -> Trajectory:
     """Return the motion of a device under held inputs at ``times`` (shape (n,), s).
 
-    Takes the inputs that ``located_events.simulate`` takes. A step is at most a
+    Takes the inputs that ``resolved.simulate`` takes. A step is at most a
     ``steps_per_period``-th of a drive period; those of held inputs are equal, and samples between
     their ends are interpolated linearly. ``contact_mode`` is the sign of the velocity (0 in a
     stick, 2 where the contact is open), ``reversals`` counts its changes between steps, and

@@ -10,11 +10,10 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.references.resolved import located_events, lugre_scipy, taylor
-from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
+from slider_resonator.references.resolved.simulate import simulate as simulate_series
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import Simulate
-from slider_resonator.trade.peers import event_free, moreau_jean
+from slider_resonator.trade.peers import event_free, located_scipy, lugre_scipy, moreau_jean
 from slider_resonator.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, solution_of
 from slider_resonator.trade.peers.switching_taylor import heyoka_in_one_call
 from slider_resonator.trade.problem import Problem
@@ -31,18 +30,16 @@ def peers(problem: Problem) -> list[Peer]:
 
 def _coulomb() -> Iterator[Peer]:
     for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
-        yield heyoka_in_one_call("heyoka at its fastest", taylor.simulate, tolerance)
-    for tolerance in (1e-6, 1e-12):
-        simulate: Simulate = partial(taylor.simulate, tolerance=tolerance)
-        yield _at("heyoka, events located outside", tolerance, simulate)
+        yield heyoka_in_one_call("heyoka at its fastest", tolerance)
+    yield _series()
     for method, tolerances in (
         ("DOP853", (1e-3, 1e-5, 1e-8, 1e-11)),
         ("LSODA", (1e-5, 1e-8)),
         ("Radau", (1e-3, 1e-5)),
     ):
         for tolerance in tolerances:
-            simulate = partial(
-                located_events.simulate,
+            simulate: Simulate = partial(
+                located_scipy.simulate,
                 method=method,
                 rtol=tolerance,
                 atol=1e-2 * tolerance,
@@ -70,9 +67,10 @@ def _coulomb() -> Iterator[Peer]:
 
 
 def _lugre() -> Iterator[Peer]:
+    yield _series()
     for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
         family = "heyoka at its fastest, bristle from path"
-        yield heyoka_in_one_call(family, simulate_lugre, tolerance)
+        yield heyoka_in_one_call(family, tolerance)
     for method, tolerances in (
         ("LSODA", (1e-4, 1e-6, 1e-8, 1e-10)),
         ("Radau", (1e-4, 1e-6)),
@@ -84,6 +82,10 @@ def _lugre() -> Iterator[Peer]:
             )
             family = f"{method}, bristle as state"
             yield _at(family, tolerance, simulate, located=False)
+
+
+def _series() -> Peer:
+    return _trajectory("Taylor series in Python", "", simulate_series, shooting=1e-9, located=True)
 
 
 def _regularised(

@@ -21,8 +21,8 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
-from slider_resonator.steady.reference_steady import Simulate
 from slider_resonator.trade.peers.peer import NOT_SHOT, Peer, solution_of
 from slider_resonator.trade.solution import Solution
 
@@ -45,8 +45,8 @@ _LAST = ("direction", "stretch")
 """The last parameter in use, by friction law."""
 
 
-def heyoka_in_one_call(family: str, first: Simulate, tolerance: float) -> Peer:
-    """Return heyoka in one call; it starts where `first` is after one drive period."""
+def heyoka_in_one_call(family: str, tolerance: float) -> Peer:
+    """Return heyoka in one call; it starts where the reference is after one drive period."""
 
     def follow(device: Device, held: Sequence[HeldInputs], times: Array) -> Solution:
         if len(held) != 1 or held[0].vary:
@@ -55,7 +55,7 @@ def heyoka_in_one_call(family: str, first: Simulate, tolerance: float) -> Peer:
         begin = min(2.0 * np.pi / device.drive_frequency, inputs.stop)
         early = times[times <= begin]
         began = process_time()
-        start = first(device, [replace(inputs, stop=begin)], np.append(early, begin))
+        start = simulate(device, [replace(inputs, stop=begin)], np.append(early, begin))
         started = process_time() - began
         if begin == inputs.stop:
             return replace(
@@ -160,7 +160,7 @@ def _compiled(friction_law: int, tolerance: float) -> _Compiled:
         hy = importlib.import_module("heyoka")
     except ModuleNotFoundError as error:
         raise ModuleNotFoundError(
-            "the Taylor reference needs heyoka: pip install 'slider-resonator[taylor]'"
+            "this peer needs heyoka: pip install 'slider-resonator[taylor]'"
         ) from error
     x, v, y, u = hy.make_vars("x", "v", "y", "u")
     par = {name: hy.par[index] for name, index in _PLACE.items()}

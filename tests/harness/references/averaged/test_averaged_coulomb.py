@@ -16,7 +16,7 @@ from slider_resonator.references.closed_forms import (
     equivalent_force,
     loaded_velocity,
 )
-from slider_resonator.references.resolved.located_events import simulate
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.steady.reference_steady import reference_steady_velocity
 
 

@@ -13,7 +13,7 @@ from slider_resonator.references.averaged.averaged_coulomb import device_steady_
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
 from slider_resonator.references.averaged.uniform_average import device_steady_velocity
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.references.resolved import lugre_taylor, taylor
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 PERIOD = 2.0 * np.pi / 3500.0
@@ -40,7 +40,6 @@ def both(
 ) -> tuple[AveragedMotion, Trajectory]:
     times = np.linspace(held[0].start, held[-1].stop, count + 1)
     resolved = replace(device, fidelity=2)
-    simulate = lugre_taylor.simulate_lugre if device.friction_law else taylor.simulate
     return simulate_averaged(device, held, times), simulate(resolved, held, times)
 
 

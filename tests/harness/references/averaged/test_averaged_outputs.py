@@ -9,7 +9,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.averaged.averaged_outputs import AveragedOutputs, averaged_outputs
-from slider_resonator.references.resolved import taylor
+from slider_resonator.references.resolved.simulate import simulate
 
 PERIOD = 2.0 * np.pi / 3500.0
 DEVICE = Device(fidelity=0, normal_amplitude=1.3)
@@ -25,7 +25,7 @@ def outputs_of(device: Device, held: list[HeldInputs] = HELD) -> AveragedOutputs
 
 
 def test_the_normal_load_is_that_of_resolved_motion() -> None:
-    resolved = taylor.simulate(replace(DEVICE, fidelity=2), HELD, TIMES)
+    resolved = simulate(replace(DEVICE, fidelity=2), HELD, TIMES)
     found = outputs_of(DEVICE)
     assert found.normal_force == pytest.approx(resolved.normal_force, abs=1e-9)
     assert ((found.contact_mode == 2) == (resolved.contact_mode == 2)).mean() > 0.999
@@ -33,7 +33,7 @@ def test_the_normal_load_is_that_of_resolved_motion() -> None:
 
 def test_the_resonator_swings_as_a_damped_one_does_in_the_end() -> None:
     weak = replace(DEVICE, friction_coefficient=1e-9)
-    resolved = taylor.simulate(replace(weak, fidelity=2), HELD, TIMES)
+    resolved = simulate(replace(weak, fidelity=2), HELD, TIMES)
     found, late = outputs_of(weak), slice(3500, None)
     for name in ("resonator_displacement", "resonator_velocity"):
         expected = getattr(resolved, name)[late]

@@ -10,7 +10,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.prediction_validity import prediction_valid
 from slider_resonator.references.closed_forms import equivalent_force
-from slider_resonator.references.resolved.located_events import simulate
+from slider_resonator.references.resolved.simulate import simulate
 
 TABLE_1 = Device()
 CONSTANT_LOAD = replace(TABLE_1, normal_amplitude=0.0, damping_ratio=0.3)

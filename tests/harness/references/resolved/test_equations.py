@@ -114,7 +114,6 @@ def test_fastest_rate_is_that_of_the_resonator_on_a_free_slider(
 @pytest.mark.parametrize(
     ("parameters", "message"),
     [
-        ({"friction_law": 1}, "friction_law = 1"),
         ({"fidelity": 0}, "fidelity = 0"),
         ({"normal_preload": -1.0}, r"normal_preload = -1\.0 N must be at least 0"),
         ({"normal_amplitude": math.nan}, "normal_amplitude = nan N"),
@@ -131,3 +130,30 @@ def test_fastest_rate_is_that_of_the_resonator_on_a_free_slider(
 def test_unsupported_devices_are_refused(parameters: dict[str, float], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         equations_of(Device.from_mapping(parameters))
+
+
+def test_lugre_friction_follows_equation_8_on_every_face() -> None:
+    device = Device(friction_law=1, friction_faces=2, bristle_stiffness=3e4, bristle_damping=7.0)
+    states = np.zeros((3, 5))
+    states[:, 1] = velocity = np.array([-0.3, 0.0, 0.02])
+    states[:, 4] = deflection = np.array([2e-6, -1e-6, 3e-6])
+    angle = np.array([0.0, 1.0, -2.0])
+    normal = device.normal_preload + device.normal_amplitude * np.sin(angle)
+    rate = velocity - 3e4 * np.abs(velocity) * deflection / device.friction_coefficient
+    expected = 2.0 * normal * (3e4 * deflection + 7.0 * rate)
+    _, found = equations_of(device).contact_forces(SLIP_FORWARD, 0.0, np.zeros(3), angle, states)
+    np.testing.assert_allclose(found, expected, rtol=1e-13, err_msg="F = faces N (s0 z + s1 z')")
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("friction_coefficient", 0.0),
+        ("bristle_stiffness", math.inf),
+        ("bristle_damping", math.nan),
+        ("fidelity", 0),
+    ],
+)
+def test_invalid_lugre_parameters_are_refused(name: str, value: float) -> None:
+    with pytest.raises(ValueError, match=name):
+        equations_of(Device.from_mapping({"friction_law": 1, name: value}))

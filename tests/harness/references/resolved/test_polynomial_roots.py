@@ -10,7 +10,9 @@ NOISE = 1e-15
 
 
 def fall(polynomial: Polynomial, stop: float = 1.0) -> float | None:
-    return first_fall(polynomial.coef.astype(np.float64), stop, NOISE)
+    terms = polynomial.coef.astype(np.float64) * stop ** np.arange(len(polynomial.coef))
+    share = first_fall(terms, NOISE)
+    return None if share is None else share * stop
 
 
 def test_first_of_several_roots_is_found() -> None:
@@ -54,7 +56,7 @@ def test_random_polynomials_agree_with_a_fine_grid() -> None:
         coefficients = random.normal(size=23) * 2.0 ** np.arange(23)
         coefficients[0] = abs(coefficients[0])
         below = np.flatnonzero(Polynomial(coefficients)(grid) < 0.0)
-        found = first_fall(coefficients, 1.0, NOISE * 2.0**23)
+        found = first_fall(coefficients, NOISE * 2.0**23)
         if below.size:
             assert found is not None
             assert grid[below[0] - 1] - 1e-9 <= found <= grid[below[0]], "the first on the grid"

@@ -10,7 +10,7 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved import located_events
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.trade.peers import moreau_jean
 from slider_resonator.trade.peers.event_free import simulate_sgn, simulate_tanh
@@ -83,7 +83,7 @@ def test_sgn_agrees_with_located_events_to_its_own_accuracy(
     device: Device, held: list[HeldInputs]
 ) -> None:
     times = np.linspace(0.0, held[-1].stop, 401)
-    exact = located_events.simulate(device, held, times, rtol=1e-10, atol=1e-12)
+    exact = simulate(device, held, times)
     run = simulate_sgn(device, held, times, atol=ATOL)
     assert deviation(run, exact) < 2e-3, "rtol 1e-6, less what is lost in every jump"
     assert run.normal_force == pytest.approx(exact.normal_force, abs=1e-12), "psi is continuous"
@@ -100,7 +100,7 @@ def test_samples_do_not_influence_the_motion() -> None:
 def test_the_error_of_sgn_falls_with_the_tolerance_and_its_cost_grows() -> None:
     times = np.linspace(0.0, 5 * PERIOD, 201)
     held = until(5 * PERIOD)
-    exact = located_events.simulate(TABLE_1, held, times)
+    exact = simulate(TABLE_1, held, times)
     coarse = simulate_sgn(TABLE_1, held, times, rtol=1e-4, atol=1e-4)
     fine = simulate_sgn(TABLE_1, held, times, rtol=1e-8, atol=1e-8)
     assert deviation(fine, exact) < 0.02 * deviation(coarse, exact)
@@ -126,7 +126,7 @@ def test_devices_that_cannot_be_simulated_are_refused(
 def test_the_limit_of_zero_width_is_coulomb_friction() -> None:
     held = until(6 * PERIOD, phase=0.4)
     times = np.linspace(0.0, held[0].stop, 49)
-    exact = located_events.simulate(TABLE_1, held, times)
+    exact = simulate(TABLE_1, held, times)
     widths = np.array([1e-2, 1e-3, 1e-4, 1e-5])
     runs = [simulate_tanh(TABLE_1, held, times, width=width) for width in widths]
     errors = np.array([np.abs(run.position - exact.position).max() for run in runs])
@@ -165,11 +165,11 @@ def test_ramps_of_all_inputs_are_followed() -> None:
         HeldInputs(3 * PERIOD, 6 * PERIOD, 0.4, load=0.06, load_rate=-3.0, ratio_rate=-30.0),
     ]
     times = np.linspace(0.0, 6 * PERIOD, 25)
-    reference = located_events.simulate(TABLE_1, held, times)
+    reference = simulate(TABLE_1, held, times)
     followed = simulate_sgn(TABLE_1, held, times, rtol=1e-10, atol=1e-10)
     assert deviation(followed, reference) < 1e-8
     stepped = moreau_jean.simulate(TABLE_1, held, times, steps_per_period=4096)
     assert deviation(stepped, reference) < 1e-4
     held_still = [replace(one, phase_rate=0.0, load_rate=0.0, ratio_rate=0.0) for one in held]
-    still = located_events.simulate(TABLE_1, held_still, times)
+    still = simulate(TABLE_1, held_still, times)
     assert deviation(still, reference) > 1e-3, "the ramps count"

@@ -9,7 +9,7 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved import taylor
+from slider_resonator.references.resolved.simulate import simulate as resolved
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.trade.peers.moreau_jean import simulate
 
@@ -23,7 +23,7 @@ def test_the_error_falls_with_the_first_power_of_the_step() -> None:
     device = Device(friction_coefficient=20.0)
     held = [HeldInputs(0.0, 6 * PERIOD)]
     times = np.linspace(0.0, held[0].stop, 7)
-    reference = taylor.simulate(device, held, times)
+    reference = resolved(device, held, times)
     assert reference.reversals > 10
     counts = np.array([61, 251, 1021])
     sizes = np.array(
@@ -49,7 +49,7 @@ def test_without_friction_it_is_of_second_order() -> None:
     free = Device(friction_coefficient=0.0)
     held = [HeldInputs(0.0, 4 * PERIOD, load=0.1)]
     times = np.array([held[0].stop])
-    exact = taylor.simulate(free, held, times).velocity[0]
+    exact = resolved(free, held, times).velocity[0]
     coarse, fine = (
         abs(simulate(free, held, times, steps_per_period=n).velocity[0] - exact) for n in (64, 256)
     )
@@ -81,7 +81,7 @@ def test_a_contact_that_lifts_has_no_friction() -> None:
     held = [HeldInputs(0.0, 3 * PERIOD)]
     times = np.linspace(0.0, held[0].stop, 97)
     run = simulate(device, held, times, steps_per_period=512)
-    reference = taylor.simulate(device, held, times)
+    reference = resolved(device, held, times)
     assert np.abs(run.velocity - reference.velocity).max() < 1e-3 * np.abs(reference.velocity).max()
     assert ((run.contact_mode == 2) == (reference.contact_mode == 2))[1:].mean() > 0.95
 

@@ -17,7 +17,7 @@ damping_ratio = 0.0
 resonator_mass = 1.0
 resonator_frequency = 2474.8737341529163
 """
-EXACT = {"heyoka", "DOP853 with", "LSODA with", "LSODA, bristle"}
+EXACT = {"heyoka", "Taylor", "DOP853 with", "LSODA with", "LSODA, bristle"}
 """Families whose error is what their tolerance asks for."""
 
 

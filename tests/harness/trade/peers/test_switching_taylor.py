@@ -10,8 +10,7 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved.lugre_taylor import simulate_lugre
-from slider_resonator.references.resolved.taylor import simulate
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trade.peers.switching_taylor import device_at, simulate_sliding
 
 MOVING = Device(
@@ -27,7 +26,7 @@ def test_it_agrees_with_the_references(law: int, accuracy: float) -> None:
     device = replace(MOVING, friction_law=law, bristle_stiffness=1e4)
     held = HeldInputs(0.0, (20 - 15 * law) * PERIOD, phase=0.2, load=0.01, frequency_ratio=1.5)
     times = np.array([0.0, held.stop])
-    reference = (simulate, simulate_lugre)[law](device, [held], times)
+    reference = (simulate, simulate)[law](device, [held], times)
     assert reference.sticks == 0, "the peer covers no sticking"
     end = simulate_sliding(device, held, times, tolerance=1e-14)
     assert end.reversals == reference.reversals
@@ -49,7 +48,7 @@ def test_a_run_goes_on_from_within_its_inputs(law: int) -> None:
     device = replace(MOVING, friction_law=law, bristle_stiffness=1e4)
     held = HeldInputs(0.0, 6 * PERIOD, phase=0.2, frequency_ratio=1.5)
     times = np.linspace(0.0, held.stop, 25)
-    reference = (simulate, simulate_lugre)[law](device, [held], times)
+    reference = (simulate, simulate)[law](device, [held], times)
     begin = 8
     later = device_at(device, reference, begin)
     end = simulate_sliding(later, held, times[begin:], tolerance=1e-14, start=float(times[begin]))

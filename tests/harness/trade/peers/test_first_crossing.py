@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from slider_resonator.references.resolved.first_crossing import first_crossing
+from slider_resonator.trade.peers.first_crossing import first_crossing
 
 GRID = np.linspace(0.0, 1.0, 9)
 

@@ -1,4 +1,4 @@
-"""LuGre friction by scipy on the full state: slow, and independent of the Taylor reference.
+"""LuGre friction by scipy on the full state.
 
 The bristle is integrated as it stands in (8), |v| and the open contact are not treated as events.
 An implicit method, because stiff bristles are stiff here.
@@ -23,13 +23,17 @@ from slider_resonator.device.held_inputs import (
     turning_apart,
     with_steady_phase,
 )
-from slider_resonator.references.resolved.contact import LIFTED, is_lifted, time_to_contact_change
+from slider_resonator.references.resolved.contact import (
+    LIFTED,
+    SLIP_FORWARD,
+    is_lifted,
+    time_to_contact_change,
+)
 from slider_resonator.references.resolved.contact_record import ContactRecord
-from slider_resonator.references.resolved.equations import initial_state
-from slider_resonator.references.resolved.lugre_equations import lugre_equations_of
+from slider_resonator.references.resolved.equations import equations_of, initial_state
 from slider_resonator.references.resolved.recorder import Recorder
-from slider_resonator.references.resolved.scipy_methods import Method, scipy_method, take_step
 from slider_resonator.references.resolved.trajectory import LugreTrajectory
+from slider_resonator.trade.peers.scipy_methods import Method, scipy_method, take_step
 
 _STEPS_PER_FASTEST_PERIOD = 16
 
@@ -45,7 +49,7 @@ def simulate_lugre(
 ) -> LugreTrajectory:
     """Return the motion with LuGre friction (8) under held inputs at ``times`` (shape (n,), s).
 
-    Takes the inputs that ``lugre_taylor.simulate_lugre`` takes. ``method`` is LSODA, Radau
+    Takes the inputs that ``resolved.simulate`` takes. ``method`` is LSODA, Radau
     or, for soft bristles, DOP853, ``atol`` is in fractions of characteristic sizes of the states.
     Reversals are looked for between the ends of steps, and located in the dense output. Raises
     ValueError as the other does, and for another method; RuntimeError if a step fails.
@@ -65,19 +69,17 @@ class _Run:
     def __init__(self, device: Device, times: Array) -> None:
         self.recorder = Recorder(times)
         self._start = self._device = device
-        self._lugre = lugre_equations_of(device)
-        self._equations = self._lugre.equations
-        self._state = np.array([*initial_state(device), device.initial_bristle_deflection])
+        self._equations = equations_of(device)
+        self._state = np.array(initial_state(device))
         self._theta = 0.0
         self._psi = 0.0
 
     def follow(self, inputs: HeldInputs, method: Method, rtol: float, atol: float) -> None:
         self._device = inputs.tuned_device(self._start)
-        self._lugre = lugre_equations_of(self._device)
-        self._equations = equations = self._lugre.equations
+        self._equations = equations = equations_of(self._device)
         span = inputs.stop - inputs.start
         ratio = max(inputs.frequency_ratio, inputs.later(span).frequency_ratio, key=abs)
-        scales = np.append(equations.state_scales(inputs.load), self._lugre.max_deflection)
+        scales = np.append(equations.state_scales(inputs.load), 1.0 / equations.path_rate)
         start = self._state[0]
         events = _Events(self.recorder.contact, self._switches(inputs), inputs.start)
         solver = method(
@@ -175,14 +177,12 @@ class _Run:
         rate, half = equations.drive_frequency, 0.5 * inputs.ratio_rate
         angle = self._psi + inputs.phase + (inputs.frequency_ratio + half * time) * rate * time
         load = equations.normal_preload + equations.normal_amplitude * np.sin(angle)
-        velocity, deflection = states[:, 1], states[:, 4]
-        stretch = deflection / self._lugre.max_deflection
         self.recorder.keep(
             states,
             equations.resonator_motion(theta, states),
-            (np.maximum(0.0, load), self._lugre.friction_force(velocity, stretch, angle)),
-            np.where(load > 0.0, np.sign(velocity), float(LIFTED)),
-            deflection,
+            equations.contact_forces(SLIP_FORWARD, inputs.load, theta, angle, states),
+            np.where(load > 0.0, np.sign(states[:, 1]), float(LIFTED)),
+            states[:, 4],
         )
 
 

@@ -1,9 +1,8 @@
-"""The full equations with every change of contact mode located.
+"""The full equations by scipy, with every change of contact mode located.
 
-Within one contact mode the equations are smooth and, at a constant frequency ratio, linear: the
-reference is then their matrix exponential, else DOP853, whose high order they keep. At events the
-mode changes by the contact law. Steps are bounded by a fraction of the fastest period, and each is
-searched on a finer grid with slopes, so that no pair of close roots is missed.
+Within one contact mode the equations are smooth, so that a method of scipy keeps its order. Steps
+are bounded by a fraction of the fastest period, and each is searched on a finer grid with slopes,
+so that no pair of close roots is missed.
 """
 
 from __future__ import annotations
@@ -17,20 +16,13 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved.constant_rates import follow_constant_rates
 from slider_resonator.references.resolved.contact import LIFTED, STICK
-from slider_resonator.references.resolved.first_crossing import first_crossing
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
-from slider_resonator.references.resolved.scipy_methods import (
-    Dense,
-    Method,
-    scipy_method,
-    take_step,
-)
 from slider_resonator.references.resolved.segment import Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.trade.peers.first_crossing import first_crossing
+from slider_resonator.trade.peers.scipy_methods import Dense, Method, scipy_method, take_step
 
-EXPONENTIAL = "exponential"
 STEPS_PER_FASTEST_PERIOD = 16
 _SEARCHED_PER_STEP = 8
 _NOISE = 1e-15
@@ -41,27 +33,21 @@ def simulate(
     held: Sequence[HeldInputs],
     times: Array,
     *,
-    method: str = EXPONENTIAL,
+    method: str = "DOP853",
     rtol: float = 1e-12,
     atol: float = 1e-14,
     steps_per_period: int = STEPS_PER_FASTEST_PERIOD,
 ) -> Trajectory:
-    """Return the motion of a device under held inputs at ``times`` (shape (n,), s).
+    """Return the motion with Coulomb friction, as ``resolved.simulate`` does.
 
-    ``times`` ascend within ``[held[0].start, held[-1].stop]``; theta and psi are 0 at the first
-    start. A sample on a boundary between inputs belongs to the inputs before it. ``method`` is
-    `EXPONENTIAL`, which takes DOP853 where the frequency ratio varies, or DOP853, LSODA or Radau.
-    For these ``rtol`` is the relative tolerance of every step, ``atol`` the absolute one in
-    fractions of a characteristic velocity and displacement, and the fastest period takes at least
-    ``steps_per_period`` steps, more than a loose tolerance needs. Counts cover the whole span of
-    the inputs. Raises ValueError for a device that the equations do not cover, another method,
-    inputs with gaps, and times outside them.
+    ``method`` is DOP853, LSODA or Radau, ``rtol`` the relative tolerance of every step, ``atol``
+    the absolute one in fractions of a characteristic velocity and displacement, and the fastest
+    period takes at least ``steps_per_period`` steps, more than a loose tolerance needs. Raises
+    ValueError as the other does, and for another method.
     """
-    solver = scipy_method("DOP853" if method == EXPONENTIAL else method)
+    solver = scipy_method(method)
 
     def follow(segment: Segment) -> SegmentResult:
-        if method == EXPONENTIAL and not segment.ratio_rate:
-            return follow_constant_rates(segment)
         return _Motion(segment).follow(solver, rtol, atol, steps_per_period)
 
     return ModeSequence(device, follow, times).run(held)

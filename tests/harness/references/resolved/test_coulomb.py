@@ -1,11 +1,7 @@
 from __future__ import annotations
 
-import importlib
-import sys
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -15,10 +11,10 @@ from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved import located_events, lugre_taylor, taylor
-from slider_resonator.references.resolved.taylor_system import ROUNDING
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
-from tests.harness.references.comparing import assert_agree, split
+from slider_resonator.trade.peers import located_scipy
+from tests.harness.references.comparing import assert_agree, split, until
 from tests.problems import DURATION, PROBLEMS
 
 PERIOD = 2.0 * np.pi / 3500.0
@@ -31,32 +27,16 @@ ALL = pytest.mark.parametrize(
 
 
 @cache
-def run(name: str, tolerance: float = ROUNDING) -> Trajectory:
+def run(name: str) -> Trajectory:
     problem = PROBLEMS[name]
-    return taylor.simulate(problem.device, problem.held, TIMES, tolerance=tolerance)
-
-
-@ALL
-def test_tolerance_is_below_rounding(name: str) -> None:
-    assert_agree(run(name), run(name, tolerance=1e-17), allowed=1e-12)
-
-
-def test_error_falls_with_the_tolerance_down_to_rounding() -> None:
-    exact = run("lift-off with sticking")
-    errors = [
-        np.abs(run("lift-off with sticking", tolerance).velocity - exact.velocity).max()
-        for tolerance in (1e-4, 1e-7, 1e-10, 1e-13)
-    ]
-    assert all(later < 0.1 * sooner for sooner, later in pairwise(errors)), (
-        f"errors {errors} must fall with the tolerance: located events keep the order"
-    )
+    return simulate(problem.device, problem.held, TIMES)
 
 
 @ALL
 def test_splitting_the_inputs_changes_nothing(name: str) -> None:
     problem = PROBLEMS[name]
     pieces = split(problem.held, 40)
-    cut = taylor.simulate(problem.device, pieces, TIMES)
+    cut = simulate(problem.device, pieces, TIMES)
     assert len(pieces) > 30, "the inputs must really be cut"
     assert_agree(run(name), cut, allowed=5e-12)
 
@@ -94,15 +74,15 @@ def test_energy_balance_closes(name: str) -> None:
         np.concatenate(
             [
                 np.linspace(start, stop, 2001),
-                taylor.simulate(device, [inputs], np.empty(0)).event_times,
+                simulate(device, [inputs], np.empty(0)).event_times,
             ]
         )
     )
     nodes, weights = np.polynomial.legendre.leggauss(5)
     half = 0.5 * np.diff(times)
     points = (times[:-1, None] + half[:, None] * (nodes + 1.0)).ravel()
-    ends = taylor.simulate(device, [inputs], np.array([start, stop]))
-    motion = taylor.simulate(device, [inputs], points)
+    ends = simulate(device, [inputs], np.array([start, stop]))
+    motion = simulate(device, [inputs], points)
     power = _power(device, inputs, points, motion).reshape(-1, len(nodes))
     work = float((half[:, None] * weights * power).sum())
     energy = _energy(device, stop, ends, -1) - _energy(device, start, ends, 0)
@@ -147,15 +127,32 @@ def _power(
 
 
 @ALL
-def test_located_events_by_scipy_agree(name: str) -> None:
+def test_scipy_with_located_events_agrees(name: str) -> None:
     problem = PROBLEMS[name]
     changes = len(problem.held) > 1
     held = problem.held if changes else [replace(problem.held[0], stop=0.06)]
     times = np.linspace(0.0, held[-1].stop, 501)
-    exact = taylor.simulate(problem.device, held, times)
-    other = located_events.simulate(problem.device, held, times)
+    exact = simulate(problem.device, held, times)
+    other = located_scipy.simulate(problem.device, held, times)
     assert_agree(exact, other, allowed=3e-9)
     assert other.event_times == pytest.approx(exact.event_times, rel=1e-10, abs=1e-14)
+
+
+@pytest.mark.parametrize("load", [0.0, 0.1, -0.13])
+def test_load_below_minimum_friction_moves_nothing(load: float) -> None:
+    device = Device(base_amplitude=0.0, normal_amplitude=0.3)
+    motion = simulate(device, until(0.05, load=load), np.linspace(0.0, 0.05, 51))
+    assert not motion.position.any()
+    assert motion.friction_force == pytest.approx(-load, abs=1e-16), "friction balances the load"
+    assert (motion.event_times.size, motion.stick_time) == (0, 0.05), "stuck from first to last"
+    assert motion.sticks == 0, "a stick from the start is not a stick that begins"
+
+
+def test_samples_do_not_influence_the_motion() -> None:
+    few = simulate(Device(), until(8 * PERIOD), np.array([0.0, 8 * PERIOD]))
+    many = simulate(Device(), until(8 * PERIOD), np.linspace(0.0, 8 * PERIOD, 999))
+    assert few.velocity[-1] == many.velocity[-1]
+    assert few.position[-1] == many.position[-1]
 
 
 def _between(least: float, greatest: float) -> st.SearchStrategy[float]:
@@ -186,7 +183,7 @@ def _between(least: float, greatest: float) -> st.SearchStrategy[float]:
         max_size=4,
     ),
 )
-def test_random_devices_agree_with_the_other_method(
+def test_random_devices_agree_with_scipy(
     parameters: dict[str, float], inputs: list[tuple[float, float, float, float]]
 ) -> None:
     stops = np.cumsum([duration for duration, *_ in inputs]).tolist()
@@ -196,17 +193,5 @@ def test_random_devices_agree_with_the_other_method(
     ]
     device = Device.from_mapping(parameters)
     times = np.linspace(0.0, stops[-1], 101)
-    exact = taylor.simulate(device, held, times)
-    assert_agree(exact, located_events.simulate(device, held, times), allowed=1e-7)
-
-
-@pytest.mark.parametrize("simulate", [taylor.simulate, lugre_taylor.simulate_lugre])
-def test_missing_heyoka_is_named(
-    simulate: Callable[..., Trajectory], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(sys.modules, "heyoka", None)
-    unused_tolerance = 1.5e-9  # the compiled system of the usual one is kept
-    with pytest.raises(ModuleNotFoundError, match=r"slider-resonator\[taylor\]"):
-        simulate(Device(), [HeldInputs(0.0, 0.1)], np.empty(0), tolerance=unused_tolerance)
-    monkeypatch.undo()
-    assert importlib.import_module("heyoka"), "the import works again"
+    exact = simulate(device, held, times)
+    assert_agree(exact, located_scipy.simulate(device, held, times), allowed=1e-7)
