@@ -32,8 +32,8 @@ ORDER = 3
 MAX_SEQUENCES = 6
 """Most sequences in which Newton's method finds the manifold."""
 
-MIN_SHRINKAGE = 0.5
-"""Largest ratio of its corrections that counts as convergence."""
+MAX_CONTRACTION = 0.5
+"""Largest ratio of its successive corrections that counts as convergence."""
 
 FAST_SHARE = 0.3
 """Share of the tolerance for errors of the fast states."""
@@ -147,12 +147,12 @@ class SlowMotion:
                     for v in visits
                 ]
             )
-            correction = period_map.homing(ORDER, [-d for d in differences[ORDER][2:]])
+            correction = period_map.resolvent(ORDER, [-d for d in differences[ORDER][2:]])
             fast = [y + c for y, c in zip(fast, correction, strict=True)]
             size = period_map.size(correction)
             if size <= FAST_SHARE * period_map.tolerance:
                 return self._point(n, fast, differences, size, modes, visits)
-            if size > MIN_SHRINKAGE * before:
+            if size > MAX_CONTRACTION * before:
                 break
             before = size
         raise NoMapError
@@ -171,7 +171,9 @@ class SlowMotion:
         acceleration, travel, *fast_rate = map(_rate, zip(*differences, strict=True))
         velocity, first, second, third = (d[0] for d in differences)
         terms = zip(differences[1][2:], differences[2][2:], strict=True)
-        missing = period_map.size(period_map.homing(ORDER, [_next_term(*pair) for pair in terms]))
+        missing = period_map.size(
+            period_map.resolvent(ORDER, [_next_term(*pair) for pair in terms])
+        )
         error = _next_term(second, third) / (ORDER + 1)
         error += period_map.share * period_map.speed * (missing + size)
         if error > period_map.share * self.allowed:
@@ -252,9 +254,10 @@ class SlowMotion:
         first = here.acceleration, here.travel
         if not self.varies:
             max_change = LINEAR * sqrt(self.map.tolerance) * self.map.speed
-            to = linear_step(self.rates, n, here.velocity, left, first, here.gain, max_change)
-            if to is not None and to.error <= self.allowed:
-                return left, to, to.error
+            with suppress(NoMapError):
+                to = linear_step(self.rates, n, here.velocity, left, first, here.gain, max_change)
+                if to is not None and to.error <= self.allowed:
+                    return left, to, to.error
         to = dormand_prince(self.rates, n, here.velocity, h, first)
         return h, to, ERROR_SHARE * to.error
 

@@ -108,7 +108,7 @@ class PeriodMap:
             raise NoMapError
         return visits, modes
 
-    def homing(self, times: int, change: Fast) -> Fast:
+    def resolvent(self, times: int, change: Fast) -> Fast:
         """The change of the fast state that undoes their differences of the order `times`.
 
         By the inverse of the map without friction, less 1; a bristle forgets within a period.
