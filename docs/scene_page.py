@@ -155,7 +155,9 @@ def _device_section() -> str:
         [
             "## [device]\n",
             "The parameters of the FMU; the defaults are the device of table 1. The tunable ones "
-            "can change in a run, in [tuning]. Values out of bounds are refused.\n",
+            "can change in a run, in [tuning]. Values out of bounds are refused. A device "
+            'file may be named instead, above the first heading: `device = "mine.toml"`, or an '
+            'example of `slider-resonator device`: `device = "stick_slip"`.\n',
             table,
         ]
     )

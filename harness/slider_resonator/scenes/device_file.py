@@ -69,13 +69,13 @@ def example_devices() -> dict[str, Path]:
     return {path.stem: path for path in files}
 
 
-def find_device(name_or_file: str) -> Path:
-    """Return the file of an example, or the file itself; SceneError names the nearest example."""
+def find_device(name_or_file: str, folder: Path = Path()) -> Path:
+    """Return the file of an example, or one in the folder; SceneError names the nearest example."""
     examples = example_devices()
     if name_or_file in examples:
         return examples[name_or_file]
-    path = Path(name_or_file)
-    if not path.suffix and len(path.parts) == 1 and not path.is_file():
+    path = folder / name_or_file
+    if not path.suffix and len(Path(name_or_file).parts) == 1 and not path.is_file():
         raise SceneError(
             f"{unknown_name('device', name_or_file, examples)}; or a device file, written by "
             "`slider-resonator device --example table_1 > device.toml`"

@@ -29,6 +29,7 @@ def scene_schema() -> dict[str, Any]:
     scene: dict[str, Any] = _without_null(SceneTable.model_json_schema())
     tables = scene.pop("$defs")
     scene["properties"]["expect_bundles"]["items"] = {"enum": list(bundles())}
+    scene["properties"]["device"]["type"] = ["object", "string"]  # or a name or file of a device
     for name, groups in _ONE_OF.items():
         tables[name]["allOf"] = [
             {"oneOf": [{"required": [key]} for key in group]} for group in groups

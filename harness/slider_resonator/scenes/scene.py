@@ -19,7 +19,13 @@ from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown
 from slider_resonator.scenes.csv_signal import csv_points
-from slider_resonator.scenes.device_file import refuse_other_kinds, with_si_device
+from slider_resonator.scenes.device_file import (
+    device_content,
+    device_values,
+    find_device,
+    refuse_other_kinds,
+    with_si_device,
+)
 from slider_resonator.scenes.expansion import variants
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.explanations import explanations
@@ -268,6 +274,7 @@ def only_scene(scenes: Sequence[Scene], source: str) -> Scene:
 def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
     if "name" not in content:
         refuse_other_kinds(content, source, "scene")
+    content, device_files = _with_device(content, source, folder)
     try:
         table = SceneTable.model_validate(with_si_device(content, source))
     except ValidationError as error:
@@ -298,14 +305,29 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
         expect=table.expect,
         sweep=table.sweep,
         need=table.need,
-        files=tuple(
-            folder / one.csv for one in (*given.values(), *beside.values()) if one.csv is not None
+        files=(
+            *device_files,
+            *(folder / one.csv for one in (*given.values(), *beside.values()) if one.csv),
         ),
         tuning=tuning,
         beside=Beside(table.beside.device, signals(beside, "beside.inputs"))
         if table.beside
         else None,
     )
+
+
+def _with_device(
+    content: Mapping[str, Any], source: str, folder: Path
+) -> tuple[Mapping[str, Any], tuple[Path, ...]]:
+    """Return the content with a device that it names as a table, and the file of that."""
+    name = content.get("device")
+    if not isinstance(name, str):
+        return content, ()
+    try:
+        file = find_device(name, folder)
+        return {**content, "device": device_values(device_content(file), str(file))}, (file,)
+    except SceneError as error:
+        raise SceneError(f"{source}: device: {error}") from error
 
 
 def _tables_of(inputs: InputsTable) -> dict[str, InputTable]:

@@ -87,6 +87,18 @@ def test_scenes_take_units_and_other_files_are_named(tmp_path: Path) -> None:
         read_grid(Path(written(tmp_path, 'name = "a"\n[run]\nstop_time = 1.0\n')))
 
 
+def test_a_scene_may_name_its_device(tmp_path: Path) -> None:
+    own = Path(written(tmp_path, "[device]\nslider_mass = 2.0\n"))
+    example = scene_from({"name": "a", "title": "A", "device": "conveyor"}, "a")
+    assert example.parameters == read_device("conveyor")
+    scene = scene_from({"name": "a", "title": "A", "device": own.name}, "a", tmp_path)
+    assert (scene.parameters, scene.files) == ({"slider_mass": 2.0}, (own,))
+    with pytest.raises(SceneError, match="a: device: unknown device 'convoyer'; did you mean"):
+        scene_from({"name": "a", "title": "A", "device": "convoyer"}, "a")
+    with pytest.raises(SceneError, match=r"a: device: none\.toml: cannot be read"):
+        scene_from({"name": "a", "title": "A", "device": "none.toml"}, "a")
+
+
 def test_grids_have_a_device_whose_parameters_may_vary(tmp_path: Path) -> None:
     text = '[device]\nslider_mass = "50 g"\nresonator_mass = "5 g"\n[grid]\nslider_mass = [1, 2]\n'
     sweep = read_grid(Path(written(tmp_path, text)), {"damping_ratio": 0.1, "resonator_mass": 1.0})
