@@ -25,7 +25,7 @@ from slider_resonator.checks.own_experiments import (
     OWN_NAME,
 )
 from slider_resonator.checks.reference_side import ReferenceSide
-from slider_resonator.device.interface import INPUTS, INTEGERS
+from slider_resonator.device.interface import INPUT_STARTS, INPUTS, INTEGERS
 from slider_resonator.scenes.device_file import read_device
 from slider_resonator.scenes.scene import Scene, scene_from
 
@@ -97,8 +97,9 @@ def files() -> dict[str, bytes]:
             related.append(
                 ("parameter", "application/x-ssp-parameter-set", f"{name}.ssv", scene.title)
             )
-        found[f"{name}_in.csv"] = _stimuli(scene)
-        ET.SubElement(entry, "Stimuli", source=f"{name}_in.csv", type="text/csv")
+        if given := [key for key in INPUTS if {*scene.signals[key].values} != {INPUT_STARTS[key]}]:
+            found[f"{name}_in.csv"] = _stimuli(scene, given)
+            ET.SubElement(entry, "Stimuli", source=f"{name}_in.csv", type="text/csv")
         found[f"{name}_ref.csv"] = _results(scene, one.reference)
         results = ET.SubElement(entry, "References", source=f"{name}_ref.csv", type="text/csv")
         notes = ET.SubElement(results, "Annotations")
@@ -138,11 +139,11 @@ def _parameter_set(name: str, values: Mapping[str, float]) -> bytes:
     return _text(root)
 
 
-def _stimuli(scene: Scene) -> bytes:
-    """Return the inputs at each communication point, each held until the next."""
+def _stimuli(scene: Scene, names: Sequence[str]) -> bytes:
+    """Return inputs at each communication point, each held until the next."""
     times = scene.schedule().times
-    rows = [[scene.signals[name].at(time) for name in INPUTS] for time in times]
-    return _csv(["time", *INPUTS], times, rows)
+    rows = [[scene.signals[name].at(time) for name in names] for time in times]
+    return _csv(["time", *names], times, rows)
 
 
 def _results(scene: Scene, reference: str) -> bytes:
