@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
 
 from slider_resonator.commands.options import (
+    Parsed,
     default_fmu,
     device_named,
     device_option,
@@ -17,19 +20,48 @@ from slider_resonator.commands.options import (
     time_limit_option,
 )
 from slider_resonator.commands.results import print_result, print_text
+from slider_resonator.device.interface import SETTABLE
+from slider_resonator.device.values import si_value
+from slider_resonator.errors import unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
-from slider_resonator.sweeping.grid import Sweep, read_grid
+from slider_resonator.sweeping.grid import Sweep, grid_from, read_grid
 from slider_resonator.sweeping.sweeping import run_sweep
 from slider_resonator.sweeping.table import SUFFIXES, journal_path
 
 
+def _axis(text: str) -> tuple[str, dict[str, float]]:
+    """Return name and range, in SI units, of NAME=FROM:TO:COUNT; ValueError for another text."""
+    match = re.fullmatch(r"(\w+)=([^:]+):([^:]+):(\d+)", text.strip())
+    if match is None:
+        raise ValueError(f"{text!r} is not NAME=FROM:TO:COUNT, such as 'phase=-180 deg:180 deg:73'")
+    name, first, last, count = match.groups()
+    if name not in SETTABLE:
+        raise ValueError(unknown_name("parameter or input", name, SETTABLE))
+    return name, {"from": si_value(name, first), "to": si_value(name, last), "count": int(count)}
+
+
 @click.command("sweep")
-@click.argument("grid", type=click.Path(path_type=Path))
+@click.argument("grid", type=click.Path(path_type=Path), required=False)
+@click.option(
+    "--over",
+    "axes",
+    type=Parsed("NAME=FROM:TO:COUNT", _axis),
+    multiple=True,
+    help="In place of GRID: a range of a parameter or input, in SI units or with units. "
+    "Repeatable.",
+)
+@click.option(
+    "--measure",
+    "measures",
+    metavar="NAME",
+    multiple=True,
+    help="With --over: what to compute. Repeatable.  [default: steady_velocity]",
+)
 @click.option("--out", type=target(SUFFIXES), required=True, help="Table to write or complete.")
 @click.option("--plot", type=target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")
 @click.option("--html", type=target([".html"]), help="One page with plots to point at.")
@@ -44,7 +76,9 @@ from slider_resonator.sweeping.table import SUFFIXES, journal_path
 @click.pass_context
 def sweep_command(
     context: click.Context,
-    grid: Path,
+    grid: Path | None,
+    axes: Sequence[tuple[str, dict[str, float]]],
+    measures: Sequence[str],
     out: Path,
     plot: Path | None,
     html: Path | None,
@@ -80,14 +114,22 @@ def sweep_command(
 
     \b
     Examples:
+      slider-resonator sweep --over "phase=-180 deg:180 deg:73" --out curve.csv --plot curve.png
       slider-resonator sweep grid.toml --out table.parquet --plot map.png
       slider-resonator sweep grid.toml --out table.csv --device mine.toml --jobs 4
       slider-resonator sweep grid.toml --out table.csv --html sweep.html
       slider-resonator sweep grid.toml --out table.parquet --dask tcp://192.0.2.1:8786
     """
-    sources = {"the grid": grid} | ({} if fmu is None else {"the FMU": fmu})
-    distinct({"--out": out, "--plot": plot, "--html": html}, sources)
-    sweep = read_grid(grid, device_named(device))
+    if (grid is None) == (not axes) or (measures and not axes):
+        raise click.UsageError("must have either GRID or --over, and --measure with that only")
+    sources = {"the grid": grid, "the FMU": fmu}
+    given = {name: path for name, path in sources.items() if path is not None}
+    distinct({"--out": out, "--plot": plot, "--html": html}, given)
+    if grid is not None:
+        sweep = read_grid(grid, device_named(device))
+    else:
+        content = {"grid": dict(axes), **({"measures": list(measures)} if measures else {})}
+        sweep = grid_from(content, "--over", device_named(device))
     _check_drawable(sweep, plot, html)
     path = default_fmu(fmu)
     provenance = provenance_of(path)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from importlib import resources
 from pathlib import Path
 
 from slider_resonator.errors import SceneError, unknown_name
+from slider_resonator.output.readable import number_of
 from slider_resonator.scenes.scene import Scene, only_scene, read_scenes
 
 _NAME = re.compile(r'^name = "([^"]+)"', re.MULTILINE)
@@ -33,10 +35,14 @@ def is_core(scene: Scene) -> bool:
 def find_scene(name_or_file: str, values: Mapping[str, float] | None = None) -> Scene:
     """Return the built-in scene of a name, or that of a file, as `FILE#NAME` one of several.
 
-    `values` replace those of the scene, as in `Scene.with_values`. Raises SceneError with the
-    nearest name, and as `read_scenes` does.
+    `values` replace those of the scene, as in `Scene.with_values`, and the title says so. Raises
+    SceneError with the nearest name, and as `read_scenes` does.
     """
-    return only_scene(_scenes_of(name_or_file), name_or_file).with_values(values or {})
+    scene = only_scene(_scenes_of(name_or_file), name_or_file)
+    if not values:
+        return scene
+    title = f"{scene.title}, {number_of(len(values), 'value')} replaced"
+    return replace(scene.with_values(values), title=title)
 
 
 def find_scenes(names_or_files: Sequence[str]) -> list[Scene]:

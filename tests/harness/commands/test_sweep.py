@@ -1,11 +1,14 @@
 from __future__ import annotations
 
+import csv
 import json
+from math import pi
 from pathlib import Path
 
 import pytest
 
-from tests.harness.calling import call
+import slider_resonator as sr
+from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
 
 
@@ -28,6 +31,38 @@ def test_a_table_and_a_picture_are_written(native_fmu: Path, tmp_path: Path) -> 
     assert lines[0] == "point,phase,steady_velocity,steady_velocity_status,error"
     assert float(lines[1].split(",")[2]) == pytest.approx(0.126667, abs=1e-6)
     assert plot.is_file()
+
+
+def test_ranges_may_be_options(native_fmu: Path, tmp_path: Path) -> None:
+    out, plot = tmp_path / "a.csv", tmp_path / "a.png"
+    arguments = ["--out", out, "--plot", plot, "--fmu", native_fmu, "--measure", "blocking_force"]
+    axes = ["--over", "phase=-90 deg:90 deg:3", "--over", "damping_ratio=2 %:4 %:2"]
+    result = call("sweep", *axes, *arguments, "--device", "ultrasonic_slider")
+    assert result.exit_code == 0, result.output
+    rows = list(csv.DictReader(out.open(encoding="utf-8")))
+    assert [float(row["phase"]) for row in rows[::2]] == pytest.approx([-pi / 2, 0.0, pi / 2])
+    assert [float(row["damping_ratio"]) for row in rows[:2]] == [0.02, 0.04]
+    with sr.open_fmu(native_fmu, device="ultrasonic_slider") as fmu:
+        expected = fmu.blocking(phase=0.0).blocking_force
+    assert float(rows[2]["blocking_force"]) == pytest.approx(expected, rel=1e-9)
+    assert plot.is_file()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        ([], "must have either GRID or --over"),
+        (["grid.toml", "--over", "phase=0:1:3"], "must have either GRID or --over"),
+        (["grid.toml", "--measure", "blocking_force"], "and --measure with that only"),
+        (["--over", "phase=0:1"], "is not NAME=FROM:TO:COUNT, such as 'phase=-180 deg:180"),
+        (["--over", "phse=0:1:3"], "did you mean 'phase'?"),
+        (["--over", "phase=0:1:1"], "grid.phase.count = 1: must be"),
+        (["--over", "phase=0 kg:1:3"], "phase = '0 kg': not in rad"),
+    ],
+)
+def test_ranges_that_are_wrong_are_named(tmp_path: Path, arguments: list[str], text: str) -> None:
+    said = refused("sweep", *arguments, "--out", tmp_path / "a.csv")
+    assert text in " ".join(said.split())
 
 
 def test_all_written_files_and_points_without_answer_are_reported(
