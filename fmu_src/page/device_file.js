@@ -17,7 +17,7 @@ function parameterOf(name, token) {
   if (/^["']/.test(token)) {
     return valueOf(parameter, unquoted(token), "");
   }
-  return valueOf(parameter, token.replace(/(?<=\d)_(?=\d)/g, ""));
+  return valueOf(parameter, token.replace(/(\d)_(?=\d)/g, "$1"));
 }
 
 /** Return `{title, values}` of a device file; what it leaves out keeps its start.
