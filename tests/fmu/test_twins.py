@@ -98,7 +98,10 @@ def both(twins: Twins, values: Mapping[str, float], course: Schedule) -> tuple[R
 
 
 SCENES = {scene.name: scene for scene in find_scenes([])}
-EXPENSIVE = ("averaged_lugre_beat", "averaged_lugre", "tuned_lugre_stiff", "long_run")
+EXPENSIVE = (
+    *("averaged_lugre_beat", "averaged_lugre", "tuned_lugre_stiff", "long_run"),
+    "resonance_scan",
+)
 """Scenes that take a second in the Python FMU."""
 IN_BOTH = [
     pytest.param(name, marks=pytest.mark.slow if name in EXPENSIVE else ())
