@@ -102,8 +102,8 @@ def trade_command(
     equations; columns are errors relative to Taylor integration with located events, CPU time and
     counts. SCENES are built-in names or files, by default table_1; each point of a sweep is
     measured. The reference is always the scene's full device, at whatever fidelity the scene runs.
-    FMUs with canInterpolateInputs get the derivatives of inputs that are straight lines; others and
-    peers hold inputs over each step. Scenes with constant inputs run for at least 1000 drive
+    Peers follow inputs that are straight lines, and so do FMUs with canInterpolateInputs; other
+    FMUs hold them over each step. Scenes with constant inputs run for at least 1000 drive
     periods. Needs heyoka (pip install 'slider-resonator[taylor]'). Exit code: 0, or 2 when it could
     not run, an FMU crashed or exceeded the time limit; the tables of the scenes before are kept.
 
