@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import pytest
@@ -19,8 +19,6 @@ FAST = 0.2366097
 """v_q of table 1, m/s."""
 EXACT = 1e-11
 """Tolerance of bristles that are resolved for comparison."""
-
-Inputs = Callable[[int], Mapping[str, float]]
 
 
 @dataclass(frozen=True)
@@ -37,21 +35,14 @@ def compared(
     values: Mapping[str, float],
     size: float,
     steps: int,
-    inputs: Inputs = lambda _: {},
-    rates: Mapping[str, float] | None = None,
 ) -> Found:
-    """Errors over steps of a size in s; `rates` are derivatives of inputs, the same in all."""
+    """Errors over steps of a size in s."""
     leaping = instantiate().initialize(**{**values, "fidelity": 0})
     tolerance = {"tolerance": EXACT} if values.get("friction_law") else {}
     full = instantiate().initialize(**{**values, **tolerance, "fidelity": 2})
     found = Found([], [], [])
-    for i in range(steps):
+    for _ in range(steps):
         for instance in (leaping, full):
-            instance.set(**inputs(i))
-            if rates:
-                now = {name: values.get(name, 0.0) + i * size * r for name, r in rates.items()}
-                instance.set(**now)
-                instance.ramp(**rates)
             instance.step(size)
         mean, position, estimate = leaping.get("mean_velocity", "position", "slow_motion_error")
         reference, place = full.get("mean_velocity", "position")
@@ -179,28 +170,6 @@ def test_steps_cut_in_two_are_as_exact(instantiate: Instantiate, law: int) -> No
     assert ends[1:] == pytest.approx(ends[:1] * 2, abs=6e-6 * FAST)
 
 
-@pytest.mark.parametrize("law", [0, 1])
-def test_inputs_that_jump(instantiate: Instantiate, law: int) -> None:
-    def inputs(i: int) -> Mapping[str, float]:
-        return {"phase": float(i % 2), "load": (0.0, 0.05, -0.04)[i % 3]}
-
-    values = {"friction_law": law, "tolerance": 1e-6}
-    found = compared(instantiate, values, 300.0 * PERIOD, 6, inputs)
-    assert max(found.errors) <= 3e-6 * FAST
-    assert found.estimates[-1] > 0.0, "it leapt"
-
-
-@pytest.mark.parametrize(
-    "rates",
-    [{"phase": 1.0}, {"load": 0.05}, {"phase": -0.7, "load": -0.04}],
-    ids=["phase", "load", "both"],
-)
-def test_inputs_that_grow(instantiate: Instantiate, rates: dict[str, float]) -> None:
-    found = compared(instantiate, {"tolerance": 1e-6}, 400.0 * PERIOD, 4, rates=rates)
-    assert max(found.errors) <= 3e-6 * FAST
-    assert found.estimates[-1] > 0.0, "it leapt"
-
-
 def test_a_ratio_that_grows_and_falls_within_steps(instantiate: Instantiate) -> None:
     """What has grown before a leap counts in it: the phase of the load shows."""
     leaping, full = (
@@ -258,44 +227,3 @@ def test_counts_and_the_last_event_are_those_of_resolved_motion(instantiate: Ins
                 instance.step(300.5 * PERIOD)
             rows.append(instance.get("reversals", "last_event_time"))
         assert rows[0] == pytest.approx(rows[1], abs=1e-5 * PERIOD)
-
-
-@pytest.mark.parametrize("fidelity", [0, 1, 2])
-@pytest.mark.parametrize(
-    ("values", "velocity", "force"),
-    [
-        ({}, 0.12666699702, 0.08518613221),
-        ({"phase": 0.4, "load": 0.05}, 0.0986950617, None),
-        ({"phase": 0.4, "frequency_ratio": 3.0}, -0.0362968157, None),
-    ],
-)
-def test_predictions_are_exact(
-    instantiate: Instantiate,
-    fidelity: int,
-    values: dict[str, float],
-    velocity: float,
-    force: float | None,
-) -> None:
-    """Against the steady motion of the full device, found by other methods."""
-    instance = instantiate().initialize(fidelity=fidelity, **values)
-    steady, blocking, valid = instance.get("steady_velocity", "blocking_force", "prediction_valid")
-    assert valid == 1.0
-    assert steady == pytest.approx(velocity, rel=2e-9)
-    assert force is None or blocking == pytest.approx(force, rel=2e-9)
-    first = instantiate().initialize(fidelity=fidelity, averaging_order=1, **values)
-    assert abs(first.get("steady_velocity")[0] - steady) > 1e-5
-
-
-@pytest.mark.parametrize(
-    "values", [{}, {"friction_law": 1}, {"frequency_ratio": 1.5, "normal_amplitude": 2.0}]
-)
-def test_motion_settles_at_the_prediction(
-    instantiate: Instantiate, values: dict[str, float]
-) -> None:
-    instance = instantiate().initialize(**values, phase=0.4, fidelity=0)
-    instance.step(22_000.0 * PERIOD)
-    means = []
-    for _ in range(2):
-        instance.step(PERIOD)
-        means.append(instance.get("mean_velocity")[0])
-    assert sum(means) / 2.0 == pytest.approx(instance.get("steady_velocity")[0], abs=3e-8 * FAST)

@@ -137,10 +137,3 @@ def test_without_memory_for_tables_a_call_is_refused(unpacked: Unpacked, fidelit
         other.exitInitializationMode()
         assert velocity_after(slave, unpacked, 0.01) == velocity_after(other, unpacked, 0.01)
     assert memory.in_use == enough.in_use == 0
-
-
-def test_without_memory_there_is_no_instance(unpacked: Unpacked) -> None:
-    memory = Memory(limit=100)
-    with pytest.raises(Exception, match="instantiate"), instance_in(memory, unpacked):
-        pass
-    assert memory.in_use == 0

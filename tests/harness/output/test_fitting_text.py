@@ -58,12 +58,12 @@ def test_no_word_is_cut_or_lost(text: str, width: int) -> None:
         "9 drive periods",
     ],
 )
-@pytest.mark.parametrize("width", range(8, 40))
-def test_a_number_stays_with_its_unit(value: str, width: int) -> None:
+def test_a_number_stays_with_its_unit(value: str) -> None:
     text = f"costs at least {value}, the other more; {value} or {value}"
-    lines = fitting(text, width).splitlines()
-    assert sum(line.count(value) for line in lines) == 3, lines
-    assert " ".join(" ".join(lines).split()) == text
+    for width in range(8, 40):
+        lines = fitting(text, width).splitlines()
+        assert sum(line.count(value) for line in lines) == 3, lines
+        assert " ".join(" ".join(lines).split()) == text
 
 
 def test_a_word_that_begins_like_a_unit_is_wrapped() -> None:
