@@ -25,11 +25,11 @@ def test_the_table_is_the_interface() -> None:
     assert set(table["output"]) == set(OUTPUTS)
 
 
-@pytest.mark.parametrize("name", [v.name for v in SETTABLE])
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, "1", True, None])
-def test_values_that_are_not_finite_are_refused(name: str, value: object) -> None:
-    with pytest.raises(Refusal, match=rf"{name} = .* refused: must be (a finite|an integer)"):
-        checked(BY_NAME[name], value)
+def test_values_that_are_not_finite_are_refused(value: object) -> None:
+    for name in (v.name for v in SETTABLE):
+        with pytest.raises(Refusal, match=rf"{name} = .* refused: must be (a finite|an integer)"):
+            checked(BY_NAME[name], value)
 
 
 @pytest.mark.parametrize(
