@@ -30,8 +30,8 @@ def test_outputs_before_the_first_step(
     )
 
 
-@pytest.mark.parametrize("preload", [0.0, 5e-324, 1e-308, 1e-17, 1e-12])
-@pytest.mark.parametrize("ratio", [1.0, -1.0, 2.0, 0.5, 0.75, 100.0])
+@pytest.mark.parametrize("preload", [0.0, 5e-324, 1e-17])
+@pytest.mark.parametrize("ratio", [1.0, -1.0, 0.75, 100.0])
 def test_friction_of_bristles_with_next_to_no_preload(
     instantiate: Callable[[], Instance], preload: float, ratio: float
 ) -> None:
