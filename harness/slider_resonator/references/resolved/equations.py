@@ -101,7 +101,7 @@ class Equations:
         ``theta``, ``angle``, ``load`` and ``frequency_ratio`` are those at time 0; the last two
         have rates in N/s and 1/s. Within a contact mode the derivative is smooth; with mode None
         friction follows the sign of the velocity at every instant, or with a ``width`` in m/s its
-        regularisation tanh(velocity / width).
+        regularisation tanh(velocity / width), or in a state with a bristle (5) that.
         """
         sin, cos, tanh = math.sin, math.cos, math.tanh
         rate, angle_rate = self.drive_frequency, frequency_ratio * self.drive_frequency
@@ -110,12 +110,13 @@ class Equations:
         force_sine, force_cosine = self.force_sine, self.force_cosine
         base, damping, stiffness = self.base_acceleration, self.damping_rate, self.stiffness_rate
         mean, amplitude = self.friction_mean, self.friction_amplitude
+        path_rate, path_damping = self.path_rate, self.path_damping
         inertia = self.inertia
         slides = mode != STICK
         fixed_direction = 0 if mode is None or mode == LIFTED else mode
 
         def slopes(time: float, state: Array) -> list[float]:
-            _, velocity, displacement, resonator_velocity = state.tolist()
+            _, velocity, displacement, resonator_velocity, *bristle = state.tolist()
             sine = sin(theta + rate * time)
             resonator = base * sine - damping * resonator_velocity - stiffness * displacement
             if not slides:
@@ -133,8 +134,12 @@ class Equations:
             if mode is None:
                 limit = max(0.0, limit)
                 direction = tanh(velocity / width) if width else (velocity > 0.0) - (velocity < 0.0)
+            if bristle:
+                stretch = path_rate * bristle[0]
+                bristle = [velocity - abs(velocity) * stretch]
+                direction = stretch + path_damping * bristle[0]
             acceleration = (force - direction * limit) / inertia
-            return [velocity, acceleration, resonator_velocity, resonator - acceleration]
+            return [velocity, acceleration, resonator_velocity, resonator - acceleration, *bristle]
 
         return slopes
 

@@ -1,10 +1,10 @@
-"""Integration across the reversals of a slider, without events.
+"""Integration across the reversals of a slider, without events, by scipy.
 
 On sgn, as the paper does, the solver loses its order at every reversal and shrinks its steps until
 the jump fits the tolerance; in a stick it chatters about zero velocity. On tanh(velocity / width),
 the common way to have no events at all, the equations are smooth and stiff: the narrower the width,
 the smaller the error and the stiffer the equations; where friction should hold the slider, it
-creeps.
+creeps. The bristle of LuGre friction is a fifth state.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ from slider_resonator.device.held_inputs import (
     check_times,
     with_steady_phase,
 )
-from slider_resonator.references.resolved.contact import LIFTED
+from slider_resonator.references.resolved.contact import LIFTED, SLIP_FORWARD
 from slider_resonator.references.resolved.equations import Number, equations_of, initial_state
 from slider_resonator.references.resolved.recorder import Recorder
-from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
 from slider_resonator.trade.peers.scipy_methods import (
     Method,
     Solver,
@@ -39,13 +39,14 @@ from slider_resonator.trade.peers.scipy_methods import (
 class RunWithoutEvents(ABC):
     """A device followed through held inputs; ``theta`` and ``psi`` (rad) are those at their start.
 
-    ``state`` holds position, velocity, resonator displacement and velocity, shape (4,).
+    ``state`` holds position, velocity, resonator displacement and velocity, and with LuGre friction
+    the deflection of the bristle, shape (4,) or (5,).
     """
 
-    def __init__(self, device: Device, times: Array) -> None:
+    def __init__(self, device: Device, times: Array, law: int = 0) -> None:
         self.recorder = Recorder(times)
-        if device.friction_law != 0:
-            raise ValueError(f"friction_law = {device.friction_law!r}: only 0 is covered")
+        if device.friction_law != law:
+            raise ValueError(f"friction_law = {device.friction_law!r}: only {law} is covered")
         self.device = device
         self.equations = equations_of(device)
         self.state: Array = np.array(initial_state(device))
@@ -61,8 +62,11 @@ class RunWithoutEvents(ABC):
         """
         check_contiguous(held, rates=RATES)
         check_times(self.recorder.times, held)
-        rate = self.equations.drive_frequency
         for inputs in with_steady_phase(held, self.device):
+            device = inputs.tuned_device(self.device)
+            if device is not self.device:
+                self.equations = equations_of(device)
+            rate = self.equations.drive_frequency
             self.follow(inputs)
             span = inputs.stop - inputs.start
             self.theta += rate * span
@@ -79,7 +83,7 @@ class RunWithoutEvents(ABC):
         return self.psi + inputs.phase + ratio * self.equations.drive_frequency * local
 
     def keep(self, inputs: HeldInputs, local: Array, states: Array, friction: Array) -> None:
-        """Keep states (k, 4) and friction (k,) in N at times in s since the start of the inputs."""
+        """Keep states (k, 4 or 5) and friction (k,) in N at times in s since the inputs' start."""
         equations = self.equations
         angles = self.angles(inputs, local)
         load = equations.normal_preload + equations.normal_amplitude * np.sin(angles)
@@ -88,10 +92,13 @@ class RunWithoutEvents(ABC):
             equations.resonator_motion(self.theta + equations.drive_frequency * local, states),
             (np.maximum(0.0, load), friction),
             np.where(load > 0.0, np.sign(states[:, 1]), float(LIFTED)),
+            states[:, 4] if states.shape[1] > 4 else None,
         )
 
 
 MAX_EVALUATIONS = 20_000_000
+STEPS_PER_FASTEST_PERIOD = 16
+"""Of bristles, which a longer step would pass by."""
 
 
 def simulate_sgn(
@@ -133,8 +140,28 @@ def simulate_tanh(
     return _Run(device, times, scipy_method(method), rtol, atol, width).run(held)
 
 
+def simulate_bristle(
+    device: Device,
+    held: Sequence[HeldInputs],
+    times: Array,
+    *,
+    method: str = "LSODA",
+    rtol: float = 1e-11,
+    atol: float = 1e-13,
+) -> LugreTrajectory:
+    """Return the trajectory with LuGre friction, the bristle a state, at ``times`` (shape (n,), s).
+
+    ``method`` is LSODA, Radau or, for soft bristles, DOP853, ``atol`` in fractions of
+    characteristic sizes of the states. Counts and modes are those of ``_Run``, and so are errors
+    raised, besides ValueError for another method.
+    """
+    run = _Run(device, times, scipy_method(method), rtol, atol, law=1)
+    run.run(held)
+    return run.recorder.lugre_trajectory()
+
+
 class _Run(RunWithoutEvents):
-    """A solver of scipy's; ``width`` (m/s) is that of tanh, 0 for sgn.
+    """A solver of scipy's; ``width`` (m/s) is that of tanh, 0 for sgn and for bristles.
 
     There are no sticks; reversals are counted over the steps with contact, chatter included.
     Raises RuntimeError if a step fails or the evaluations of the right hand side become too many.
@@ -149,8 +176,9 @@ class _Run(RunWithoutEvents):
         atol: float,
         width: float = 0.0,
         max_evaluations: int = MAX_EVALUATIONS,
+        law: int = 0,
     ) -> None:
-        super().__init__(device, times)
+        super().__init__(device, times, law)
         self._method = method
         self._rtol = rtol
         self._atol = atol
@@ -159,6 +187,12 @@ class _Run(RunWithoutEvents):
 
     def follow(self, inputs: HeldInputs) -> None:
         equations, recorder = self.equations, self.recorder
+        scales, bounds = equations.state_scales(inputs.load), {}
+        if equations.path_rate:
+            scales = np.append(scales, 1.0 / equations.path_rate)
+            later = inputs.later(inputs.stop - inputs.start).frequency_ratio
+            fastest = equations.fastest_rate(max(inputs.frequency_ratio, later, key=abs))
+            bounds = {"max_step": 2.0 * np.pi / fastest / STEPS_PER_FASTEST_PERIOD}
         solver = self._method(
             equations.slopes(
                 *(None, inputs.load, self.theta, self.psi + inputs.phase, inputs.frequency_ratio),
@@ -170,7 +204,8 @@ class _Run(RunWithoutEvents):
             self.state,
             inputs.stop - inputs.start,
             rtol=self._rtol,
-            atol=self._atol * equations.state_scales(inputs.load),
+            atol=self._atol * scales,
+            **bounds,
         )
         while solver.status == "running":
             take_step(solver, inputs.start, "use a greater atol")
@@ -184,7 +219,7 @@ class _Run(RunWithoutEvents):
             local = recorder.pending(reached) - inputs.start
             if local.size:
                 states = solver.dense_output()(local).T
-                self.keep(inputs, local, states, self._friction(inputs, local, states[:, 1]))
+                self.keep(inputs, local, states, self._friction(inputs, local, states))
         recorder.evaluations += solver.nfev
         self.state = solver.y
 
@@ -198,7 +233,11 @@ class _Run(RunWithoutEvents):
                 "greater atol, or located events"
             )
 
-    def _friction(self, inputs: HeldInputs, local: Array, velocity: Array) -> Array:
-        limit = np.maximum(0.0, self.equations.friction_limit(self.angles(inputs, local)))
+    def _friction(self, inputs: HeldInputs, local: Array, states: Array) -> Array:
+        angles, velocity = self.angles(inputs, local), states[:, 1]
+        if self.equations.path_rate:
+            _, friction = self.equations.contact_forces(SLIP_FORWARD, 0.0, angles, angles, states)
+            return friction
+        limit = np.maximum(0.0, self.equations.friction_limit(angles))
         share = np.tanh(velocity / self._width) if self._width else np.sign(velocity)
         return np.asarray(share * limit)

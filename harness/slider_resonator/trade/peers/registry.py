@@ -13,7 +13,7 @@ from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate as simulate_series
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.reference_steady import Simulate
-from slider_resonator.trade.peers import event_free, located_scipy, lugre_scipy, moreau_jean
+from slider_resonator.trade.peers import event_free, located_scipy, moreau_jean
 from slider_resonator.trade.peers.peer import NO_EVENTS, NOT_SHOT, Peer, solution_of
 from slider_resonator.trade.peers.switching_taylor import heyoka_in_one_call
 from slider_resonator.trade.problem import Problem
@@ -78,7 +78,7 @@ def _lugre() -> Iterator[Peer]:
     ):
         for tolerance in tolerances:
             simulate: Simulate = partial(
-                lugre_scipy.simulate_lugre, method=method, rtol=tolerance, atol=1e-2 * tolerance
+                event_free.simulate_bristle, method=method, rtol=tolerance, atol=1e-2 * tolerance
             )
             family = f"{method}, bristle as state"
             yield _at(family, tolerance, simulate, located=False)

@@ -14,7 +14,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import LIFTED
 from slider_resonator.references.resolved.simulate import simulate
-from slider_resonator.trade.peers import located_scipy, lugre_scipy
+from slider_resonator.trade.peers import event_free, located_scipy
 
 STOP = 0.03
 TIMES = np.linspace(0.0, STOP, 200)
@@ -53,7 +53,7 @@ def position(device: Device, held: Sequence[HeldInputs]) -> Array:
 
 
 def by_scipy(device: Device, held: Sequence[HeldInputs]) -> Array:
-    follow = lugre_scipy.simulate_lugre if device.friction_law else located_scipy.simulate
+    follow = event_free.simulate_bristle if device.friction_law else located_scipy.simulate
     return follow(device, held, TIMES).position
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -13,7 +14,8 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.trade.peers import moreau_jean
-from slider_resonator.trade.peers.event_free import simulate_sgn, simulate_tanh
+from slider_resonator.trade.peers.event_free import simulate_bristle, simulate_sgn, simulate_tanh
+from tests.harness.references.lugre_problems import PROBLEMS, TIMES
 
 TABLE_1 = Device()
 PERIOD = 2.0 * math.pi / 3500.0
@@ -155,6 +157,18 @@ def test_a_width_that_is_none_is_refused(width: float) -> None:
 def test_an_unknown_method_is_refused() -> None:
     with pytest.raises(ValueError, match="method = 'Euler': must be one of DOP853, LSODA, Radau"):
         simulate_tanh(SLIDER, until(1.0), np.empty(0), width=1e-3, method="Euler")
+
+
+@pytest.mark.parametrize("method", ["LSODA", "Radau"])
+def test_the_error_of_a_bristle_falls_with_the_tolerance(method: str) -> None:
+    device, held = PROBLEMS["table 1"]
+    exact = simulate(device, held, TIMES)
+    errors = []
+    for rtol in (1e-4, 1e-7, 1e-10):
+        found = simulate_bristle(device, held, TIMES, method=method, rtol=rtol, atol=1e-2 * rtol)
+        errors.append(float(np.abs(found.velocity - exact.velocity).max()))
+    for coarse, fine in pairwise(errors):
+        assert fine < 0.1 * coarse, f"errors {errors} must fall towards the reference"
 
 
 def test_ramps_of_all_inputs_are_followed() -> None:
