@@ -13,7 +13,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.integrate import DOP853
+from scipy.integrate import DOP853, LSODA
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
@@ -125,19 +125,18 @@ def simulate_tanh(
     times: Array,
     *,
     width: float,
-    method: str = "LSODA",
     rtol: float = 1e-9,
     atol: float = 1e-11,
 ) -> Trajectory:
     """Return the trajectory with tanh(velocity / ``width``) at ``times`` (shape (n,), s).
 
-    ``width`` is in m/s, ``method`` DOP853, LSODA or Radau, ``atol`` in fractions of a
-    characteristic velocity and displacement. Counts and modes are those of ``_Run``, and so are
-    errors raised, besides ValueError for a width that is not above 0 and for another method.
+    LSODA takes ``width`` in m/s, and ``atol`` in fractions of a characteristic velocity and
+    displacement. Counts and modes are those of ``_Run``, and so are errors raised, besides
+    ValueError for a width that is not above 0.
     """
     if not 0.0 < width < np.inf:
         raise ValueError(f"width = {width!r} m/s: must be a finite number above 0")
-    return _Run(device, times, scipy_method(method), rtol, atol, width).run(held)
+    return _Run(device, times, LSODA, rtol, atol, width).run(held)
 
 
 def simulate_bristle(

@@ -1,17 +1,17 @@
 """The full equations by scipy, with every change of contact mode located.
 
 Within one contact mode the equations are smooth, so that a method of scipy keeps its order. Steps
-are bounded by a fraction of the fastest period, and each is searched on a finer grid with slopes,
-so that no pair of close roots is missed.
+are bounded by a fraction of the fastest period, and each is searched on a finer grid.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
+from scipy.optimize import brentq
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
@@ -20,12 +20,12 @@ from slider_resonator.references.resolved.contact import LIFTED, STICK
 from slider_resonator.references.resolved.mode_sequence import ModeSequence
 from slider_resonator.references.resolved.segment import Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.trade.peers.first_crossing import first_crossing
 from slider_resonator.trade.peers.scipy_methods import Dense, Method, scipy_method, take_step
 
 STEPS_PER_FASTEST_PERIOD = 16
 _SEARCHED_PER_STEP = 8
 _NOISE = 1e-15
+_HALVINGS = 60
 
 
 def simulate(
@@ -127,47 +127,42 @@ class _Motion:
         states = dense(grid)
         crossings = []
         for event in (-self._segment.mode,) if self._segment.mode else (1, -1):
-            margin = partial(self._margin_at, dense, event)
-            values, slopes = self._margin(event, grid, states)
-            floor = _NOISE * float(np.abs(values).max())
-            crossing = first_crossing(grid, values, slopes, margin, floor)
-            if crossing is not None:
-                crossings.append((crossing, event))
+            values = self._margin(event, grid, states)
+            falls = np.flatnonzero(values[1:] < -_NOISE * np.abs(values).max())
+            if falls.size:
+                margin = partial(self._margin_at, dense, event)
+                crossings.append((_crossing(margin, *grid[falls[0] :][:2].tolist()), event))
         return min(crossings, default=None)
 
-    def _margin_at(self, dense: Dense, event: int, time: float) -> tuple[float, float]:
-        value, slope = self._margin(event, time, dense(time))
-        return float(value), float(slope)
+    def _margin_at(self, dense: Dense, event: int, time: float) -> float:
+        return float(self._margin(event, time, dense(time)))
 
-    def _margin(self, event: int, time: float | Array, states: Array) -> tuple[Array, Array]:
-        """Return the margin of an event, which happens where the margin is 0, and its rate.
+    def _margin(self, event: int, time: float | Array, states: Array) -> Array:
+        """Return the margin of an event, which happens where the margin is 0.
 
-        In a slip the margin is the velocity in the slip direction, in a stick the friction left
-        before the slider breaks loose in the direction ``event``.
+        In a slip it is the velocity in the slip direction, in a stick the friction left before the
+        slider breaks loose in the direction ``event``.
         """
         equations, segment = self._equations, self._segment
         _, velocity, displacement, resonator_velocity = states
-        theta = segment.theta + self._rate * np.asarray(time)
+        if segment.mode != STICK:
+            return np.asarray(segment.mode * velocity)
         local = np.asarray(time)
-        angle_rate = self._angle_rate + self._acceleration * local
-        angle = segment.angle + 0.5 * (self._angle_rate + angle_rate) * local
+        theta = segment.theta + self._rate * local
+        angle_rate = self._angle_rate + 0.5 * self._acceleration * local
         load = segment.load + segment.load_rate * local
         needed = equations.needed_force(load, theta, displacement, resonator_velocity)
-        limit = equations.friction_limit(angle)
-        if segment.mode != STICK:
-            acceleration = (needed - segment.mode * limit) / equations.inertia
-            return segment.mode * velocity, segment.mode * acceleration
-        resonator_acceleration = (
-            equations.base_acceleration * np.sin(theta)
-            - equations.damping_rate * resonator_velocity
-            - equations.stiffness_rate * displacement
-        )
-        needed_rate = (
-            equations.coupling_damping * resonator_acceleration
-            + equations.coupling_stiffness * resonator_velocity
-            + self._rate
-            * (equations.force_sine * np.cos(theta) - equations.force_cosine * np.sin(theta))
-            - segment.load_rate
-        )
-        limit_rate = angle_rate * equations.friction_amplitude * np.cos(angle)
-        return limit - event * needed, limit_rate - event * needed_rate
+        limit = equations.friction_limit(segment.angle + angle_rate * local)
+        return np.asarray(limit - event * needed)
+
+
+def _crossing(value: Callable[[float], float], left: float, right: float) -> float:
+    """Return where a function falls below 0 between two times (s); the first may be a root."""
+    begin, width = left, right - left
+    for _ in range(_HALVINGS):
+        if value(begin) > 0.0:
+            root: float = brentq(value, begin, right, xtol=1e-16 * (right - begin), rtol=1e-15)
+            return root
+        width *= 0.5
+        begin, right = left + width, left + 2.0 * width
+    return left
