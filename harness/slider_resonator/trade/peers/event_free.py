@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from scipy.integrate import DOP853, LSODA
@@ -28,12 +29,7 @@ from slider_resonator.references.resolved.contact import LIFTED, SLIP_FORWARD
 from slider_resonator.references.resolved.equations import Number, equations_of, initial_state
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
-from slider_resonator.trade.peers.scipy_methods import (
-    Method,
-    Solver,
-    scipy_method,
-    take_step,
-)
+from slider_resonator.trade.peers.scipy_methods import Method, scipy_method, take_step
 
 
 class RunWithoutEvents(ABC):
@@ -222,7 +218,7 @@ class _Run(RunWithoutEvents):
         recorder.evaluations += solver.nfev
         self.state = solver.y
 
-    def _check_progress(self, solver: Solver, start: float) -> None:
+    def _check_progress(self, solver: Any, start: float) -> None:
         evaluations = self.recorder.evaluations + solver.nfev
         if evaluations > self._max_evaluations:
             time = start + float(solver.t)
