@@ -14,6 +14,7 @@ from click.testing import Result
 from tests.harness import faulty_fmus
 from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
+from tests.processes import ROOT
 
 
 def reported(folder: Path, *arguments: object) -> tuple[Result, dict[str, object], ET.Element]:
@@ -121,7 +122,8 @@ def test_no_report_replaces_what_is_validated(native_fmu: Path, tmp_path: Path) 
 
 
 def test_the_examples_of_scene_files_pass(native_fmu: Path) -> None:
-    examples = Path(str(resources.files("slider_resonator.scenes") / "examples"))
-    result = call("validate", "--fmu", native_fmu, "--scene", examples)
+    template = Path(str(resources.files("slider_resonator.scenes") / "template.toml"))
+    examples = ("--scene", template, "--scene", ROOT / "docs" / "every_key.toml")
+    result = call("validate", "--fmu", native_fmu, *examples)
     assert result.exit_code == 0, result.output
     assert re.search(r"(\d+) of \1 checks passed", result.stdout)
