@@ -88,13 +88,13 @@ def stick_fractions(run: Trajectory, times: Array, periods: DrivePeriods) -> Arr
     return np.where(lengths > 0.0, shares, float(run.modes[0] == STICK))
 
 
-def quadrature(run: Trajectory, begin: float, end: float) -> tuple[Array, Array]:
+def quadrature(events: Array, begin: float, end: float) -> tuple[Array, Array]:
     """Return nodes and weights (s) between two times (s), each of shape (n,).
 
-    By Gauss between events, and closer after them: a bristle bends in a short time.
+    By Gauss between events (s), and closer after them: a bristle bends in a short time.
     """
-    inside = run.event_times[(run.event_times > begin) & (run.event_times < end)]
-    events = np.concatenate([[begin], inside, [end]])
+    inside = events[(events > begin) & (events < end)]
+    events = np.concatenate([[begin], np.unique(inside), [end]])
     shares = np.concatenate([[0.0], np.geomspace(1e-5, 1.0, PANELS)])
     edges = events[:-1, None] + np.diff(events)[:, None] * shares
     half = 0.5 * np.diff(edges, axis=1)[:, :, None]

@@ -156,7 +156,9 @@ class ReferenceSide:
     def friction_power(self, reference: str) -> float:
         """Return the mean power (W) of friction over the last whole drive period of the run."""
         begin, end = self.periods.ends(self.times[-1:])[0].tolist()
-        times, weights = quadrature(self.trajectory(reference), begin, end)
+        changes = [held.start for held in self.scene.schedule().held()]
+        events = np.append(self.trajectory(reference).event_times, changes)
+        times, weights = quadrature(events, begin, end)
         run = self._simulate(reference, times)
         return float(np.sum(weights * run.friction_force * run.velocity) / (end - begin))
 
