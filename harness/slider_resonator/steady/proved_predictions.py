@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import isfinite, nan, tau
 from typing import Literal
 
@@ -135,7 +136,9 @@ def _candidate(
     except HarnessError:
         instance.recreate()
         return None
-    displacement, swing = _vibration(device)
+    displacement, swing = _vibration(
+        tuple((name, value) for name, value in device.items() if name not in INPUTS)
+    )
     drive = device["drive_frequency"] * (1.0 + device.get("frequency_deviation", 0.0))
     size = (abs(swing), abs(displacement), abs(displacement) * drive)
     if valid != 1.0 or 0.0 in size or not all(map(isfinite, (velocity, force, *size))):
@@ -154,13 +157,15 @@ def _candidate(
     )
 
 
-def _vibration(values: Mapping[str, float]) -> tuple[complex, complex]:
+@lru_cache
+def _vibration(parameters: tuple[tuple[str, float], ...]) -> tuple[complex, complex]:
     """Return the complex amplitudes of resonator displacement (m) and slider velocity (m/s).
 
-    Those of the steady vibration without friction; 0 where there is none.
+    Those of the steady vibration without friction; 0 where there is none. Points of a sweep often
+    differ by inputs alone, and have the same.
     """
     try:
-        device = Device.from_mapping({n: value for n, value in values.items() if n not in INPUTS})
+        device = Device.from_mapping(dict(parameters))
         displacement, force = steady_vibration(device)
         return displacement, force / (1j * device.drive_frequency * device.total_mass)
     except (ValueError, ArithmeticError):
