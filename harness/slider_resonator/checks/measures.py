@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
 from slider_resonator.arrays import Array
 
@@ -61,7 +60,8 @@ def slow_displacement(times: Array, position: Array, period: float) -> Array:
         raise ValueError(
             f"a record of {times[-1] - times[0]:.6g} s is shorter than the period {period:.6g} s"
         )
-    integral = scipy.integrate.cumulative_trapezoid(position, times, initial=0)
+    pieces = 0.5 * (position[1:] + position[:-1]) * np.diff(times)
+    integral = np.concatenate([[0.0], np.cumsum(pieces)])
     return np.asarray((integral[first:] - np.interp(starts[first:], times, integral)) / period)
 
 
@@ -99,6 +99,10 @@ def ripple_amplitude(times: Array, position: Array, period: float) -> float:
 
 HARMONICS = 3
 """Harmonics in the fit: without them a distorted wave would shift the frequency."""
+DIFFERENCE = 1e-6
+"""Relative change of the frequency for the derivative of the wave."""
+ITERATIONS = 50
+"""Most iterations of the fit, of which a clear wave takes some five."""
 
 
 class NoOscillation(ValueError):
@@ -109,8 +113,8 @@ def dominant_frequency(times: Array, signal: Array) -> float:
     """Return the frequency (Hz) of the strongest oscillation around the trend of a signal (n,).
 
     The highest line of a windowed spectrum starts a least squares fit of a wave with harmonics and
-    a straight trend. Raises ValueError for unequal steps and for fewer than 16 points, and
-    NoOscillation for a signal that is constant or not finite.
+    a straight trend, by Gauss-Newton's method. Raises ValueError for unequal steps and for fewer
+    than 16 points, and NoOscillation for a signal that is constant or not finite.
     """
     steps = np.diff(times)
     if len(times) < 16 or np.ptp(steps) > 1e-6 * steps.mean():
@@ -124,17 +128,18 @@ def dominant_frequency(times: Array, signal: Array) -> float:
     spectrum = np.abs(np.fft.rfft(flat * np.hanning(len(flat))))
     resolution = 1.0 / (len(flat) * float(steps.mean()))
     line = max(int(np.argmax(spectrum)), 1)
-
-    def misfit(frequency: float) -> float:
-        basis = _basis(times - times.mean(), frequency)
-        rest = np.linalg.lstsq(basis, signal, rcond=None)[1]
-        return float(rest[0]) if rest.size else np.inf
-
     bounds = ((line - 1.0 + 1e-3) * resolution, (line + 1.0) * resolution)
-    best = scipy.optimize.minimize_scalar(
-        misfit, bounds=bounds, method="bounded", options={"xatol": 1e-10}
-    )
-    return float(best.x)
+    local, frequency = times - times.mean(), line * resolution
+    for _ in range(ITERATIONS):
+        basis = _basis(local, frequency)
+        waves = np.linalg.lstsq(basis, signal, rcond=None)[0]
+        change = (_basis(local, frequency * (1.0 + DIFFERENCE)) - basis) @ waves / DIFFERENCE
+        step = np.linalg.lstsq(np.column_stack([basis, change]), signal, rcond=None)[0][-1]
+        before = frequency
+        frequency = float(np.clip(frequency * (1.0 + step), *bounds))
+        if abs(frequency - before) <= 1e-12 * frequency:
+            break
+    return frequency
 
 
 def _basis(times: Array, frequency: float) -> Array:

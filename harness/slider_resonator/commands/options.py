@@ -24,7 +24,6 @@ from slider_resonator.scenes.device_file import (
     possible_slips,
     refuse_other_kinds,
 )
-from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.toml_file import read_toml
 
 SET = "--set"
@@ -208,6 +207,9 @@ def _fmu_argument(
 def _scene_alone(argument: Path | None) -> str:
     if argument is None or argument.suffix == ".fmu":
         raise click.UsageError("Missing argument 'SCENE'.")
+    # Loading the schema of scenes takes as long as a search of a command without a scene.
+    from slider_resonator.scenes.scene_files import find_scene
+
     scene = str(argument)
     find_scene(scene)  # a wrong name is reported before a default FMU that is not built
     return scene

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from scipy.optimize import brentq
+import scipy
 
 from slider_resonator.device.device import Device
 
@@ -79,7 +79,7 @@ def loaded_velocity(strength: float, amplitude_ratio: float, phase: float, load:
         return 1.0 - 2.0 / math.pi * (angle + pull * math.sin(angle)) + load
 
     # The imbalance falls from 1 + load to load - 1 over this interval, so it has exactly one root.
-    root: float = brentq(imbalance, 0.0, math.pi, xtol=1e-15, rtol=1e-15)
+    root: float = scipy.optimize.brentq(imbalance, 0.0, math.pi, xtol=1e-15, rtol=1e-15)
     return strength * math.cos(root)
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-from scipy.optimize import brentq
+import scipy
 
 from slider_resonator.device.device import Device
 from slider_resonator.references.averaged.vibrating_contact import (
@@ -127,7 +127,7 @@ def steady_velocity_at_ratio(
         return mean_friction(velocity, strength, amplitude_ratio, phase, ratio) + load
 
     # The later sliding turns forward, the less of the load, never negative, counts as friction.
-    root: float = brentq(imbalance, 0.0, math.pi, xtol=1e-15, rtol=1e-14)
+    root: float = scipy.optimize.brentq(imbalance, 0.0, math.pi, xtol=1e-15, rtol=1e-14)
     return strength * math.cos(root)
 
 

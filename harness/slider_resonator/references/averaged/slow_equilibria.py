@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 _SAMPLES = 65
 
@@ -28,7 +28,7 @@ def stable_velocity(friction: Callable[[float], float], strength: float, load: f
     found: list[float] = []
     for left, right, above, below in zip(turns, turns[1:], values, values[1:], strict=False):
         if above > 0.0 >= below:  # friction grows with velocity: a departure decays
-            root = brentq(excess, left, right, xtol=1e-14, rtol=1e-13)
+            root = scipy.optimize.brentq(excess, left, right, xtol=1e-14, rtol=1e-13)
             found.append(strength * math.cos(root))
     if not found:
         raise ValueError(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.integrate import solve_ivp
+import scipy
 
 from slider_resonator.arrays import Array
 
@@ -26,7 +26,7 @@ def slow_trajectory(
         slow = float(state[1])  # scalars of numpy take several times as long
         return slow, acceleration(float(time), slow)
 
-    solution = solve_ivp(
+    solution = scipy.integrate.solve_ivp(
         rates,
         (times[0], times[-1]),
         (0.0, velocity),
