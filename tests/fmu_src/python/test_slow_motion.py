@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import replace
 from typing import Any
@@ -67,6 +68,25 @@ def test_against_the_resolved_device(parameters: dict[str, Any], inputs: Inputs)
     bending = device.friction_coefficient / device.bristle_stiffness if lugre else 0.0
     assert slow.position == pytest.approx(full.position, abs=allowed + 1.5 * bending)
     assert slow.theta == pytest.approx(full.theta, abs=1e-9)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("device", "periods"), [(TABLE_1, 560), (BRISTLES, 140)])
+def test_error_falls_with_the_drive_frequency(device: Device, periods: int) -> None:
+    """At equal fast velocity, slow time scale and kappa, the ratio of path and bristle length."""
+    errors = []
+    for factor in (1.0, 3.0, 9.0):
+        faster = replace(
+            device,
+            bristle_stiffness=device.bristle_stiffness * factor,
+            base_amplitude=1e-4 / factor,
+            drive_frequency=3500.0 * factor,
+            resonator_frequency=3500.0 * factor,
+        )
+        slow, full = pair(faster, Inputs(), round(periods * factor))
+        errors.append(abs(slow.mean_velocity - full.mean_velocity))
+    for one, other in itertools.pairwise(errors):
+        assert one / other == pytest.approx(3.0, rel=0.15), "averaging errs by 1 / Omega"
 
 
 def test_instantaneous_outputs_carry_the_vibration() -> None:
