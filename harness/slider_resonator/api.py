@@ -164,7 +164,7 @@ def open_fmu(
     time_limit: float = TIME_LIMIT,
 ) -> OpenFmu:
     """Open an FMU for a `with` block; what it computes is for `device` unless values say else."""
-    return OpenFmu(_fmu(fmu), _seconds(time_limit), _differing(device))
+    return OpenFmu(_fmu(fmu), _seconds(time_limit), _stated(device))
 
 
 @_plain_errors
@@ -173,11 +173,7 @@ def read_device(device: DeviceLike) -> Device:
 
     Raises SceneError with file, key, value and requirement.
     """
-    if isinstance(device, Device):
-        return Device.from_mapping(_checked(vars(device)))
-    if isinstance(device, Mapping):
-        return Device.from_mapping(device_values({"device": _plain(device)}, "device"))
-    return Device.from_mapping(read_device_file(str(device)))
+    return Device.from_mapping(_stated(device))
 
 
 @_plain_errors
@@ -219,9 +215,15 @@ def validate(
 
 
 @_plain_errors
-def choose(scene: SceneLike, fmu: str | Path | None = None, **values: Value) -> Choice:
+def choose(
+    scene: SceneLike,
+    fmu: str | Path | None = None,
+    *,
+    device: DeviceLike | None = None,
+    **values: Value,
+) -> Choice:
     """Choose the cheapest fidelity, friction law, tolerance and step that meet a scene's needs."""
-    return choose_model(read_scene(scene, **values), _fmu(fmu))
+    return choose_model(read_scene(scene, **{**_stated(device), **values}), _fmu(fmu))
 
 
 @_plain_errors
@@ -230,17 +232,23 @@ def sweep(
     out: str | Path,
     fmu: str | Path | None = None,
     *,
+    device: DeviceLike | None = None,
     workers: int | None = None,
     restart: bool = False,
     overwrite: bool = False,
 ) -> SweepResult:
     """Compute measures over a grid and write the table `out` (CSV or Parquet).
 
-    `grid` is a file or data of the same form, `workers` the number of processes, by default one for
-    each core. `columns` of the result are the table. Finished points are kept beside `out` until it
-    is written; `restart` discards them. A table of another grid is replaced only with `overwrite`.
+    `grid` is a file or data of the same form; `device` has the parameters that it leaves out.
+    `workers` is the number of processes, by default one for each core. `columns` of the result are
+    the table. Finished points are kept beside `out` until it is written; `restart` discards them. A
+    table of another grid is replaced only with `overwrite`.
     """
-    read = grid_from(_plain(grid), "grid") if isinstance(grid, Mapping) else read_grid(Path(grid))
+    stated = _stated(device)
+    if isinstance(grid, Mapping):
+        read = grid_from(_plain(grid), "grid", stated)
+    else:
+        read = read_grid(Path(grid), stated)
     return run_sweep(
         read,
         _fmu(fmu),
@@ -273,7 +281,7 @@ def fit(
     if not isinstance(data, Measurements):
         files = [data] if isinstance(data, str | Path) else data
         data = sum((read_measurements(Path(one)) for one in files), Measurements())
-    checked = {**_differing(device), **_checked(values)}
+    checked = {**_stated(device), **_checked(values)}
     return fit_parameters(
         data,
         [free] if isinstance(free, str) else free,
@@ -285,11 +293,16 @@ def fit(
     )
 
 
-def _differing(device: DeviceLike | None) -> dict[str, float]:
-    """Return the parameters of a device that differ from table 1."""
-    parameters = vars(Device() if device is None else read_device(device))
-    start = vars(Device())
-    return {name: value for name, value in parameters.items() if value != start[name]}
+def _stated(device: DeviceLike | None) -> dict[str, float]:
+    """Return the parameters that a device states: of a `Device` those that differ from table 1."""
+    if device is None:
+        return {}
+    if isinstance(device, Device):
+        start = vars(Device())
+        return {n: value for n, value in _checked(vars(device)).items() if value != start[n]}
+    if isinstance(device, Mapping):
+        return device_values({"device": _plain(device)}, "device")
+    return read_device_file(str(device))
 
 
 def _fmu(fmu: str | Path | None) -> Path:

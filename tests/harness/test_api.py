@@ -244,6 +244,24 @@ def test_a_device_may_be_given_with_units(native_fmu: Path) -> None:
         assert record.scene.parameters["base_amplitude"] == 2e-4
 
 
+def test_what_a_device_file_states_replaces_the_scene(native_fmu: Path, tmp_path: Path) -> None:
+    """Also where it is the value of table 1, as with the commands."""
+    mine = tmp_path / "mine.toml"
+    mine.write_text('[device]\nslider_mass = "1 kg"\nresonator_mass = 0.2\n', encoding="utf-8")
+    scene = {
+        "device": {"slider_mass": 3.0},
+        "need": {"mean_velocity": {"rel": 0.01}},
+        "run": {"stop_time": 0.1, "step_size": 0.01},
+    }
+    with sr.open_fmu(native_fmu, device=mine) as fmu:
+        assert fmu.run(scene).scene.device.slider_mass == 1.0
+        expected = fmu.steady(phase=0.4).steady_velocity
+    assert sr.choose(scene, native_fmu, device=mine).meets
+    grid = {"grid": {"phase": [0.4]}}
+    table = sr.sweep(grid, tmp_path / "a.csv", native_fmu, device=mine, workers=1)
+    assert table.columns["steady_velocity"] == pytest.approx([expected], rel=1e-9)
+
+
 def test_no_scenes_are_not_all_scenes() -> None:
     with pytest.raises(sr.HarnessError, match="must be at least one scene"):
         sr.validate("no.fmu", scenes=[])

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.interface import INPUTS, OUTPUTS
+from slider_resonator.device.interface import INPUTS, VARIABLES
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.readable import number_of, readable
@@ -54,7 +54,7 @@ class Record(Shown, Tabular):
             f"{self.wall_time:.3g} s of wall time; at the end:"
         ]
         for name in self.outputs:
-            unit = OUTPUTS.get(name, "1").removeprefix("1")
+            unit = VARIABLES[name].unit.removeprefix("1")
             lines.append(f"{name:<24}{readable(self.final(name), 9)} {unit}".rstrip())
         return lines
 
