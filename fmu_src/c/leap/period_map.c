@@ -127,10 +127,11 @@ bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, 
                  Visit *visits, uint64_t *itinerary) {
     Refusal refusal;
     Law later = law_after(&map->law, begin * map->period);
-    Itinerary passed = {0, NO_MODE};
+    Itinerary passed = {0, NO_MODE, false};
     visits[0] = visit_of(map, moment);
     for (int k = 1; k <= count; k++) {
         Moment before = *moment;
+        passed.works = k > 1 && k + 1 >= count; /* in the last whole turn, as far as a sequence has one */
         if (!events_advance(&later, &before, map->period, NULL, &passed, budget, moment,
                             &refusal)) {
             return false;

@@ -151,7 +151,8 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
         if (search != NULL) {
             begin = *now;
         }
-        leg.counts_work = search != NULL || remaining - fmin(remaining, held->arc) <= counted;
+        leg.counts_work = (search != NULL || remaining - fmin(remaining, held->arc) <= counted) &&
+                          (itinerary == NULL || itinerary->works);
         friction->follow(&leg, law, now, longest);
         if (itinerary != NULL) {
             pass_mode(itinerary, leg.mode == LIFTED ? LIFTED : leg.direction);

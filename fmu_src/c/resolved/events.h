@@ -26,10 +26,11 @@ static inline EventSearch event_search(double after) {
 }
 
 /* A hash of the contact modes that follow each other: motions with one itinerary depend smoothly on where they begin. `last` is
- * the last of the modes. */
+ * the last of the modes. A motion that has one counts the work of friction only if that is `works`. */
 typedef struct {
     uint64_t hash;
     int last;
+    bool works;
 } Itinerary;
 
 /* The last mode of an itinerary that has none yet. */
