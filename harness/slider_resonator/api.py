@@ -38,7 +38,11 @@ from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fitting.fit import STARTS, Fit, isolated
 from slider_resonator.fitting.fit import fit as fit_parameters
-from slider_resonator.fitting.measurements import Measurements, read_measurements
+from slider_resonator.fitting.measurements import (
+    Measurements,
+    measurements_from,
+    read_measurements,
+)
 from slider_resonator.fmu.finished import fmu_path
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.isolation.tasks import available_cores
@@ -261,7 +265,7 @@ def sweep(
 
 @_plain_errors
 def fit(
-    data: str | Path | Measurements | Sequence[str | Path],
+    data: str | Path | Mapping[str, Any] | Measurements | Sequence[str | Path],
     free: str | Sequence[str],
     fmu: str | Path | None = None,
     *,
@@ -274,11 +278,14 @@ def fit(
 ) -> Fit:
     """Estimate the parameters `free` of a device from measurements, with 95 % intervals.
 
-    `data` is a CSV file, as `slider-resonator fit --help` describes, several of these, or
-    `Measurements`. `values` are parameters and inputs that are not in the data. The result has
-    `parameters`, and the `device` to go on with.
+    `data` is a CSV file, as `slider-resonator fit --help` describes, several of these, or columns
+    of numbers by heading, such as `{"phase [deg]": ..., "velocity [mm/s]": ...}`. `values` are
+    parameters and inputs that are not in the data. The result has `parameters`, and the `device` to
+    go on with.
     """
-    if not isinstance(data, Measurements):
+    if isinstance(data, Mapping):
+        data = measurements_from(_plain(data))
+    elif not isinstance(data, Measurements):
         files = [data] if isinstance(data, str | Path) else data
         data = sum((read_measurements(Path(one)) for one in files), Measurements())
     checked = {**_stated(device), **_checked(values)}

@@ -14,7 +14,6 @@ import pytest
 from fmpy import simulate_fmu
 
 import slider_resonator as sr
-from slider_resonator.fitting.measurements import Measurements, Point
 from slider_resonator.fmu import finished
 from slider_resonator.output.plot_style import Picture
 
@@ -133,9 +132,8 @@ def test_results_say_what_was_found_on_a_screen(native_fmu: Path, tmp_path: Path
     table = sr.sweep(grid, tmp_path / "table.csv", native_fmu, workers=1)
     (validation,) = sr.validate(native_fmu, scenes=["blocking_force_table_1"])
     choice = sr.choose("feed_forward", native_fmu)
-    fit = sr.fit(
-        Measurements((Point({}, "steady_velocity", 0.12),)), "friction_coefficient", native_fmu
-    )
+    measured = {"phase [deg]": np.array([0.0]), "velocity [mm/s]": [120.0]}
+    fit = sr.fit(measured, "friction_coefficient", native_fmu)
     scene = sr.read_scene("table_1")
     for result, words in (
         (record, f"mean_velocity           {record.final('mean_velocity'):.9g} m/s"),
@@ -225,6 +223,12 @@ def test_arrays_and_numbers_of_numpy_are_data(native_fmu: Path, tmp_path: Path) 
         (lambda: sr.validate("no.fmu", scenes="table_1", jobs=0), "jobs = 0: must be a whole num"),
         (lambda: sr.sweep({"grid": {"phase": 3}}, "a.csv"), r"grid\.phase = 3: must be a list"),
         (lambda: sr.fit("no.csv", "damping_ratio"), r"no\.csv cannot be read"),
+        (
+            lambda: sr.fit({"phase": [0], "force": [1, 2]}, "damping_ratio"),
+            "must be columns of one",
+        ),
+        (lambda: sr.fit({"fase": [0]}, "damping_ratio"), "data: unknown column 'fase'; did you"),
+        (lambda: sr.fit({}, "damping_ratio"), "data: must be columns of one"),
     ],
 )
 def test_bad_arguments_are_one_line(call: Callable[[], object], text: str) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import isfinite
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -136,8 +137,27 @@ def read_measurements(path: Path) -> Measurements:
     A heading is a name, a name and a unit in brackets, such as `phase [deg]`, or a measured name
     with `_std`, its standard deviation. Raises HarnessError with file, line, value and requirement.
     """
-    columns = _columns(path)
-    return _run(path, columns) if "time" in columns else _table(path, columns)
+    return _measurements(path, _columns(path))
+
+
+def measurements_from(table: Mapping[str, Any]) -> Measurements:
+    """Return measurements from columns of numbers by heading, as `read_measurements` has them.
+
+    NaN is an empty cell. Raises HarnessError with heading and requirement.
+    """
+    try:
+        columns = [(heading, np.asarray(values, np.float64)) for heading, values in table.items()]
+        shapes = {values.shape for _, values in columns}
+        if len(shapes) != 1 or len(shapes.pop()) != 1:
+            raise ValueError("must be columns of one length")
+        named = _named(columns)
+    except (ValueError, TypeError) as error:
+        raise HarnessError(f"data: {error}") from error
+    return _measurements(Path("data"), named)
+
+
+def _measurements(source: Path, columns: Mapping[str, Array]) -> Measurements:
+    return _run(source, columns) if "time" in columns else _table(source, columns)
 
 
 def _columns(path: Path) -> dict[str, Array]:
@@ -147,18 +167,26 @@ def _columns(path: Path) -> dict[str, Array]:
         rows = [(line, row) for line, row in lines if any(cell.strip() for cell in row)]
         if not 1 <= len(rows) <= MAX_ROWS:
             raise ValueError(f"{path}: {len(rows)} rows below the header; must be 1 to {MAX_ROWS}")
-        is_run = any(_heading(heading)["name"] == "time" for heading in header)
-        columns: dict[str, Array] = {}
-        for index, heading in enumerate(header):
-            name, factor = _column(heading, is_run)
-            if name in columns:
-                raise ValueError(f"{path}: two columns {name}; must be one")
-            cells = (_cell(line, heading, row, index) for line, row in rows)
-            columns[name] = factor * np.array(list(cells))
+        cells = (
+            (heading, np.array([_cell(line, heading, row, index) for line, row in rows]))
+            for index, heading in enumerate(header)
+        )
+        return _named(list(cells))
     except ValueError as error:
         said = str(error)
         raise HarnessError(said if str(path) in said else f"{path}: {said}") from error
-    return columns
+
+
+def _named(columns: Sequence[tuple[str, Array]]) -> dict[str, Array]:
+    """Return columns by name in SI units from those by heading; ValueError for a wrong heading."""
+    is_run = any(_heading(heading)["name"] == "time" for heading, _ in columns)
+    named: dict[str, Array] = {}
+    for heading, values in columns:
+        name, factor = _column(heading, is_run)
+        if name in named:
+            raise ValueError(f"two columns {name}; must be one")
+        named[name] = factor * values
+    return named
 
 
 def _heading(heading: str) -> Mapping[str, str]:
