@@ -88,6 +88,7 @@ def test_a_folder_of_scenes(native_fmu: Path, tmp_path: Path) -> None:
     assert "with scene files" in call("validate", native_fmu, "--scene", empty).stderr
 
 
+@pytest.mark.isolated
 @pytest.mark.slow
 def test_the_public_keys_of_several_fmus_stay(native_fmu: Path, tmp_path: Path) -> None:
     crash = faulty_fmus.compiled(native_fmu, tmp_path / "crash.fmu", "IN_STEP=CRASH")
