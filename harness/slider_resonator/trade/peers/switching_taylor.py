@@ -27,17 +27,8 @@ from slider_resonator.trade.peers.peer import NOT_SHOT, Peer, solution_of
 from slider_resonator.trade.solution import Solution
 
 _PARAMETERS = (
-    *(
-        "mass",
-        "mass_base",
-        "damping",
-        "stiffness",
-        "base",
-        "direct",
-        "frequency",
-        "normal_frequency",
-    ),
-    *("phase", "load", "preload", "amplitude", "direction"),
+    *("mass", "mass_base", "damping", "stiffness", "base", "direct", "frequency"),
+    *("normal_frequency", "phase", "load", "preload", "amplitude", "direction"),
     *("bristle_rate", "drag", "reversed_at", "stretch"),
 )
 _PLACE = {name: index for index, name in enumerate(_PARAMETERS)}
@@ -122,8 +113,7 @@ def simulate_sliding(
         raise ValueError("normal_amplitude above normal_preload: the contact lifts")
     if device.initial_velocity == 0.0 or device.fidelity != 2 or device.resonator_mass == 0.0:
         raise ValueError("only full devices with initial_velocity not 0 are covered")
-    run = _compiled(device.friction_law, tolerance)
-    integrator, counter = run.integrator, run.counter
+    integrator, counter = _compiled(device.friction_law, tolerance)
     _set(integrator, device, inputs)
     counter.reversals = 0
     integrator.time = 0.0 if start is None else start - inputs.start
@@ -148,14 +138,8 @@ class _Counter:
     reversals = 0
 
 
-@dataclass(frozen=True)
-class _Compiled:
-    integrator: Any
-    counter: _Counter
-
-
 @cache
-def _compiled(friction_law: int, tolerance: float) -> _Compiled:
+def _compiled(friction_law: int, tolerance: float) -> tuple[Any, _Counter]:
     try:
         hy = importlib.import_module("heyoka")
     except ModuleNotFoundError as error:
@@ -212,7 +196,7 @@ def _compiled(friction_law: int, tolerance: float) -> _Compiled:
         t_events=[event],
     )
     # A copy made by heyoka would keep its own callback, so the counter is found by the original.
-    return _Compiled(integrator, counter)
+    return integrator, counter
 
 
 def _set(integrator: Any, device: Device, inputs: HeldInputs) -> None:
