@@ -188,7 +188,7 @@ def _fmu_argument(
     def with_fmu(fmu: Path | None, fmu_given: Path | None, **others: Any) -> Any:
         scene = others.get("scene", "")
         if scene is None:  # one argument is the scene
-            fmu, others["scene"] = None, _scene_alone(fmu)
+            fmu, others["scene"] = _fmu_and_scene(fmu)
         fmu = fmu and _fmu_file(str(fmu))
         if fmu is not None and fmu_given is not None:
             raise click.UsageError(f"{fmu} and --fmu {fmu_given}: must be one FMU")
@@ -204,15 +204,15 @@ def _fmu_argument(
     return argument(option(with_fmu))
 
 
-def _scene_alone(argument: Path | None) -> str:
-    if argument is None or argument.suffix == ".fmu":
-        raise click.UsageError("Missing argument 'SCENE'.")
+def _fmu_and_scene(argument: Path | None) -> tuple[Path | None, str]:
+    """Return the FMU and the scene that one argument, or none, is; by default that of table 1."""
     # Loading the schema of scenes takes as long as a search of a command without a scene.
-    from slider_resonator.scenes.scene_files import find_scene
+    from slider_resonator.scenes.scene_files import FIRST, find_scene
 
-    scene = str(argument)
-    find_scene(scene)  # a wrong name is reported before a default FMU that is not built
-    return scene
+    if argument is None or argument.suffix == ".fmu":
+        return argument, FIRST
+    find_scene(str(argument))  # a wrong name is reported before a default FMU that is not built
+    return None, str(argument)
 
 
 def fmus_argument(command: Callable[..., Any]) -> Callable[..., Any]:

@@ -140,12 +140,14 @@ def run_command(
 ) -> None:
     """Run one scene, built in or from a file, and report the cost.
 
-    A scene with a sweep runs with the unvaried device; --set varies it. Nothing is judged. Exit
-    code: 0, or 2 when the FMU could not run, crashed or exceeded the time limit; with --auto 1,
-    without a run, when no model meets the scene's needs.
+    Without SCENE it is table_1: 100 drive periods from rest, with --device of a device of yours. A
+    scene with a sweep runs with the unvaried device; --set varies it. Nothing is judged. Exit code:
+    0, or 2 when the FMU could not run, crashed or exceeded the time limit; with --auto 1, without a
+    run, when no model meets the scene's needs.
 
     \b
     Examples:
+      slider-resonator run --device mine.toml --plot start.png
       slider-resonator run table_1
       slider-resonator run my.fmu table_1 --out table_1.csv --plot table_1.png
       slider-resonator run my.fmu feed_forward --auto

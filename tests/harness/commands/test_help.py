@@ -130,11 +130,6 @@ def test_the_default_is_the_native_fmu(
     assert str(Path("dist") / "SliderResonator.fmu") in result.stdout
 
 
-def test_a_scene_must_be_named() -> None:
-    assert "Missing argument 'SCENE'" in refused("run", "my.fmu")
-    assert "Missing argument 'SCENE'" in refused("run")
-
-
 def test_help_of_all_commands_loads_none_of_them() -> None:
     code = "from slider_resonator.cli import main; main(['--help'])"
     command = [sys.executable, "-X", "importtime", "-c", code]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import shutil
 from pathlib import Path
 
@@ -137,3 +138,12 @@ def test_the_option_replaces_what_the_scene_says(native_fmu: Path, tmp_path: Pat
         assert call("run", native_fmu, scene, *options, "--out", out).exit_code == 0
         outs.append(out.read_text())
     assert outs[0] == outs[1] != outs[2] == outs[3]
+
+
+def test_without_a_scene_the_device_starts_from_rest(native_fmu: Path) -> None:
+    arguments = ("--device", "ultrasonic_slider", "--json")
+    for fmu in ((native_fmu,), ("--fmu", native_fmu)):
+        summary = json.loads(call("run", *fmu, *arguments).stdout)
+        named = json.loads(call("run", *fmu, "table_1", *arguments).stdout)
+        assert (summary["scene"], summary["position"]) == ("table_1", named["position"])
+        assert summary["drive_periods"] == pytest.approx(100.0)
