@@ -25,10 +25,7 @@ from slider_resonator.checks.steady_references import SteadyReferences
 from slider_resonator.device.device import FULL, Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
-from slider_resonator.references.averaged.averaged_outputs import (
-    AveragedOutputs,
-    averaged_outputs,
-)
+from slider_resonator.references.averaged.averaged_outputs import AveragedOutputs, averaged_outputs
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.scenes.scene import Scene

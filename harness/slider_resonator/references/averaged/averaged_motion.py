@@ -30,10 +30,7 @@ from slider_resonator.references.averaged.averaged_coulomb import slow_start
 from slider_resonator.references.averaged.averaged_lugre import LugreCase
 from slider_resonator.references.averaged.block import slide_of_block
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
-from slider_resonator.references.averaged.vibrating_contact import (
-    MAX_TURNS,
-    turns_until_repeat,
-)
+from slider_resonator.references.averaged.vibrating_contact import MAX_TURNS, turns_until_repeat
 from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
 from slider_resonator.references.phase import advanced
 
