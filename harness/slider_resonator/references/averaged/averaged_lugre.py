@@ -12,9 +12,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
-from slider_resonator.arrays import Array
 from slider_resonator.references.averaged.slow_equilibria import stable_velocity
 from slider_resonator.references.averaged.vibrating_contact import (
     closed_spans,
@@ -53,22 +50,6 @@ class LugreCase:
         return -self.damping * _mean_of_load_times_velocity(0.0, self, -math.pi, math.pi)
 
 
-def full_rates(
-    time: float, state: Array, case: LugreCase, stiffness: float, frequency: float
-) -> Array:
-    """Return the rates of (X, X', Z_b), shape (3,), of the full equations (9).
-
-    ``stiffness`` is sigma_0, ``frequency`` Omega; the drive amplitude is F_T = q Omega.
-    """
-    angle = frequency * time
-    _, velocity, bristle = state
-    bristle_rate = velocity - stiffness * abs(velocity) * bristle / case.friction_coefficient
-    friction = stiffness * bristle + case.damping * bristle_rate
-    normal = max(0.0, 1.0 + case.amplitude_ratio * math.sin(angle + case.phase))
-    drive = case.strength * frequency * math.sin(angle)
-    return np.array([velocity, drive - normal * friction, bristle_rate])
-
-
 def fast_displacement(angle: float, strength: float, frequency: float) -> float:
     """Return the fast part of the displacement, X_f / Omega of (10), at a drive angle in rad."""
     return -strength / frequency * math.sin(angle)
@@ -91,35 +72,6 @@ def load_weighted_speed(velocity: float, case: LugreCase) -> float:
     return forward - backward - mean_speed(velocity, case.strength)
 
 
-def slow_rates(
-    velocity: float, bristle: float, case: LugreCase, stiffness: float
-) -> tuple[float, float]:
-    """Return the rates of the slow velocity and of the slow bristle deflection, (11) and (12)."""
-    slow, fast = mean_speed(velocity, case.strength), load_weighted_speed(velocity, case)
-    weight = case.damping * stiffness / case.friction_coefficient * bristle
-    held = mean_load(case.amplitude_ratio) * (stiffness * bristle + case.damping * velocity)
-    acceleration = case.pull - held + weight * (slow + fast)
-    return acceleration, velocity - stiffness / case.friction_coefficient * bristle * slow
-
-
-def stretched_rates(
-    velocity: float, bristle_force: float, case: LugreCase, stiffness: float
-) -> tuple[float, float]:
-    """Return the rates of the slow velocity and of Y = sigma_0 Z_s, (13) with epsilon Y' = ...."""
-    acceleration, rate = slow_rates(velocity, bristle_force / stiffness, case, stiffness)
-    return acceleration, stiffness * rate
-
-
-def slow_manifold(velocity: float, case: LugreCase) -> float:
-    """Return Y on the slow manifold, (14)."""
-    return case.friction_coefficient * velocity / mean_speed(velocity, case.strength)
-
-
-def boundary_layer_rate(velocity: float, case: LugreCase) -> float:
-    """Return the decay rate of Y - slow_manifold in the stretched time tau sigma_0, (15)."""
-    return mean_speed(velocity, case.strength) / case.friction_coefficient
-
-
 def mean_friction(velocity: float, case: LugreCase) -> float:
     """Return the averaged friction on the slow manifold, minus the acceleration of (16)."""
     slow, fast = mean_speed(velocity, case.strength), load_weighted_speed(velocity, case)
@@ -138,15 +90,6 @@ def steady_velocity(case: LugreCase, load: float = 0.0) -> float:
         case.strength,
         load,
     )
-
-
-def linear_slow_acceleration(velocity: float, case: LugreCase) -> float:
-    """Return the acceleration of the slow motion for velocities small against q, (18).
-
-    Raises ValueError for a contact that lifts.
-    """
-    check_never_lifts(case.amplitude_ratio)
-    return case.pull - math.pi * case.friction_coefficient / (2.0 * case.strength) * velocity
 
 
 def linear_velocity(case: LugreCase) -> float:

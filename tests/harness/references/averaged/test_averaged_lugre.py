@@ -3,7 +3,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -58,36 +57,6 @@ def test_averages_of_a_closed_contact_match_the_paper() -> None:
     assert CASE.pull == pytest.approx(0.5 * CASE.damping * q * alpha * math.sin(phi), rel=1e-12)
 
 
-@both_contacts
-@pytest.mark.parametrize("velocity", [-0.7, 0.1, 0.6])
-def test_slow_rates_match_the_averaged_full_rates(velocity: float, case: LugreCase) -> None:
-    """(11): the bristle held, the velocity V - q cos(theta) put into (9)."""
-    stiffness, bristle, frequency = 50.0, 0.003, 1.0
-    turn = math.acos(velocity / case.strength)
-
-    def rates(angle: float) -> np.ndarray:
-        fast = velocity - case.strength * math.cos(angle)
-        state = np.array([0.0, fast, bristle])
-        return lugre.full_rates(angle / frequency, state, case, stiffness, frequency)
-
-    acceleration, rate = lugre.slow_rates(velocity, bristle, case, stiffness)
-    assert acceleration == pytest.approx(_mean(lambda a: rates(a)[1], turn), abs=1e-8)
-    assert rate == pytest.approx(_mean(lambda a: rates(a)[2], turn), abs=1e-9)
-
-
-@both_contacts
-def test_slow_manifold_is_the_equilibrium_of_the_bristle(case: LugreCase) -> None:
-    velocity, stiffness = 0.35, 100.0
-    force = lugre.slow_manifold(velocity, case)
-    acceleration, rate = lugre.stretched_rates(velocity, force, case, stiffness)
-    assert rate == pytest.approx(0.0, abs=1e-12), "(14) is the rest point of (13)"
-    assert acceleration == pytest.approx(-lugre.mean_friction(velocity, case), rel=1e-12)
-    off = lugre.stretched_rates(velocity, force + 1e-3, case, stiffness)[1]
-    assert off == pytest.approx(
-        -1e-3 * stiffness * lugre.boundary_layer_rate(velocity, case), rel=1e-9
-    ), "(15) is the decay toward it"
-
-
 def test_steady_velocity_of_the_paper_case() -> None:
     velocity = lugre.steady_velocity(LugreCase())
     assert velocity == pytest.approx(0.50827, abs=5e-6)
@@ -112,10 +81,6 @@ def test_friction_saturates_without_reversals(case: LugreCase) -> None:
 def test_linear_forms_are_the_limit_of_small_velocities() -> None:
     weak = LugreCase(strength=1.0, amplitude_ratio=1e-4, damping=1.0)
     assert lugre.linear_velocity(weak) == pytest.approx(lugre.steady_velocity(weak), rel=1e-3)
-    velocity = 1e-5
-    assert lugre.linear_slow_acceleration(velocity, weak) == pytest.approx(
-        -lugre.mean_friction(velocity, weak), rel=1e-3
-    )
 
 
 def test_fast_displacement_is_the_integral_of_the_fast_velocity() -> None:
@@ -136,6 +101,5 @@ def test_invalid_arguments_are_refused_by_name(name: str, value: float) -> None:
 def test_cases_without_an_average_are_refused() -> None:
     with pytest.raises(ValueError, match=r"load = 0\.6"):
         lugre.steady_velocity(LugreCase(), 0.6)
-    for linear in (lugre.linear_velocity, partial(lugre.linear_slow_acceleration, 0.0)):
-        with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.9"):
-            linear(LIFTING)
+    with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.9"):
+        lugre.linear_velocity(LIFTING)
