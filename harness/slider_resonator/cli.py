@@ -35,6 +35,7 @@ COMMANDS: Mapping[str, str] = {
     "device": "Say what a device file means; devices to start from.",
     "extremes": "Run the extremes of `stress`.",
     "fit": "Estimate parameters of a device from measurements.",
+    "page": "Write a page that runs the component in a browser.",
     "run": "Run one scene and report results and cost.",
     "scenes": "List the built-in scenes; help to write your own.",
     "steady": "Find the steady velocity of an FMU, without a long run.",
@@ -192,6 +193,7 @@ def main(max_memory: int | None, max_unpacked: int | None) -> None:
       slider-resonator choose feed_forward --json
       slider-resonator stress --out stress
       slider-resonator sweep grid.toml --out table.parquet
+      slider-resonator page --device mine.toml --out mine.html
       slider-resonator trade table_1 --out trade
       slider-resonator baseline check my.fmu --dir baseline
     """

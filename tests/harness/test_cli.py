@@ -21,7 +21,7 @@ from tests.processes import heed_interrupts
 COMMANDS = (
     *("validate", "baseline", "mutants", "choose", "run", "steady", "blocking"),
     *("scenes", "sweep", "extremes", "trade", "closed-loop", "bench", "hosts", "paper", "build"),
-    *("campaign", "device", "fit", "stress"),
+    *("campaign", "device", "fit", "page", "stress"),
 )
 
 

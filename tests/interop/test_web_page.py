@@ -6,6 +6,7 @@ import csv
 import math
 from pathlib import Path
 from typing import Any
+from urllib.parse import unquote, urlsplit
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from selenium.webdriver.remote.webelement import WebElement
 from selenium.webdriver.support.wait import WebDriverWait
 
 from fmu_src.building.web_page import build_page
+from slider_resonator.commands.page import started_at
 from slider_resonator.device.device import Device
 from slider_resonator.scenes.device_file import example_devices, read_device
 from tests.fmu.host import OUTPUTS
@@ -163,6 +165,19 @@ def test_numbers_of_an_example_are_those_of_fmpy(
     end = 50 * 2 * math.pi / Device.from_mapping(values).drive_frequency
     found = show(browser, page, address({"device": name, "phase": 0.4, "t": end}))
     assert_outputs_are_those_of_fmpy(found, native_fmu, values | {"phase": 0.4}, end)
+
+
+def test_a_page_written_for_a_device_starts_at_it(browser: Chrome, page: str) -> None:
+    mine = Path(unquote(urlsplit(page).path)).with_name("mine.html")
+    text = Path(unquote(urlsplit(page).path)).read_text(encoding="utf-8")
+    values = read_device("stick_slip") | {"phase": 0.4}
+    mine.write_text(started_at(text, values), encoding="utf-8")
+    browser.get("about:blank")
+    browser.get(mine.as_uri())
+    found = results(browser)
+    assert browser.find_element(By.ID, "device").get_attribute("value") == "mine"
+    assert found == show(browser, page, "device=stick_slip&phase=0.4")
+    assert message(browser) == ""
 
 
 def test_nothing_is_loaded_and_nothing_is_complained_of(browser: Chrome, page: str) -> None:

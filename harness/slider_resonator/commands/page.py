@@ -1,0 +1,83 @@
+"""`page`: the component in a browser, started at a device of one's own."""
+
+from __future__ import annotations
+
+import json
+import re
+import zipfile
+from pathlib import Path
+
+import click
+
+from slider_resonator.commands.options import (
+    SettingsCommand,
+    json_option,
+    native_fmu_argument,
+    set_option,
+    target,
+)
+from slider_resonator.commands.results import print_json, print_text
+from slider_resonator.device.device import Device
+from slider_resonator.device.interface import PARAMETERS
+from slider_resonator.errors import FmuError
+from slider_resonator.output.atomic import replacing
+from slider_resonator.output.readable import one_line
+from slider_resonator.scenes.device_file import to_toml
+
+PAGE = "documentation/slider-resonator.html"
+"""The page in a native FMU that was built for all platforms."""
+_DEVICES = re.compile(r'(?<=<script type="application/json" id="devices">).*?(?=</script>)', re.S)
+
+
+@click.command("page", cls=SettingsCommand)
+@native_fmu_argument
+@set_option
+@click.option("--out", type=target((".html",)), required=True, help="The page to write.")
+@json_option
+def page_command(fmu: Path, settings: dict[str, float], out: Path, as_json: bool) -> None:
+    """Write a page that runs the component in a browser, started at your device.
+
+    One file without a network. The page is that of the native FMU, from its documentation.
+
+    \b
+    Examples:
+      slider-resonator page --out slider.html
+      slider-resonator page --device mine.toml --set phase="30 deg" --out mine.html
+    """
+    with replacing(out) as temporary:
+        temporary.write_text(started_at(page_of(fmu), settings), encoding="utf-8")
+    if as_json:
+        print_json({"page": str(out)})
+    else:
+        print_text(f"{one_line(str(out))}: open it in a browser")
+
+
+def page_of(fmu: Path) -> str:
+    """Return the text of the page in an FMU; FmuError where there is none."""
+    try:
+        with zipfile.ZipFile(fmu) as archive:
+            text = archive.read(PAGE).decode()
+    except KeyError:
+        raise FmuError(
+            f"{fmu}: has no {PAGE}; must be a native FMU for all platforms, as `make build` and "
+            "the wheel have it"
+        ) from None
+    except (OSError, ValueError, zipfile.BadZipFile) as error:
+        raise FmuError(f"{fmu}: its page cannot be read: {error}") from error
+    if _DEVICES.search(text) is None:
+        raise FmuError(f"{fmu}: {PAGE} has no list of devices; must be of version 0.2.0 or later")
+    return text
+
+
+def started_at(page: str, settings: dict[str, float]) -> str:
+    """Return the page with the device and the inputs of `settings` as those to start from."""
+
+    def with_mine(found: re.Match[str]) -> str:
+        parameters = {name: value for name, value in settings.items() if name in PARAMETERS}
+        mine = to_toml(Device.from_mapping(parameters), "Your device")
+        devices = {"mine": mine, **json.loads(found[0])} if parameters else json.loads(found[0])
+        return json.dumps(devices).replace("<", "\\u003c")
+
+    inputs = "&".join(f"{k}={v!r}" for k, v in settings.items() if k not in PARAMETERS)
+    start = f'<script>location.hash ||= "{inputs}";</script>\n</head>' if inputs else "</head>"
+    return _DEVICES.sub(with_mine, page, count=1).replace("</head>", start, 1)

@@ -1,0 +1,42 @@
+"""What the page does in a browser is tested with the other hosts."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+from tests.harness.calling import call, refused
+from tests.harness.public_json import assert_public_keys
+
+PAGE = '<head></head><script type="application/json" id="devices">{"table_1": "[device]"}</script>'
+
+
+def fmu_with(page: str, folder: Path) -> Path:
+    with zipfile.ZipFile(folder / "with_page.fmu", "w") as archive:
+        archive.writestr("documentation/slider-resonator.html", page)
+    return folder / "with_page.fmu"
+
+
+def test_without_settings_the_page_is_that_of_the_fmu(tmp_path: Path) -> None:
+    out = tmp_path / "page.html"
+    printed = call("page", fmu_with(PAGE, tmp_path), "--out", out, "--json").stdout
+    assert_public_keys("page", printed)
+    assert out.read_text(encoding="utf-8") == PAGE
+
+
+def test_device_and_inputs_are_those_to_start_from(tmp_path: Path) -> None:
+    out = tmp_path / "page.html"
+    settings = ("--set", "base_amplitude=1 um", "phase=0.5")
+    call("page", fmu_with(PAGE, tmp_path), *settings, "--out", out)
+    text = out.read_text(encoding="utf-8")
+    assert 'id="devices">{"mine": "title = \\"Your device\\"' in text
+    assert "base_amplitude = 1e-06" in text
+    assert 'location.hash ||= "phase=0.5"' in text
+
+
+def test_an_fmu_without_a_page_is_refused(native_fmu: Path, tmp_path: Path) -> None:
+    out = tmp_path / "page.html"
+    assert "must be a native FMU for all platforms" in refused("page", native_fmu, "--out", out)
+    old = fmu_with("<html></html>", tmp_path)
+    assert "has no list of devices" in refused("page", old, "--out", out)
+    assert not out.exists()
