@@ -18,7 +18,6 @@ from math import asin, cos, hypot, inf, pi, sin, tau
 
 from . import refusal_texts
 from .contact import Window
-from .friction_work import SlideWork
 from .oscillator import SLOW, Oscillator
 from .parameters import Inputs, Parameters
 from .values import Refusal
@@ -148,8 +147,7 @@ class System:
     on a held slider that follows the drive directly [N], `drive` the force of the drive on the pair
     per total mass [m/s^2]. `slide_split` are the forced terms of sliding per unit exp(i theta) and,
     for s = 1, per unit exp(i chi), `rest_split` the displacement of the resonator at rest; both are
-    None where they do not split off. `slide_work` is that of friction while it swings.
-    `compliance` is the displacement by a constant force [m/N].
+    None where they do not split off. `compliance` is the displacement by a constant force [m/N].
     The contact lifts at times, or always, in the `window` of chi, which it enters and leaves where
     it `switches`. `fastest` [rad/s] is the highest frequency, `arc` [s] the longest leg: after it a
     motion begins anew from its state. Neither depends on `phase` and `load`.
@@ -186,8 +184,6 @@ class System:
         self.drive, self.arc = force / device.total_mass, LONGEST_ARC / self.fastest
         self.slide_split, self.rest_split = self._slide_split(), self._rest_split()
         free = self.slip.stiffness * self.slider_mass
-        slides = self.slide_split is not None and self.normal_frequency != 0.0
-        self.slide_work = SlideWork(self) if slides else None
         self.compliance = 1.0 / free if self.is_full and self.slide_split else 0.0
 
     def _slide_split(self) -> tuple[Term, Term] | None:

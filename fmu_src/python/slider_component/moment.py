@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from math import floor, inf, tau
+from math import inf
+from operator import attrgetter
 
 from .contact import STICK
 
-Place = tuple[float, float, float, float, float]
-"""Velocity of the slider [m/s], displacement [m] and rate [m/s] of the resonator, how far the
-slider has moved [m], and the work of friction on the way [J]."""
-
-MARK_TOLERANCE = 1e-7
-"""Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps
-of whole periods complete their last period in spite of rounding."""
+Place = tuple[float, float, float, float]
+"""Velocity of the slider [m/s], displacement [m] and rate [m/s] of the resonator, and how far
+the slider has moved [m]."""
 
 
 @dataclass(slots=True)
@@ -58,7 +54,7 @@ class Moment:
 
     def copied(self) -> Moment:
         """The same moment, to be changed."""
-        return Moment(*[getattr(self, name) for name in Moment.__slots__])
+        return Moment(*_entries(self))
 
     def enter(self, mode: int) -> None:
         """Change to contact mode `mode`; that is an event unless it is the present mode."""
@@ -70,50 +66,6 @@ class Moment:
         """Begin to slide in another direction than before: an event."""
         self.reversals += self.sliding == -direction
         self.sliding, self.event_age = direction, 0.0
-
-    def pass_time(
-        self,
-        t: float,
-        frequency: float,
-        sticks: bool,
-        travelled: float,
-        work: float,
-        place_at: Callable[[float], Place],
-    ) -> None:
-        """Advance position, drive phase and means over a motion of `t` [s] that has `travelled`.
-
-        The last numbers that `place_at` gives are the displacement [m] and the `work` of friction
-        [J] after a time [s]; `frequency` [rad/s] is the drive's.
-        """
-        end = self.theta + frequency * t
-        self.position += travelled
-        self.event_age += t
-        ended = 0 if end + MARK_TOLERANCE < tau else floor((end + MARK_TOLERANCE) / tau)
-        if ended <= 0:
-            self.travel += travelled
-            self.work += work
-            self.elapsed += t
-            self.sticking += t if sticks else 0.0
-            self.theta = end
-            return
-        last = (tau * ended - self.theta) / frequency
-        *_, travel_last, work_last = place_at(last)
-        if ended == 1:
-            length = self.elapsed + last
-            self.mean_velocity = (self.travel + travel_last) / length
-            self.friction_power = (self.work + work_last) / length
-            fraction = (self.sticking + (last if sticks else 0.0)) / length
-        else:
-            length = tau / frequency
-            *_, travel_first, work_first = place_at(last - length)
-            self.mean_velocity = (travel_last - travel_first) / length
-            self.friction_power = (work_last - work_first) / length
-            fraction = 1.0 if sticks else 0.0
-        rest = t - last
-        self.travel, self.work, self.elapsed = travelled - travel_last, work - work_last, rest
-        self.sticking = rest if sticks else 0.0
-        self.complete, self.stick_fraction = True, min(max(fraction, 0.0), 1.0)
-        self.theta = end - tau * ended
 
     def present_mean_velocity(self) -> float:
         """Mean of the last whole period, or since the start, or the velocity at the start [m/s]."""
@@ -128,3 +80,6 @@ class Moment:
         if self.elapsed > 0.0:
             return min(self.sticking / self.elapsed, 1.0)
         return 1.0 if sticks else 0.0
+
+
+_entries = attrgetter(*Moment.__slots__)

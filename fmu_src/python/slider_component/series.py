@@ -100,7 +100,6 @@ class Series:
             normal *= complex(0.0, q * step)
             limit.append(normal.real)
         self._velocity, self._displacement, self._rate = v, y, u
-        self.counts_work = True
         self._position = [0.0, *map(truediv, v, _COUNT)]
         scale = velocity_scale(system, now.velocity, now.displacement, now.rate)
         self.reach = min(
@@ -132,15 +131,17 @@ class Series:
         """See Motion."""
         series = self._velocity, self._displacement, self._rate, self._position
         velocity, displacement, rate, travelled = (_value(c, t) for c in series)
-        counts = self.counts_work and not self.rests
-        work = _value(self._work, t) if counts else 0.0
-        return velocity, displacement, rate, travelled, work
+        return velocity, displacement, rate, travelled
+
+    def work(self, t: float, travelled: float) -> float:
+        """See Motion."""
+        return _value(self._work, t)
 
     @cached_property
     def _work(self) -> list[float]:
         """The series of the work of friction [J]."""
         force, velocity = self._force, self._velocity
-        powers = (sum(map(mul, force[: k + 1], reversed(velocity[: k + 1]))) for k in range(ORDER))
+        powers = (sum(map(mul, force, reversed(velocity[: k + 1]))) for k in range(ORDER))
         return [0.0, *map(truediv, powers, _COUNT)]
 
 

@@ -10,7 +10,7 @@ of drive, normal load and free resonator, and friction s (F0 + F1 sin(chi)),
 
 from __future__ import annotations
 
-from cmath import exp, rect
+from cmath import exp, rect, sinh
 from cmath import phase as argument
 from math import acos, inf, sin, tau
 from typing import Protocol
@@ -18,24 +18,24 @@ from typing import Protocol
 from .contact import LIFTED
 from .device import EPSILON, System, Term
 from .first_zero import Watch
-from .friction_work import State
 from .moment import Moment, Place
 
 SURE = 0.999999
 """Share of the smallest limit of friction below which forces cannot reach it, beyond rounding."""
 
+SMALL = 0.1
+"""Growth below which an exponential less 1 would lose digits."""
+
 
 class Motion(Protocol):
     """Motion from a given moment on, inputs held, contact mode unchanged.
 
-    It holds up to its `reach` [s]; its velocity is watched in `direction` unless that is 0. Without
-    `counts_work` the work of friction is left out.
+    It holds up to its `reach` [s]; its velocity is watched in `direction` unless that is 0.
     """
 
     reach: float
     direction: int
     rests: bool
-    counts_work: bool
 
     def watches(self, horizon: float) -> tuple[Watch, ...]:
         """Signals that are positive while the mode lasts, up to `horizon` [s].
@@ -46,6 +46,10 @@ class Motion(Protocol):
 
     def at(self, t: float) -> Place:
         """Where the motion is after `t` [s]."""
+        ...
+
+    def work(self, t: float, travelled: float) -> float:
+        """Work of friction [J] in the first `t` [s], in which the slider has `travelled` [m]."""
         ...
 
 
@@ -89,7 +93,7 @@ def watch_of(
 class Exponentials:
     """A motion of such terms (methods as of `Motion`)."""
 
-    __slots__ = ("_k0", "_k1", "_offset", "_terms", "counts_work", "direction")
+    __slots__ = ("_k0", "_k1", "_offset", "_terms", "direction")
     reach = inf
     rests = False
     _k0: float
@@ -97,7 +101,6 @@ class Exponentials:
     _offset: float
     _terms: list[Term]
     direction: int
-    counts_work: bool
 
     def at(self, t: float) -> Place:
         """See Motion."""
@@ -111,15 +114,7 @@ class Exponentials:
             moved += y
             turning += z * y
         travelled = (k0 + 0.5 * k1 * t) * t + passed.real
-        velocity, displacement = k0 + k1 * t + swing.real, self._offset + moved.real
-        rate, work = turning.real, 0.0
-        if self.counts_work:
-            work = self._work(t, (velocity, displacement, rate), travelled)
-        return velocity, displacement, rate, travelled, work
-
-    def _work(self, t: float, state: State, travelled: float) -> float:
-        """Work of friction [J] up to `t` [s], where `state` and the displacement are known."""
-        return 0.0
+        return k0 + k1 * t + swing.real, self._offset + moved.real, turning.real, travelled
 
 
 class Slide(Exponentials):
@@ -128,13 +123,13 @@ class Slide(Exponentials):
     The velocity is watched in that direction, unless it is 0.
     """
 
-    __slots__ = ("_begin", "_chi", "_fastest", "_sign", "_system", "_theta")
+    __slots__ = ("_constant", "_fastest", "_frequency", "_swinging")
 
     def __init__(self, system: System, now: Moment, direction: int) -> None:
         assert system.slide_split is not None
         drive, normal = system.slide_split
         sign = 0 if now.mode == LIFTED else direction
-        resisting = sign * system.friction_preload + system.load
+        constant, swinging = sign * system.friction_preload, 0j
         turn, chi = rect(1.0, now.theta), now.psi + system.phase
         z, square, v, y = drive
         v, y = v * turn, y * turn
@@ -142,15 +137,17 @@ class Slide(Exponentials):
         k0, displacement, rate = now.velocity - v.real, now.displacement - y.real, z.imag * y.imag
         z, square, v, y = normal
         if not z:
-            resisting += sign * system.friction_amplitude * sin(chi)
+            constant += sign * system.friction_amplitude * sin(chi)
         elif sign:
             turn = rect(sign, chi)
+            swinging = system.friction_amplitude * turn
             v, y = v * turn, y * turn
             k0, displacement, rate = k0 - v.real, displacement - y.real, rate + z.imag * y.imag
             terms.append((z, square, v, y))
             if z == drive[0]:
                 (_, _, v_drive, y_drive), _ = terms
                 terms = [(z, square, v + v_drive, y + y_drive)]
+        resisting = constant + system.load
         offset = resisting * system.compliance
         if system.is_full:
             for z, square, y in system.slip.free(displacement - offset, now.rate + rate):
@@ -159,19 +156,28 @@ class Slide(Exponentials):
                 terms.append((z, square, v, y))
         self._k0, self._k1, self._offset = k0, -resisting / system.total_mass, offset
         self._terms, self.direction, self._fastest = terms, direction, system.fastest
-        self._begin = now.velocity, now.displacement, now.rate
-        self._system, self._sign, self._theta, self._chi = system, sign, now.theta, chi
-        self.counts_work = True
+        self._constant, self._swinging, self._frequency = (
+            constant,
+            swinging,
+            system.normal_frequency,
+        )
 
-    def _work(self, t: float, state: State, travelled: float) -> float:
-        system, sign, chi = self._system, self._sign, self._chi
-        if sign == 0:
-            return 0.0
-        if system.slide_work is None:
-            swung = sin(chi) * travelled
-        else:
-            swung = system.slide_work.over(sign, self._theta, chi, t, self._begin, state)
-        return sign * (system.friction_preload * travelled + system.friction_amplitude * swung)
+    def work(self, t: float, travelled: float) -> float:
+        """See Motion. The friction is constant + Im(swinging exp(i q t)), q that of the load."""
+        work = self._constant * travelled
+        if self._swinging:
+            z = complex(0.0, self._frequency)
+            turn = exp(z * t)
+            growth = (turn - 1.0) / z
+            swung = self._k0 * growth + self._k1 * (t * turn - growth) / z
+            for rate, _, v, _ in self._terms:
+                v, grown = 0.5 * v, exp(rate * t)
+                swung += v * _integral(z + rate, turn * grown, t)
+                swung += v.conjugate() * _integral(
+                    z + rate.conjugate(), turn * grown.conjugate(), t
+                )
+            work += (self._swinging * swung).imag
+        return work
 
     def watches(self, horizon: float) -> tuple[Watch, ...]:
         """The velocity in the direction to watch."""
@@ -185,6 +191,14 @@ class Slide(Exponentials):
             stop = direction * acos(-k0 / abs(drive)) - argument(drive)
             expected = stop % tau / z.imag
         return (watch_of(direction, k0, self._k1, terms, self._fastest, expected),)
+
+
+def _integral(z: complex, grown: complex, t: float) -> complex:
+    """Integral of exp(z t) from 0 to `t`, where it is `grown`."""
+    if abs(z) * t > SMALL:
+        return (grown - 1.0) / z
+    half = 0.5 * t * z
+    return t * exp(half) * sinh(half) / half if half else complex(t)
 
 
 class Rest(Exponentials):
@@ -202,10 +216,13 @@ class Rest(Exponentials):
             free = system.stick.free(now.displacement - y.real, now.rate + w * y.imag)
             terms += [(z, square, 0j, y) for z, square, y in free]
         self._k0 = self._k1 = self._offset = 0.0
-        self.counts_work = False
         self._terms, self.direction = terms, 0
         self._direct, self._sys = -1j * system.holding_drive * turn, system
         self._normal = -1j * system.friction_amplitude * rect(1.0, now.psi + system.phase)
+
+    def work(self, t: float, travelled: float) -> float:
+        """See Motion."""
+        return 0.0
 
     def watches(self, horizon: float) -> tuple[Watch, ...]:
         """Forward margin (limit - needed force), then backward margin (limit + needed force).
