@@ -11,9 +11,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import scipy
-
 from slider_resonator.device.device import Device
+from slider_resonator.references.halving import root_by_halving
 
 REFERENCE_FREQUENCY = 1.0
 """The arbitrary reference frequency w0 of the paper, rad/s."""
@@ -79,8 +78,7 @@ def loaded_velocity(strength: float, amplitude_ratio: float, phase: float, load:
         return 1.0 - 2.0 / math.pi * (angle + pull * math.sin(angle)) + load
 
     # The imbalance falls from 1 + load to load - 1 over this interval, so it has exactly one root.
-    root: float = scipy.optimize.brentq(imbalance, 0.0, math.pi, xtol=1e-15, rtol=1e-15)
-    return strength * math.cos(root)
+    return strength * math.cos(root_by_halving(imbalance, 0.0, math.pi))
 
 
 def blocking_load(amplitude_ratio: float, phase: float) -> float:

@@ -11,8 +11,6 @@ from __future__ import annotations
 
 import math
 
-import scipy
-
 from slider_resonator.device.device import Device
 from slider_resonator.references.averaged.vibrating_contact import (
     check_amplitude_ratio,
@@ -27,6 +25,7 @@ from slider_resonator.references.closed_forms import (
     check_strength,
     equivalent_force,
 )
+from slider_resonator.references.halving import root_by_halving
 
 
 def mean_friction(
@@ -127,8 +126,7 @@ def steady_velocity_at_ratio(
         return mean_friction(velocity, strength, amplitude_ratio, phase, ratio) + load
 
     # The later sliding turns forward, the less of the load, never negative, counts as friction.
-    root: float = scipy.optimize.brentq(imbalance, 0.0, math.pi, xtol=1e-15, rtol=1e-14)
-    return strength * math.cos(root)
+    return strength * math.cos(root_by_halving(imbalance, 0.0, math.pi))
 
 
 def blocking_load_at_ratio(amplitude_ratio: float, phase: float, ratio: float) -> float:
