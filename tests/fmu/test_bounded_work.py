@@ -54,7 +54,7 @@ def test_a_strongly_varying_load_settles(instantiate: Instantiate) -> None:
     [
         # Near a whole ratio the slow velocity follows the phase, and never settles.
         ({**WEAK, "frequency_ratio": 1.05}, 1e3, "00 steps of averaged motion", "1e", 1e-3),
-        (LIGHT, PERIOD / 32.0, " 20000 legs in a turn of the fastest oscillation", "1e-7 s", 1e-9),
+        (LIGHT, PERIOD / 32.0, " 20000 segments in a turn of the fastest", "1e-7 s", 1e-9),
     ],
     ids=["a beat", "a slider too light for its bristles"],
 )

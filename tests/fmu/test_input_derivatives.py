@@ -220,7 +220,7 @@ def test_a_step_in_which_an_input_leaves_its_bounds_is_refused(
         (
             {"fidelity": 0, "averaging_order": 2},
             {"frequency_ratio": 1e9},
-            "it takes more work than 1000000 legs of motion",
+            "it takes more work than 1000000 segments of motion",
         ),
     ],
 )
@@ -238,7 +238,7 @@ def test_the_work_of_a_step_stays_bounded(
     [
         ({"averaging_order": 1}, 1e7, 50.0, "400000 steps of averaged motion; must be at most 1e3"),
         ({"averaging_order": 1, "friction_law": 1}, 1e6, 90.0, "steps of averaged motion"),
-        ({"averaging_order": 2}, 1e7, 50.0, "1000000 legs of motion; must be at most 1e2 s"),
+        ({"averaging_order": 2}, 1e7, 50.0, "1000000 segments of motion; must be at most 1e2 s"),
     ],
     ids=["Coulomb", "quadratures", "resolved where orbits are unknown"],
 )

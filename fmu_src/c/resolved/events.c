@@ -32,11 +32,11 @@ static bool work_count(Work *work, double time, const Budget *budget, Refusal *r
     work->legs++;
     work->all++;
     if (work->legs > MAX_LEGS) {
-        return budget_refuse(budget, time, MAX_LEGS, "legs in a turn of the fastest oscillation",
+        return budget_refuse(budget, time, MAX_LEGS, "segments in a turn of the fastest oscillation",
                              refusal);
     }
     return work->all <= work->max_all
-           || budget_refuse(budget, time, MAX_STEP_LEGS, "legs of motion", refusal);
+           || budget_refuse(budget, time, MAX_STEP_SEGMENTS, "segments of motion", refusal);
 }
 
 /* Refuses a motion that takes too many legs even if each has the maximum length `longest` [s]. A search for an
@@ -45,7 +45,7 @@ static bool work_fits(const Work *work, double duration, double longest, const E
                       const Budget *budget, Refusal *refusal) {
     double reach = work->max_all * longest;
     return search != NULL || duration <= reach
-           || budget_refuse(budget, reach, MAX_STEP_LEGS, "legs of motion", refusal);
+           || budget_refuse(budget, reach, MAX_STEP_SEGMENTS, "segments of motion", refusal);
 }
 
 /* Ends a search with the event at the time of the clock, unless the search ignores that time. */
@@ -129,7 +129,7 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
     double remaining = duration;
     double counted = COUNTED * TAU / plant->drive_frequency;
     Clock clock = clock_of(duration);
-    Work work = {.turn = TAU / LONGEST_ARC * held->arc, .max_all = budget_left(budget, MAX_STEP_LEGS)};
+    Work work = {.turn = TAU / LONGEST_ARC * held->arc, .max_all = budget_left(budget, MAX_STEP_SEGMENTS)};
     Leg leg;
     Moment begin;
     if (!work_fits(&work, duration, held->arc, search, budget, refusal)) {
@@ -175,6 +175,6 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
             break;
         }
     }
-    budget_spend(budget, work.all, MAX_STEP_LEGS);
+    budget_spend(budget, work.all, MAX_STEP_SEGMENTS);
     return true;
 }

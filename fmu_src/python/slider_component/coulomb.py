@@ -12,7 +12,7 @@ from .contact import BACKWARD, FORWARD, LIFTED, STICK, direction_of
 from .device import System
 from .moment import Moment
 from .series import Series
-from .sliding import Motion, Rest, Slide
+from .sliding import Rest, Segment, Slide
 
 BALANCED = 1e-12
 """Relative difference of the forces on a slider up to which they count as balanced."""
@@ -35,7 +35,7 @@ class Coulomb:
             return _needed_force(system, now)
         return mode * system.friction_limit(now.psi)
 
-    def begin(self, system: System, now: Moment) -> Motion:
+    def begin(self, system: System, now: Moment) -> Segment:
         """The motion on from `now`."""
         if now.mode != STICK:
             return slide(system, now, 0 if now.mode == LIFTED else now.mode)
@@ -45,10 +45,10 @@ class Coulomb:
     def succeed(
         self, system: System, now: Moment, travelled: float, zero_of: int | None, switches: bool
     ) -> None:
-        """Change from the end of a leg to the next contact mode.
+        """Change from the end of a segment to the next contact mode.
 
         After a displacement `travelled` [m]; `zero_of` is the index of the watched signal whose
-        zero ends the leg, or None; it `switches` where the contact lifts or touches down.
+        zero ends the segment, or None; it `switches` where the contact lifts or touches down.
         """
         if zero_of is not None and now.mode == STICK:
             now.enter(FORWARD if zero_of == 0 else BACKWARD)
@@ -58,7 +58,7 @@ class Coulomb:
             now.enter(_mode_in_contact(system, now) if now.mode == LIFTED else LIFTED)
 
 
-def slide(system: System, now: Moment, direction: int) -> Motion:
+def slide(system: System, now: Moment, direction: int) -> Segment:
     """Sliding in `direction` under full friction, or flight in contact mode LIFTED.
 
     The velocity is watched in `direction`, unless that is 0.

@@ -30,7 +30,7 @@ AT_RESONANCE = 8.0 * EPSILON
 steady force has no correct digit there."""
 
 LONGEST_ARC = 60.0
-"""The longest leg, as an angle [rad] of the fastest oscillation: avoids the rounding errors of
+"""The longest segment, as an angle [rad] of the fastest oscillation: avoids the rounding errors of
 large arguments of sine and cosine."""
 
 
@@ -149,8 +149,8 @@ class System:
     for s = 1, per unit exp(i chi), `rest_split` the displacement of the resonator at rest; both are
     None where they do not split off. `compliance` is the displacement by a constant force [m/N].
     The contact lifts at times, or always, in the `window` of chi, which it enters and leaves where
-    it `switches`. `fastest` [rad/s] is the highest frequency, `arc` [s] the longest leg: after it a
-    motion begins anew from its state. Neither depends on `phase` and `load`.
+    it `switches`. `fastest` [rad/s] is the highest frequency, `arc` [s] the longest segment: after
+    it a motion begins anew from its state. Neither depends on `phase` and `load`.
     """
 
     def __init__(self, device: Device, inputs: Inputs) -> None:

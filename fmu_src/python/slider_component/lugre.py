@@ -21,7 +21,7 @@ from .coulomb import slide
 from .device import System
 from .moment import Moment
 from .series import Bristle, Series
-from .sliding import Motion
+from .sliding import Segment
 
 TOLERANCE_SHARE = 0.01
 """Share of the tolerance for the error of one series, and for the bend that a bristle still lacks
@@ -44,12 +44,12 @@ class LuGre:
         share = (now.bristle + system.device.bristle_damping * drag) / mu
         return system.friction_limit(now.psi) * share
 
-    def begin(self, system: System, now: Moment) -> Motion:
+    def begin(self, system: System, now: Moment) -> Segment:
         """As of `Coulomb`. The direction is that of the velocity or, at rest, of the force."""
-        motion = _motion(system, now, BACKWARD if now.velocity < 0.0 else FORWARD)
-        if now.velocity == 0.0 and not _departs(motion):
-            motion = _motion(system, now, BACKWARD)
-        return motion
+        segment = _segment(system, now, BACKWARD if now.velocity < 0.0 else FORWARD)
+        if now.velocity == 0.0 and not _departs(segment):
+            segment = _segment(system, now, BACKWARD)
+        return segment
 
     def succeed(
         self, system: System, now: Moment, travelled: float, zero_of: int | None, switches: bool
@@ -64,7 +64,7 @@ class LuGre:
             now.event_age = 0.0
 
 
-def _motion(system: System, now: Moment, direction: int) -> Motion:
+def _segment(system: System, now: Moment, direction: int) -> Segment:
     """Motion in `direction`, in closed form where the bristle is fully bent."""
     device, mu = system.device, system.device.friction_coefficient
     tolerance = TOLERANCE_SHARE * device.tolerance
@@ -74,9 +74,9 @@ def _motion(system: System, now: Moment, direction: int) -> Motion:
     return Series(system, now, direction, bristle, tolerance)
 
 
-def _departs(motion: Motion) -> bool:
-    """Whether a slider at rest begins to move in the direction of `motion`, or not at all."""
-    if isinstance(motion, Series):
-        return motion.departs()
-    (watch,) = motion.watches(motion.reach)
+def _departs(segment: Segment) -> bool:
+    """Whether a slider at rest begins to move in the direction of `segment`, or not at all."""
+    if isinstance(segment, Series):
+        return segment.departs()
+    (watch,) = segment.watches(segment.reach)
     return watch.signal(0.0)[1] >= 0.0

@@ -116,7 +116,7 @@ class Series:
         return self.direction * first >= 0.0
 
     def watches(self, horizon: float) -> tuple[Watch, ...]:
-        """See Motion."""
+        """See Segment."""
         if self.rests:
             pairs = list(zip(self._limit, self._needed, strict=False))
             sizes = [abs(limit) + abs(needed) for limit, needed in pairs]
@@ -128,13 +128,13 @@ class Series:
         return (_watch(watched, list(map(abs, watched)), horizon),)
 
     def at(self, t: float) -> Place:
-        """See Motion."""
+        """See Segment."""
         series = self._velocity, self._displacement, self._rate, self._position
         velocity, displacement, rate, travelled = (_value(c, t) for c in series)
         return velocity, displacement, rate, travelled
 
     def work(self, t: float, travelled: float) -> float:
-        """See Motion."""
+        """See Segment."""
         return _value(self._work, t)
 
     @cached_property

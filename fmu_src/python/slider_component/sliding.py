@@ -27,7 +27,7 @@ SMALL = 0.1
 """Growth below which an exponential less 1 would lose digits."""
 
 
-class Motion(Protocol):
+class Segment(Protocol):
     """Motion from a given moment on, inputs held, contact mode unchanged.
 
     It holds up to its `reach` [s]; its velocity is watched in `direction` unless that is 0.
@@ -91,7 +91,7 @@ def watch_of(
 
 
 class Exponentials:
-    """A motion of such terms (methods as of `Motion`)."""
+    """A motion of such terms (methods as of `Segment`)."""
 
     __slots__ = ("_k0", "_k1", "_offset", "_terms", "direction")
     reach = inf
@@ -103,7 +103,7 @@ class Exponentials:
     direction: int
 
     def at(self, t: float) -> Place:
-        """See Motion."""
+        """See Segment."""
         k0, k1 = self._k0, self._k1
         swing = passed = moved = turning = 0j
         for z, _, v, y in self._terms:
@@ -163,7 +163,7 @@ class Slide(Exponentials):
         )
 
     def work(self, t: float, travelled: float) -> float:
-        """See Motion. The friction is constant + Im(swinging exp(i q t)), q that of the load."""
+        """See Segment. The friction is constant + Im(swinging exp(i q t)), q that of the load."""
         work = self._constant * travelled
         if self._swinging:
             z = complex(0.0, self._frequency)
@@ -221,7 +221,7 @@ class Rest(Exponentials):
         self._normal = -1j * system.friction_amplitude * rect(1.0, now.psi + system.phase)
 
     def work(self, t: float, travelled: float) -> float:
-        """See Motion."""
+        """See Segment."""
         return 0.0
 
     def watches(self, horizon: float) -> tuple[Watch, ...]:

@@ -15,7 +15,7 @@ from fmu_src.python.slider_component.first_zero import Watch, first_zero
 from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.parameters import Inputs
 from fmu_src.python.slider_component.series import Series
-from fmu_src.python.slider_component.sliding import Motion, Rest, Slide
+from fmu_src.python.slider_component.sliding import Rest, Segment, Slide
 from tests.fmu_src.python.motions import BLOCK, PERIOD, TABLE_1, after
 
 
@@ -72,7 +72,7 @@ def test_exponentials_and_series_agree(ratio: float, mode: int, damping: float) 
     velocity = 0.1 * mode if mode != LIFTED else 0.1
     now = Moment(velocity, 2e-4, -1.1, 0.0, theta=1.0, psi=1.7, mode=mode)
     if mode == STICK:
-        motions: tuple[Motion, ...] = (Rest(system, now), Series(system, now, 0, rests=True))
+        motions: tuple[Segment, ...] = (Rest(system, now), Series(system, now, 0, rests=True))
     else:
         direction = 0 if mode == LIFTED else mode
         motions = (Slide(system, now, direction), Series(system, now, direction))
