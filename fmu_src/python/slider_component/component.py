@@ -38,7 +38,7 @@ class Component:
         self._last_event_time = 0.0
         self._values: dict[str, float] = {v.name: checked(v, v.start) for v in SETTABLE}
         self._moment: Moment | None = None
-        self._prepared: tuple[Device, Inputs, Motion] | None = None
+        self._prepared: Motion | None = None
 
     def setup_experiment(
         self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
@@ -65,7 +65,7 @@ class Component:
     def exit_initialization(self) -> None:
         """Fix the parameters and the first moment."""
         require("exitInitializationMode", self.lifecycle, Lifecycle.INITIALIZATION)
-        self._moment = self._prepare()[2].start()
+        self._moment = self._motion.start()
         self.lifecycle = Lifecycle.STEP_COMPLETE
 
     def terminate(self) -> None:
@@ -169,28 +169,26 @@ class Component:
     def _view(self, name: str) -> View:
         if self.lifecycle == Lifecycle.INSTANTIATED:
             require(f"reading {name}", self.lifecycle, Lifecycle.INITIALIZATION)
-        device, inputs, motion = self._prepare()
-        now = self._present()
-        return View(device, inputs, motion, now, motion.mode(now), self._last_event_time)
+        motion, now = self._motion, self._present()
+        return View(motion, now, motion.mode(now), self._last_event_time)
 
-    def _prepare(self) -> tuple[Device, Inputs, Motion]:
+    @property
+    def _motion(self) -> Motion:
         if self._prepared is None:
             self._prepared = _prepare(self._values)
         return self._prepared
 
     def _present(self) -> Moment:
-        return self._moment if self._moment is not None else self._prepare()[2].start()
+        return self._moment if self._moment is not None else self._motion.start()
 
     def _require_bounded_work(self, step_size: float) -> None:
-        device, _, motion = self._prepare()
-        frequency, max_turns = motion.system.fastest, MAX_TURNS // PYTHON_SLOWDOWN
-        if device.fidelity > 0 and step_size * frequency > tau * max_turns:
+        frequency, max_turns = self._motion.system.fastest, MAX_TURNS // PYTHON_SLOWDOWN
+        if self._values["fidelity"] > 0 and step_size * frequency > tau * max_turns:
             raise Refusal(refusal_texts.too_many_turns(step_size, frequency, max_turns))
 
     def _advanced(self, step_size: float) -> Moment:
-        _, _, motion = self._prepare()
         try:
-            now = motion.advance(self._present(), step_size)
+            now = self._motion.advance(self._present(), step_size)
             numbers = now.position, now.velocity, now.displacement, now.rate, now.psi, now.theta
             finite = all(map(isfinite, numbers))
         except Refusal:
@@ -202,7 +200,7 @@ class Component:
         return now
 
 
-def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Motion]:
+def _prepare(values: Mapping[str, Any]) -> Motion:
     device = Device(**{v.name: values[v.name] for v in SETTABLE if v.causality == "parameter"})
     inputs = Inputs(**{v.name: values[v.name] for v in SETTABLE if v.causality == "input"})
     device = _driven(device, inputs)
@@ -214,7 +212,7 @@ def _prepare(values: Mapping[str, Any]) -> tuple[Device, Inputs, Motion]:
         finite = False
     if not finite:
         raise _extreme(values)
-    return device, inputs, motion
+    return motion
 
 
 def _driven(device: Device, inputs: Inputs) -> Device:
@@ -243,7 +241,7 @@ def motion_of(device: Device, inputs: Inputs) -> Motion:
     if device.fidelity == 0 and device.averaging_order == 2:
         return Leaping(System(replace(device, fidelity=2), inputs))
     system = System(device, inputs)
-    return Resolved(system) if device.fidelity > 0 else Averaged(system, inputs.frequency_ratio)
+    return Resolved(system) if device.fidelity > 0 else Averaged(system)
 
 
 def _finite_output(name: str, output: Callable[[View], float], view: View) -> float:

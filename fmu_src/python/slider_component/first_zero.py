@@ -16,20 +16,19 @@ from math import inf, sqrt
 from typing import NamedTuple
 
 Signal = Callable[[float], tuple[float, float, float]]
-"""t [s] -> (f, f', bound of |f''| from t on, over the horizon that goes with the signal)."""
+"""t [s] -> (f, f', bound of |f''| from t on up to the limit of the search)."""
 
 
 class Watch(NamedTuple):
     """A signal whose first zero ends the mode, with the scales that its search needs.
 
-    `noise` is the rounding error of its values, `fastest` [rad/s] its highest frequency, and
-    `horizon` [s] how far ahead its curvature bound holds. A zero may be `expected` at a time [s].
+    `noise` is the rounding error of its values, `fastest` [rad/s] its highest frequency. A zero may
+    be `expected` at a time [s].
     """
 
     signal: Signal
     noise: float
     fastest: float
-    horizon: float = inf
     expected: float = 0.0
 
 
@@ -42,10 +41,6 @@ SHORT = 0.01
 bounds the work on signals that stay within rounding of zero."""
 
 PATIENCE = 20
-
-MAX_EVALUATIONS = 1_000_000
-"""Evaluations after which a search ends without a zero: reached only by motion at the limits of
-floating point."""
 
 MAX_REFINEMENTS = 80
 MAX_EXPECTING_STEPS = 4
@@ -62,13 +57,13 @@ def first_zero(watch: Watch, limit: float) -> float | None:
 
     The signal is non-negative at 0, up to its noise.
     """
-    signal, noise, fastest, horizon, expected = watch
+    signal, noise, fastest, expected = watch
     zero, steepness = inf, 0.0
     if 0.0 < expected < limit:
         zero, steepness = _zero_near(watch, limit)
     t = before = 0.0
     shortest, short_steps = SHORTEST / fastest, 0
-    for _ in range(MAX_EVALUATIONS):
+    while t < limit:  # not a number ends the search, too
         value, slope, bound = signal(t)
         margin = 2.2 * (value + noise)
         if value <= noise:
@@ -83,19 +78,17 @@ def first_zero(watch: Watch, limit: float) -> float | None:
                 return found if found < limit else None
             step = 2.0 * value / (root - slope)
         else:
-            step = (slope + root) / bound if bound > 0.0 else horizon
+            step = (slope + root) / bound if bound > 0.0 else inf
         # The parabola from the zero backwards must cover the rest of the way, beyond rounding.
         rest = zero - t
-        if 0.0 < rest < horizon and bound * rest < SURE * (slope + root - 2.0 * steepness):
+        if 0.0 < rest < inf and bound * rest < SURE * (slope + root - 2.0 * steepness):
             return zero
         if step * fastest < SHORT:
             short_steps += 1
             if short_steps % PATIENCE == 0:
                 shortest *= 2.0
         before = t
-        t += min(max(step, shortest), horizon)
-        if not t < limit:  # not a number ends the search, too
-            return None
+        t += max(step, shortest)
     return None
 
 

@@ -151,23 +151,12 @@ class SlowMotion:
             fast = [y + c for y, c in zip(fast, correction, strict=True)]
             size = period_map.size(correction)
             if size <= FAST_SHARE * period_map.tolerance:
-                return self._point(n, fast, differences, size, modes, visits)
-            if size > MAX_CONTRACTION * before:
                 break
+            if size > MAX_CONTRACTION * before:
+                raise NoMapError
             before = size
-        raise NoMapError
-
-    def _point(
-        self,
-        n: float,
-        fast: Fast,
-        differences: list[list[float]],
-        size: float,
-        modes: list[int],
-        visits: list[Moment],
-    ) -> Point:
-        """The point of a sequence with these differences, after a last correction of a `size`."""
-        period_map = self.map
+        else:
+            raise NoMapError
         acceleration, travel, *fast_rate = map(_rate, zip(*differences, strict=True))
         velocity, first, second, third = (d[0] for d in differences)
         terms = zip(differences[1][2:], differences[2][2:], strict=True)

@@ -7,10 +7,8 @@ from math import remainder, sin, tau
 from typing import NamedTuple
 
 from .contact import STICK
-from .device import Device
 from .moment import Moment
 from .motion import Resolved
-from .parameters import Inputs
 from .prediction import Prediction, prediction, turns_of_load
 from .slow_motion import Averaged
 
@@ -22,8 +20,6 @@ phases, predictions are the same from one period to the next."""
 class View(NamedTuple):
     """What outputs are read from; `mode` is the contact mode under the present inputs."""
 
-    device: Device
-    inputs: Inputs
     motion: Resolved | Averaged
     now: Moment
     mode: int
@@ -31,16 +27,16 @@ class View(NamedTuple):
 
 
 def _normal_force(view: View) -> float:
-    chi = view.now.psi + view.inputs.phase
-    device = view.device
+    device, chi = view.motion.system.device, view.now.psi + view.motion.system.phase
     return max(0.0, device.normal_preload + device.normal_amplitude * sin(chi))
 
 
 def _theory(view: View) -> Prediction:
-    ratio = view.inputs.frequency_ratio
-    turns = turns_of_load(view.device, ratio)
+    device, inputs = view.motion.system.device, view.motion.system.inputs
+    ratio = inputs.frequency_ratio
+    turns = turns_of_load(device, ratio)
     lead = remainder(view.now.psi - ratio * view.now.theta, tau / turns) if turns else 0.0
-    return prediction(view.device, view.inputs, round(lead, LEAD_DIGITS))
+    return prediction(device, inputs, round(lead, LEAD_DIGITS))
 
 
 OUTPUTS: dict[str, Callable[[View], float]] = {

@@ -8,13 +8,13 @@ met and the mean load counts.
 
 from __future__ import annotations
 
-from cmath import phase as argument
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import copysign, cos, pi, tau
 
-from .device import EPSILON, Device, System, equivalent_force, held_amplitude, vibration
+from .device import EPSILON, Device, System, held_amplitude, vibration
 from .mean_friction import mean_friction
 from .parameters import Inputs
 from .period_map import NoMapError, PeriodMap
@@ -85,11 +85,9 @@ def theory_range(device: Device) -> tuple[float, ...]:
     The fast velocity [m/s]; the drag over mu at the fast or the initial velocity, whichever is
     larger; and a bound on integrals of load and friction [N], with the initial bristle deflection.
     """
-    try:
-        force = equivalent_force(device)
-    except Refusal:
-        force = 0j
-    velocity = abs(force) / (device.total_mass * device.drive_frequency)
+    velocity = 0.0
+    with suppress(Refusal):
+        velocity = vibration(device).velocity
     mu, drag, bent = device.friction_coefficient, 0.0, 0.0
     if device.friction_law == 1:
         drag = device.bristle_damping * max(velocity, abs(device.initial_velocity))
@@ -109,15 +107,14 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
     In these cases, and where the vibration does not break the contact loose, they are not `valid`.
     """
     try:
-        force = equivalent_force(device)
+        fast = vibration(device)
     except Refusal:
         return NO_VIBRATION
-    fast = abs(force) / (device.total_mass * device.drive_frequency)
-    if fast == 0.0:
+    if fast.velocity == 0.0:
         return NO_VIBRATION
     ratio, faces = inputs.frequency_ratio, device.friction_faces
-    delta = inputs.phase + normal_lead - ratio * argument(force)
-    law, load = mean_friction(device, fast), VibratingLoad(device, ratio, delta)
+    delta = inputs.phase + normal_lead + ratio * fast.lag
+    law, load = mean_friction(device, fast.velocity), VibratingLoad(device, ratio, delta)
 
     def friction(turning: float) -> float:
         return faces * law.mean(load, turning)
@@ -125,15 +122,16 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
     sliding = friction(0.0)
     if sliding == friction(pi):
         # No friction: every velocity is steady without a load, and none with one.
-        fastest = -copysign(fast, inputs.load) if inputs.load else 0.0
+        fastest = -copysign(fast.velocity, inputs.load) if inputs.load else 0.0
         return Prediction(fastest, 0.0, valid=False)
     normal = device.normal_preload + device.normal_amplitude
     noise = ROUNDING * EPSILON * faces * (law.coefficient + law.drag) * normal
     # The vibration alone must overcome friction: by its force on the pair and on a held slider.
     grip = sliding * (law.grip / law.coefficient)
-    valid = abs(inputs.load) < sliding and min(abs(force), held_amplitude(device)) > grip
+    force = fast.velocity * device.total_mass * device.drive_frequency
+    valid = abs(inputs.load) < sliding and min(force, held_amplitude(device)) > grip
     turning = _balance(lambda turning: friction(turning) + inputs.load, noise)
-    return Prediction(fast * cos(turning), -friction(0.5 * pi), valid)
+    return Prediction(fast.velocity * cos(turning), -friction(0.5 * pi), valid)
 
 
 def _balance(excess: Callable[[float], float], noise: float) -> float:

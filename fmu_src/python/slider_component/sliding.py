@@ -87,7 +87,7 @@ def watch_of(
         return value, slope, sum(abs(a) * abs(z * z) * exp(z.real * t).real for z, a, _ in parts)
 
     decays = not terms[-1][0].imag
-    return Watch(signal_that_decays if decays else signal, noise, fastest, inf, expected)
+    return Watch(signal_that_decays if decays else signal, noise, fastest, expected)
 
 
 class Exponentials:

@@ -92,9 +92,9 @@ class SlowFriction:
         return min(end, t + max(ahead, MIN_SHARE * self.beat))
 
 
-def slow_friction(system: System, fast: Vibration, ratio: float, now: Moment) -> SlowFriction:
+def slow_friction(system: System, fast: Vibration, now: Moment) -> SlowFriction:
     """The mean friction from the phases of `now` on."""
-    device = system.device
+    device, ratio = system.device, system.inputs.frequency_ratio
     turns = turns_to_repeat(device, ratio, NEAR)
     waves = round(turns * ratio) / turns if turns else ratio
     phase = system.phase + now.psi - waves * now.theta + waves * fast.lag

@@ -47,9 +47,9 @@ STEPS = "steps of averaged motion"
 class Averaged:
     """Motion averaged to first order (methods as of `motion.Resolved`)."""
 
-    def __init__(self, system: System, frequency_ratio: float) -> None:
+    def __init__(self, system: System) -> None:
         """Raises Refusal where undamped resonance leaves no steady vibration."""
-        self.system, self.ratio, self.fast = system, frequency_ratio, vibration(system.device)
+        self.system, self.fast = system, vibration(system.device)
 
     def start(self) -> Moment:
         """Initial velocities determine the momentum of the pair, not the vibration."""
@@ -71,7 +71,8 @@ class Averaged:
         reach = fast.pair_velocity / w
         slow = self._slow_velocity(now)
         centre = now.position + share * now.displacement + reach * sin(now.theta)
-        slow, moved = self._passed(slow, now, duration)
+        passed = _integrated if fast.velocity > 0.0 else _unshaken
+        slow, moved = passed(self._friction(now), slow, duration)
         now.theta = (now.theta + w * duration) % tau
         now.psi = (now.psi + system.normal_frequency * duration) % tau
         now.displacement, now.rate = steady_swing(fast.resonator, now.theta, w)
@@ -108,18 +109,11 @@ class Averaged:
         return first_order_error(self.system.device, self.fast)
 
     def _friction(self, now: Moment) -> SlowFriction:
-        return slow_friction(self.system, self.fast, self.ratio, now)
+        return slow_friction(self.system, self.fast, now)
 
     def _slow_velocity(self, now: Moment) -> float:
         momentum = now.velocity + self.system.device.mass_fraction * now.rate
         return momentum + self.fast.pair_velocity * cos(now.theta)
-
-    def _passed(self, velocity: float, now: Moment, duration: float) -> tuple[float, float]:
-        """Slow velocity [m/s] and displacement [m] after `duration` [s]."""
-        friction = self._friction(now)
-        if self.fast.velocity == 0.0:
-            return _unshaken(friction, velocity, duration)
-        return _integrated(friction, velocity, duration)
 
 
 def _integrated(friction: SlowFriction, velocity: float, duration: float) -> tuple[float, float]:
