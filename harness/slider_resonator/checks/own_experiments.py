@@ -17,6 +17,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.checks.compare import Check, Comparison, Tolerance, compare
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.validate import Curves, RunFailure, Validation, curves_of
+from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
@@ -24,7 +25,7 @@ from slider_resonator.fmu.opening import lacking, open_fmu
 from slider_resonator.fmu.provenance import identity_of
 from slider_resonator.fmu.run import run
 from slider_resonator.output.progress import Progress, no_progress
-from slider_resonator.scenes.csv_signal import csv_points, csv_rows
+from slider_resonator.scenes.csv_signal import csv_rows, csv_signal
 from slider_resonator.scenes.scene import Scene, ScenePoint, scene_from
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -165,8 +166,12 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
     )
     times, results = _results(sources["References"])
     annotation = entry.find(f"References/Annotations/Annotation[@type='{ALLOWED}']")
-    given = None if annotation is None else _number(annotation.text, f"{where}: {ALLOWED}")
-    return OwnExperiment(scene, times, results, given or USUAL_DEVIATION)
+    allowed = USUAL_DEVIATION
+    if annotation is not None:
+        allowed = _number(annotation.text, f"{where}: {ALLOWED}")
+    if not 0.0 < allowed < 1.0:
+        raise SceneError(f"{where}: {ALLOWED} = {allowed:g}: must be a share between 0 and 1")
+    return OwnExperiment(scene, times, results, allowed)
 
 
 def _parameters(file: Path) -> dict[str, float]:
@@ -186,35 +191,41 @@ def _inputs(file: Path) -> dict[str, dict[str, str]]:
     """Return the inputs of a table of values at communication points, held until the next."""
     return {
         name: {"csv": str(file), "column": name, "between": "hold"}
-        for name in _columns(file, INPUTS)
+        for name in _columns(file, (*INPUTS, *DEVIATIONS))
     }
 
 
 def _results(file: Path) -> tuple[Array, dict[str, Array]]:
     """Return times (s) and outputs, (n,) each."""
     signals = [name for name, one in QUANTITIES.items() if one.kind == "signal"]
-    points = {name: np.array(csv_points(file, name)) for name in _columns(file, signals)}
-    if not points:
-        raise SceneError(f"{file.name}: no column but time; must have one for each result")
-    return next(iter(points.values()))[:, 0], {name: one[:, 1] for name, one in points.items()}
+    names = _columns(file, signals)
+    try:
+        found = {name: csv_signal(file, name, "hold") for name in names}
+    except ValueError as error:
+        raise SceneError(str(error)) from error
+    results = {name: np.array(one.values) for name, one in found.items()}
+    return np.array(found[names[0]].times), results
 
 
 def _columns(file: Path, allowed: Collection[str]) -> list[str]:
+    """Return the names of the columns after the time, at least one."""
     try:
-        _, *names = csv_rows(file)[0]
+        header, _ = csv_rows(file)
     except ValueError as error:
         raise SceneError(str(error)) from error
-    for name in names:
+    for name in header[1:]:
         if name not in allowed:
             raise SceneError(f"{file.name}: {unknown_name('column', name, allowed)}")
-    return names
+    if not header[1:]:
+        raise SceneError(f"{file.name}: no column but time; must have one for each variable")
+    return header[1:]
 
 
 def _source(element: ET.Element, folder: Path, root: Path) -> Path:
     """Return the file that an element names, from the folder of its own; it must be in the FMU."""
     source = element.get("source", "")
     file = (folder / source).resolve()
-    if not (file.is_file() and file.is_relative_to(root.resolve())):
+    if file not in root.resolve().rglob("*") or not file.is_file():
         raise SceneError(f"{element.tag}: source = {source!r}: must be a file in the FMU")
     return file
 
@@ -222,7 +233,7 @@ def _source(element: ET.Element, folder: Path, root: Path) -> Path:
 def _root(file: Path) -> ET.Element:
     try:
         return ET.fromstring(file.read_bytes())
-    except ET.ParseError as error:
+    except (ET.ParseError, LookupError, ValueError) as error:  # the latter two for encodings
         raise SceneError(f"{file.name}: {error}; must be XML") from error
 
 

@@ -1,11 +1,14 @@
-"""Read CSV files: their rows, and the points of an input."""
+"""Read CSV files: their rows, and a column over time."""
 
 from __future__ import annotations
 
 import csv
 from collections.abc import Sequence
+from dataclasses import replace
 from math import isfinite
 from pathlib import Path
+
+from slider_resonator.device.signal import Signal, ramp, steps
 
 SEPARATORS = (";", "\t", "|")
 """What other programs write for the comma between two columns."""
@@ -34,6 +37,19 @@ def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
             f"{found[0]!r}"
         )
     return header, rows[1:]
+
+
+def csv_signal(path: Path, column: str, between: str) -> Signal:
+    """Return a column over time, as `csv_points` finds it; `between` its rows "hold" or "linear".
+
+    Raises ValueError as that does, and for times that do not increase.
+    """
+    points = csv_points(path, column)
+    try:
+        signal = steps(points) if between == "hold" else ramp(points)
+    except ValueError as error:
+        raise ValueError(f"csv {path}: {error}") from error
+    return replace(signal, file=path)
 
 
 def csv_points(path: Path, column: str) -> list[tuple[float, float]]:

@@ -18,7 +18,7 @@ from slider_resonator.device.values import check_value
 from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown
-from slider_resonator.scenes.csv_signal import csv_points
+from slider_resonator.scenes.csv_signal import csv_signal
 from slider_resonator.scenes.device_file import (
     device_content,
     device_values,
@@ -341,7 +341,7 @@ def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:
         elif table.ramp is not None:
             signal = ramp(table.ramp)
         elif table.csv is not None:
-            signal = _csv_signal(folder / table.csv, table.column or name, table.between)
+            signal = csv_signal(folder / table.csv, table.column or name, table.between)
         else:
             signal = constant(table.constant or 0.0)
         for value in signal.values:
@@ -349,12 +349,3 @@ def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:
         return signal
     except ValueError as error:
         raise SceneError(f"{where}: {error}") from error
-
-
-def _csv_signal(path: Path, column: str, between: str) -> Signal:
-    points = csv_points(path, column)
-    try:
-        signal = steps(points) if between == "hold" else ramp(points)
-    except ValueError as error:
-        raise ValueError(f"csv {path}: {error}") from error
-    return replace(signal, file=path)

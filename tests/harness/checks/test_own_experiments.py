@@ -57,6 +57,13 @@ def test_another_device_is_seen(native_fmu: Path, tmp_path: Path) -> None:
     assert "8 of 12 checks passed" in result.output
 
 
+def test_stimuli_may_be_those_of_the_drive(native_fmu: Path, tmp_path: Path) -> None:
+    drive = with_file(native_fmu, tmp_path, "lugre_in.csv", b",phase", b",amplitude_deviation")
+    result = call("validate", drive, "--own")
+    assert result.exit_code == 1, result.output
+    assert "8 of 12 checks passed" in result.output
+
+
 @pytest.mark.parametrize(
     ("name", "old", "new", "text"),
     [
@@ -68,6 +75,14 @@ def test_another_device_is_seen(native_fmu: Path, tmp_path: Path) -> None:
         ("lugre.ssv", b"friction_law", b"friction_lab", "did you mean 'friction_law'?"),
         ("lugre_ref.csv", b"position", b"positron", "unknown column 'positron'"),
         ("lugre_ref.csv", b"\n0.0005,", b"\n0.00051,", "must be a communication point"),
+        ("lugre_ref.csv", b"\n0.0005,", b"\n0.0005,nan,", "position = 'nan': must be a finite"),
+        ("lugre_ref.csv", b"\n0.0005,", b"\n0,", "times must increase strictly"),
+        ("lugre_ref.csv", b"time", b"tome", "must begin with 'time'"),
+        ("lugre_in.csv", b",phase", b"", "lugre_in.csv: no column but time"),
+        ("experiments.exp", b"1e-06", b"-1", "= -1: must be a share between 0 and 1"),
+        ("experiments.exp", b"1e-06", b"0", "= 0: must be a share between 0 and 1"),
+        ("experiments.exp", b"UTF-8", b"klingon", "unknown encoding: klingon; must be XML"),
+        ("experiments.exp", b"lugre_in", b"a" * 5000, "must be a file in the FMU"),
     ],
 )
 def test_experiments_that_cannot_be_read_are_named(
@@ -75,6 +90,7 @@ def test_experiments_that_cannot_be_read_are_named(
 ) -> None:
     said = refused("validate", with_file(native_fmu, tmp_path, name, old, new), "--own")
     assert text in " ".join(said.split())
+    assert "Traceback" not in said
 
 
 def test_an_fmu_without_experiments_could_not_be_judged(native_fmu: Path, tmp_path: Path) -> None:
