@@ -11,7 +11,8 @@ others keep the value of the device, by default that of table 1. A device is a `
 file, the name of an example of `slider-resonator device`, or its parameters by name. A scene is the
 name of one that is built in, a file, data of the same form, or the result of `read_scene`. Data may
 have numpy arrays and ranges for lists. Without an FMU the native one of this installation is used.
-Every error is a `HarnessError`, whose text is what the command would print.
+Every error is a `HarnessError`, whose text is what the command would print; arguments of another
+type than stated may raise a `TypeError`.
 
 The `repr` of a result says what was found, on a screen at most. `to_pandas()` gives its table,
 `plot()` its picture.

@@ -128,8 +128,9 @@ def test_results_say_what_was_found_on_a_screen(native_fmu: Path, tmp_path: Path
     with sr.open_fmu(native_fmu, device={"slider_mass": "2 kg"}) as fmu:
         record, motion = fmu.run("table_1"), fmu.steady(phase=0.4)
         blocking = fmu.blocking()
-    grid = {"measures": ["steady_velocity"], "grid": {"phase": np.linspace(0.0, 1.0, 3)}}
-    table = sr.sweep(grid, tmp_path / "table.csv", native_fmu, workers=1)
+    grid = {"amplitude_deviation": np.linspace(0.0, 1.0, 3)}
+    task = {"measures": ["steady_velocity"], "grid": grid}
+    table = sr.sweep(task, tmp_path / "table.csv", native_fmu, workers=1)
     (validation,) = sr.validate(native_fmu, scenes=["blocking_force_table_1"])
     choice = sr.choose("feed_forward", native_fmu)
     measured = {"phase [deg]": np.array([0.0]), "velocity [mm/s]": [120.0]}
@@ -139,6 +140,7 @@ def test_results_say_what_was_found_on_a_screen(native_fmu: Path, tmp_path: Path
         (record, f"mean_velocity           {record.final('mean_velocity'):.9g} m/s"),
         (motion, f"{motion.steady_velocity:.10g} m/s"),
         (blocking, f"{blocking.blocking_force:.10g} N"),
+        (table, "amplitude_deviation 0 to 1"),
         (table, f"{min(table.columns['steady_velocity']):.6g} to"),
         (validation, f"passed: {len(validation.checks)} of {len(validation.checks)} checks"),
         (choice, choice.model.name),

@@ -112,7 +112,7 @@ class Fit(Shown, Tabular, Drawable):
             found = "left open by the data" if one.is_open else f"{one.value:.6g} {one.unit}"
             if one.low is not None and one.high is not None:
                 found += f", 95 % from {one.low:.6g} to {one.high:.6g}"
-            lines.append(f"{one.name:<24}{found}")
+            lines.append(f"{one.name:<23} {found}")
         if self.scale is not None:
             lines.append(f"residuals have {self.scale:.3g} standard deviations")
         lines.append(f"{self.starts_agreeing} of {self.starts} starts led to this minimum")

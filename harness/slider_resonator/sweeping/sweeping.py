@@ -90,7 +90,7 @@ class SweepResult(Shown, Tabular, Drawable):
         for name, one in units.items():
             numbers = [value for value in self.columns[name] if value is not None]
             if numbers:
-                span = f"{name:<17}{min(numbers):.6g} to {max(numbers):.6g}"
+                span = f"{name:<16} {min(numbers):.6g} to {max(numbers):.6g}"
                 lines.append(span if one == "1" else f"{span} {one}")
         return lines
 

@@ -14,6 +14,9 @@ from slider_resonator.device.values import check_integer, check_value
     [
         ("load", nan, "load = nan: must be a finite number"),
         ("phase", -inf, "phase = -inf: must be a finite number"),
+        ("load", 10**400, "load = 1000.*: must be a finite number"),
+        ("load", True, "load = True: must be a number"),
+        ("friction_law", 10**400, "must be an integer up to 2147483647"),
         ("friction_law", nan, "friction_law = nan: must be an integer"),
         ("fidelity", inf, "fidelity = inf: must be an integer"),
         ("friction_faces", 1.5, "friction_faces = 1.5: must be an integer"),
