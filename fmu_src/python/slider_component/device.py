@@ -220,12 +220,6 @@ class System:
         """Whether the contact is lifted at normal phase `psi` [rad]."""
         return self.window.is_lifted(psi + self.phase, self.normal_frequency)
 
-    def resonator(self, displacement: float, rate: float, theta: float) -> tuple[float, float]:
-        """Displacement [m] and velocity [m/s] of the resonator: its own or the steady ones."""
-        if self.is_full:
-            return displacement, rate
-        return steady_swing(self.resonator_amplitude, theta, self.drive_frequency)
-
 
 def flight_window(device: Device) -> Window:
     """The range of chi in which the contact of `device` is lifted."""

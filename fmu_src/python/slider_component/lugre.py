@@ -20,7 +20,7 @@ from .contact import BACKWARD, FORWARD, LIFTED, direction_of
 from .coulomb import slide
 from .device import System
 from .moment import Moment
-from .series import Bristle, Series
+from .series import Series
 from .sliding import Segment
 
 TOLERANCE_SHARE = 0.01
@@ -66,12 +66,10 @@ class LuGre:
 
 def _segment(system: System, now: Moment, direction: int) -> Segment:
     """Motion in `direction`, in closed form where the bristle is fully bent."""
-    device, mu = system.device, system.device.friction_coefficient
-    tolerance = TOLERANCE_SHARE * device.tolerance
+    mu, tolerance = system.device.friction_coefficient, TOLERANCE_SHARE * system.device.tolerance
     if now.mode == LIFTED or abs(mu - direction * now.bristle) <= tolerance * mu:
         return slide(system, now, direction)
-    bristle = Bristle(now.bristle, mu, device.bristle_stiffness, device.bristle_damping)
-    return Series(system, now, direction, bristle, tolerance)
+    return Series(system, now, direction, bends=True, tolerance=tolerance)
 
 
 def _departs(segment: Segment) -> bool:

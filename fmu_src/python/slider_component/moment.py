@@ -67,19 +67,11 @@ class Moment:
         self.reversals += self.sliding == -direction
         self.sliding, self.event_age = direction, 0.0
 
-    def present_mean_velocity(self) -> float:
-        """Mean of the last whole period, or since the start, or the velocity at the start [m/s]."""
+    def mean(self, whole: float, so_far: float, momentary: float) -> float:
+        """Mean of the last `whole` period, or of the sum `so_far`, or at the start `momentary`."""
         if self.complete:
-            return self.mean_velocity
-        return self.travel / self.elapsed if self.elapsed > 0.0 else self.velocity
-
-    def present_stick_fraction(self, sticks: bool) -> float:
-        """Fraction sticking of the last whole period, or since the start, or at the start."""
-        if self.complete:
-            return self.stick_fraction
-        if self.elapsed > 0.0:
-            return min(self.sticking / self.elapsed, 1.0)
-        return 1.0 if sticks else 0.0
+            return whole
+        return so_far / self.elapsed if self.elapsed > 0.0 else momentary
 
 
 _entries = attrgetter(*Moment.__slots__)

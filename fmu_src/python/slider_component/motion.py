@@ -48,15 +48,15 @@ class Resolved:
 
     def friction_power(self, now: Moment, mode: int) -> float:
         """Mean power of friction [W] of the last whole period, or since the start, or there."""
-        if now.complete:
-            return now.friction_power
-        if now.elapsed > 0.0:
-            return now.work / now.elapsed
-        return self.friction_force(now, mode) * now.velocity
+        momentary = self.friction_force(now, mode) * now.velocity
+        return now.mean(now.friction_power, now.work, momentary)
 
     def resonator(self, now: Moment) -> tuple[float, float]:
-        """Displacement [m] and velocity [m/s] of the resonator."""
-        return self.system.resonator(now.displacement, now.rate, now.theta)
+        """Displacement [m] and velocity [m/s] of the resonator: its own or the steady ones."""
+        system = self.system
+        if system.is_full:
+            return now.displacement, now.rate
+        return steady_swing(system.resonator_amplitude, now.theta, system.drive_frequency)
 
     def slow_motion_error(self, now: Moment) -> float:
         """The estimate of the error of the slow velocity [m/s]; 0 for resolved motion."""

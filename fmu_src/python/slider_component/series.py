@@ -10,10 +10,9 @@ from cmath import rect
 from functools import cached_property
 from math import inf
 from operator import mul, truediv
-from typing import NamedTuple
 
 from .contact import LIFTED
-from .device import EPSILON, System, velocity_scale
+from .device import EPSILON, Device, System, velocity_scale
 from .first_zero import Watch
 from .moment import Moment, Place
 
@@ -43,22 +42,10 @@ ROUNDING = 2.0 * EPSILON
 """Tolerance of a series of Coulomb friction."""
 
 
-class Bristle(NamedTuple):
-    """A bristle that bends, as a motion needs it.
-
-    Its `friction` sigma_0 z at the start, and mu, sigma_0 and sigma_1 of LuGre friction.
-    """
-
-    friction: float
-    coefficient: float
-    stiffness: float
-    damping: float
-
-
 class Series:
     """Motion from `now` on in `direction`, or at rest or in flight by the contact mode.
 
-    With a `bristle` that bends; without one friction is Coulomb's. At its `reach` [s] the last
+    Friction is that of a bristle that `bends`, or else Coulomb's. At its `reach` [s] the last
     terms are `tolerance` times the scale of velocities or, if that is much less, times the velocity
     itself.
     """
@@ -68,14 +55,13 @@ class Series:
         system: System,
         now: Moment,
         direction: int,
-        bristle: Bristle | None = None,
+        bends: bool = False,
         tolerance: float = ROUNDING,
         rests: bool = False,
     ) -> None:
         w, q, mass = system.drive_frequency, system.normal_frequency, system.slider_mass
-        sign, bending = 0 if now.mode == LIFTED else direction, None
-        if bristle is not None:
-            bending = _Bending(bristle, direction)
+        sign = 0 if now.mode == LIFTED else direction
+        bending = _Bending(system.device, now.bristle, direction) if bends else None
         spring, damper, load = system.spring, system.damper, system.load
         stiffness, damping = system.stick.stiffness, 2.0 * system.stick.decay
         drive = -1j * rect(1.0, now.theta)
@@ -146,12 +132,12 @@ class Series:
 
 
 class _Bending:
-    """Series of the friction of a bristle that bends, in the equations of `lugre`."""
+    """Series of the friction of a bristle that bends from sigma_0 z = `bristle` on; see `lugre`."""
 
-    def __init__(self, bristle: Bristle, sign: int) -> None:
-        mu = bristle.coefficient
-        self._share, self._bend = bristle.friction / mu, (mu - sign * bristle.friction) / mu
-        self._drag, self._rate = bristle.damping / mu, -sign * bristle.stiffness / mu
+    def __init__(self, device: Device, bristle: float, sign: int) -> None:
+        mu = device.friction_coefficient
+        self._share, self._bend = bristle / mu, (mu - sign * bristle) / mu
+        self._drag, self._rate = device.bristle_damping / mu, -sign * device.bristle_stiffness / mu
         self._sign, self._lost = sign, 0.0
         self._decay, self._bent = [1.0], list[float]()
 

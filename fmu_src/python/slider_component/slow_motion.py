@@ -87,7 +87,7 @@ class Averaged:
 
     def friction_force(self, now: Moment, mode: int) -> float:
         """Mean friction force [N] over a drive period, positive against +X."""
-        velocity, friction = now.present_mean_velocity(), self._friction(now)
+        velocity, friction = now.mean_velocity, self._friction(now)
         if self.fast.velocity == 0.0 and velocity == 0.0:
             full = friction.at(0.0, inf)
             return max(-full, min(full, -self.system.load))
@@ -95,10 +95,9 @@ class Averaged:
 
     def friction_power(self, now: Moment, mode: int) -> float:
         """Mean power of friction [W] over a drive period, of slow motion and vibration."""
-        velocity = now.present_mean_velocity()
         if self.fast.velocity == 0.0:
-            return self.friction_force(now, mode) * velocity
-        return self._friction(now).power(velocity)
+            return self.friction_force(now, mode) * now.mean_velocity
+        return self._friction(now).power(now.mean_velocity)
 
     def resonator(self, now: Moment) -> tuple[float, float]:
         """Displacement [m] and velocity [m/s] of the steady vibration."""

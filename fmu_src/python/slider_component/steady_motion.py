@@ -94,13 +94,13 @@ class PeriodicMotion:
 
         Of velocity, fast states and, for blocked motion, the position.
         """
-        period_map, scale = self.map, self.map.scale
-        fast = [x * s for x, s in zip(unknowns[1:4], scale, strict=False)]
+        period_map, scale, states = self.map, self.map.scale, unknowns[1:]
         if self.blocked:
-            period_map = period_map.under_load(unknowns[-1] * self.force)
-            fast = [x * s for x, s in zip(unknowns[1:-1], scale, strict=False)]
+            *states, load = states
+            period_map = period_map.under_load(load * self.force)
+        fast = [x * s for x, s in zip(states, scale, strict=False)]
         y, u, bristle = (*fast, 0.0)[:3]
-        begin = Moment(0.0, y, u, 0.0, psi=self.psi)
+        begin = Moment(0.0, 0.0, 0.0, 0.0, psi=self.psi)
         begin = period_map.place(begin, unknowns[0] * period_map.speed, (y, u, bristle))
         (first, last), _ = period_map.visits(begin, 1, Budget(period_map.period))
         slow = period_map.slow_velocity(last) - period_map.slow_velocity(first)

@@ -83,9 +83,9 @@ def test_stiffness_costs_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     made = []
 
     class Counted(Series):
-        def __init__(self, *args: Any) -> None:
+        def __init__(self, *args: Any, **settings: Any) -> None:
             made.append(1)
-            super().__init__(*args)
+            super().__init__(*args, **settings)
 
     monkeypatch.setattr(lugre, "Series", Counted)
 
