@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from slider_resonator.commands.options import (
+    DATA_FILE,
     Parsed,
     SettingsCommand,
     default_fmu,
@@ -69,7 +70,7 @@ def _bounds(text: str) -> tuple[str, tuple[float, float]]:
 
 
 @click.command("fit", cls=SettingsCommand)
-@click.argument("data", type=click.Path(path_type=Path), nargs=-1)
+@click.argument("data", type=DATA_FILE, nargs=-1)
 @click.option(
     "--free",
     metavar="NAME,...",

@@ -130,16 +130,17 @@ def check_left_to_choose(settings: Mapping[str, float]) -> None:
         )
 
 
-def _fmu_file(text: str) -> Path:
-    """Return the path of an FMU; SceneError for a scene, grid or device file in its place."""
+def _no_toml(kind: str, text: str) -> Path:
+    """Return the path of a file of a kind; SceneError for a scene, grid or device in its place."""
     path = Path(text)
     if path.suffix == ".toml" and path.is_file():
-        refuse_other_kinds(read_toml(path), text, "FMU")
+        refuse_other_kinds(read_toml(path), text, kind)
     return path
 
 
-FMU_FILE = Parsed("path", _fmu_file)
-"""An FMU; a file of another kind in its place is named as what it is."""
+FMU_FILE = Parsed("path", partial(_no_toml, "FMU"))
+DATA_FILE = Parsed("path", partial(_no_toml, "CSV"))
+"""Files in whose place a file of another kind is named as what it is."""
 
 
 class Renamed(click.Option):
@@ -189,7 +190,7 @@ def _fmu_argument(
         scene = others.get("scene", "")
         if scene is None:  # one argument is the scene
             fmu, others["scene"] = _fmu_and_scene(fmu)
-        fmu = fmu and _fmu_file(str(fmu))
+        fmu = fmu and _no_toml("FMU", str(fmu))
         if fmu is not None and fmu_given is not None:
             raise click.UsageError(f"{fmu} and --fmu {fmu_given}: must be one FMU")
         return command(fmu=chosen(fmu or fmu_given), **others)

@@ -27,6 +27,7 @@ from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.scenes.device_file import device_values, refuse_other_kinds
 from slider_resonator.scenes.explanations import AXIS, explanations
 from slider_resonator.scenes.key_table import KeyTable, Number
+from slider_resonator.scenes.scene_files import built_in_scenes
 from slider_resonator.scenes.toml_file import read_toml
 from slider_resonator.sweeping.measures import Run, Task, check_measure
 
@@ -202,6 +203,10 @@ def read_grid(path: Path, device: Mapping[str, float] | None = None) -> Sweep:
 
     `device` has parameters that its own [device], [fixed] and what varies leave out.
     """
+    if not path.exists() and str(path) in built_in_scenes():
+        raise HarnessError(
+            f"{path}: is a scene; must be a grid file. Use it in `slider-resonator run {path}`"
+        )
     content = read_toml(path)
     refuse_other_kinds(content, str(path), "grid")
     return grid_from(content, str(path), device)

@@ -72,3 +72,12 @@ def test_a_device_file_in_place_of_an_fmu_is_named(
     said = " ".join(refused(*arguments, mine, *more).split())
     assert "mine.toml: is a device file; must be an FMU." in said
     assert "`--device " in said
+
+
+def test_a_scene_or_device_in_place_of_a_grid_or_of_data_is_named(tmp_path: Path) -> None:
+    said = refused("sweep", "table_1", "--out", tmp_path / "a.csv")
+    assert "table_1: is a scene; must be a grid file. Use it in `slider-resonator run" in said
+    mine = tmp_path / "mine.toml"
+    mine.write_text('[device]\nslider_mass = "2 kg"\n', encoding="utf-8")
+    said = " ".join(refused("fit", mine, "--free", "slider_mass").split())
+    assert "mine.toml: is a device file; must be a CSV file." in said
