@@ -133,9 +133,8 @@ def steady_swing(amplitude: complex, theta: float, frequency: float) -> tuple[fl
     return real * sine + imag * cosine, frequency * (real * cosine - imag * sine)
 
 
-Term = tuple[complex, float, complex, complex]
-"""Rate z [1/s] of an exponential, |z|^2, velocity v_z of the slider, displacement y_z of the
-resonator."""
+Term = tuple[complex, complex, complex]
+"""Rate z [1/s] of an exponential, velocity v_z of the slider, displacement y_z of the resonator."""
 
 
 class System:
@@ -200,8 +199,8 @@ class System:
         by_friction -= self.friction_amplitude / self.total_mass
         slowed = -by_friction / q if q else 0j
         return (
-            (complex(0.0, w), w * w, -pushed / w, -1j * swing),
-            (complex(0.0, q), q * q, slowed, -1j * swing_by_friction),
+            (complex(0.0, w), -pushed / w, -1j * swing),
+            (complex(0.0, q), slowed, -1j * swing_by_friction),
         )
 
     def _rest_split(self) -> complex | None:

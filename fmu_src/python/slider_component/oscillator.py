@@ -58,16 +58,16 @@ class Oscillator:
         damping = 2.0 * self.decay * frequency
         return 1.0 / complex(self.stiffness - frequency * frequency, damping)
 
-    def free(self, y: float, u: float) -> list[tuple[complex, float, complex]]:
-        """Rates z, |z|^2 and amplitudes a of free motion, the sum of Re(a exp(z t)).
+    def free(self, y: float, u: float) -> list[tuple[complex, complex]]:
+        """Rates z and amplitudes a of free motion, the sum of Re(a exp(z t)).
 
         From displacement `y` and rate `u` on.
         """
         slow, fast = self.eigenvalues
         if slow.imag:
-            return [(slow, self.stiffness, complex(y, (slow.real * y - u) / slow.imag))]
+            return [(slow, complex(y, (slow.real * y - u) / slow.imag))]
         of_slow = (u - fast * y) / (slow - fast)
-        return [(z, abs(z * z), a) for z, a in ((slow, of_slow), (fast, y - of_slow))]
+        return [(slow, of_slow), (fast, y - of_slow)]
 
     def free_map(self, t: float) -> tuple[tuple[float, float], tuple[float, float]]:
         """Displacement and rate after `t` [s] without forcing, each by the initial ones."""

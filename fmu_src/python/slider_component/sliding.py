@@ -61,10 +61,10 @@ def watch_of(
     Its `fastest` frequency [rad/s]; a zero may be `expected` at a time [s].
     """
     parts, size, bound = [], abs(k0), 0.0
-    for z, square, v, _ in terms:
+    for z, v, _ in terms:
         amplitude = abs(v)
         size += amplitude
-        bound += amplitude * square
+        bound += amplitude * abs(z * z)
         if side < 0:
             v = -v
         parts.append((z, v, z * v))
@@ -106,7 +106,7 @@ class Exponentials:
         """See Segment."""
         k0, k1 = self._k0, self._k1
         swing = passed = moved = turning = 0j
-        for z, _, v, y in self._terms:
+        for z, v, y in self._terms:
             turn = exp(z * t)
             y *= turn
             swing += v * turn
@@ -131,11 +131,11 @@ class Slide(Exponentials):
         sign = 0 if now.mode == LIFTED else direction
         constant, swinging = sign * system.friction_preload, 0j
         turn, chi = rect(1.0, now.theta), now.psi + system.phase
-        z, square, v, y = drive
+        z, v, y = drive
         v, y = v * turn, y * turn
-        terms = [(z, square, v, y)]
+        terms = [(z, v, y)]
         k0, displacement, rate = now.velocity - v.real, now.displacement - y.real, z.imag * y.imag
-        z, square, v, y = normal
+        z, v, y = normal
         if not z:
             constant += sign * system.friction_amplitude * sin(chi)
         elif sign:
@@ -143,24 +143,21 @@ class Slide(Exponentials):
             swinging = system.friction_amplitude * turn
             v, y = v * turn, y * turn
             k0, displacement, rate = k0 - v.real, displacement - y.real, rate + z.imag * y.imag
-            terms.append((z, square, v, y))
             if z == drive[0]:
-                (_, _, v_drive, y_drive), _ = terms
-                terms = [(z, square, v + v_drive, y + y_drive)]
+                terms = [(z, v + terms[0][1], y + terms[0][2])]
+            else:
+                terms.append((z, v, y))
         resisting = constant + system.load
         offset = resisting * system.compliance
         if system.is_full:
-            for z, square, y in system.slip.free(displacement - offset, now.rate + rate):
+            for z, y in system.slip.free(displacement - offset, now.rate + rate):
                 v = -system.mass_fraction * z * y
                 k0 -= v.real
-                terms.append((z, square, v, y))
+                terms.append((z, v, y))
         self._k0, self._k1, self._offset = k0, -resisting / system.total_mass, offset
         self._terms, self.direction, self._fastest = terms, direction, system.fastest
-        self._constant, self._swinging, self._frequency = (
-            constant,
-            swinging,
-            system.normal_frequency,
-        )
+        self._constant, self._swinging = constant, swinging
+        self._frequency = system.normal_frequency
 
     def work(self, t: float, travelled: float) -> float:
         """See Segment. The friction is constant + Im(swinging exp(i q t)), q that of the load."""
@@ -170,12 +167,11 @@ class Slide(Exponentials):
             turn = exp(z * t)
             growth = (turn - 1.0) / z
             swung = self._k0 * growth + self._k1 * (t * turn - growth) / z
-            for rate, _, v, _ in self._terms:
+            for rate, v, _ in self._terms:
                 v, grown = 0.5 * v, exp(rate * t)
                 swung += v * _integral(z + rate, turn * grown, t)
-                swung += v.conjugate() * _integral(
-                    z + rate.conjugate(), turn * grown.conjugate(), t
-                )
+                v, grown, rate = v.conjugate(), grown.conjugate(), rate.conjugate()
+                swung += v * _integral(z + rate, turn * grown, t)
             work += (self._swinging * swung).imag
         return work
 
@@ -184,7 +180,7 @@ class Slide(Exponentials):
         direction, k0, terms, expected = self.direction, self._k0, self._terms, 0.0
         if direction == 0:
             return ()
-        z, _, drive, _ = terms[0]
+        z, drive, _ = terms[0]
         if abs(drive) > abs(k0):
             # Where the drive alone would stop the slider: its cosine falls through -k0 in its first
             # half turn, and rises through it before.
@@ -212,9 +208,9 @@ class Rest(Exponentials):
         terms: list[Term] = []
         if system.is_full and system.rest_split is not None:
             y = system.rest_split * turn
-            terms = [(complex(0.0, w), w * w, 0j, y)]
+            terms = [(complex(0.0, w), 0j, y)]
             free = system.stick.free(now.displacement - y.real, now.rate + w * y.imag)
-            terms += [(z, square, 0j, y) for z, square, y in free]
+            terms += [(z, 0j, y) for z, y in free]
         self._k0 = self._k1 = self._offset = 0.0
         self._terms, self.direction = terms, 0
         self._direct, self._sys = -1j * system.holding_drive * turn, system
@@ -231,15 +227,14 @@ class Rest(Exponentials):
         """
         system = self._sys
         w, q = system.drive_frequency, system.normal_frequency
-        needed = [(complex(0.0, w), w * w, self._direct, 0j)]
-        for z, square, _, y in self._terms:
-            needed.append((z, square, (system.spring + system.damper * z) * y, 0j))
-        pull = abs(system.load) + sum(abs(a) for _, _, a, _ in needed)
+        needed = [(complex(0.0, w), self._direct, 0j)]
+        needed += [(z, (system.spring + system.damper * z) * y, 0j) for z, _, y in self._terms]
+        pull = abs(system.load) + sum(abs(a) for _, a, _ in needed)
         if pull == 0.0 or pull < SURE * (system.friction_preload - system.friction_amplitude):
             return ()
         fastest = max(w, abs(q), system.stick.frequency)
-        limit = (complex(0.0, q), q * q, self._normal, 0j)
-        forward = [limit, *((z, square, -a, y) for z, square, a, y in needed)]
+        limit = (complex(0.0, q), self._normal, 0j)
+        forward = [limit, *((z, -a, y) for z, a, y in needed)]
         return (
             watch_of(1, system.friction_preload + system.load, 0.0, forward, fastest),
             watch_of(1, system.friction_preload - system.load, 0.0, [limit, *needed], fastest),
