@@ -52,9 +52,11 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
     were found.
     """
     first = first_order(device, inputs, normal_lead)
+    if device.averaging_order == 1 or not first.valid:
+        return first
     turns = turns_of_load(device, inputs.frequency_ratio)
-    if device.averaging_order == 1 or not first.valid or turns == 0:
-        return replace(first, valid=first.valid and (device.averaging_order == 1 or turns > 0))
+    if turns == 0:
+        return replace(first, valid=False)
     try:
         system = System(replace(device, fidelity=2), inputs)
         period_map = PeriodMap(system, vibration(device), turns)
