@@ -69,7 +69,7 @@ def test_commands_that_take_an_fmu_take_it_by_the_same_option() -> None:
 
 
 def test_every_command_has_the_common_options_that_make_sense_for_it() -> None:
-    runs_nothing = {"baseline", "build", "baseline accept", "device", "scenes"}
+    runs_nothing = {"baseline", "build", "baseline accept", "device", "page", "scenes"}
     assert having("--time-limit") == set(EVERY) - runs_nothing
     assert having("--json") == set(EVERY) - {
         *("baseline", "build"),
@@ -79,7 +79,7 @@ def test_every_command_has_the_common_options_that_make_sense_for_it() -> None:
     assert having("--scene") == {
         *("baseline accept", "baseline check", "baseline record", "mutants", "validate")
     }
-    assert having("--set") == {"blocking", "choose", "fit", "run", "steady", "trade"}
+    assert having("--set") == {"blocking", "choose", "fit", "page", "run", "steady", "trade"}
     assert having("--device") == {*having("--set"), "stress", "sweep"}
     own = {"--python-fmu", "--fmi3-fmu"}  # further FMUs of `hosts`
     looks_alike = re.compile("fmu|job|worker|limit|timeout|json")
