@@ -113,6 +113,7 @@ def test_motion_beyond_the_range_of_numbers_is_refused(instantiate: Instantiate)
     [
         ({"drive_frequency": 1e300, "base_amplitude": 1e300}, "base_amplitude = 1e+300 refused"),
         ({"drive_frequency": 1e200, "frequency_ratio": 1e190}, "drive_frequency = 1e+200 refused"),
+        ({"base_amplitude": 1e160}, "base_amplitude = 1e+160 refused"),
         ({"resonator_frequency": 1e170}, "resonator_frequency = 1e+170 refused"),
     ],
 )

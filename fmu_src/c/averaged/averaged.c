@@ -93,14 +93,16 @@ static double balanced_turning(const Balance *balance, Point low, Point high) {
 
 TheoryRange theory_range(const Law *law) {
     const Device *device = &law->device;
-    TheoryRange range = {0.0, 0.0, 0.0};
+    TheoryRange range;
+    double fastest = 0.0;
     FastVibration fast;
     Refusal refusal;
     if (fast_vibration_prepare(&fast, device, &refusal)) {
-        range.velocity = fast.velocity;
+        fastest = fast.velocity;
     }
+    range.square = fastest * fastest;
+    fastest = fmax(fastest, fabs(device->initial_velocity));
     double mu = law->bristle.coefficient;
-    double fastest = fmax(range.velocity, fabs(device->initial_velocity));
     double drag = law->bristle.damping * fastest;
     double normal = device->normal_preload + device->normal_amplitude;
     range.drag = drag / (mu > 0.0 ? mu : 1.0); /* Without friction there is no drag. */

@@ -18,11 +18,11 @@ typedef struct {
     bool valid;
 } Averaged;
 
-/* Averaged theory stays in the range of floating point where all of these are finite: the fast velocity
- * [m/s]; the drag over mu at the fast or the initial velocity, whichever is larger; and a bound on
+/* Motion and averaged theory stay in the range of floating point where all of these are finite: the square
+ * of the fast velocity [m^2/s^2]; the drag over mu at the fast or the initial velocity, whichever is larger; and a bound on
  * integrals of load and friction [N], with the initial bristle deflection. */
 typedef struct {
-    double velocity, drag, strongest;
+    double square, drag, strongest;
 } TheoryRange;
 
 TheoryRange theory_range(const Law *law);

@@ -30,7 +30,7 @@ static bool law_is_finite(const Law *law) {
         plant->stick.stiffness, plant->drive.re,          plant->drive.im,
         plant->relative_drive,  plant->base_acceleration, plant->holding_drive.re,
         plant->spring,          plant->damper,            plant->holding_drive.im,
-        theory.velocity,        theory.drag,              theory.strongest,
+        theory.square,          theory.drag,              theory.strongest,
     };
     return all_finite(coefficients, sizeof coefficients / sizeof coefficients[0]);
 }

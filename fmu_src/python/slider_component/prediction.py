@@ -82,10 +82,11 @@ def turns_of_load(device: Device, ratio: float) -> int:
 
 
 def theory_range(device: Device) -> tuple[float, ...]:
-    """Return numbers that are all finite where predictions stay in the range of floating point.
+    """Return numbers that are all finite where motion stays in the range of floating point.
 
-    The fast velocity [m/s]; the drag over mu at the fast or the initial velocity, whichever is
-    larger; and a bound on integrals of load and friction [N], with the initial bristle deflection.
+    The square of the fast velocity [m^2/s^2]; the drag over mu at the fast or the initial velocity,
+    whichever is larger; and a bound on integrals of load and friction [N], with the initial bristle
+    deflection.
     """
     velocity = 0.0
     with suppress(Refusal):
@@ -97,7 +98,7 @@ def theory_range(device: Device) -> tuple[float, ...]:
         bent *= 1.0 + drag / mu
     normal = device.normal_preload + device.normal_amplitude
     strongest = tau * normal * (1.0 + device.friction_faces * (mu + drag + bent))
-    return velocity, drag / mu if drag else 0.0, strongest
+    return velocity * velocity, drag / mu if drag else 0.0, strongest
 
 
 def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Prediction:
