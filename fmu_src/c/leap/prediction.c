@@ -64,7 +64,7 @@ static bool change_in_period(Search *search, const double unknown[UNKNOWNS],
     if (search->blocked) {
         law_change(&map->law, map->law.inputs.phase, at[states]);
     }
-    memcpy(fast, at + 1, map->fast_count * sizeof fast[0]);
+    memcpy(fast, at + 1, (size_t)map->fast_count * sizeof fast[0]);
     Moment moment = {.mode = STICK};
     Visit visits[2];
     uint64_t itinerary;
