@@ -43,9 +43,14 @@ def unpacked_binary(fmu: Path, folder: Path, place: str = BINARY["Linux"][0]) ->
 
 
 def program(source: Path, folder: Path, flags: Sequence[str] = ()) -> Path:
-    """A C program, compiled with a sanitizer's flags or with any compiler there is."""
+    """A C program, compiled with a sanitizer's flags or with any compiler there is.
+
+    It may include `variables.h`, which has the value references.
+    """
     compiler = sanitizing_compiler() if flags else native_compiler()
-    return compile_program(compiler, source, folder / source.stem, flags)
+    header = folder / "variables.h"
+    header.write_text(slider_sources()["component/variables.h"], encoding="utf-8")
+    return compile_program(compiler, source, folder / source.stem, (*flags, f"-I{folder}"))
 
 
 def sanitized_binary(folder: Path, flags: Sequence[str], version: FmiVersion = "2.0") -> Binary:

@@ -9,12 +9,13 @@
  * is not finite; when a call exceeds two seconds; when memory is left behind. A crash or a hang speaks for itself. Ends with a line of what
  * was done. */
 #include "fuzz_host.h"
+#include "variables.h"
 
-enum { INSTANCES = 4, STATES = 6, MAX_BYTES = 8192, SECONDS = 2, FIRST_CHOICE = 13 };
+enum { INSTANCES = 4, STATES = 6, MAX_BYTES = 8192, SECONDS = 2 };
 
 static FmuLibrary fmu;
 static const char *guid;
-static unsigned settable = 25;
+static unsigned settable = SETTABLE_COUNT;
 static fmi2Component instances[INSTANCES];
 static fmi2FMUstate states[STATES];
 static fmi2Byte stored[MAX_BYTES];
@@ -29,12 +30,13 @@ static fmi2String strings[ROOM];
 
 /* The Integers of the slider; the other references below `settable` are Reals that can be set. */
 static int is_choice(unsigned reference) {
-    return reference == FIRST_CHOICE || reference == 14 || reference == 17 || reference == 18;
+    return reference == VR_FRICTION_FACES || reference == VR_FRICTION_LAW || reference == VR_FIDELITY
+           || reference == VR_AVERAGING_ORDER;
 }
 
 /* Half of the calls get arguments that may well be carried out. */
 static void draw_arguments(int for_integers) {
-    int i, plain = one_in(2) && (!for_integers || settable > FIRST_CHOICE);
+    int i, plain = one_in(2) && (!for_integers || settable > VR_FRICTION_FACES);
     for (i = 0; i < ROOM; i++) {
         do references[i] = plain ? below(settable) : random_reference();
         while (plain && is_choice(references[i]) != for_integers);

@@ -16,10 +16,12 @@
 
 #include "fmi3FunctionTypes.h"
 #include "random_values.h"
+#include "variables.h"
 
-enum { INSTANCES = 4, STATES = 6, MAX_BYTES = 8192, FIRST = 2, VARIABLES = 40, CHOICES = 4 };
+enum { INSTANCES = 4, STATES = 6, MAX_BYTES = 8192, FIRST = 2, CHOICES = 4 };
 
-static const unsigned choice[CHOICES] = {FIRST + 13, FIRST + 14, FIRST + 17, FIRST + 18};
+static const unsigned choice[CHOICES] = {FIRST + VR_FRICTION_FACES, FIRST + VR_FRICTION_LAW, FIRST + VR_FIDELITY,
+                                         FIRST + VR_AVERAGING_ORDER};
 static const char *token;
 static unsigned settable;
 static double seconds, longest_call = 0.0;
@@ -171,7 +173,7 @@ static fmi3Status read_values(fmi3Instance c) {
     double *values = or_null(numbers);
     fmi3Status status;
     if (one_in(2))
-        for (i = 0; i < ROOM; i++) references[i] = 1 + below(VARIABLES + 1);
+        for (i = 0; i < ROOM; i++) references[i] = 1 + below(VARIABLE_COUNT + 1);
     status = fmu.GetFloat64(c, or_null(references), count, values, room);
     if (status == fmi3OK && values) {
         for (i = 0; i < count; i++)

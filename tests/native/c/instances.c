@@ -8,9 +8,10 @@
 #include <stdlib.h>
 
 #include "fmu_library.h"
+#include "variables.h"
 
 enum { FAILED = 1, COULD_NOT_RUN = 2, LAWS = 2, FIDELITIES = 3 };
-enum { FRICTION_LAW = 14, FIDELITY = 17, LOAD = 1, VELOCITY = 25, MAX_BYTES = 8192 };
+enum { MAX_BYTES = 8192 };
 
 static long blocks_in_use = 0;
 
@@ -47,10 +48,10 @@ static void expect(int as_it_should, const char *what) {
 
 static void live(const FmuLibrary *fmu, const char *guid, long number) {
     static const fmi2CallbackFunctions callbacks = {log_message, allocate, release, NULL, NULL};
-    const fmi2ValueReference choices[] = {FRICTION_LAW, FIDELITY};
+    const fmi2ValueReference choices[] = {VR_FRICTION_LAW, VR_FIDELITY};
     const fmi2Integer values[] = {(fmi2Integer)(number % LAWS),
                                   (fmi2Integer)(number / LAWS % FIDELITIES)};
-    const fmi2ValueReference load = LOAD, velocity = VELOCITY;
+    const fmi2ValueReference load = VR_LOAD, velocity = VR_VELOCITY;
     const fmi2Real nothing = 0.0, too_late = 2.0;
     fmi2Byte bytes[MAX_BYTES];
     fmi2FMUstate state = NULL;

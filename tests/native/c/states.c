@@ -13,10 +13,10 @@
 
 #include "fmu_library.h"
 #include "random_values.h"
+#include "variables.h"
 
 enum { HEADER = 48, NUMBER = 8, MAX_BYTES = 8192 };
-enum { FRICTION_LAW = 14, FIDELITY = 17, ORDER = 18, FACES = 13, RATIO = 2, AMPLITUDE = 8, STEPS = 3 };
-enum { DRIVE_FREQUENCY = 10, RESONATOR_FREQUENCY = 5, SLIDER_MASS = 3, RESONATOR_MASS = 4 };
+enum { STEPS = 3 };
 
 static FmuLibrary fmu;
 static double longest = 0.0, seconds;
@@ -69,17 +69,17 @@ static double odd_number(double before) {
 /* Some turns of the fastest frequency that was asked for, so that work does not grow with it. */
 static double step_size(const fmi2Byte *bytes) {
     const int at = fields;
-    double drive = number_at(bytes, at + DRIVE_FREQUENCY), fastest = drive;
-    double free = sqrt(1.0 + number_at(bytes, at + RESONATOR_MASS)
-                                 / number_at(bytes, at + SLIDER_MASS));
-    fastest = fmax(fastest, fabs(drive * number_at(bytes, at + RATIO)));
-    fastest = fmax(fastest, free * number_at(bytes, at + RESONATOR_FREQUENCY));
+    double drive = number_at(bytes, at + VR_DRIVE_FREQUENCY), fastest = drive;
+    double free = sqrt(1.0 + number_at(bytes, at + VR_RESONATOR_MASS)
+                                 / number_at(bytes, at + VR_SLIDER_MASS));
+    fastest = fmax(fastest, fabs(drive * number_at(bytes, at + VR_FREQUENCY_RATIO)));
+    fastest = fmax(fastest, free * number_at(bytes, at + VR_RESONATOR_FREQUENCY));
     return 20.0 * random_share() * random_share() / fastest;
 }
 
 static void start(fmi2Component c) {
-    static const fmi2ValueReference choices[] = {FRICTION_LAW, FIDELITY, FACES, ORDER};
-    static const fmi2ValueReference reals[] = {RATIO, AMPLITUDE};
+    static const fmi2ValueReference choices[] = {VR_FRICTION_LAW, VR_FIDELITY, VR_FRICTION_FACES, VR_AVERAGING_ORDER};
+    static const fmi2ValueReference reals[] = {VR_FREQUENCY_RATIO, VR_NORMAL_AMPLITUDE};
     static const double ratios[] = {1.0, 2.0, -1.0, 0.0, 0.5, 1.01, 0.003, 1.37};
     static const double amplitudes[] = {1.0, 0.0, 0.7, 3.0};
     const fmi2Integer chosen[] = {(fmi2Integer)below(2), (fmi2Integer)below(3),
@@ -122,7 +122,7 @@ static void read_all(fmi2Component c, long number, const fmi2Byte *bytes) {
     for (reference = 0; reference < (fmi2ValueReference)variables; reference++) {
         fmi2Real value = 0.0;
         clock_t began = clock();
-        if (reference == FRICTION_LAW || reference == FIDELITY || reference == FACES) continue;
+        if (reference == VR_FRICTION_LAW || reference == VR_FIDELITY || reference == VR_FRICTION_FACES) continue;
         if (fmu.GetReal(c, &reference, 1, &value) == fmi2OK) {
             if (!isfinite(value)) fail("an output that is not finite", number, bytes);
             read_out++;

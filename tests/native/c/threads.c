@@ -8,9 +8,9 @@
 #include <stdlib.h>
 
 #include "fmu_library.h"
+#include "variables.h"
 
-enum { FAILED = 1, COULD_NOT_RUN = 2, MAX_THREADS = 64, OUTPUTS = 13, FIRST_OUTPUT = 24 };
-enum { PHASE = 0, LOAD = 1, FRICTION_LAW = 14, FIDELITY = 17 };
+enum { FAILED = 1, COULD_NOT_RUN = 2, MAX_THREADS = 64, OUTPUTS = VARIABLE_COUNT - SETTABLE_COUNT };
 
 typedef struct {
     int number;
@@ -34,7 +34,7 @@ static void log_message(fmi2ComponentEnvironment environment, fmi2String instanc
 
 static fmi2Component start(Run *run) {
     static const fmi2CallbackFunctions callbacks = {log_message, allocate, free, NULL, NULL};
-    const fmi2ValueReference choices[] = {FRICTION_LAW, FIDELITY}, inputs[] = {PHASE, LOAD};
+    const fmi2ValueReference choices[] = {VR_FRICTION_LAW, VR_FIDELITY}, inputs[] = {VR_PHASE, VR_LOAD};
     const fmi2Integer chosen[] = {run->number % 2, 2 - run->number / 2 % 3};
     const fmi2Real values[] = {0.4 + 0.1 * run->number, 0.01 * run->number};
     fmi2Component c = fmu.Instantiate("one of several", fmi2CoSimulation, guid, "file:///nowhere",
@@ -57,7 +57,7 @@ static void *go(void *argument) {
     fmi2FMUstate state = NULL;
     fmi2Component first = start(run), second = start(run);
     unsigned i;
-    for (i = 0; i < OUTPUTS; i++) references[i] = FIRST_OUTPUT + i;
+    for (i = 0; i < OUTPUTS; i++) references[i] = SETTABLE_COUNT + i;
     advance(run, first, 0, steps / 2);
     run->refused |= fmu.GetFMUstate(first, &state) || fmu.SetFMUstate(second, state)
                     || fmu.FreeFMUstate(first, &state);
