@@ -68,22 +68,33 @@ def run_points(workers: Workers, task: Task, points: Sequence[Point], keep: Keep
     that exceeds a limit, or at which processes keep dying, has an error as its row. Raises FmuError
     when the FMU cannot be used.
     """
-    left: list[tuple[Point, Proved]] = [(point, {}) for point in points]
+    left: list[tuple[Point, Proved]] = []
+    unproved = list(points)
     if any(name in SEARCHED for name in task.measures):
-        left = _prove(workers, task, points, keep)
+        for _ in range(ATTEMPTS):
+            more, unproved = _prove(workers, task, unproved, keep)
+            left += more
+    left += [(point, {}) for point in unproved]
     for attempt in range(ATTEMPTS):
         left = _measure(workers, task, left, keep, is_last=attempt == ATTEMPTS - 1)
 
 
 def _prove(
     workers: Workers, task: Task, points: Sequence[Point], keep: Keep
-) -> list[tuple[Point, Proved]]:
-    """Keep the rows of batches, and return the points that have none with what is proved."""
+) -> tuple[list[tuple[Point, Proved]], list[Point]]:
+    """Keep the rows of batches; return what is proved of points without, and those of lost batches.
+
+    A batch is lost where its process ends, which need not be its fault.
+    """
     batches = [tuple(points[first : first + BATCH]) for first in range(0, len(points), BATCH)]
     tasks = [(batch, partial(prove_points, task=task, points=batch)) for batch in batches]
     left: list[tuple[Point, Proved]] = []
+    lost: list[Point] = []
     with closing(workers.outcomes(tasks)) as outcomes:
         for batch, found, error in outcomes:
+            if isinstance(error, FmuDied) and not error.over_limit:
+                lost += batch
+                continue
             done = found if error is None else [{}] * len(batch)
             left += [
                 (point, one)
@@ -91,7 +102,7 @@ def _prove(
                 if not isinstance(one, tuple)
             ]
             keep([one for one in done if isinstance(one, tuple)])
-    return left
+    return left, lost
 
 
 def _measure(
