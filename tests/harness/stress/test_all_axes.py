@@ -36,8 +36,13 @@ WITHOUT_MEANING = {
 }
 
 
-LONG_FOR_PYTHON = frozenset(f"communication step: 1e4 s: LuGre, fidelity {n}" for n in (1, 2))
-"""Steps whose series would take the Python FMU minutes: it refuses them by its bound of work."""
+LONG_FOR_PYTHON = frozenset(
+    {
+        *(f"communication step: 1e4 s: LuGre, fidelity {n}" for n in (1, 2)),
+        "beat against step: 90 beats: LuGre, fidelity 0, order 2",
+    }
+)
+"""Steps that would take the Python FMU minutes: it refuses them by its bound of work."""
 
 
 def cases_in_part(every: int, of_second_order: int) -> list[Case]:

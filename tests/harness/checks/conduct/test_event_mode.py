@@ -89,6 +89,7 @@ FAULTS = {
 """What is wrong: the C file and what to replace by what."""
 
 
+@pytest.mark.isolated
 @pytest.mark.slow
 def test_faults_of_event_mode_are_rejected(native_3_fmu: Path) -> None:
     changes = [
