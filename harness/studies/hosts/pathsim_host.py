@@ -18,7 +18,8 @@ def run(job: Job) -> Rows:
     """
     block = CoSimulationFMU(job.fmu, start_values=job.first(), dt=job.step)
     ports = list(block.fmu_wrapper.input_refs), list(block.fmu_wrapper.output_refs)
-    sources = [Source(held(job.inputs[name], job.step)) for name in ports[0]]
+    # All inputs are wired: what the job leaves out is 0, the start of the deviations of the drive.
+    sources = [Source(held(job.inputs.get(name, [0.0]), job.step)) for name in ports[0]]
     scope = Scope(labels=ports[1])
     wires = [Connection(source, block[index]) for index, source in enumerate(sources)]
     wires += [Connection(block[index], scope[index]) for index in range(len(ports[1]))]
