@@ -23,9 +23,8 @@ from slider_resonator.output.hover_plot import (
     Axis,
     HoverPlot,
     Series,
-    hover_scripts,
-    hover_style,
     plot_html,
+    write_plot_page,
 )
 from slider_resonator.output.html_page import rendered, write_page
 from slider_resonator.output.table import Table, numbers, texts
@@ -135,7 +134,7 @@ def test_a_plot_out_of_sight_is_printed(browser: Chrome, tmp_path: Path) -> None
     page = tmp_path / "index.html"
     line = Series("first", [1.0, 3.0], [1.0, 3.0], "#123456")
     plot = HoverPlot("A plot", Axis("time [s]"), Axis("way [m]"), [line])
-    write_page(page, "Plots", [plot_html(plot)] * 20, hover_scripts(), hover_style())
+    write_plot_page(page, "Plots", [plot_html(plot)] * 20)
     browser.get(page.as_uri())
     browser.print_page()
     drawn = browser.find_elements("css selector", ".plot[data-drawn] .uplot")
@@ -150,7 +149,7 @@ def test_keys_and_fingers_lead_from_point_to_point(browser: Chrome, tmp_path: Pa
     ]
     plot = HoverPlot("A plot", Axis("time [s]"), Axis("way [m]"), lines)
     body = [plot_html(plot), provenance_html(PROVENANCE)]
-    write_page(page, "Plots", body, scripts=hover_scripts(), style=hover_style())
+    write_plot_page(page, "Plots", body)
     assert opened(browser, page) == 1
     over = first_plot(browser)
     browser.execute_script("arguments[0].focus()", over)

@@ -19,8 +19,8 @@ typedef struct {
 } Averaged;
 
 /* Motion and averaged theory stay in the range of floating point where all of these are finite: the square
- * of the fast velocity [m^2/s^2]; the drag over mu at the fast or the initial velocity, whichever is larger; and a bound on
- * integrals of load and friction [N], with the initial bristle deflection. */
+ * of the fast velocity [m^2/s^2]; the drag over mu at the fast or the initial velocity, whichever is larger;
+ * and a bound on integrals of load and friction [N], with the initial bristle deflection. */
 typedef struct {
     double square, drag, strongest;
 } TheoryRange;

@@ -10,8 +10,9 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
 from importlib.resources import files
+from pathlib import Path
 
-from slider_resonator.output.html_page import escaped
+from slider_resonator.output.html_page import escaped, write_page
 from slider_resonator.output.json_output import plain
 from slider_resonator.output.readable import printable
 
@@ -84,8 +85,13 @@ def plot_html(plot: HoverPlot) -> str:
     )
 
 
+def write_plot_page(path: Path, title: str, parts: Sequence[str]) -> None:
+    """Write a page with plots among its parts; HarnessError when it cannot be written."""
+    write_page(path, title, parts, _scripts(), _style())
+
+
 @cache
-def hover_scripts() -> tuple[str, ...]:
+def _scripts() -> tuple[str, ...]:
     """Return the scripts that draw the plots of a page."""
     folder = files("slider_resonator.output")
     scripts = (folder / "vendor" / "uPlot.iife.min.js", folder / "hover_plot.js")
@@ -93,7 +99,7 @@ def hover_scripts() -> tuple[str, ...]:
 
 
 @cache
-def hover_style() -> str:
+def _style() -> str:
     """Return the style sheet of the plots of a page."""
     folder = files("slider_resonator.output")
     sheets = (folder / "vendor" / "uPlot.min.css", folder / "hover_plot.css")

@@ -8,6 +8,7 @@ import sys
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import rich.table
 from rich import box
@@ -154,8 +155,8 @@ def _longest_word(column: Column, cells: Sequence[Cell]) -> int:
 def _columns(table: Table, widths: Sequence[int]) -> rich.table.Table:
     shown = rich.table.Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
     for column, width in zip(table.columns, widths, strict=True):
-        justify = "right" if column.numeric else "left"
-        shown.add_column(Text(column.heading), justify=justify, min_width=width, max_width=width)  # type: ignore[arg-type]
+        justify: Literal["left", "right"] = "right" if column.numeric else "left"
+        shown.add_column(Text(column.heading), justify=justify, min_width=width, max_width=width)
     for row in table.cells:
         if row[0].style is Style.HEADING:
             shown.add_section()

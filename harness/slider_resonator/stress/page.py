@@ -12,12 +12,11 @@ from slider_resonator.output.hover_plot import (
     Axis,
     HoverPlot,
     Series,
-    hover_scripts,
-    hover_style,
     look,
     plot_html,
+    write_plot_page,
 )
-from slider_resonator.output.html_page import escaped, rendered, section, write_page
+from slider_resonator.output.html_page import escaped, rendered, section
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict_so_far
 from slider_resonator.stress.case import MODELS, RANDOM, name_of
@@ -38,7 +37,7 @@ def write_stress_page(path: Path, results: Sequence[StressResult], provenance: P
     parts = [_overview(results), _legend(results), _scale()]
     parts += [part for result in results for part in _of_one_fmu(result)]
     parts.append(provenance_html(provenance))
-    write_page(path, "Stress test", parts, hover_scripts(), hover_style())
+    write_plot_page(path, "Stress test", parts)
 
 
 def _overview(results: Sequence[StressResult]) -> str:

@@ -18,12 +18,11 @@ from slider_resonator.output.hover_plot import (
     Axis,
     HoverPlot,
     Series,
-    hover_scripts,
-    hover_style,
     look,
     plot_html,
+    write_plot_page,
 )
-from slider_resonator.output.html_page import escaped, rendered, write_page
+from slider_resonator.output.html_page import escaped, rendered
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Row, Table, numbers, texts
 from slider_resonator.sweeping.grid import Sweep
@@ -57,7 +56,7 @@ def write_sweep_page(path: Path, sweep: Sweep, columns: Columns, provenance: Pro
     for measure in sweep.task.measures:
         parts += _measure(sweep, columns, measure)
     parts.append(provenance_html(provenance))
-    write_page(path, sweep.title or "Sweep", parts, hover_scripts(), hover_style())
+    write_plot_page(path, sweep.title or "Sweep", parts)
 
 
 def _setup(sweep: Sweep) -> Table:

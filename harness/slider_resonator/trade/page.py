@@ -12,12 +12,11 @@ from slider_resonator.output.hover_plot import (
     Axis,
     HoverPlot,
     Series,
-    hover_scripts,
-    hover_style,
     look,
     plot_html,
+    write_plot_page,
 )
-from slider_resonator.output.html_page import escaped, folded, rendered, write_page
+from slider_resonator.output.html_page import escaped, folded, rendered
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.trade.result import (
     Row,
@@ -105,7 +104,7 @@ def write_trades(path: Path, trades: Sequence[Trade], provenance: Provenance) ->
     parts.append(_explanation())
     parts += [part for trade in trades for part in _scene(trade)]
     parts.append(provenance_html(provenance))
-    write_page(path, "What accuracy costs", parts, hover_scripts(), hover_style())
+    write_plot_page(path, "What accuracy costs", parts)
 
 
 def _ratios(trade: Trade) -> list[str]:

@@ -15,12 +15,10 @@ from slider_resonator.output.hover_plot import (
     Axis,
     HoverPlot,
     Series,
-    hover_scripts,
-    hover_style,
     look,
     plot_html,
+    write_plot_page,
 )
-from slider_resonator.output.html_page import write_page
 from tests.html_pages import Page
 
 SERIES = Series("an FMU", [1.0, 2.0], [0.5, None], "#000", notes=["one", "two"])
@@ -30,7 +28,7 @@ HOSTILE = "</script><script>alert(1)</script><img onerror=x>\x1b[31m"
 
 def written(folder: Path, plot: HoverPlot) -> tuple[str, Page]:
     path = folder / "page.html"
-    write_page(path, "title", [plot_html(plot)], hover_scripts(), hover_style())
+    write_plot_page(path, "title", [plot_html(plot)])
     text = path.read_text(encoding="utf-8")
     return text, Page(text)
 

@@ -28,11 +28,10 @@ from slider_resonator.output.hover_plot import (
     Axis,
     HoverPlot,
     Series,
-    hover_scripts,
-    hover_style,
     plot_html,
+    write_plot_page,
 )
-from slider_resonator.output.html_page import escaped, folded, rendered, section, write_page
+from slider_resonator.output.html_page import escaped, folded, rendered, section
 from slider_resonator.output.plot_style import COLOURS, png_data_uri, style
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.start_beyond import limit_to_later, range_after_start, words_for_start
@@ -54,7 +53,7 @@ def write_html(
     for number, validation in enumerate(validations):
         parts += _section(number, validation)
     parts.append(provenance_html(provenance_of_all(validations)))
-    write_page(path, title, parts, hover_scripts(), hover_style())
+    write_plot_page(path, title, parts)
 
 
 def _section(number: int, validation: Validation) -> list[str]:
