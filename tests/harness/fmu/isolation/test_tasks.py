@@ -63,9 +63,9 @@ def test_a_missed_time_limit_ends_the_run(native_fmu: Path) -> None:
 
 
 def test_crashes_that_took_the_time_limit_end_the_run(native_fmu: Path) -> None:
-    slow: Named = ("a", partial(die, seconds=0.06))
+    slow: Named = ("a", partial(die, seconds=0.9))
     given = [slow, ("b", slow[1]), ("c", slow[1])]
-    *died, last = run_tasks(native_fmu, given, 0.1, name=str)
+    *died, last = run_tasks(native_fmu, given, 1.5, name=str)
     assert [(one.item, outcome(one)) for one in died] == [("a", "died"), ("b", "died")]
     assert str(last.error) == "given up after 2 crashes or exceeded limits; not run: c"
 
