@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS, VARIABLES
+from slider_resonator.errors import Refusal
+from slider_resonator.fmu.instance import Instance
 
 SHOWN = 3
 """Findings that a text names; the others are counted."""
@@ -83,3 +86,15 @@ def other_value(name: str, value: float) -> float:
 def other_inputs(values: Sequence[float]) -> list[float]:
     """Return other values of the inputs, in the order of the interface."""
     return [other_value(name, value) for name, value in zip(INPUTS, values, strict=True)]
+
+
+@contextmanager
+def adding_refusal(instance: Instance, faults: list[str]) -> Iterator[None]:
+    """Add a failed call to the faults that were found before it; Refusal where there are none."""
+    try:
+        with instance.explained():
+            yield
+    except Refusal as error:
+        if not faults:
+            raise
+        faults.append(f"and then {error}")

@@ -13,11 +13,15 @@ from typing import Any
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Fatal
 
-from slider_resonator.checks.conduct.findings import Findings, differences, other_value
+from slider_resonator.checks.conduct.findings import (
+    Findings,
+    adding_refusal,
+    differences,
+    other_value,
+)
 from slider_resonator.checks.conduct.replays import plain_rows
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES, Variable
-from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Running
 
@@ -260,51 +264,43 @@ def refusal_faults(fmu: FmuSide) -> Findings:
     running = Running(instance, schedule)
     start = {**fmu.scene.parameters, **running.first}
     trial = Trial(instance, [])
-    try:
+    with adding_refusal(instance, trial.faults):
         _try_all(trial, running, start, schedule.start_time)
-    except Refusal as error:
-        if not trial.faults:
-            raise
-        return Findings.of([*trial.faults, f"and then {error}"])
-    what = "a run with refused calls"
-    outputs, times = instance.fmu.outputs, schedule.readings()
-    found = differences(what, outputs, times, running.rows, expected)
-    return Findings.of(trial.faults) + found
+        what = "a run with refused calls"
+        outputs, times = instance.fmu.outputs, schedule.readings()
+        found = differences(what, outputs, times, running.rows, expected)
+        return Findings.of(trial.faults) + found
+    return Findings.of(trial.faults)
 
 
 def _try_all(trial: Trial, running: Running, start: Mapping[str, float], start_time: float) -> None:
-    """Try what must be refused; Refusal when the FMU then refuses what it must do."""
+    """Try what must be refused; FMICallException when the FMU then refuses what it must do."""
     instance = trial.instance
     present = [v for name, v in VARIABLES.items() if name in instance.fmu.variables]
     settable = [v for v in present if v.causality != "output"]
     _before_the_run(trial, settable)
-    with instance.explained():
-        instance.set_up(running.stop_time, start_time=start_time)
-        instance.set(start)
-        instance.call("fmi2EnterInitializationMode")
+    instance.set_up(running.stop_time, start_time=start_time)
+    instance.set(start)
+    instance.call("fmi2EnterInitializationMode")
     trial.outputs = [name for name in SMOOTH if name in instance.fmu.variables]
     trial.refuses_values("in initialisation mode", settable)
     trial.refuses_calls("in initialisation mode")
-    with instance.explained():
-        instance.begin()
-        running.read()
+    instance.begin()
+    running.read()
     for step in range(running.steps):
         tried = step in (1, running.steps // 2 + 1)
-        with instance.explained():
-            # After derivatives of inputs are set, which a refused call must not drop.
-            running.advance(step, partial(_in_the_run, trial, present) if tried else None)
+        # After derivatives of inputs are set, which a refused call must not drop.
+        running.advance(step, partial(_in_the_run, trial, present) if tried else None)
     beyond = STEP + 1e-3 * abs(running.stop_time)
     trial.refuses("a step beyond the stop", partial(_step, instance, instance.time, beyond))
-    with instance.explained():
-        instance.terminate()
+    instance.terminate()
     trial.refuses_calls("after a run")
 
 
 def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
     instance = trial.instance
-    with instance.explained():
-        instance.set_up()
-        instance.call("fmi2Reset")
+    instance.set_up()
+    instance.call("fmi2Reset")
     for what, arguments in EXPERIMENTS.items():
         trial.refuses(what, partial(_set_up_experiment, instance, arguments))
     trial.refuses_values("before a run", settable)

@@ -9,7 +9,7 @@ from ctypes import byref, c_char, c_void_p
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
-from slider_resonator.checks.conduct.findings import Findings, other_value
+from slider_resonator.checks.conduct.findings import Findings, adding_refusal, other_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fmu.instance import Instance
@@ -29,14 +29,15 @@ def state_faults(fmu: FmuSide) -> Findings:
     """Get a state into the place of another, damage serialised ones, and free them."""
     instance = fmu.instance
     instance.fmu.require("canGetAndSetFMUstate")
-    with instance.explained():
+    faults: list[str] = []
+    with adding_refusal(instance, faults):
         instance.start(fmu.scene.parameters)
         instance.step_by(STEP)
-        faults = [*_overwriting_faults(instance)]
+        faults.extend(_overwriting_faults(instance))
         if instance.fmu.offers.canSerializeFMUstate:
-            faults += _damage_faults(instance)
-        faults += _freeing_faults(instance)
-        faults += _early_faults(instance, fmu.scene.parameters)
+            faults.extend(_damage_faults(instance))
+        faults.extend(_freeing_faults(instance))
+        faults.extend(_early_faults(instance, fmu.scene.parameters))
         instance.terminate()
     return Findings.of(faults)
 
