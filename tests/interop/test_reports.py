@@ -29,14 +29,14 @@ from slider_resonator.output.hover_plot import (
 from slider_resonator.output.html_page import rendered, write_page
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.scene_files import find_scene
-from slider_resonator.stress.page import write_stress_page
+from slider_resonator.stressing.page import write_stress_page
 from slider_resonator.sweeping.grid import grid_from
 from slider_resonator.sweeping.page import write_sweep_page
 from slider_resonator.sweeping.sweeping import run_sweep
-from slider_resonator.trade.page import write_trades
+from slider_resonator.trading.page import write_trades
 from tests.harness.known_provenance import PROVENANCE
-from tests.harness.stress.test_page import RESULT
-from tests.harness.trade.test_needs import TRADE
+from tests.harness.stressing.test_page import RESULT
+from tests.harness.trading.test_needs import TRADE
 from tests.harness.verdicts import PASSED
 
 pytestmark = pytest.mark.interop

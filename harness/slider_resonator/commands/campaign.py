@@ -8,8 +8,8 @@ import click
 
 from slider_resonator.commands.options import fmus_argument, json_option, target, time_limit_option
 from slider_resonator.commands.stress import CASES, seed_options, stress
-from slider_resonator.stress.listing import Files
-from slider_resonator.stress.random_cases import random_case
+from slider_resonator.stressing.listing import Files
+from slider_resonator.stressing.random_cases import random_case
 
 
 @click.command("campaign")

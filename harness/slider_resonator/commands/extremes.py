@@ -13,9 +13,9 @@ from slider_resonator.commands.options import (
     time_limit_option,
 )
 from slider_resonator.commands.stress import case_named, long_option, stress
-from slider_resonator.stress.axes import axis_cases
-from slider_resonator.stress.listing import in_folder
-from slider_resonator.stress.run import TIME_LIMIT
+from slider_resonator.stressing.axes import axis_cases
+from slider_resonator.stressing.listing import in_folder
+from slider_resonator.stressing.run import TIME_LIMIT
 
 
 @click.command("extremes")

@@ -29,9 +29,9 @@ from slider_resonator.output.progress import part_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.output.targets import distinct, make_folder
-from slider_resonator.stress.axes import axis_cases, device_cases
-from slider_resonator.stress.case import DEVICE, RANDOM, Case
-from slider_resonator.stress.listing import (
+from slider_resonator.stressing.axes import axis_cases, device_cases
+from slider_resonator.stressing.case import DEVICE, RANDOM, Case
+from slider_resonator.stressing.listing import (
     Files,
     as_plain,
     in_folder,
@@ -39,8 +39,8 @@ from slider_resonator.stress.listing import (
     values_of,
     write_files,
 )
-from slider_resonator.stress.random_cases import random_case
-from slider_resonator.stress.run import TIME_LIMIT, StressResult, applicable, run_cases
+from slider_resonator.stressing.random_cases import random_case
+from slider_resonator.stressing.run import TIME_LIMIT, StressResult, applicable, run_cases
 
 CASES = 1000
 """Random devices of a campaign."""

@@ -28,12 +28,12 @@ from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
 from slider_resonator.scenes.scene_files import find_scene
-from slider_resonator.trade.measure import BUDGET, REPEATS, measure_trade
-from slider_resonator.trade.page import write_trades
-from slider_resonator.trade.plots import draw_picture
-from slider_resonator.trade.problem import Problem, problem_of
-from slider_resonator.trade.result import Trade, write_omissions, write_rows
-from slider_resonator.trade.summary import SUFFIXES, comparisons, standings, title, write_choices
+from slider_resonator.trading.measure import BUDGET, REPEATS, measure_trade
+from slider_resonator.trading.page import write_trades
+from slider_resonator.trading.plots import draw_picture
+from slider_resonator.trading.problem import Problem, problem_of
+from slider_resonator.trading.result import Trade, write_omissions, write_rows
+from slider_resonator.trading.summary import SUFFIXES, comparisons, standings, title, write_choices
 
 TIME_LIMIT = 600.0
 """Default time limit of a run or a search of an FMU, s."""

@@ -7,8 +7,8 @@ import pytest
 
 from slider_resonator.commands import extremes, stress
 from slider_resonator.device.model import Model
-from slider_resonator.stress.axes import device_cases
-from slider_resonator.stress.case import MODELS, Case, Hold, Limit
+from slider_resonator.stressing.axes import device_cases
+from slider_resonator.stressing.case import MODELS, Case, Hold, Limit
 from tests.harness.calling import call
 from tests.harness.faulty_fmus import without_later_variables
 from tests.harness.public_json import assert_public_keys

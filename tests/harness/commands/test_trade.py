@@ -15,16 +15,16 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.steady import reference_steady
-from slider_resonator.trade.fmu_methods import FmuMethods
-from slider_resonator.trade.peer_methods import peer_methods
-from slider_resonator.trade.problem import Problem
-from slider_resonator.trade.result import Omission, Trade
+from slider_resonator.trading.fmu_methods import FmuMethods
+from slider_resonator.trading.peer_methods import peer_methods
+from slider_resonator.trading.problem import Problem
+from slider_resonator.trading.result import Omission, Trade
 from tests.harness.calling import call, refused
 from tests.harness.in_process import InProcess
 from tests.harness.public_json import assert_public_keys
 from tests.harness.scene_text import HEAD
-from tests.harness.trade.problems import TABLE_1, problem
-from tests.harness.trade.test_needs import TRADE
+from tests.harness.trading.problems import TABLE_1, problem
+from tests.harness.trading.test_needs import TRADE
 from tests.html_pages import Page
 
 

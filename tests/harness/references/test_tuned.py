@@ -14,7 +14,7 @@ from slider_resonator.device.held_inputs import HeldInputs, TunedInputs
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
-from slider_resonator.trade.peers import event_free, located_scipy
+from slider_resonator.trading.peers import event_free, located_scipy
 
 SIGNALS = ("position", "velocity", "resonator_displacement", "normal_force", "friction_force")
 TUNED: tuple[tuple[tuple[str, float], ...], ...] = (

@@ -13,7 +13,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.trade.peers import located_scipy
+from slider_resonator.trading.peers import located_scipy
 from tests.harness.references.comparing import assert_agree, split, until
 from tests.problems import DURATION, PROBLEMS
 

@@ -12,7 +12,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import LugreTrajectory
-from slider_resonator.trade.peers import event_free
+from slider_resonator.trading.peers import event_free
 from tests.harness.references.comparing import assert_agree, split
 from tests.harness.references.lugre_problems import DURATION, PROBLEMS, STIFF, TIMES, constant
 

@@ -14,7 +14,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import LIFTED
 from slider_resonator.references.resolved.simulate import simulate
-from slider_resonator.trade.peers import event_free, located_scipy
+from slider_resonator.trading.peers import event_free, located_scipy
 
 STOP = 0.03
 TIMES = np.linspace(0.0, STOP, 200)

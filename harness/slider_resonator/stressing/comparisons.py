@@ -1,0 +1,243 @@
+"""Runs that must agree: in other steps, from another start time, with the reference."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from slider_resonator.arrays import Array
+from slider_resonator.checks.natural_scale import (
+    MARGIN,
+    allowed_by_leaps,
+    centre_signals,
+    fast_velocity,
+)
+from slider_resonator.device.device import FULL
+from slider_resonator.references.averaged.averaged_motion import simulate_averaged
+from slider_resonator.references.resolved.simulate import simulate
+from slider_resonator.stressing.case import MIN_DIVISIBLE, Case
+from slider_resonator.stressing.observe import MEAN, SIGNALS, Observation
+from slider_resonator.stressing.verdict import NO_REFERENCE, REFERENCE, BoundCheck
+
+EXACT = 1e-10
+"""Error of resolved motion by rounding, as a fraction of peaks, where events are the same."""
+AVERAGED = 1e-7
+"""The same of averaged motion: the errors, 1e-9 each, of a hundred internal steps."""
+REFERENCE_ERROR = 1e-6
+"""Error of the averaged reference, as a fraction of peaks; each of its steps keeps 1e-8."""
+LEFT_OUT = 1e-5
+"""Transients of the resonator that leaps leave out, ten times what they may."""
+CONDITIONING = 10.0
+"""Largest deviation, over that of a reference whose values are off by the allowed error."""
+MAX_PERIODS = 600.0
+"""Periods of the fastest oscillation up to which the resolved reference is run."""
+MAX_LEAPT_PERIODS = 2000.0
+"""The same with averages of second order: the long steps in which they leap."""
+MAX_HOLDS = 400
+"""Changes of inputs up to which the resolved reference is run."""
+MAX_DECAY = 30.0
+"""Fastest decay, in drive frequencies, up to which the resolved reference is run."""
+MAX_RELAXATIONS = 5000.0
+"""Longest averaged run with LuGre friction, in times that friction takes to stop the fast velocity:
+beyond, the quadratures of the reference take longer than all other cases together."""
+
+Signals = Mapping[str, Array]
+GAVE_UP = (RuntimeError, ValueError, ArithmeticError)
+"""What a reference raises where it cannot follow a motion."""
+
+
+def equalities(case: Case, seen: Observation) -> Iterator[BoundCheck]:
+    """Yield the checks against other runs of the same motion, and of limit cases."""
+    own = {name: seen.outputs[name] for name in SIGNALS}
+    left_out = LEFT_OUT if case.model.leaps else 0.0
+    allowed = _allowed(case, own, _numerics(case) + left_out)
+    last = {name: signal[-1:] for name, signal in own.items()}
+    for name, other in (("other steps", seen.other), ("from time 0", seen.from_zero)):
+        if other is not None:
+            yield _largest(name, last, {key: np.array([other[key]]) for key in SIGNALS}, allowed)
+    replayed = 0.0 if seen.replayed else 2.0
+    yield BoundCheck("replay", replayed, "a run from the same start differs")
+    for limit in case.limits:
+        off = abs(float(seen.outputs[limit.output][-1]) - limit.value)
+        words = f"{limit.output} off by {off:.3g}, allowed {limit.allowed:.3g}: {limit.why}"
+        yield BoundCheck("limit case", _share(off, limit.allowed), words)
+
+
+def compare_with_reference(case: Case, seen: Observation) -> BoundCheck:
+    """Return the check against the reference, or one that says why that gave up."""
+    try:
+        expected = _expected(case)
+    except GAVE_UP as error:
+        return BoundCheck(NO_REFERENCE, 0.0, f"the reference gave up: {error}", is_deviation=False)
+    allowed = _allowed_of_reference(case, expected)
+    return _largest(REFERENCE, _compared(case, seen.outputs), expected, allowed)
+
+
+def is_sensitive(case: Case, found: float) -> bool:
+    """Return whether the reference itself, with values off by the allowed error, is as far off.
+
+    `found` is the deviation of an FMU, in units of the allowed one.
+    """
+    by = _numerics(case) + (REFERENCE_ERROR if case.model.averages else 0.0)
+    tuned = {name for hold in case.holds for name, _ in hold.tuned}
+    moved = dict(case.settings)
+    for name in ("initial_velocity", "initial_resonator_velocity", "base_amplitude"):
+        if name not in tuned:
+            moved[name] = getattr(case.device, name) * (1.0 + by)
+    holds = [replace(h, phase=h.phase + by, load=h.load * (1.0 + by)) for h in case.holds]
+    try:
+        expected = _expected(case)
+        near = _expected(replace(case, parameters=moved, holds=tuple(holds)))
+    except GAVE_UP:
+        return False
+    own = _largest("", near, expected, _allowed_of_reference(case, expected))
+    return found <= CONDITIONING * own.found
+
+
+def has_reference(case: Case) -> bool:
+    """Return whether a reference covers the case at an acceptable cost."""
+    if case.is_random:
+        return True
+    if case.model.fidelity == 0 and not _has_mean_friction(case):
+        return False
+    return case.model.averages or _is_short(case)
+
+
+def _has_mean_friction(case: Case) -> bool:
+    """Return whether there is friction under a mean load, and a vibration, over a time in reach."""
+    device = case.device
+    friction = device.mean_friction
+    if case.start_time or not friction > 0.0 or min(h.size for h in case.holds) <= MIN_DIVISIBLE:
+        return False
+    try:
+        fast = fast_velocity(device)
+    except OverflowError:
+        return False
+    longest = MAX_RELAXATIONS * device.total_mass * fast / friction
+    return fast > 0.0 and (device.friction_law == 0 or case.duration <= longest)
+
+
+def _is_short(case: Case) -> bool:
+    """Return whether the resolved reference follows the run in few periods, without stiffness."""
+    device = case.device
+    if case.start_time or len(case.holds) > MAX_HOLDS:
+        return False
+    if device.fidelity == 1 and device.damping_ratio < 1e-9:
+        return False
+    if device.friction_law == 1 and device.friction_coefficient == 0.0:
+        return False
+    ratio = max(1.0, float(np.abs(case.inputs[:, 2]).max()))
+    slider = max(1.0 - device.mass_ratio, 1e-12)
+    fastest = max(ratio * device.drive_frequency, device.resonator_frequency / math.sqrt(slider))
+    decay = device.damping_ratio * device.resonator_frequency / slider
+    if decay > MAX_DECAY * device.drive_frequency or case.sizes.min() < 1e-9:
+        return False
+    max_periods = MAX_LEAPT_PERIODS if case.model.leaps else MAX_PERIODS
+    return case.duration * fastest <= math.tau * max_periods
+
+
+def _expected(case: Case) -> Signals:
+    """Return the signals of the reference that are compared.
+
+    Raises what that does, and ArithmeticError where they leave the range of numbers.
+    """
+    device, held, times = case.device, case.held, case.times
+    if case.model.leaps:  # judged by resolved motion of the full device
+        device = replace(device, fidelity=FULL)
+    if case.model.averages:
+        motion = simulate_averaged(device, held, times)
+        return _compared(case, {name: getattr(motion, name) for name in MEAN})
+    with np.errstate(over="ignore", invalid="ignore"):
+        resolved = simulate(device, held, times)
+    signals = {name: getattr(resolved, name) for name in SIGNALS}
+    if not all(np.isfinite(signal).all() for signal in signals.values()):
+        raise ArithmeticError("its motion leaves the range of floating point numbers")
+    return _compared(case, signals)
+
+
+def _compared(case: Case, outputs: Signals) -> Signals:
+    """Return what is compared: leaps move slider and resonator as one mass."""
+    if case.model.leaps:
+        return centre_signals(case.device, outputs)
+    if case.model.averages:
+        # Before the first step there is no mean over a period.
+        return {name: outputs[name][name == "mean_velocity" :] for name in MEAN}
+    return {name: outputs[name] for name in SIGNALS}
+
+
+def _numerics(case: Case) -> float:
+    """Return the error of a motion, as a fraction of peaks.
+
+    It is rounding, of the drive angle too, or the steps of averaged motion, and `tolerance` where
+    that counts.
+    """
+    device, model = case.device, case.model
+    ratios = np.maximum(1.0, np.abs(case.inputs[:, 2]))
+    angle = float((device.drive_frequency * ratios * case.sizes).sum())
+    rounding = 4.0 * float(np.finfo(float).eps) * angle
+    if model.averages:
+        return AVERAGED + rounding
+    return EXACT + rounding + device.tolerance * (MARGIN if model.leaps else model.friction_law)
+
+
+def _allowed_of_reference(case: Case, expected: Signals) -> dict[str, float]:
+    """Return the allowed deviation of each signal that is compared with a reference."""
+    device = case.device
+    peaks = {name: float(np.abs(signal).max()) for name, signal in expected.items()}
+    if case.model.leaps:
+        own = EXACT + device.tolerance * device.friction_law
+        leaps = allowed_by_leaps(device, case.held, case.duration)
+        return {name: leaps[name] + own * peak for name, peak in peaks.items()}
+    if case.model.averages:
+        fast = fast_velocity(device)
+        floors = {"mean_velocity": fast, "position": fast / device.drive_frequency}
+        share = REFERENCE_ERROR + _numerics(case)
+        return {name: share * max(peak, floors[name]) for name, peak in peaks.items()}
+    return _allowed(case, expected, _numerics(case))
+
+
+def _allowed(case: Case, signals: Signals, share: float) -> dict[str, float]:
+    """Return the allowed deviation of the four signals: a share of their scales, and rounding.
+
+    Scales are peaks, with the resonator's share in the slider, as steps may always meet the same
+    phase. With LuGre friction they hold what friction does in a period, and the error `tolerance`
+    of the velocity accumulates in the position.
+    """
+    device, time = case.device, case.duration
+    w = device.drive_frequency
+    position, velocity, swing, rate = (float(np.abs(signals[name]).max()) for name in SIGNALS)
+    swing = max(swing, rate / w)
+    friction = device.max_friction
+    slip = device.friction_law * friction / (device.total_mass * w)
+    velocity += device.mass_ratio * w * swing + slip
+    scales = (max(position, velocity / w), velocity, swing + slip / w, w * swing + slip)
+    force = friction + float(np.abs(case.inputs[:, 1]).max()) + abs(device.tangential_force)
+    force += device.resonator_mass * device.base_amplitude * w**2
+    off = 8.0 * float(np.finfo(float).eps) * force * time / device.slider_mass
+    drift = off * time
+    if device.friction_law == 1 and device.fidelity > 0:
+        drift += device.tolerance * velocity * time
+    floors = (drift, off, off * time, off)
+    return {
+        name: share * scale + floor
+        for name, scale, floor in zip(SIGNALS, scales, floors, strict=True)
+    }
+
+
+def _largest(name: str, own: Signals, other: Signals, allowed: Mapping[str, float]) -> BoundCheck:
+    """Return the check of the signal that is farthest off."""
+    worst, words = 0.0, ""
+    for signal, values in other.items():
+        off = float(np.abs(own[signal] - values).max())
+        found = _share(off, allowed[signal])
+        if not found <= worst:
+            worst, words = found, f"{signal} off by {off:.3g}, allowed {allowed[signal]:.3g}"
+    return BoundCheck(name, worst, words)
+
+
+def _share(off: float, allowed: float) -> float:
+    """Return a deviation in units of the allowed one; where that is 0 it must be 0."""
+    return off / allowed if allowed else 2.0 * float(off > 0.0)

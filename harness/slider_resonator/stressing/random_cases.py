@@ -1,0 +1,143 @@
+"""Cases of random devices, with inputs, tunable parameters and step sizes that change in the run.
+
+A case depends on seed and number alone, by the generator of the standard library, which is the same
+on all platforms and versions of Python.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Mapping
+from itertools import pairwise
+from math import log10, tau
+from random import Random
+
+import numpy as np
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.model import Model
+from slider_resonator.device.random_device import decades, random_device
+from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.stressing.case import RANDOM, Case, Hold
+
+IN_TURN = (
+    *(Model(2, 0), Model(1, 0), Model(0, 0, 1), Model(2, 1), Model(1, 1), Model(0, 1, 1)),
+    *(Model(0, 0, 2), Model(0, 1, 2)),
+)
+RESOLVED_PERIODS = (0.3, 30.0)
+AVERAGED_PERIODS = (3.0, 3000.0)
+"""Shortest and longest run, in drive periods."""
+SECOND_ORDER_PERIODS = (20.0, 800.0)
+"""The same with averages of second order, whose reference is resolved."""
+SECOND_ORDER_STEPS = 4
+"""Most steps of half of these runs: long ones, of which periods are leapt over."""
+LEAP_TOLERANCES = (1e-9, 1e-5)
+FRICTION_SHARES = (1e-4, 0.03)
+"""Friction over the drive force with averages of second order: slow motion."""
+MIN_DAMPING = 0.005
+"""Smallest damping ratio with them: transients must decay."""
+MAX_LUGRE_RELAXATIONS = 20.0
+"""Longest averaged run with LuGre friction, in times in which friction stops the fast velocity."""
+TUNABLES = (
+    *("normal_preload", "normal_amplitude", "base_amplitude"),
+    *("tangential_force", "friction_coefficient"),
+)
+"""Parameters that are tuned by up to a factor of two; the drive frequency by up to a tenth."""
+RATIOS = (1.0, 2.0, 3.0, -1.0, -2.0, 0.0, 0.5, 1.5, 1.01, 1.0002, 0.97, 0.003)
+START_TIMES = (0.0, 0.0, 0.0, 1e-3, -5.0, 12.5, 1e4)
+
+
+def random_case(seed: int, number: int) -> Case:
+    """Return a case of a seed; `number` counts from 0."""
+    random = Random(f"{seed} {number}")
+    model = IN_TURN[number % len(IN_TURN)]
+    values = random_device(random) | model.parameters
+    if model.leaps:
+        values |= _light_friction(random, values)
+    if model.friction_law == 1:
+        values |= _bristles(random, values)
+    holds = _holds(random, Device.from_mapping(values), model)
+    start_time = random.choice(START_TIMES)
+    return Case(RANDOM, f"seed {seed}, case {number}", model, values, holds, start_time)
+
+
+def _light_friction(random: Random, values: Mapping[str, float]) -> dict[str, float]:
+    """Return damping, friction and tolerance under which periods are leapt over."""
+    parameters = {**values, "damping_ratio": decades(random, log10(MIN_DAMPING), 0.0)}
+    device = Device.from_mapping(parameters)
+    share = decades(random, *map(log10, FRICTION_SHARES))
+    friction = abs(equivalent_force(device).amplitude) * share
+    preload = friction / (device.friction_faces * device.friction_coefficient)
+    varies = device.normal_amplitude / device.normal_preload
+    return parameters | {
+        "normal_preload": preload,
+        "normal_amplitude": preload * varies,
+        "tolerance": decades(random, *map(log10, LEAP_TOLERANCES)),
+    }
+
+
+def _bristles(random: Random, values: Mapping[str, float]) -> dict[str, float]:
+    """Return bristles from soft to hard, as the fast motion sees them."""
+    device = Device.from_mapping(values)
+    fast = equivalent_force(device).velocity_amplitude
+    mu, w = device.friction_coefficient, device.drive_frequency
+    stiffness = mu * w / fast * decades(random, -1.0, 3.0)
+    return {
+        "bristle_stiffness": stiffness,
+        "bristle_damping": mu / fast * decades(random, -3.0, -0.3),
+        "initial_bristle_deflection": random.choice(
+            (0.0, random.uniform(-1.0, 1.0) * mu / stiffness)
+        ),
+        "tolerance": decades(random, -11.0, -6.0),
+    }
+
+
+def _duration(random: Random, device: Device, model: Model) -> float:
+    """Return the length of a run, s."""
+    low, high = AVERAGED_PERIODS if model.averages else RESOLVED_PERIODS
+    if model.leaps:
+        low, high = SECOND_ORDER_PERIODS
+    duration = tau / device.drive_frequency * decades(random, log10(low), log10(high))
+    if model.averages and model.friction_law == 1:
+        fast = equivalent_force(device).velocity_amplitude
+        longest = MAX_LUGRE_RELAXATIONS * device.total_mass * fast / device.mean_friction
+        duration = min(duration, longest)
+    return duration
+
+
+def _times(random: Random, duration: float, model: Model) -> list[float]:
+    """Return the communication points (s), at random or in equal steps with a shorter last one."""
+    count = random.randint(1, 60)
+    if model.leaps and random.random() < 0.5:
+        count = random.randint(1, SECOND_ORDER_STEPS)
+    inside = sorted(random.uniform(0.0, 1.0) for _ in range(count - 1))
+    if random.random() < 0.5:
+        inside = [i / (count - random.uniform(0.1, 1.0)) for i in range(1, count)]
+    shares = [0.0, *(t for t in inside if t < 1.0), 1.0]
+    times: list[float] = np.unique(duration * np.array(shares)).tolist()
+    return times
+
+
+def _holds(random: Random, device: Device, model: Model) -> tuple[Hold, ...]:
+    """Return steps whose inputs jump a few times, and whose parameters are tuned there."""
+    times = _times(random, _duration(random, device, model), model)
+    jumps = sorted({0, *(random.randrange(len(times)) for _ in range(random.randint(0, 4)))})
+    starts = [jump for jump in jumps if jump < len(times) - 1]
+    load = device.mean_friction * random.choice((0.0, 0.3, 1.2))
+    ratios = (*RATIOS, random.uniform(-3.0, 5.0))
+    ratio = random.choice(ratios)
+    tuned: dict[str, list[float]] = {}
+    if len(starts) > 1 and random.random() < 0.5:
+        for name in random.sample((*TUNABLES, "drive_frequency"), random.randint(1, 6)):
+            width = 0.04 if name == "drive_frequency" else 0.3
+            first = float(getattr(device, name))
+            tuned[name] = [first, *(first * decades(random, -width, width) for _ in starts[1:])]
+    phases = [random.uniform(-10.0, 10.0) for _ in starts]
+    loads = [load * random.uniform(-1.0, 1.0) for _ in starts]
+    now = [ratio if random.random() < 0.7 else random.choice(ratios) for _ in starts]
+    holds = []
+    for index, (start, stop) in enumerate(pairwise(times)):
+        part = bisect_right(starts, index) - 1
+        changed = tuple((name, values[part]) for name, values in tuned.items())
+        holds.append(Hold(stop - start, 1, phases[part], loads[part], now[part], changed))
+    return tuple(holds)

@@ -1,0 +1,254 @@
+"""Running and judging cases in an FMU, which runs in processes of its own."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from collections.abc import Callable, Sequence
+from contextlib import closing
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from slider_resonator.errors import FmuError
+from slider_resonator.fmu.isolation.process import FmuDied
+from slider_resonator.fmu.isolation.tasks import run_all_tasks
+from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.output.progress import Progress, counted
+from slider_resonator.output.readable import number_of
+from slider_resonator.output.shown import Shown, Tabular
+from slider_resonator.stressing.case import RANDOM, Case
+from slider_resonator.stressing.comparisons import (
+    compare_with_reference,
+    equalities,
+    has_reference,
+    is_sensitive,
+)
+from slider_resonator.stressing.invariants import finite, invariants
+from slider_resonator.stressing.observe import Observation, observe
+from slider_resonator.stressing.verdict import (
+    FAILED,
+    NO_REFERENCE,
+    PASSED,
+    REFERENCE,
+    REFUSED,
+    SENSITIVE,
+    BoundCheck,
+    Verdict,
+    refused_by_name,
+    verdict_on,
+)
+
+MAX_RELATIVE_COST = 1000.0
+"""Maximum cost of a step, per period it spans (at least 1), relative to a drive period.
+
+A step may have to tabulate friction, or to find events that nearly coincide."""
+
+
+def judge(case: Case, seen: Observation) -> Verdict:
+    """Return the verdict on a case that ran to its end or was refused.
+
+    A random case is judged by its reference alone, and passes over what that does not say.
+    """
+    if seen.refusal is not None:
+        named = refused_by_name(case, seen.refusal)
+        return verdict_on(case, REFUSED if named else FAILED, seen.refusal)
+    checks = [finite(seen)]
+    if checks[0].passed:
+        checks += [] if case.is_random else [*invariants(case, seen), *equalities(case, seen)]
+        checks += [compare_with_reference(case, seen)] if has_reference(case) else []
+    checks += [] if case.is_random else [_cost(seen)]
+    reason = "; ".join(f"{check.name}: {check.words}" for check in checks if not check.passed)
+    return replace(
+        verdict_on(case, FAILED if reason else PASSED, reason),
+        **(_of_reference(case, checks[-1]) if case.is_random else {}),
+        checks=tuple(checks),
+        worst_step=seen.worst_step,
+        period_cost=seen.period_cost,
+    )
+
+
+def _of_reference(case: Case, check: BoundCheck) -> dict[str, str]:
+    """Return verdict and reason where the reference of a random case says nothing about it."""
+    if check.name == NO_REFERENCE:
+        return {"verdict": NO_REFERENCE, "reason": check.words}
+    if check.name == REFERENCE and not check.passed and is_sensitive(case, check.found):
+        return {"verdict": SENSITIVE}
+    return {}
+
+
+def _cost(seen: Observation) -> BoundCheck:
+    ratio = seen.worst_step / seen.period_cost if seen.period_cost > 0.0 else 0.0
+    words = (
+        f"the most expensive step costs {ratio:.3g} drive periods of the device, "
+        f"allowed {MAX_RELATIVE_COST:g}"
+    )
+    return BoundCheck("cost of a step", ratio / MAX_RELATIVE_COST, words, is_deviation=False)
+
+
+TIME_LIMIT = 300.0
+"""Time limit of a case, s."""
+MAX_REFUSED = 0.02
+"""Share of the random cases that an FMU may refuse: their values are those of devices."""
+
+
+@dataclass(frozen=True, repr=False)
+class StressResult(Shown, Tabular):
+    """The verdicts on an FMU, one for each case that ran, and the wall time in s.
+
+    Cases were `skipped` that do not apply to the FMU; an interrupted run has some that were
+    `not_run`.
+    """
+
+    fmu: str
+    verdicts: tuple[Verdict, ...]
+    wall_time: float
+    not_run: int = 0
+    skipped: int = 0
+
+    def table(self) -> dict[str, list[Any]]:
+        """Return the verdicts in columns."""
+        names = ("axis", "value", "model", "verdict", "reason")
+        return {name: [getattr(one, name) for one in self.verdicts] for name in names}
+
+    def describe(self) -> list[str]:
+        """Return the counts, and a line for each failed case."""
+        failed = [one for one in self.verdicts if one.verdict == FAILED]
+        return [
+            f"{'passed' if self.passed else 'FAILED'}: {self.fmu}",
+            *self.summary.splitlines(),
+            *(f"{FAILED}: {one.name}: {one.reason}" for one in failed),
+        ]
+
+    def by_axis(self) -> dict[str, list[Verdict]]:
+        """Return axis to verdicts, in order."""
+        groups: dict[str, list[Verdict]] = {}
+        for one in self.verdicts:
+            groups.setdefault(one.axis, []).append(one)
+        return groups
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Verdict to count; passed, refused and failed are always there."""
+        none = dict.fromkeys((PASSED, REFUSED, FAILED), 0)
+        return none | Counter(one.verdict for one in self.verdicts)
+
+    @property
+    def nearest(self) -> dict[str, Verdict]:
+        """For each model the passed case that is nearest to a bound."""
+        passed = [one for one in self.verdicts if one.verdict == PASSED and one.nearest]
+        ordered = sorted(passed, key=lambda one: one.nearest.found if one.nearest else 0.0)
+        return {one.model: one for one in ordered}
+
+    @property
+    def passed(self) -> bool:
+        """Whether all cases ran, none failed, and next to no random device was refused."""
+        return not (self.failed or self.not_run)
+
+    @property
+    def failed(self) -> bool:
+        """Whether a case failed, or too many random devices were refused."""
+        drawn = self.by_axis().get(RANDOM, [])
+        refused = sum(one.verdict == REFUSED for one in drawn)
+        return self.counts[FAILED] > 0 or refused > max(1.0, MAX_REFUSED * len(drawn))
+
+    @property
+    def most_expensive(self) -> Verdict | None:
+        """The case with the worst cost of a step relative to a period of its device."""
+        ran = [one for one in self.verdicts if one.period_cost > 0.0]
+        return max(ran, key=lambda one: one.cost_ratio, default=None)
+
+    @property
+    def summary(self) -> str:
+        """The counts and the worst cost, in words."""
+        compared = sum(one.has(REFERENCE) for one in self.verdicts)
+        counts = ", ".join(f"{count} {verdict}" for verdict, count in self.counts.items())
+        skipped = f"{self.skipped} skipped: not for this FMU" if self.skipped else "none skipped"
+        not_run = f", {self.not_run} not run: incomplete" if self.not_run else ""
+        lines = [
+            f"{number_of(len(self.verdicts), 'case')}: {counts}, {skipped}{not_run}; "
+            f"{self.wall_time:.0f} s",
+            f"{number_of(compared, 'case')} compared with a reference, "
+            f"which gave up in {sum(one.has(NO_REFERENCE) for one in self.verdicts)} others",
+        ]
+        worst = self.most_expensive
+        if worst is not None:
+            lines.append(
+                f"worst cost of a step, per drive period it spans (at least 1): "
+                f"{worst.cost_ratio:.3g} times the median cost of a period of the same device "
+                f"(bound {MAX_RELATIVE_COST:g}), {1e6 * worst.worst_step:.3g} us ({worst.name})"
+            )
+        return "\n".join(lines)
+
+
+def applicable(fmu: Path, cases: Sequence[Case]) -> list[Case]:
+    """Return the cases that an FMU has what they need for; FmuError when there is none.
+
+    Averages of second order need `averaging_order`, unequal steps an FMU that takes them.
+    """
+    with open_fmu(fmu) as opened:
+        lacks, has_orders = opened.lacks, opened.has_orders
+        equal_only = opened.takes_equal_steps_only
+    chosen = [
+        case
+        for case in cases
+        if (has_orders or not case.model.leaps)
+        and not (equal_only and len({hold.size for hold in case.holds}) > 1)
+    ]
+    if not chosen:
+        one = cases[0].name if len(cases) == 1 else f"none of {number_of(len(cases), 'case')}"
+        lacking = f"it lacks {', '.join(lacks)}" if lacks else "it takes equal steps only"
+        raise FmuError(f"{fmu}: no case applies to this FMU: {one} needs more; {lacking}")
+    return chosen
+
+
+def run_cases(
+    fmu: Path,
+    cases: Sequence[Case],
+    progress: Progress,
+    time_limit: float = TIME_LIMIT,
+    *,
+    jobs: int = 1,
+    keep: Callable[[StressResult], None] = lambda result: None,
+) -> StressResult:
+    """Run and judge the cases that apply; FmuError when none does or the FMU cannot be run at all.
+
+    A crash or a missed `time_limit` (s) fails its case only. An FMU without fault gets up to `jobs`
+    processes. `keep` is called with what there is when the run is interrupted or stopped by an
+    error.
+    """
+    began = time.perf_counter()
+    verdicts: list[Verdict] = []
+    chosen = applicable(fmu, cases)
+
+    def report(case: Case) -> None:
+        done = len(verdicts)
+        label = case.value if case.is_random else case.axis
+        progress(counted(f"{fmu.name}: {label}", done, len(chosen)), done / len(chosen))
+
+    def result() -> StressResult:
+        seconds, skipped = time.perf_counter() - began, len(cases) - len(chosen)
+        left = len(chosen) - len(verdicts)
+        return StressResult(str(fmu), tuple(verdicts), seconds, left, skipped)
+
+    tasks = [(case, partial(observe, case=case)) for case in chosen]
+    try:
+        finished = run_all_tasks(
+            fmu,
+            tasks,
+            time_limit,
+            meanwhile=report,
+            outcomes=(FmuDied,),
+            jobs=jobs,
+        )
+        with closing(finished):
+            for case, seen, error in finished:
+                verdicts.append(
+                    judge(case, seen) if error is None else verdict_on(case, FAILED, str(error))
+                )
+    except BaseException:
+        if verdicts:
+            keep(result())
+        raise
+    return result()

@@ -1,0 +1,215 @@
+"""Our FMUs as methods: every fidelity, friction law, communication step and tolerance."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property, partial
+from math import ceil
+from operator import attrgetter
+from time import process_time
+from typing import Any, Protocol
+
+import numpy as np
+
+from slider_resonator.device.model import LUGRE, Model
+from slider_resonator.device.schedule import Schedule
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import run
+from slider_resonator.steady.blocking_force import find_blocking
+from slider_resonator.steady.search_result import SearchResult
+from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.trading.method import Label, Method, SteadyAnswer, SteadyMethod, timed
+from slider_resonator.trading.problem import Problem
+from slider_resonator.trading.result import AVERAGED, RESOLVED
+from slider_resonator.trading.solution import Solution
+
+STEPS = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
+"""Communication steps in drive periods."""
+USUAL_STEP = 10.0
+"""The step for other tolerances and for the other friction law."""
+TOLERANCES = (1e-4, 1e-6, 1e-10, 1e-12)
+"""Of LuGre friction, besides the one that the FMU starts with."""
+USUAL_TOLERANCE = 1e-8
+LEAP_STEP = 1000.0
+"""The step for other tolerances of leaps."""
+LEAP_TOLERANCES = (1e-5, 1e-6, 1e-7)
+"""Of motion that leaps, besides the usual one."""
+AVERAGING_ORDERS = (2, 1)
+OUTPUTS = ("position", "velocity", "mean_velocity")
+SHORTEST = 2e-3
+"""Shortest CPU time (s) of a measurement; shorter runs are repeated up to MAX_RUNS times."""
+MAX_RUNS = 20
+
+_UNRESOLVED = {"event_times": "averaged motion has no events"}
+
+
+class TaskRunner(Protocol):
+    """An FMU that runs tasks, such as an isolated one."""
+
+    def run(self, task: Callable[[Instance], Any]) -> Any:
+        """Return the result of a picklable task."""
+
+
+class FmuMethods:
+    """The methods of an FMU on a problem; `build` is its name, such as `native`."""
+
+    def __init__(self, problem: Problem, build: str, fmu: TaskRunner) -> None:
+        self.problem = problem
+        self.build = build
+        self.fmu = fmu
+        self._cpu = 0.0
+
+    @cached_property
+    def orders(self) -> tuple[int | None, ...]:
+        """The orders of averages from which the FMU has a choice, highest first; else None."""
+        return AVERAGING_ORDERS if self.fmu.run(attrgetter("fmu.has_orders")) else (None,)
+
+    def _clock(self) -> float:
+        """Return the CPU time (s) that the FMU has taken so far, in its own process."""
+        return self._cpu
+
+    def _run(self, task: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
+        """Run `task(instance, ...)` and add its CPU time."""
+        taken, result = self.fmu.run(partial(_timed, partial(task, **options), arguments))
+        self._cpu += taken
+        return result
+
+    def methods(self) -> Iterator[Method]:
+        """Yield every setting; the other friction law as a model of the same device."""
+        own = self.problem.device.friction_law
+        for model in self._models():
+            for step in STEPS:
+                yield self._method(model, step, USUAL_TOLERANCE)
+            yield self._method(replace(model, friction_law=1 - own), USUAL_STEP, USUAL_TOLERANCE)
+            for tolerance in TOLERANCES if own == LUGRE and model.fidelity else ():
+                yield self._method(model, USUAL_STEP, tolerance)
+            for tolerance in LEAP_TOLERANCES if model.leaps else ():
+                yield self._method(model, LEAP_STEP, tolerance)
+
+    def _models(self) -> list[Model]:
+        """Return the models under the friction law of the device."""
+        own = self.problem.device.friction_law
+        return [Model(2, own), Model(1, own), *(Model(0, own, order) for order in self.orders)]
+
+    def answers(self) -> Iterator[SteadyMethod]:
+        """Yield the searches for steady motion and blocking force, and the outputs of theory."""
+        for quantity in ("steady_velocity", "blocking_force"):
+            for model in self._models():
+                yield self._search(quantity, model)
+            for order in self.orders:
+                yield self._prediction(quantity, order)
+
+    @cached_property
+    def interpolates(self) -> bool:
+        """Whether the FMU takes derivatives of inputs."""
+        return bool(self.fmu.run(attrgetter("fmu.interpolates")))
+
+    def _schedule(self, periods: int, step: float) -> Schedule:
+        """Return the inputs in steps (s): straight lines as derivatives where it takes them."""
+        inputs = self.problem.interpolated if self.interpolates else self.problem.schedule
+        return inputs(periods, step)
+
+    def _values(self, model: Model, tolerance: float) -> dict[str, float]:
+        return {**self.problem.parameters, **model.parameters, "tolerance": tolerance}
+
+    def _label(self, model: Model, tolerance: float, step: float | None) -> Label:
+        family = f"{self.build} FMU, {model.resolution}"
+        if model.friction_law != self.problem.device.friction_law:
+            family += f", {model.law} instead"
+        name = family
+        if step is not None:
+            name += f", steps of {step:g} period{'s' if step != 1.0 else ''}"
+        has_tolerance = model.friction_law == LUGRE or model.leaps
+        if has_tolerance and tolerance != USUAL_TOLERANCE:
+            name += f", tol {tolerance:.0e}"
+        kind = RESOLVED if model.fidelity else AVERAGED
+        used = tolerance if has_tolerance else None
+        about = (model.friction_law, model.fidelity, step, used, model.averaging_order)
+        return Label(kind, family, name, *about)
+
+    def _method(self, model: Model, step: float, tolerance: float) -> Method:
+        values = self._values(model, tolerance)
+        size = step * self.problem.period
+
+        def follow(periods: int) -> Solution:
+            return self._follow(values, periods, size, resolved=model.fidelity > 0)
+
+        def seconds(periods: int) -> float:
+            schedule = self._schedule(periods, size)
+            taken: list[float] = []
+            while not taken or (sum(taken) < SHORTEST and len(taken) < MAX_RUNS):
+                taken.append(self._run(run, values, schedule, outputs=OUTPUTS).step_cpu)
+            return sum(taken) / len(taken)
+
+        return Method(
+            self._label(model, tolerance, step),
+            follow,
+            seconds,
+            min_periods=ceil(step),
+            missing={} if model.fidelity else _UNRESOLVED,
+            clock=self._clock,
+        )
+
+    def _follow(
+        self, values: Mapping[str, float], periods: int, size: float, *, resolved: bool
+    ) -> Solution:
+        own = self._schedule(periods, size)
+        readings = self.problem.readings(periods)
+        closest = 1e-9 * min(size, self.problem.period)
+        outputs = (*OUTPUTS, "last_event_time", "reversals")
+        schedule = own.read_at(readings, closest)
+        record: Record = self._run(run, values, schedule, outputs=outputs)
+        at = np.searchsorted(record.times, own.times)
+        return Solution(
+            times=record.times,
+            position=record["position"],
+            velocity=record["velocity"],
+            mean_velocity=record["mean_velocity"],
+            last_event=record["last_event_time"] if resolved else None,
+            history=(own.times, record["mean_velocity"][at]),
+            steps=len(own.times) - 1,
+            events=round(record.final("reversals")) if resolved else None,
+            start_cpu=record.start_cpu,
+        )
+
+    def _search(self, quantity: str, model: Model) -> SteadyMethod:
+        values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
+
+        def find(_: float) -> SteadyAnswer:
+            search: SearchResult
+            if quantity == "steady_velocity":
+                search = self._run(find_steady, values)
+            else:
+                free = {name: value for name, value in values.items() if name != "load"}
+                search = self._run(find_blocking, free)
+            return SteadyAnswer(getattr(search, quantity), search.reason, search.periods)
+
+        label = self._label(model, USUAL_TOLERANCE, None)
+        return SteadyMethod(label, quantity, find, self._clock)
+
+    def _prediction(self, quantity: str, order: int | None) -> SteadyMethod:
+        """Return the value of an output that predicts, at the start of a run at fidelity 2."""
+        law = self.problem.device.friction_law
+        model = Model(2, law, order)
+        values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
+        family = f"{self.build} FMU, output {quantity}" + (f", order {order}" if order else "")
+
+        def find(_: float) -> SteadyAnswer:
+            return SteadyAnswer(self._run(_value_at_start, values, quantity), "", 0)
+
+        label = Label(AVERAGED, family, family, law, averaging_order=order)
+        return SteadyMethod(label, quantity, find, self._clock)
+
+
+def _timed(
+    task: Callable[..., Any], arguments: Sequence[Any], instance: Instance
+) -> tuple[float, Any]:
+    """Return the CPU time (s) of a task and its result, in the process of the FMU."""
+    return timed(lambda: task(instance, *arguments), process_time)
+
+
+def _value_at_start(instance: Instance, values: Mapping[str, float], output: str) -> float:
+    instance.start(values)
+    return instance.value(output)

@@ -1,0 +1,158 @@
+"""The HTML page: ratios, work-precision plots, all rows and the omissions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite
+from pathlib import Path
+
+from slider_resonator.fmu.provenance import Provenance
+from slider_resonator.fmu.provenance_text import provenance_html
+from slider_resonator.output.hover_plot import (
+    Axis,
+    HoverPlot,
+    Series,
+    look,
+    plot_html,
+    write_plot_page,
+)
+from slider_resonator.output.html_page import escaped, folded, rendered
+from slider_resonator.output.table import Table, numbers, texts
+from slider_resonator.trading.result import (
+    Row,
+    Trade,
+    cost_label,
+    curve,
+    drawn_error,
+    families,
+    front,
+)
+from slider_resonator.trading.solution import QUANTITIES
+from slider_resonator.trading.summary import comparisons, duration, title
+
+
+def work_precision_plot(trade: Trade, quantity: str) -> HoverPlot:
+    """Return the plot of a quantity: a series for each family, and the Pareto front of all."""
+    drawn = [row for row in trade.having(quantity) if isfinite(row.errors[quantity])]
+    best = front(drawn, quantity)
+    series = [_series("Pareto front of all", best, quantity, "#cfd8dc", "", 6.0)]
+    for index, family in enumerate(families(trade.rows)):
+        own = [row for row in drawn if row.family == family]
+        if own:
+            colour, marker, dash = look(index)
+            joined = curve(own, quantity)
+            others = [row for row in own if row not in joined]
+            series.append(_series(family, joined, quantity, colour, marker, 1.3, dash))
+            if others:
+                label = f"{family}: not on its front"
+                series.append(_series(label, others, quantity, colour, marker))
+    return HoverPlot(
+        f"{quantity.replace('_', ' ')}: error over cost",
+        Axis(cost_label(drawn), log=True),
+        Axis(f"error: {QUANTITIES[quantity]}", log=True),
+        series,
+        height=460,
+    )
+
+
+def _series(
+    label: str,
+    rows: list[Row],
+    quantity: str,
+    colour: str,
+    marker: str,
+    width: float = 0.0,
+    dash: tuple[int, ...] = (),
+) -> Series:
+    return Series(
+        label=label,
+        x=[row.cost for row in rows],
+        y=[drawn_error(row, quantity) for row in rows],
+        colour=colour,
+        marker=marker,
+        width=width,
+        dash=dash,
+        notes=[_note(row) for row in rows],
+    )
+
+
+def _note(row: Row) -> str:
+    lines = [
+        row.method,
+        f"CPU time {duration(row.cost)} ({duration(min(row.cpu))} to {duration(max(row.cpu))})",
+    ]
+    if row.step is not None:
+        lines.append(f"step {row.step:g} drive periods")
+    if row.tolerance is not None:
+        lines.append(f"tolerance {row.tolerance:g}")
+    lines.append(f"{row.periods} drive periods")
+    counts = {"steps": row.steps, "evaluations": row.evaluations, "events": row.events}
+    lines += [f"{count} {name}" for name, count in counts.items() if count is not None]
+    return "\n".join(lines)
+
+
+_COLUMNS = (
+    *texts("method"),
+    *numbers("periods", "CPU time", "range", "steps", "evaluations", "events"),
+    *numbers(*QUANTITIES),
+)
+
+
+def write_trades(path: Path, trades: Sequence[Trade], provenance: Provenance) -> None:
+    """Write the page; HarnessError when that is impossible."""
+    parts = [part for trade in trades for part in _ratios(trade)]
+    parts.append(_explanation())
+    parts += [part for trade in trades for part in _scene(trade)]
+    parts.append(provenance_html(provenance))
+    write_plot_page(path, "What accuracy costs", parts)
+
+
+def _ratios(trade: Trade) -> list[str]:
+    parts = [f"<h2>{escaped(title(trade))}</h2>"]
+    for target, sentences in comparisons(trade):
+        items = "".join(f"<li>{escaped(words)}</li>" for words in sentences)
+        parts.append(f"<p><strong>{escaped(target)}</strong></p><ul>{items}</ul>")
+    return parts
+
+
+def _explanation() -> str:
+    return (
+        "<p>Errors are largest deviations from the reference, Taylor integration with located "
+        "events, over all points of windows of a drive period that end with the run, half of it, a "
+        "quarter and so on; those of steady velocity and blocking force are from shooting by the "
+        "reference. Times are CPU times, medians of repeats taken in turn, of following the "
+        "motion: not of the start of an FMU, nor of the first drive period, which located Taylor "
+        "steps take for heyoka in one call, since it cannot start at rest. A method that would "
+        "exceed its budget is followed over fewer drive periods, as listed. Inputs that "
+        "ramp do so for all methods; an FMU that takes no derivatives of inputs holds them over "
+        "its steps. Peers cost "
+        "what they cost a user of Python: heyoka compiles its equations, scipy calls them "
+        "in Python, and Moreau-Jean is a loop in Python. Steps are an FMU's communication steps "
+        "or an integrator's own; events are those that were located, else reversals.</p>"
+    )
+
+
+def _scene(trade: Trade) -> list[str]:
+    parts = [f"<h2>{escaped(title(trade))}: in full</h2>"]
+    run = f"{trade.periods} drive periods, {trade.simulated:.4g} s simulated."
+    parts.append(f"<p>{escaped(run)}</p>")
+    for quantity in QUANTITIES:
+        if trade.having(quantity):
+            parts.append(plot_html(work_precision_plot(trade, quantity)))
+    table = Table(_COLUMNS, [_cells(row) for row in trade.rows])
+    parts.append(folded(f"All {len(trade.rows)} rows", rendered(table)))
+    omitted = [(one.method, one.quantity, one.reason) for one in trade.omissions]
+    missing = rendered(Table(texts("method", "quantity", "reason"), omitted))
+    parts.append(folded(f"{len(omitted)} omissions: what is missing, and why", missing))
+    return parts
+
+
+def _cells(row: Row) -> list[str]:
+    return [
+        row.method if row.answer == "run" else f"{row.method}: {row.answer}",
+        str(row.periods),
+        duration(row.cost),
+        f"{duration(min(row.cpu))} to {duration(max(row.cpu))}",
+        *("" if n is None else str(n) for n in (row.steps, row.evaluations, row.events)),
+        *(f"{row.errors[q]:.1e}" if q in row.errors else "" for q in QUANTITIES),
+    ]

@@ -1,0 +1,56 @@
+"""The reference of all errors: Taylor series with located events, and shooting with it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.references.resolved.simulate import simulate
+from slider_resonator.trading.peer_methods import shoot
+from slider_resonator.trading.peers.peer import solution_of
+from slider_resonator.trading.problem import Problem
+from slider_resonator.trading.solution import WindowReadings, windows
+
+SHOOTING = 1e-10
+"""Accuracy of the steady state in units of its scale."""
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The reference solution of a problem.
+
+    `windows` are its readings; `sticks` says whether the slider sticks after the first drive
+    period. The steady velocity (m/s) and the blocking force (N) are None where there is none.
+    """
+
+    windows: WindowReadings
+    sticks: bool
+    steady_velocity: float | None
+    blocking_force: float | None
+
+
+def find_reference(problem: Problem) -> Reference:
+    """Compute the reference; HarnessError where that is impossible."""
+    try:
+        held, periods = problem.lines(problem.periods), problem.periods
+        run = simulate(problem.device, held, problem.readings(periods))
+        found = windows(problem, solution_of(run, located=True), periods)
+        first = simulate(problem.device, problem.lines(1), np.empty(0)).stick_time
+        answers = {}
+        for quantity in ("steady_velocity", "blocking_force"):
+            answers[quantity] = (
+                shoot(problem, quantity, simulate, SHOOTING, inf).value if problem.steady else None
+            )
+    except (ValueError, RuntimeError) as error:
+        raise HarnessError(
+            f"scene {problem.name}: the reference cannot follow it: {error}"
+        ) from error
+    return Reference(
+        found,
+        run.stick_time > first + 1e-9 * problem.period,
+        answers["steady_velocity"],
+        answers["blocking_force"],
+    )

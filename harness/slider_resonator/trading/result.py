@@ -1,0 +1,179 @@
+"""The data of a trade: rows, omissions, the cheapest method at an error; and its CSV files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+from slider_resonator.output.atomic import write_csv
+from slider_resonator.trading.solution import QUANTITIES
+
+AVERAGED, RESOLVED, PEER = "averaged", "resolved", "peer"
+"""Kinds of method: our averaged motion, our resolved one, and all others."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """One method at one setting on one scene.
+
+    `answer` is `run`, with the errors of a trajectory over `periods` drive periods, or
+    `steady_velocity` or `blocking_force`, with that error alone. `cpu` (s) holds every repeat, per
+    simulated second of a run and per answer otherwise, and `start_cpu` (s) what initialisation took
+    besides. `step` is the communication step in drive periods, `averaging_order` that of
+    fidelity 0, in an FMU that has a choice, and of predictions. Of a run `steps` counts the
+    communication steps of an FMU or an integrator's own, `evaluations` those of the equations,
+    `events` the located ones, or the reversals where a method reports no others. What a method does
+    not have or does not report is None.
+    """
+
+    scene: str
+    answer: str
+    kind: str
+    family: str
+    method: str
+    fidelity: int | None
+    friction_law: int
+    step: float | None
+    tolerance: float | None
+    periods: int
+    cpu: tuple[float, ...]
+    start_cpu: float | None
+    steps: int | None
+    evaluations: int | None
+    events: int | None
+    errors: Mapping[str, float]
+    averaging_order: int | None = None
+
+    @property
+    def cost(self) -> float:
+        """Median of the CPU times."""
+        return median(self.cpu)
+
+
+@dataclass(frozen=True)
+class Omission:
+    """A method, or a quantity of it, that is not among the rows, and the reason."""
+
+    scene: str
+    method: str
+    quantity: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class Trade:
+    """All measurements on one scene, of a run of `periods` drive periods, `simulated` s."""
+
+    scene: str
+    title: str
+    friction_law: int
+    periods: int
+    simulated: float
+    rows: tuple[Row, ...]
+    omissions: tuple[Omission, ...]
+
+    def having(self, quantity: str) -> list[Row]:
+        """Return the rows with an error of this quantity."""
+        return [row for row in self.rows if quantity in row.errors]
+
+    def candidates(self, quantity: str) -> list[Row]:
+        """Return the rows under the friction law of the scene, of those with this error."""
+        return [row for row in self.having(quantity) if row.friction_law == self.friction_law]
+
+
+FLOOR = 1e-16
+"""Errors below this, the resolution of double precision, are drawn at it."""
+ROUNDING = 1e-12
+"""Errors below this are rounding over a thousand drive periods and compare as equal."""
+
+
+def front(rows: Iterable[Row], quantity: str) -> list[Row]:
+    """Return the Pareto front: rows, by cost, that no other beats in both error and cost.
+
+    Errors below ROUNDING count as equal.
+    """
+
+    def error(row: Row) -> float:
+        return max(row.errors[quantity], ROUNDING)
+
+    best: list[Row] = []
+    for row in sorted(rows, key=lambda row: (row.cost, error(row))):
+        if not best or error(row) < error(best[-1]):
+            best.append(row)
+    return best
+
+
+def drawn_error(row: Row, quantity: str) -> float:
+    """Return the error of a quantity as it is drawn: not below FLOOR."""
+    return max(row.errors[quantity], FLOOR)
+
+
+def cost_label(rows: Sequence[Row]) -> str:
+    """Return the label of the axis of costs: of answers, or of simulated seconds."""
+    answers = bool(rows) and all(row.answer != "run" for row in rows)
+    return f"CPU time per {'answer' if answers else 'simulated second'} [s]"
+
+
+def curve(own: Sequence[Row], quantity: str) -> list[Row]:
+    """Return the rows of a family that a line joins, by cost: its Pareto front, or all of them.
+
+    Where only the communication step of ours varies, that is one line, however exact.
+    """
+    precise = own[0].kind == PEER or len({row.tolerance for row in own}) > 1
+    return front(own, quantity) if precise else sorted(own, key=lambda row: row.cost)
+
+
+def cheapest(rows: Iterable[Row], quantity: str, error: float) -> Row | None:
+    """Return the cheapest row with an error of a quantity of at most `error`, None without any."""
+    good = [row for row in rows if row.errors.get(quantity, float("inf")) <= error]
+    return min(good, key=lambda row: row.cost, default=None)
+
+
+def paired_ratio(row: Row, against: Row) -> tuple[float, float, float]:
+    """Return median, minimum and maximum ratio of the costs of two rows, repeat by repeat."""
+    ratios = [ours / theirs for ours, theirs in zip(row.cpu, against.cpu, strict=False)]
+    return median(ratios), min(ratios), max(ratios)
+
+
+def families(rows: Sequence[Row]) -> list[str]:
+    """Return the families in the order in which they appear."""
+    return list(dict.fromkeys(row.family for row in rows))
+
+
+COLUMNS = (
+    *("scene", "answer", "kind", "family", "method", "fidelity", "averaging_order"),
+    "friction_law",
+    *("step_periods", "tolerance", "periods", "repeats", "cpu_median_s", "cpu_min_s", "cpu_max_s"),
+    *("start_cpu_s", "steps", "evaluations", "events"),
+    *(f"error_{quantity}" for quantity in QUANTITIES),
+)
+"""Columns of the data; CPU times are per simulated second where `answer` is `run`, else per answer;
+what a method does not have or does not report is empty."""
+
+
+def write_rows(path: Path, trades: Sequence[Trade]) -> None:
+    """Write all rows; HarnessError when that is impossible."""
+    write_csv(path, COLUMNS, (_cells(row) for trade in trades for row in trade.rows))
+
+
+def write_omissions(path: Path, trades: Sequence[Trade]) -> None:
+    """Write the omissions with their reasons; HarnessError when that is impossible."""
+    lines = [
+        (omission.scene, omission.method, omission.quantity, omission.reason)
+        for trade in trades
+        for omission in trade.omissions
+    ]
+    write_csv(path, ("scene", "method", "quantity", "reason"), lines)
+
+
+def _cells(row: Row) -> list[Any]:
+    return [
+        *(row.scene, row.answer, row.kind, row.family, row.method),
+        *(row.fidelity, row.averaging_order, row.friction_law),
+        *(row.step, row.tolerance, row.periods, len(row.cpu), row.cost, min(row.cpu), max(row.cpu)),
+        *(row.start_cpu, row.steps, row.evaluations, row.events),
+        *(row.errors.get(quantity) for quantity in QUANTITIES),
+    ]

@@ -1,0 +1,130 @@
+"""Solutions of a problem, sampled at its readings, and their errors against the reference."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from slider_resonator.arrays import Array
+from slider_resonator.checks.measures import (
+    NoOscillation,
+    dominant_frequency,
+    peak,
+    share_of,
+    slow_displacement,
+)
+from slider_resonator.device.schedule import nearest
+from slider_resonator.trading.problem import Problem
+
+QUANTITIES: Mapping[str, str] = {
+    "mean_velocity": "mean velocity over a drive period, share of its peak",
+    "slow_displacement": "position averaged over a drive period, share of its peak",
+    "position": "instantaneous position, share of its peak",
+    "velocity": "instantaneous velocity, share of its peak",
+    "event_times": "time of the last event, in drive periods",
+    "beat_frequency": "frequency of the beat, share of it",
+    "steady_velocity": "steady velocity by shooting, share of it",
+    "blocking_force": "blocking force by shooting, share of it",
+}
+"""Every measured error and its quantity."""
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Signals at `times` (s) and counts over the run, None where the method does not report them.
+
+    `position` (m) and `velocity` (m/s) have the shape (n,) of the times, `mean_velocity` (m/s) too
+    where the method has one of its own, `last_event` (s) where it locates events. `history` holds
+    the times and mean velocities of its own steps, for the beat. `start_cpu` is the CPU time (s) of
+    initialisation.
+    """
+
+    times: Array
+    position: Array
+    velocity: Array
+    mean_velocity: Array | None = None
+    last_event: Array | None = None
+    history: tuple[Array, Array] | None = None
+    steps: int | None = None
+    evaluations: int | None = None
+    events: int | None = None
+    start_cpu: float | None = None
+
+
+@dataclass(frozen=True)
+class WindowReadings:
+    """The compared readings, one row for each window of a problem.
+
+    `position` and `velocity` have the shape (w, POINTS + 1), the others (w,).
+    """
+
+    position: Array
+    velocity: Array
+    mean_velocity: Array
+    slow_displacement: Array
+    last_event: Array | None
+
+
+def windows(problem: Problem, solution: Solution, periods: int) -> WindowReadings:
+    """Return the readings of a solution over `periods` drive periods, window by window."""
+    places = [nearest(solution.times, problem.window(end)) for end in problem.windows(periods)]
+    position = np.array([solution.position[at] for at in places])
+    last = [at[-1] for at in places]
+    mean = (position[:, -1] - position[:, 0]) / problem.period
+    if solution.mean_velocity is not None:
+        mean = solution.mean_velocity[last]
+    slow = [slow_displacement(problem.window(1), row, problem.period)[-1] for row in position]
+    return WindowReadings(
+        position=position,
+        velocity=np.array([solution.velocity[at] for at in places]),
+        mean_velocity=mean,
+        slow_displacement=np.array(slow),
+        last_event=None if solution.last_event is None else solution.last_event[last],
+    )
+
+
+def last_events(event_times: Array, times: Array) -> Array:
+    """Return the time of the last event up to each time, 0 before the first; shape of `times`."""
+    known = np.concatenate([[0.0], event_times])
+    return np.asarray(known[np.searchsorted(event_times, times, side="right")])
+
+
+def errors(
+    problem: Problem, solution: Solution, reference: WindowReadings, periods: int
+) -> dict[str, float]:
+    """Return the error of each quantity of a solution, infinite where it is not finite."""
+    found = windows(problem, solution, periods)
+    count = len(found.mean_velocity)
+    reported = {}
+    for name in ("mean_velocity", "slow_displacement", "position", "velocity"):
+        expected = getattr(reference, name)[:count]
+        reported[name] = share_of(peak(getattr(found, name) - expected), peak(expected))
+    if found.last_event is not None and reference.last_event is not None:
+        late = np.abs(found.last_event - reference.last_event[:count]).max()
+        reported["event_times"] = float(late) / problem.period
+    if problem.beat is not None and solution.history is not None:
+        beat = _beat(*solution.history, problem.beat)
+        if beat is not None:
+            reported["beat_frequency"] = abs(beat - problem.beat) / problem.beat
+    return {name: error if np.isfinite(error) else np.inf for name, error in reported.items()}
+
+
+def _beat(times: Array, mean_velocity: Array, beat: float) -> float | None:
+    """Return the frequency (Hz) in the later half, None where it is sampled too thinly."""
+    if len(times) < 32:
+        return None
+    steps = np.diff(times)
+    if abs(steps[-1] - steps[0]) > 1e-6 * steps[0]:
+        times, mean_velocity = times[:-1], mean_velocity[:-1]
+    half = len(times) // 2
+    later = times[half:]
+    if len(later) < 16 or not (later[-1] - later[0]) * beat > 2.0:
+        return None
+    if (later[-1] - later[0]) / (len(later) - 1) * beat > 0.4:
+        return None
+    try:
+        return dominant_frequency(later, mean_velocity[half:])
+    except NoOscillation:
+        return np.inf

@@ -1,0 +1,192 @@
+"""The figures at the top, and the tables that lead from need to model to cost."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from slider_resonator.device.model import LAWS
+from slider_resonator.errors import HarnessError
+from slider_resonator.output import html_page, markdown
+from slider_resonator.output.atomic import write_marked
+from slider_resonator.output.table import Table, numbers, texts
+from slider_resonator.trading.result import (
+    AVERAGED,
+    PEER,
+    RESOLVED,
+    Row,
+    Trade,
+    cheapest,
+    paired_ratio,
+)
+
+TARGETS = (("mean_velocity", 1e-2), ("position", 1e-9))
+"""Quantity, and the error at which costs are compared."""
+ROUNDS_UP = 0.9995
+"""Share of a unit that three digits round to the whole unit."""
+CLASSES = {AVERAGED: "averaged", RESOLVED: "resolved", PEER: "peers"}
+
+
+@dataclass(frozen=True)
+class Standing:
+    """The cheapest method of a class at an error, None where none reaches it.
+
+    `ratio` is its cost over that of the resolved one, repeat by repeat: median, minimum, maximum.
+    """
+
+    quantity: str
+    error: float
+    kind: str
+    row: Row | None
+    ratio: tuple[float, float, float] | None
+
+
+def standings(trade: Trade) -> list[Standing]:
+    """Return the standing of every class at every target."""
+    found = []
+    for quantity, error in TARGETS:
+        rows = trade.candidates(quantity)
+        against = cheapest([row for row in rows if row.kind == RESOLVED], quantity, error)
+        for kind in CLASSES:
+            row = cheapest([row for row in rows if row.kind == kind], quantity, error)
+            ratio = None if row is None or against is None else paired_ratio(row, against)
+            found.append(Standing(quantity, error, kind, row, ratio))
+    return found
+
+
+def sentence(standing: Standing) -> str:
+    """Return a standing in words."""
+    name = CLASSES[standing.kind]
+    if standing.row is None:
+        return f"{name}: not reached"
+    row = standing.row
+    words = f"{name}: {duration(row.cost)} a simulated second ({row.method})"
+    if standing.ratio is None or standing.kind == RESOLVED:
+        return words
+    middle, low, high = standing.ratio
+    if middle < 1.0:
+        shares = f"{1.0 / middle:.3g} times cheaper than resolved"
+        return f"{words}, {shares} ({1.0 / high:.3g} to {1.0 / low:.3g})"
+    return f"{words}, {middle:.3g} times the cost of resolved ({low:.3g} to {high:.3g})"
+
+
+def comparisons(trade: Trade) -> list[tuple[str, list[str]]]:
+    """Return the standings in words: the target, and a sentence for each class."""
+    by_target: dict[str, list[str]] = {}
+    for standing in standings(trade):
+        words = heading(standing.quantity, standing.error)
+        by_target.setdefault(words, []).append(sentence(standing))
+    return list(by_target.items())
+
+
+def heading(quantity: str, error: float) -> str:
+    """Return the target in words."""
+    size = f"{100.0 * error:g} %" if error >= 1e-3 else f"{error:.0e}"
+    return f"at an error of {size} in {quantity.replace('_', ' ')}"
+
+
+def duration(seconds: float) -> str:
+    """Return a CPU time in three digits, with a unit."""
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6)):
+        if seconds >= ROUNDS_UP * size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds / 1e-9:.3g} ns"
+
+
+BEGIN, END = "<!-- trade -->", "<!-- end of trade -->"
+SUFFIXES = (".md", ".html")
+NEEDS = (
+    ("steady_velocity", 1e-2),
+    ("steady_velocity", 1e-6),
+    ("blocking_force", 1e-2),
+    ("blocking_force", 1e-6),
+    ("beat_frequency", 1e-2),
+    ("mean_velocity", 1e-2),
+    ("mean_velocity", 1e-6),
+    ("position", 1e-2),
+    ("position", 1e-4),
+    ("position", 1e-9),
+    ("event_times", 1e-6),
+)
+"""Quantity and error; a scene without the quantity has no such row."""
+COLUMNS = (
+    *(*texts("need"), *numbers("within"), *texts("model")),
+    *(*numbers("error", "native FMU", "Python FMU"), *texts("cheapest peer")),
+)
+
+
+@dataclass(frozen=True)
+class CheapestRows:
+    """The cheapest rows that meet a need, None where no method does.
+
+    `python` is the same model in the Python FMU, None where it does not meet the need there: that
+    FMU holds inputs over each step.
+    """
+
+    quantity: str
+    error: float
+    native: Row | None
+    python: Row | None
+    peer: Row | None
+
+
+def choices(trade: Trade) -> list[CheapestRows]:
+    """Return the cheapest method for every need of a scene; the native FMU decides the model."""
+    found = []
+    for quantity, error in NEEDS:
+        rows = trade.candidates(quantity)
+        if not rows:
+            continue
+        native = cheapest([r for r in rows if r.family.startswith("native")], quantity, error)
+        twins = [
+            row
+            for row in rows
+            if native is not None and row.method == native.method.replace("native", "Python", 1)
+        ]
+        peer = cheapest([row for row in rows if row.kind == PEER], quantity, error)
+        found.append(CheapestRows(quantity, error, native, cheapest(twins, quantity, error), peer))
+    return found
+
+
+def write_choices(path: Path, trades: Sequence[Trade]) -> None:
+    """Write the tables of all scenes between the marks of a page, Markdown or HTML by its suffix.
+
+    Raises HarnessError when the file cannot be written, or has marks that are no pair.
+    """
+    if path.suffix not in SUFFIXES:
+        allowed = " or ".join(SUFFIXES)
+        raise HarnessError(f"{path}: the suffix is {path.suffix!r}; must be {allowed}")
+    parts = []
+    for trade in trades:
+        table = Table(COLUMNS, [cells(choice) for choice in choices(trade)])
+        if path.suffix == ".md":
+            heading = markdown.escaped(title(trade))
+            parts.append(f"\n**{heading}**\n\n{markdown.rendered(table)}\n")
+        else:
+            heading = html_page.escaped(title(trade))
+            parts.append(f"<h3>{heading}</h3>\n{html_page.rendered(table)}")
+    write_marked(path, "\n".join(parts), BEGIN, END)
+
+
+def title(trade: Trade) -> str:
+    """Return the title of a table."""
+    return f"{trade.title} (scene {trade.scene}, {LAWS[trade.friction_law]} friction)"
+
+
+def cells(choice: CheapestRows) -> tuple[str, ...]:
+    """Return a row of the table, in the order of `COLUMNS`."""
+    rows = (choice.native, choice.python, choice.peer)
+    native, python, peer = ("not reached" if row is None else _cost(row) for row in rows)
+    if choice.peer is not None:
+        peer += f" ({choice.peer.method})"
+    model, error = "none", ""
+    if choice.native is not None:
+        model = choice.native.method.removeprefix("native FMU, ")
+        error = f"{choice.native.errors[choice.quantity]:.0e}"
+    quantity = choice.quantity.replace("_", " ")
+    return (quantity, f"{choice.error:.0e}", model, error, native, python, peer)
+
+
+def _cost(row: Row) -> str:
+    return duration(row.cost) + (" / s" if row.answer == "run" else "")

@@ -1,0 +1,53 @@
+"""Short problems that the tests of the trade share."""
+
+from __future__ import annotations
+
+from slider_resonator.references.resolved.simulate import simulate
+from slider_resonator.trading.peers.peer import solution_of
+from slider_resonator.trading.problem import Problem, problem_of
+from slider_resonator.trading.solution import WindowReadings, windows
+from tests.harness.scene_text import scene_of
+
+
+def problem(text: str, max_periods: int | None = None) -> Problem:
+    return problem_of(scene_of(text), {}, max_periods)
+
+
+def reference_of(problem: Problem) -> WindowReadings:
+    """The readings of a problem by the Taylor references, over its whole run."""
+    periods = problem.periods
+    run = simulate(problem.device, problem.lines(periods), problem.readings(periods))
+    return windows(problem, solution_of(run, located=True), periods)
+
+
+TABLE_1 = ""
+LUGRE = "[device]\nfriction_law = 1\nbristle_stiffness = 1e4\n"
+RAMP = """
+[inputs]
+load = { ramp = [[0.0, 0.0], [0.02, 0.1]] }
+[run]
+drive_periods = 16
+steps_per_period = 8
+"""
+TURNS_BACK = """
+[inputs]
+frequency_ratio = { ramp = [[0.0, 0.4], [0.02, -0.6]] }
+[run]
+drive_periods = 16
+steps_per_period = 8
+"""
+JUMPS = """
+[inputs]
+load = { steps = [[0.0, 0.0], [0.0101, 0.05]] }
+[run]
+drive_periods = 16
+steps_per_period = 8
+"""
+BEAT = """
+[inputs]
+frequency_ratio = 1.05
+[run]
+drive_periods = 1600
+steps_per_period = 1
+"""
+STICKING = "[device]\nbase_amplitude = 5e-8\n"
