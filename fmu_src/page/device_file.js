@@ -20,11 +20,30 @@ function parameterOf(name, token) {
   return valueOf(parameter, token.replace(/(\d)_(?=\d)/g, "$1"));
 }
 
-/** Return `{title, values}` of a device file; what it leaves out keeps its start.
+/** Return a sentence for each frequency given as a `plain` number in rad/s that may be meant in Hz:
+ * round numbers, and a frequency that is 2 pi times or a 2 pi-th of the other. */
+function possibleSlips(values, plain) {
+  const both = ["drive_frequency", "resonator_frequency"].map(
+    (name) => PARAMETERS.find((variable) => variable.name === name));
+  const [drive, resonator] = both.map(({ name, start }) => values.get(name) ?? start);
+  const isApart = [drive / resonator, resonator / drive].some(
+    (ratio) => Math.abs(ratio / (2 * Math.PI) - 1) < 0.03);
+  const isSlip = (value, start) => value > 0
+    && (isApart || (value !== start && Number(value.toPrecision(2)) === value));
+  return both.filter(({ name, start }) => plain.has(name) && isSlip(values.get(name), start))
+    .map((variable) => {
+      const [name, value] = [variable.name, values.get(variable.name)];
+      return `${name} = ${value} is in rad/s, which is ${shownValue(variable, value)}; `
+        + `if ${value} Hz is meant, write ${name} = "${value} Hz"`;
+    });
+}
+
+/** Return `{title, values, slips}` of a device file; what it leaves out keeps its start.
  * Throw Refused with the line, key, value and what it must be. */
 function deviceOf(text) {
   const device = { title: "", values: new Map() };
   const seen = new Set();
+  const plain = new Set();
   let isBelow = false;
   text.replace(/^\uFEFF/, "").split(/\r?\n/).forEach((line, i) => {
     try {
@@ -43,6 +62,9 @@ function deviceOf(text) {
         isBelow = true;
       } else if (name && isBelow) {
         device.values.set(name, parameterOf(name, token));
+        if (!/^["']/.test(token)) {
+          plain.add(name);
+        }
       } else if (name === "title") {
         device.title = unquoted(token);
       } else if (name && !TEXTS.includes(name)) {
@@ -58,7 +80,7 @@ function deviceOf(text) {
   if (!isBelow) {
     throw new Refused("the file must have a table headed [device]");
   }
-  return device;
+  return { ...device, slips: possibleSlips(device.values, plain) };
 }
 
 /** Return the text of a device file: what differs from the start, and the number of faces. */

@@ -38,6 +38,7 @@ let component;
 let sketch;
 let runs = 0;
 let deviceShown = null;
+let note = "";
 
 function showSettings(settings, isNew) {
   byId("device").value = settings.device;
@@ -60,7 +61,8 @@ async function showAddress(isNew = false) {
     const results = await computeResults(component, settings, () => mine === runs,
       () => performance.now() - begin > PATIENCE && showMessage("computing", true));
     if (results) {
-      showMessage("");
+      showMessage(note);
+      note = "";
       controls.get("t").field.placeholder = `auto ${results.end}`;
       showSummary(results);
       showPlots(results);
@@ -110,7 +112,9 @@ byId("load").addEventListener("click", () => byId("file").click());
 byId("file").addEventListener("change", () => guarded(async () => {
   const [file] = byId("file").files;
   byId("file").value = "";
-  show(settingsFor(deviceOf(await file.text()).values), true);
+  const { values, slips } = deviceOf(await file.text());
+  note = slips.join("\n");
+  show(settingsFor(values), true);
 }));
 byId("save").addEventListener("click", () => {
   download("device.toml", deviceText(valuesOf(settingsOf(location.hash))));

@@ -23,7 +23,9 @@ if TYPE_CHECKING:
         Record,
         Scene,
         SteadyMotion,
+        StressResult,
         SweepResult,
+        Trade,
         Validation,
         choose,
         fit,
@@ -31,8 +33,10 @@ if TYPE_CHECKING:
         open_fmu,
         read_device,
         read_scene,
+        stress,
         sweep,
         to_toml,
+        trade,
         validate,
     )
 
@@ -48,7 +52,9 @@ __all__ = [
     "Record",
     "Scene",
     "SteadyMotion",
+    "StressResult",
     "SweepResult",
+    "Trade",
     "Validation",
     "choose",
     "fit",
@@ -56,8 +62,10 @@ __all__ = [
     "open_fmu",
     "read_device",
     "read_scene",
+    "stress",
     "sweep",
     "to_toml",
+    "trade",
     "validate",
 ]
 

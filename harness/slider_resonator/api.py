@@ -45,6 +45,7 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run as run_schedule
+from slider_resonator.output.progress import no_progress
 from slider_resonator.scenes.device_file import device_values, to_toml
 from slider_resonator.scenes.device_file import read_device as read_device_file
 from slider_resonator.scenes.scene import Scene, scene_from
@@ -52,8 +53,16 @@ from slider_resonator.scenes.scene_files import find_scene, find_scenes
 from slider_resonator.scenes.scene_record import SceneRecord
 from slider_resonator.steady.blocking_force import Blocking, find_blocking
 from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
+from slider_resonator.stressing.axes import axis_cases, device_cases
+from slider_resonator.stressing.random_cases import random_case
+from slider_resonator.stressing.run import TIME_LIMIT as CASE_LIMIT
+from slider_resonator.stressing.run import StressResult, run_cases
 from slider_resonator.sweeping.grid import grid_from, read_grid
 from slider_resonator.sweeping.sweeping import SweepResult, run_sweep
+from slider_resonator.trading.measure import BUDGET, REPEATS, measure_trades, opened
+from slider_resonator.trading.measure import TIME_LIMIT as TRADE_LIMIT
+from slider_resonator.trading.problem import problem_of
+from slider_resonator.trading.result import Trade
 
 __all__ = [
     "Blocking",
@@ -65,7 +74,9 @@ __all__ = [
     "Record",
     "Scene",
     "SteadyMotion",
+    "StressResult",
     "SweepResult",
+    "Trade",
     "Validation",
     "choose",
     "fit",
@@ -73,8 +84,10 @@ __all__ = [
     "open_fmu",
     "read_device",
     "read_scene",
+    "stress",
     "sweep",
     "to_toml",
+    "trade",
     "validate",
 ]
 
@@ -209,9 +222,8 @@ def validate(
     if named is not None and not named:
         raise SceneError("scenes = []: must be at least one scene; leave it out to run all")
     found = find_scenes([str(scene) for scene in named or ()])
-    paths = [Path(fmu) for fmu in fmus] or [fmu_path("native")]
     return validate_scenes(
-        paths, found, time_limit=_seconds(time_limit), jobs=_processes("jobs", jobs)
+        _fmus(fmus), found, time_limit=_seconds(time_limit), jobs=_processes("jobs", jobs)
     )
 
 
@@ -297,6 +309,60 @@ def fit(
     )
 
 
+@_plain_errors
+def stress(
+    *fmus: str | Path,
+    random: int | None = None,
+    seed: int = 1,
+    device: DeviceLike | None = None,
+    jobs: int | None = None,
+    time_limit: float = CASE_LIMIT,
+) -> tuple[StressResult, ...]:
+    """Run FMUs at the extremes of everything, or with random devices, and judge them by physics.
+
+    The cases are those of the axes, or `random` devices drawn from `seed`, or several inputs and
+    steps of `device`. A case that exceeds the `time_limit` (s) fails.
+    """
+    if random is not None and device is not None:
+        raise HarnessError(f"random = {random!r} and device = {device!r}: must be only one")
+    if device is not None:
+        name = str(device) if isinstance(device, str | Path) else "mine"
+        cases = device_cases(name, _stated(device))
+    elif random is not None:
+        cases = [random_case(seed, number) for number in range(_whole("random", random))]
+    else:
+        cases = axis_cases()
+    limit, processes = _seconds(time_limit), _processes("jobs", jobs)
+    return tuple(run_cases(fmu, cases, no_progress, limit, jobs=processes) for fmu in _fmus(fmus))
+
+
+@_plain_errors
+def trade(
+    scene: SceneLike,
+    *fmus: str | Path,
+    device: DeviceLike | None = None,
+    periods: int | None = None,
+    repeats: int = REPEATS,
+    budget: float = BUDGET,
+    time_limit: float = TRADE_LIMIT,
+    **values: Value,
+) -> tuple[Trade, ...]:
+    """Measure error and cost of every model of the FMUs and of other methods on a scene.
+
+    The result has an entry for each point of the scene's sweep. Runs are cut to `periods` drive
+    periods; each method is repeated `repeats` times, or as often as the `budget` (s of CPU time)
+    allows. Needs heyoka.
+    """
+    read = read_scene(scene, **{**_stated(device), **values})
+    shorter = None if periods is None else _whole("periods", periods)
+    problems = [problem_of(point.scene, point.at, shorter) for point in read.points()]
+    with opened(_fmus(fmus), _seconds(time_limit)) as instances:
+        measured = measure_trades(
+            problems, instances, repeats=_whole("repeats", repeats), budget=budget
+        )
+        return tuple(measured)
+
+
 def _stated(device: DeviceLike | None) -> dict[str, float]:
     """Return the parameters that a device states: of a `Device` those that differ from table 1."""
     if device is None:
@@ -307,6 +373,10 @@ def _stated(device: DeviceLike | None) -> dict[str, float]:
     if isinstance(device, Mapping):
         return device_values({"device": _plain(device)}, "device")
     return read_device_file(str(device))
+
+
+def _fmus(fmus: Sequence[str | Path]) -> list[Path]:
+    return [Path(fmu) for fmu in fmus] or [fmu_path("native")]
 
 
 def _fmu(fmu: str | Path | None) -> Path:

@@ -271,3 +271,14 @@ def test_what_a_device_file_states_replaces_the_scene(native_fmu: Path, tmp_path
 def test_no_scenes_are_not_all_scenes() -> None:
     with pytest.raises(sr.HarnessError, match="must be at least one scene"):
         sr.validate("no.fmu", scenes=[])
+
+
+def test_stress_and_trade_are_functions(native_fmu: Path) -> None:
+    (stressed,) = sr.stress(native_fmu, random=2, jobs=1)
+    assert stressed.passed
+    assert len(stressed.table()["verdict"]) == 2
+    with pytest.raises(sr.HarnessError, match="random = 2 and device = 'lugre_steel': must be"):
+        sr.stress(native_fmu, random=2, device="lugre_steel")
+    (measured,) = sr.trade("table_1", native_fmu, periods=2, repeats=1, budget=0.01)
+    assert len(measured.table()["method"]) == len(measured.rows) > 0
+    assert "position within 1 %" in repr(measured)

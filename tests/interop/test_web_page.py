@@ -342,6 +342,17 @@ def test_a_saved_device_file_is_the_device_for_other_commands(
     assert results(browser) == found
 
 
+def test_a_frequency_that_may_be_meant_in_hertz_is_noted(
+    browser: Chrome, page: str, tmp_path: Path
+) -> None:
+    show(browser, page)
+    path = tmp_path / "mine.toml"
+    path.write_text("[device]\ndrive_frequency = 20000\n")
+    browser.find_element(By.ID, "file").send_keys(str(path))
+    WebDriverWait(browser, SECONDS).until(lambda _: message(browser) not in ("", "computing"))
+    assert message(browser).endswith('if 20000 Hz is meant, write drive_frequency = "20000 Hz"')
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [

@@ -48,7 +48,7 @@ def check_drawing(scene: Scene, drawing: Drawing) -> None:
     # Imported here: drawing takes longer to load than the rest to run.
     from slider_resonator.scenes.signals_plot import check_signals, check_window
 
-    check_signals(drawing.signals or ())
+    check_signals(drawing.signals or (), scene)
     if drawing.window is not None:
         check_window(drawing.window, scene)
 

@@ -91,7 +91,8 @@ class RunSummary:
 @click.option(
     "--signals",
     metavar="NAME,...",
-    help="With --plot: the outputs and inputs to draw, a panel each, in place of the usual panels.",
+    help="With --plot: the outputs, inputs and tuned parameters to draw, a panel each, in place of "
+    "the usual panels.",
 )
 @click.option(
     "--window",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
 
@@ -20,23 +19,18 @@ from slider_resonator.commands.options import (
     time_limit_option,
 )
 from slider_resonator.commands.results import print_json, print_text
-from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt
-from slider_resonator.output.progress import part_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
 from slider_resonator.scenes.scene_files import find_scene
-from slider_resonator.trading.measure import BUDGET, REPEATS, measure_trade
+from slider_resonator.trading.measure import BUDGET, REPEATS, TIME_LIMIT, measure_trades, opened
 from slider_resonator.trading.page import write_trades
 from slider_resonator.trading.plots import draw_picture
 from slider_resonator.trading.problem import Problem, problem_of
 from slider_resonator.trading.result import Trade, write_omissions, write_rows
 from slider_resonator.trading.summary import SUFFIXES, comparisons, standings, title, write_choices
-
-TIME_LIMIT = 600.0
-"""Default time limit of a run or a search of an FMU, s."""
 
 
 @click.command("trade", cls=SettingsCommand)
@@ -120,18 +114,14 @@ def trade_command(
     paths = fmus or default_fmus()
     provenance = provenance_of(*paths)
     trades: list[Trade] = []
-    with ExitStack() as stack:
-        progress = stack.enter_context(progress_bar())
-        instances = {}
-        for path in paths:
-            fmu = stack.enter_context(IsolatedFmu(path, time_limit))
-            build = "native" if fmu.runs_without_python else "Python"
-            instances[build if build not in instances else f"{build} {path.name}"] = fmu
+    with (
+        opened(paths, time_limit) as instances,
+        noting_on_interrupt(partial(_kept, trades, problems, out)),
+        progress_bar() as progress,
+    ):
         make_folder(out)
-        stack.enter_context(noting_on_interrupt(partial(_kept, trades, problems, out)))
-        for index, problem in enumerate(problems):
-            part = part_of(progress, index, len(problems))
-            trades.append(measure_trade(problem, instances, part, repeats=repeats, budget=budget))
+        for trade in measure_trades(problems, instances, progress, repeats=repeats, budget=budget):
+            trades.append(trade)
             # After each scene, so that a later failure does not lose minutes of measurement.
             write_rows(out / "trade.csv", trades)
             write_omissions(out / "omissions.csv", trades)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from slider_resonator.arrays import Array
@@ -20,8 +20,9 @@ class Record(Shown, Tabular):
     """The inputs and outputs of an FMU at the readings of a schedule, `times` (s), shape (n,).
 
     `outputs` maps names to arrays (n,); `inputs` (n, 3) are phase, load, frequency_ratio as set
-    at each point. `wall_time` (s) covers initialisation and stepping, `start_cpu` and
-    `step_cpu` (s) are the CPU times of each.
+    at each point, `tuned` what else the schedule changes: tunable parameters, deviations of the
+    drive. `wall_time` (s) covers initialisation and stepping, `start_cpu` and `step_cpu` (s) are
+    the CPU times of each.
     """
 
     times: Array
@@ -30,6 +31,7 @@ class Record(Shown, Tabular):
     wall_time: float
     start_cpu: float
     step_cpu: float
+    tuned: Mapping[str, Array] = field(default_factory=dict, kw_only=True)
 
     def __getitem__(self, name: str) -> Array:
         """Return one output over the run, shape (n,); HarnessError names the nearest."""
@@ -41,10 +43,14 @@ class Record(Shown, Tabular):
         """Return the last value of an output; HarnessError names the nearest."""
         return float(self[name][-1])
 
+    @property
+    def given(self) -> dict[str, Array]:
+        """The inputs, and what else the schedule changes, as held from each time on, by name."""
+        return {**dict(zip(INPUTS, self.inputs.T, strict=True)), **self.tuned}
+
     def table(self) -> dict[str, Array]:
-        """Return time, inputs as held from each time on, and outputs, by name."""
-        inputs = dict(zip(INPUTS, self.inputs.T, strict=True))
-        return {"time": self.times, **inputs, **self.outputs}
+        """Return time, what was given from each time on, and outputs, by name."""
+        return {"time": self.times, **self.given, **self.outputs}
 
     def describe(self) -> list[str]:
         """Return the span of the run and the outputs at its end."""

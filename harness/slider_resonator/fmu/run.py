@@ -47,9 +47,11 @@ def run(
     step_cpu = time.process_time() - stepping_cpu
     wall_time = time.perf_counter() - began
     readings, values = schedule.readings(), np.array(running.rows)
-    held = running.inputs[np.searchsorted(schedule.times, readings, side="right") - 1]
+    held = np.searchsorted(schedule.times, readings, side="right") - 1
+    tuned = dict(zip(schedule.tuning, schedule.tuned[held].T, strict=True))
     columns = {name: values[:, i].copy() for i, name in enumerate(running.outputs)}
-    return Record(readings, held, columns, wall_time, start_cpu, step_cpu)
+    inputs = running.inputs[held]
+    return Record(readings, inputs, columns, wall_time, start_cpu, step_cpu, tuned=tuned)
 
 
 class Running:

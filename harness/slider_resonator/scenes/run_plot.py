@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.interface import INPUT_STARTS, INPUTS
+from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.record import Record
 from slider_resonator.output.plot_style import COLOURS, Picture, shade_directions, style
@@ -37,7 +37,7 @@ def schedule_to_plot(scene: Scene) -> Schedule:
 def run_figure(record: Record, scene: Scene) -> Figure:
     """Draw a run: the last drive periods where its points resolve them, and inputs that vary."""
     period = scene.drive_period
-    varying = [i for i in range(len(INPUTS)) if np.ptp(record.inputs[:, i]) > 0.0]
+    varying = [name for name, values in record.given.items() if np.ptp(values) > 0.0]
     gaps = np.diff(record.times[_last_periods(record, period)])
     resolved = gaps.size > 0 and bool(np.max(gaps) * MIN_POINTS <= period)
     with style():
@@ -53,8 +53,8 @@ def run_figure(record: Record, scene: Scene) -> Figure:
             _zoom(axes[2], record, period)
             _resonator(axes[3], record, period)
             _forces(axes[4], record, period)
-        for panel, index in zip(axes[len(heights) - len(varying) :], varying, strict=True):
-            _input(panel, record, times, unit, index)
+        for panel, name in zip(axes[len(heights) - len(varying) :], varying, strict=True):
+            _input(panel, record, times, unit, name)
         figure.align_ylabels(axes)
     return figure
 
@@ -136,18 +136,17 @@ def _last_periods(record: Record, period: float) -> NDArray[np.bool_]:
     return window
 
 
-def _constant_inputs(record: Record, varying: list[int]) -> str:
+def _constant_inputs(record: Record, varying: list[str]) -> str:
     """Return a line with the inputs that are constant, but not at their start value."""
     shown = [
-        f"{name} {record.inputs[0, index]:g} {INPUTS[name].removeprefix('1')}".strip()
-        for index, name in enumerate(INPUTS)
-        if index not in varying and record.inputs[0, index] != INPUT_STARTS[name]
+        f"{name} {values[0]:g} {VARIABLES[name].unit.removeprefix('1')}".strip()
+        for name, values in record.given.items()
+        if name not in varying and values[0] != VARIABLES[name].start
     ]
     return "\n" + ", ".join(shown) if shown else ""
 
 
-def _input(axes: Axes, record: Record, times: Array, unit: str, index: int) -> None:
-    name = list(INPUTS)[index]
-    axes.step(times, record.inputs[:, index], where="post", color=COLOURS["slow"])
-    label = f"{name.replace('_', ' ')}\n[{INPUTS[name]}]"
+def _input(axes: Axes, record: Record, times: Array, unit: str, name: str) -> None:
+    axes.step(times, record.given[name], where="post", color=COLOURS["slow"])
+    label = f"{name.replace('_', ' ')}\n[{VARIABLES[name].unit}]"
     axes.set(xlabel=f"time [{unit}]", ylabel=label, xlim=(times[0], times[-1]))

@@ -14,7 +14,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.interface import INPUTS, OUTPUTS
+from slider_resonator.device.interface import INPUTS, OUTPUTS, VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.record import Record
@@ -50,9 +50,9 @@ class Run:
     record: Record
 
 
-def check_signals(names: Sequence[str]) -> None:
-    """Raise HarnessError for a name that is no output or input, or is given twice."""
-    allowed = [*OUTPUTS, *INPUTS]
+def check_signals(names: Sequence[str], scene: Scene) -> None:
+    """Raise HarnessError for a name that is no output, input or tuned, or is given twice."""
+    allowed = [*OUTPUTS, *INPUTS, *scene.tuning]
     for name in names:
         if name not in allowed:
             raise HarnessError(f"--signals: {unknown_name('output or input', name, allowed)}")
@@ -175,12 +175,12 @@ def _panel(
     differences: bool,
 ) -> None:
     windows = [_inside(one.record, window) for one in runs]
-    curves = [_values(one.record, name)[inside] for one, inside in zip(runs, windows, strict=True)]
+    curves = [one.record.table()[name][inside] for one, inside in zip(runs, windows, strict=True)]
     if differences:
         curves = [curve - curves[0] for curve in curves]
-    factor, unit = plot_unit(INPUTS.get(name) or OUTPUTS[name], *curves)
-    enveloped = is_long(scene, window) and name not in INPUTS
-    held = name in INPUTS or (name == "contact_mode" and not enveloped)
+    factor, unit = plot_unit(VARIABLES[name].unit, *curves)
+    enveloped = is_long(scene, window) and name in OUTPUTS
+    held = name not in OUTPUTS or (name == "contact_mode" and not enveloped)
     if _same_times(runs) and not held:
         limit_to_later(axes, runs[0].record.times[windows[0]], *(factor * one for one in curves))
     for index, (one, inside, curve) in enumerate(zip(runs, windows, curves, strict=True)):
@@ -223,7 +223,3 @@ def _same_times(runs: Sequence[Run]) -> bool:
 def _inside(record: Record, window: tuple[float, float]) -> NDArray[np.bool_]:
     inside: NDArray[np.bool_] = (record.times >= window[0]) & (record.times <= window[1])
     return inside
-
-
-def _values(record: Record, name: str) -> Array:
-    return record.inputs[:, list(INPUTS).index(name)] if name in INPUTS else record[name]

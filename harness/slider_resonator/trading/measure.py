@@ -6,14 +6,16 @@ Methods are timed in turn, so that a busy moment of the machine affects all of t
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass, replace
 from math import inf
+from pathlib import Path
 from typing import Any
 
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.isolation.process import FmuDied
-from slider_resonator.output.progress import Progress, counted, no_progress
+from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
+from slider_resonator.output.progress import Progress, counted, no_progress, part_of
 from slider_resonator.trading.fmu_methods import FmuMethods, TaskRunner
 from slider_resonator.trading.method import Label, Method, SteadyMethod, timed
 from slider_resonator.trading.peer_methods import peer_answers, peer_methods
@@ -73,6 +75,36 @@ class _Candidate:
         return replace(
             self.row, cpu=tuple(second / self.per for second in seconds or [self.estimate])
         )
+
+
+TIME_LIMIT = 600.0
+"""Default time limit of a run or a search of an FMU, s."""
+
+
+@contextmanager
+def opened(fmus: Sequence[Path], time_limit: float) -> Iterator[dict[str, IsolatedFmu]]:
+    """Yield FMUs, by their build, in processes of their own; FmuError for what is no FMU."""
+    with ExitStack() as stack:
+        instances: dict[str, IsolatedFmu] = {}
+        for path in fmus:
+            fmu = stack.enter_context(IsolatedFmu(path, time_limit))
+            build = "native" if fmu.runs_without_python else "Python"
+            instances[build if build not in instances else f"{build} {path.name}"] = fmu
+        yield instances
+
+
+def measure_trades(
+    problems: Sequence[Problem],
+    instances: Mapping[str, TaskRunner],
+    progress: Progress = no_progress,
+    *,
+    repeats: int = REPEATS,
+    budget: float = BUDGET,
+) -> Iterator[Trade]:
+    """Measure all methods on problems, and yield each result; raises as `measure_trade` does."""
+    for index, problem in enumerate(problems):
+        part = part_of(progress, index, len(problems))
+        yield measure_trade(problem, instances, part, repeats=repeats, budget=budget)
 
 
 def measure_trade(

@@ -9,6 +9,8 @@ from statistics import median
 from typing import Any
 
 from slider_resonator.output.atomic import write_csv
+from slider_resonator.output.readable import number_of
+from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.trading.solution import QUANTITIES
 
 AVERAGED, RESOLVED, PEER = "averaged", "resolved", "peer"
@@ -63,8 +65,8 @@ class Omission:
     reason: str
 
 
-@dataclass(frozen=True)
-class Trade:
+@dataclass(frozen=True, repr=False)
+class Trade(Shown, Tabular):
     """All measurements on one scene, of a run of `periods` drive periods, `simulated` s."""
 
     scene: str
@@ -74,6 +76,21 @@ class Trade:
     simulated: float
     rows: tuple[Row, ...]
     omissions: tuple[Omission, ...]
+
+    def table(self) -> dict[str, list[Any]]:
+        """Return the rows in columns, as in the CSV file."""
+        cells = [_cells(row) for row in self.rows]
+        return {name: [row[i] for row in cells] for i, name in enumerate(COLUMNS)}
+
+    def describe(self) -> list[str]:
+        """Return the scene, and for each quantity the cheapest method within 1 %."""
+        counts = f"{number_of(len(self.rows), 'row')}, {number_of(len(self.omissions), 'omission')}"
+        lines = [f"{self.scene}: {number_of(self.periods, 'drive period')}, {counts}"]
+        for quantity in QUANTITIES:
+            row = cheapest(self.candidates(quantity), quantity, 1e-2)
+            if row is not None:
+                lines.append(f"{quantity} within 1 %: {row.method}, {row.cost:.3g} s of CPU time")
+        return lines
 
     def having(self, quantity: str) -> list[Row]:
         """Return the rows with an error of this quantity."""

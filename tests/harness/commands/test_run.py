@@ -147,3 +147,15 @@ def test_without_a_scene_the_device_starts_from_rest(native_fmu: Path) -> None:
         named = json.loads(call("run", *fmu, "table_1", *arguments).stdout)
         assert (summary["scene"], summary["position"]) == ("table_1", named["position"])
         assert summary["drive_periods"] == pytest.approx(100.0)
+
+
+def test_the_deviations_of_a_scene_are_written_and_drawn(native_fmu: Path, tmp_path: Path) -> None:
+    out, usual, chosen = (tmp_path / name for name in ("a.csv", "a.svg", "b.svg"))
+    ran = call("run", native_fmu, "burst", "--out", out, "--plot", usual)
+    assert ran.exit_code == 0, ran.output
+    with out.open() as file:
+        values = {float(row["amplitude_deviation"]) for row in csv.DictReader(file)}
+    assert -1.0 in values
+    call("run", native_fmu, "burst", "--plot", chosen, "--signals", "amplitude_deviation")
+    for picture in (usual, chosen):
+        assert "amplitude deviation" in picture.read_text(encoding="utf-8")

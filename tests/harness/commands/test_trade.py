@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.commands import trade as command
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.steady import reference_steady
+from slider_resonator.trading import measure as measuring
 from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.peer_methods import peer_methods
 from slider_resonator.trading.problem import Problem
@@ -107,7 +107,7 @@ def test_measurements_before_a_failing_scene_are_kept(
             raise HarnessError("the reference cannot follow it")
         return TRADE
 
-    monkeypatch.setattr(command, "measure_trade", measure)
+    monkeypatch.setattr(measuring, "measure_trade", measure)
     out = tmp_path / "out"
     arguments = ["table_1", "lugre", "--out", out, "--fmu", native_fmu]
     assert "the reference cannot follow it" in refused("trade", *arguments)
@@ -119,7 +119,7 @@ def test_the_public_keys_stay(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     measured = replace(TRADE, omissions=(Omission("s", "CVODE", "all", "not installed"),))
-    monkeypatch.setattr(command, "measure_trade", lambda *_, **__: measured)
+    monkeypatch.setattr(measuring, "measure_trade", lambda *_, **__: measured)
     arguments = ["--out", tmp_path, "--fmu", native_fmu, "--json"]
     assert_public_keys("trade", call("trade", *arguments).stdout)
 
@@ -132,7 +132,7 @@ def test_an_interruption_says_what_is_kept(
             raise KeyboardInterrupt
         return TRADE
 
-    monkeypatch.setattr(command, "measure_trade", measure)
+    monkeypatch.setattr(measuring, "measure_trade", measure)
     out = tmp_path / "out"
     result = call("trade", "table_1", "lugre", "--out", out, "--fmu", native_fmu)
     assert result.exit_code == 130

@@ -163,7 +163,7 @@ def test_differences_from_the_first_run_are_below(
 )
 def test_other_signals_are_refused(names: list[str], message: str) -> None:
     with pytest.raises(HarnessError, match=re.escape(message)):
-        check_signals(names)
+        check_signals(names, find_scene("table_1"))
 
 
 @pytest.mark.parametrize(
