@@ -1,7 +1,4 @@
-/* A leap: the slow motion over many periods, from the period map alone.
- *
- * The slow velocity V obeys dV/dn = g(V, n), n being the number of periods, with g from the slow manifold; a solver of
- * ordinary differential equations integrates it (stroboscopic averaging, projective integration). */
+/* A leap: the slow motion over many periods, from the period map alone. */
 #ifndef SLIDER_LEAP_H
 #define SLIDER_LEAP_H
 

@@ -1,0 +1,139 @@
+#include <math.h>
+
+#include "../base/elementary.h"
+#include "../base/number.h"
+#include "../base/runge_kutta.h"
+#include "slow_step.h"
+
+/* Shares of the allowed error: of a velocity that hardly changes, so that no other point is visited, and of the integration of
+ * interpolated rates. */
+#define STAYS 0.1
+#define INTEGRATED 0.01
+
+/* What the landing is expected to err by once the last known point is interpolated, too, over what it would if all rates
+ * erred as much as those there did before: it was 1/600 to 1/16 in steps that keep a tolerance of 1e-6. */
+#define IMPROVED (1.0 / 100.0)
+
+/* The change of the slow velocity in `h` periods, if its rate is `rate` and falls by `gain` of the change. */
+static double change_on_tangent(double rate, double gain, double h) {
+    double z = h * gain;
+    return h * rate * (fabs(z) > EPSILON ? expm1(z) / z : 1.0);
+}
+
+/* The factor by which an error of the slow velocity changes until its rate is `acceleration`: it changes as the rate does. */
+static double factor_until(const SlowPath *path, double acceleration) {
+    const SlowRates *begin = &path->here.rates;
+    bool moves = fabs(begin->acceleration) > begin->error;
+    return moves ? fmax(fabs(acceleration / begin->acceleration), EPSILON) : 1.0;
+}
+
+/* Number of periods over which an error of the rates adds up, of `h` periods in which errors change by a factor. */
+static double periods_of_error(double factor, double h) {
+    double logarithm = log(factor);
+    return fabs(logarithm) > EPSILON ? h * (factor - 1.0) / logarithm : h;
+}
+
+static double interpolated_acceleration(const SlowPath *path, double velocity) {
+    double values[INTERPOLATED];
+    interpolant_at(&path->known, velocity, TRAVEL, values);
+    return values[ACCELERATION];
+}
+
+static bool interpolated_rate(void *data, double t, double v, SlowRate *rate) {
+    (void)t;
+    double values[INTERPOLATED];
+    interpolant_at(data, v, FAST, values);
+    *rate = (SlowRate){values[ACCELERATION], values[TRAVEL]};
+    return true;
+}
+
+/* Integrate interpolated rates over `h` periods; a velocity that settles to a share of `allowed` stays. Return false where it
+ * changes by more than `reach`. */
+static bool integrate(SlowPath *path, double h, double reach, double allowed, SlowPoint *now) {
+    const Visited *here = &path->here;
+    double step = h;
+    *now = (SlowPoint){.velocity = here->velocity,
+                       .rate = {here->rates.acceleration, here->rates.travel}};
+    while (now->t < h) {
+        SlowStep found;
+        step = fmin(step, h - now->t);
+        runge_kutta_step(interpolated_rate, &path->known, now, step, &found);
+        bool beyond = !(fabs(found.to.velocity - here->velocity) <= reach);
+        if (found.error <= INTEGRATED * allowed) {
+            if (beyond) {
+                return false;
+            }
+            double change = fabs(found.to.velocity - now->velocity);
+            double rate = fabs(found.to.rate.acceleration);
+            double slowed = fabs(now->rate.acceleration) - rate;
+            *now = found.to;
+            if (rate * change <= slowed * INTEGRATED * allowed) {
+                break;
+            }
+        }
+        step *= beyond ? SHORTER : step_growth(found.error, INTEGRATED * allowed);
+    }
+    now->travel += (h - now->t) * now->rate.travel;
+    return true;
+}
+
+/* In this order:
+ *
+ * 1. stay where the velocity hardly changes;
+ * 2. follow the tangent to an end, and visit that;
+ * 3. visit points between, each where the interpolated rates may err most, until the last one tells that they hardly do;
+ * 4. integrate them to a new end, and visit that: it is where to land, if with one point more the end is the same. */
+static bool pass(SlowPath *path, double h, Stride *stride) {
+    const PeriodMap *map = path->manifold.map;
+    const Visited *here = &path->here;
+    double rate = here->rates.acceleration, allowed = map->tolerance * map->speed;
+    double reach = TO_GRAZING * fabs(fabs(here->velocity) - map->speed);
+    if (fabs(rate) * h <= STAYS * allowed) {
+        *stride = (Stride){h, h * here->rates.travel, 1.0, h * here->rates.error};
+        return true;
+    }
+    double gain = fmin(0.0, here->rates.jerk / rate);
+    double end = here->velocity + change_on_tangent(rate, gain, h);
+    double at = end, expected = rate + gain * (end - here->velocity);
+    if (!(fabs(end - here->velocity) <= reach)) {
+        return false;
+    }
+    Visited landing;
+    bool landed = true;
+    while (path->known.count < MAX_POINTS && visit(path, here->n, at)) {
+        know_last(path);
+        landing = path->known.count == 2 ? path->last : landing;
+        double residual = fabs(path->last.rates.acceleration - expected);
+        double factor = factor_until(path, interpolated_acceleration(path, end));
+        double periods = periods_of_error(factor, h);
+        bool likely = IMPROVED * periods * residual <= allowed;
+        if (likely) {
+            SlowPoint to;
+            if (!integrate(path, h, reach, allowed, &to)) {
+                return false;
+            }
+            double error = fabs(to.velocity - end);
+            if (landed && error <= allowed) {
+                path->last = landing;
+                error += periods * error_of_rates(path);
+                *stride = (Stride){h, to.travel, factor, error};
+                return true;
+            }
+            end = to.velocity;
+            if (!visit(path, here->n, end)) {
+                return false;
+            }
+            landing = path->last;
+        }
+        landed = likely;
+        at = interpolant_gap(&path->known, here->velocity, end);
+        expected = interpolated_acceleration(path, at);
+    }
+    return false;
+}
+
+bool interpolated_step(SlowPath *path, double *h, Stride *stride) {
+    bool passes = pass(path, *h, stride);
+    *h *= passes ? LONGER : SHORTER;
+    return passes;
+}

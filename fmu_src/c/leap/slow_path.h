@@ -1,0 +1,49 @@
+/* The slow motion from a moment at the section on: points of it that were visited, and what they tell of others.
+ *
+ * The slow velocity V obeys dV/dn = g(V, n), n being the number of periods, with g from the slow manifold (stroboscopic
+ * averaging, projective integration). */
+#ifndef SLIDER_SLOW_PATH_H
+#define SLIDER_SLOW_PATH_H
+
+#include "../base/interpolant.h"
+#include "slow_manifold.h"
+
+/* A point, `n` periods after the start: the slow velocity [m/s], its rates, the moment there (`landing`) and the one a few
+ * periods later (`after`). */
+typedef struct {
+    double n, velocity;
+    SlowRates rates;
+    Moment landing, after;
+} Visited;
+
+/* What is interpolated over the slow velocity: its change and the travel by period, and the fast states. */
+enum { ACCELERATION, TRAVEL, FAST, INTERPOLATED = FAST + MAX_FAST };
+
+/* A step begins `here`; `last` is the point that was visited last. Where rates do not depend on time but for the slow velocity,
+ * `known` interpolates those of points of the step; otherwise the motion `varies`. */
+typedef struct {
+    Manifold manifold;
+    double psi; /* normal phase at the start [rad] */
+    bool varies;
+    Visited here, last;
+    Interpolant known;
+} SlowPath;
+
+/* Begin a step at the point that was visited last. */
+void begin_step(SlowPath *path);
+
+/* Visit the point at `n` periods and a slow velocity [m/s]. Return false where there are no rates: where they are not exact
+ * enough, or where sliding does not repeat as it did at the start of the step, as they have a kink in between. */
+bool visit(SlowPath *path, double n, double velocity);
+
+/* Interpolate through the point that was visited last, too. There must be room, and no known point next to it: rounding of its
+ * rates would then add to those of others. */
+void know_last(SlowPath *path);
+
+/* Whether rates are so exact that the slow velocity errs by no more than is allowed in the time in which friction changes it. */
+bool are_exact(const PeriodMap *map, const SlowRates *rates);
+
+/* The larger error of the rates [m/s per period] at the ends of a step. */
+double error_of_rates(const SlowPath *path);
+
+#endif

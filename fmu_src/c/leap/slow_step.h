@@ -1,0 +1,34 @@
+/* Steps of the slow motion: from here to a landing, a whole number of periods later. */
+#ifndef SLIDER_SLOW_STEP_H
+#define SLIDER_SLOW_STEP_H
+
+#include "slow_path.h"
+
+/* What a step passed: a number of periods, and a travel [m]; by which factor it changed an earlier error of the slow velocity, and
+ * the error [m/s] that it added. */
+typedef struct {
+    double periods, travel, factor, error;
+} Stride;
+
+/* Fewest periods of a step: its points map half as many. */
+#define SHORTEST_STEP (12.0 * DIFFERENCES)
+
+/* Part of the way to a grazing velocity that a step may pass: the rates are singular there. */
+#define TO_GRAZING 0.5
+
+/* Factors by which a step becomes shorter that fails, and longer behind one that does not, if its error tells nothing. */
+#define SHORTER 0.5
+#define LONGER 2.0
+
+/* One step of `h` periods where rates do not depend on time but for the slow velocity: they are interpolated. `last` is then the
+ * landing. Return false where there are no rates or too many points would be needed; `h` becomes what to try next. */
+bool interpolated_step(SlowPath *path, double *h, Stride *stride);
+
+/* Number of periods of an embedded step that may be expected to hold here. */
+double expected_step(const SlowPath *path);
+
+/* One step of at most `h` periods, by an embedded Runge-Kutta pair. `last` is then the landing. Return false where there are no rates,
+ * or its error is too large; `h` becomes what to try next. */
+bool embedded_step(SlowPath *path, double *h, Stride *stride);
+
+#endif
