@@ -32,11 +32,11 @@ class Budget:
 
         A step up to `reached` [s] takes less: the text names the power of ten below it.
         """
-        size = self.step_size
+        work = {"step_size": self.step_size, "max_count": max_count, "what": what}
         if reached > 0.0:
             exponent = floor(log10(reached))
-            return Refusal(refusal_texts.too_much_work(size, max_count, what, exponent))
-        return Refusal(refusal_texts.too_much_work_at_once(size, max_count, what))
+            return Refusal(refusal_texts.TOO_MUCH_WORK, exponent=exponent, **work)
+        return Refusal(refusal_texts.TOO_MUCH_WORK_AT_ONCE, **work)
 
 
 @dataclass(slots=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import asdict, replace
 from math import inf, isfinite, log10, nan, remainder, tau, ulp
 from typing import Any
 
@@ -17,8 +17,8 @@ from .outputs import OUTPUTS, View
 from .parameters import Inputs
 from .prediction import theory_range
 from .slow_motion import Averaged
-from .snapshot import FORMAT, entries, moment_from_plain, moment_to_plain
-from .values import BY_NAME, SETTABLE, Lifecycle, Refusal, checked, number, require
+from .snapshot import FORMAT, entries, moment_from_plain, number
+from .values import BY_NAME, SETTABLE, Lifecycle, Refusal, checked, require
 from .variable import Variable
 
 Motion = Resolved | Averaged
@@ -49,11 +49,12 @@ class Component:
         """
         require("setupExperiment", self.lifecycle, Lifecycle.INSTANTIATED)
         if not isfinite(start_time):
-            raise Refusal(refusal_texts.bad_start_time(start_time))
+            raise Refusal(refusal_texts.BAD_START_TIME, start_time=start_time)
         if stop_time is not None and not stop_time >= start_time:
-            raise Refusal(refusal_texts.bad_stop_time(stop_time, start_time))
+            times = {"stop_time": stop_time, "start_time": start_time}
+            raise Refusal(refusal_texts.BAD_STOP_TIME, **times)
         if tolerance is not None and not (isfinite(tolerance) and tolerance > 0.0):
-            raise Refusal(refusal_texts.bad_tolerance(tolerance))
+            raise Refusal(refusal_texts.BAD_TOLERANCE, tolerance=tolerance)
         self.time = self._last_event_time = start_time
         self._stop_time = inf if stop_time is None else stop_time
 
@@ -82,9 +83,10 @@ class Component:
         for name, value in new.items():
             variable = BY_NAME[name]
             if variable.causality == "output":
-                raise Refusal(refusal_texts.output_set(name, value))
+                raise Refusal(refusal_texts.OUTPUT_SET, name=name, value=repr(value))
             if variable.variability == "fixed" and running:
-                raise Refusal(refusal_texts.fixed_while_running(name, value))
+                text = refusal_texts.FIXED_WHILE_RUNNING
+                raise Refusal(text, name=name, value=repr(value))
             values[name] = checked(variable, value)
         if values == self._values:
             return
@@ -108,14 +110,15 @@ class Component:
         """Advance from the present `time` [s] by `step_size` > 0 [s], inputs held."""
         require("doStep", self.lifecycle, Lifecycle.STEP_COMPLETE)
         if not (isfinite(step_size) and step_size > 0.0):
-            raise Refusal(refusal_texts.bad_step_size(step_size))
+            raise Refusal(refusal_texts.BAD_STEP_SIZE, step_size=step_size)
         # Hosts sum up time themselves, so theirs may differ from this one by rounding.
         slack = TIME_SLACK * step_size + 4.0 * ulp(self.time)
         if not abs(time - self.time) <= slack:
-            raise Refusal(refusal_texts.bad_step_start(time, self.time))
+            raise Refusal(refusal_texts.BAD_STEP_START, time=time, now=self.time)
         end = time + step_size
         if end > self._stop_time + slack + STOP_TIME_SLACK * abs(self._stop_time):
-            raise Refusal(refusal_texts.step_beyond_stop(step_size, self._stop_time))
+            limits = {"step_size": step_size, "stop_time": self._stop_time}
+            raise Refusal(refusal_texts.STEP_BEYOND_STOP, **limits)
         self._require_bounded_work(step_size)
         age_before = self._present().event_age
         moment = self._advanced(step_size)
@@ -131,10 +134,10 @@ class Component:
             "format": FORMAT,
             "lifecycle": self.lifecycle.value,
             "time": self.time,
-            "stop_time": None if self._stop_time == inf else self._stop_time,
+            "stop_time": self._stop_time,
             "last_event_time": self._last_event_time,
             "values": dict(self._values),
-            "moment": None if self._moment is None else moment_to_plain(self._moment),
+            "moment": None if self._moment is None else asdict(self._moment),
         }
 
     def restore(self, plain: object) -> None:
@@ -145,26 +148,24 @@ class Component:
             raise Refusal("FMU state refused: its entries are nested too deeply") from None
 
     def _restore(self, plain: object) -> None:
-        if not isinstance(plain, Mapping) or plain.get("format") != FORMAT:
-            found = plain.get("format") if isinstance(plain, Mapping) else type(plain).__name__
-            raise Refusal(f"FMU state refused: its format is {found!r}; must be {FORMAT!r}")
-        entries("the state", plain, self.snapshot())
+        stored_format = plain.get("format") if isinstance(plain, Mapping) else type(plain).__name__
+        if stored_format != FORMAT:
+            formats = {"found": repr(stored_format), "own": FORMAT}
+            raise Refusal("FMU state refused: its format is {found}; must be {own!r}", **formats)
+        state = entries("the state", plain, self.snapshot())
         try:
-            lifecycle = Lifecycle(plain["lifecycle"])
+            lifecycle = Lifecycle(state["lifecycle"])
         except ValueError as error:
-            raise Refusal(f"FMU state refused: {error}") from error
-        time, stop = number("time", plain["time"]), plain["stop_time"]
-        stop_time = inf if stop is None else number("stop_time", stop)
-        last_event_time = number("last_event_time", plain["last_event_time"])
-        stored, moment = entries("values", plain["values"], self._values), plain["moment"]
+            raise Refusal("FMU state refused: {error}", error=error) from error
+        times = [number(name, state[name]) for name in ("time", "stop_time", "last_event_time")]
+        stored, moment = entries("values", state["values"], self._values), state["moment"]
         values = {name: checked(BY_NAME[name], value) for name, value in stored.items()}
         restored = None if moment is None else moment_from_plain(moment)
         if restored is None and lifecycle in (Lifecycle.STEP_COMPLETE, Lifecycle.TERMINATED):
-            raise Refusal(refusal_texts.state_without_motion())
+            raise Refusal(refusal_texts.STATE_WITHOUT_MOTION)
         self._prepared = None if restored is None else _prepare(values)
-        self.lifecycle = lifecycle
-        self.time, self._stop_time, self._last_event_time = time, stop_time, last_event_time
-        self._values, self._moment = values, restored
+        self.lifecycle, self._values, self._moment = lifecycle, values, restored
+        self.time, self._stop_time, self._last_event_time = times
 
     def _view(self, name: str) -> View:
         if self.lifecycle == Lifecycle.INSTANTIATED:
@@ -184,7 +185,8 @@ class Component:
     def _require_bounded_work(self, step_size: float) -> None:
         frequency, max_turns = self._motion.system.fastest, MAX_TURNS // PYTHON_SLOWDOWN
         if self._values["fidelity"] > 0 and step_size * frequency > tau * max_turns:
-            raise Refusal(refusal_texts.too_many_turns(step_size, frequency, max_turns))
+            limits = {"frequency": frequency, "max_turns": max_turns}
+            raise Refusal(refusal_texts.TOO_MANY_TURNS, step_size=step_size, **limits)
 
     def _advanced(self, step_size: float) -> Moment:
         try:
@@ -196,7 +198,7 @@ class Component:
         except (ArithmeticError, ValueError):
             finite = False
         if not finite:
-            raise Refusal(refusal_texts.infinite_motion(step_size))
+            raise Refusal(refusal_texts.INFINITE_MOTION, step_size=step_size)
         return now
 
 
@@ -220,8 +222,12 @@ def _driven(device: Device, inputs: Inputs) -> Device:
     w = device.drive_frequency * (1.0 + inputs.frequency_deviation)
     variable, amplitude = BY_NAME["drive_frequency"], 1.0 + inputs.amplitude_deviation
     if variable.minimum is not None and w < variable.minimum:
-        deviation, requirement = inputs.frequency_deviation, variable.requirement
-        raise Refusal(refusal_texts.drive_too_slow(deviation, w, requirement))
+        raise Refusal(
+            refusal_texts.DRIVE_TOO_SLOW,
+            frequency_deviation=inputs.frequency_deviation,
+            drive_frequency=w,
+            requirement=variable.requirement,
+        )
     return replace(
         device,
         base_amplitude=device.base_amplitude * amplitude,
@@ -237,7 +243,7 @@ def motion_of(device: Device, inputs: Inputs) -> Motion:
     resonance leaves no steady vibration that fidelity 1 or averages of first order need.
     """
     if device.friction_law == 1 and device.friction_coefficient == 0.0:
-        raise Refusal(refusal_texts.lugre_without_friction(device.friction_coefficient))
+        raise Refusal(refusal_texts.LUGRE_WITHOUT_FRICTION, friction_coefficient=0.0)
     if device.fidelity == 0 and device.averaging_order == 2:
         return Leaping(System(replace(device, fidelity=2), inputs))
     system = System(device, inputs)
@@ -253,7 +259,7 @@ def _finite_output(name: str, output: Callable[[View], float], view: View) -> fl
     except (ArithmeticError, ValueError):
         value = nan
     if not isfinite(value):
-        raise Refusal(refusal_texts.infinite_output(name, value))
+        raise Refusal(refusal_texts.INFINITE_OUTPUT, name=name, value=value)
     return value
 
 
@@ -268,8 +274,8 @@ def _extreme(values: Mapping[str, Any]) -> Refusal:
         return abs(log10(abs(value)) - log10(variable.start or 1.0)) if value else 0.0
 
     furthest = max(SETTABLE, key=distance)
-    value = values[furthest.name]
-    return Refusal(refusal_texts.extreme_value(furthest.name, value, furthest.start))
+    shown = {"value": repr(values[furthest.name]), "start": repr(furthest.start)}
+    return Refusal(refusal_texts.EXTREME_VALUE, name=furthest.name, **shown)
 
 
 def _coefficients(system: System) -> tuple[float, ...]:

@@ -87,7 +87,8 @@ def steady_resonator(device: Device) -> complex:
     """
     w, oscillator = device.drive_frequency, device.slip_oscillator
     if _is_unbounded(device, oscillator):
-        raise Refusal(refusal_texts.unbounded_resonance(device.damping_ratio, w))
+        shown = {"damping_ratio": device.damping_ratio, "drive_frequency": w}
+        raise Refusal(refusal_texts.UNBOUNDED_RESONANCE, **shown)
     base = device.base_amplitude * w * w - device.tangential_force / device.slider_mass
     return base * oscillator.transfer(w)
 

@@ -189,9 +189,13 @@ def _names(kind: str, references: list[int]) -> list[str]:
     found = []
     for reference in references:
         if not 0 <= reference < len(VARIABLES):
-            raise Refusal(refusal_texts.unknown_reference(reference, 0, len(VARIABLES) - 1))
+            last = len(VARIABLES) - 1
+            raise Refusal(refusal_texts.UNKNOWN_REFERENCE, reference=reference, first=0, last=last)
         variable = VARIABLES[reference]
         if variable.type != kind:
-            raise Refusal(refusal_texts.wrong_type(variable.name, reference, variable.type, kind))
+            types = {"own": variable.type, "requested": kind}
+            raise Refusal(
+                refusal_texts.WRONG_TYPE, name=variable.name, reference=reference, **types
+            )
         found.append(variable.name)
     return found

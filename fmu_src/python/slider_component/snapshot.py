@@ -4,58 +4,70 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import fields
-from functools import partial
-from math import inf
+from math import inf, tau
+from sys import float_info
 from typing import Any
 
+from . import refusal_texts
 from .contact import BACKWARD, FORWARD, LIFTED
+from .events import MARK_TOLERANCE
 from .moment import Moment
-from .values import Refusal, flag, integer, integer_within, number, phase
+from .values import Refusal
 
 FORMAT = f"{__name__.rpartition('.')[0]} state"
 """The package inside an FMU is named after its content, so this names the build: a state of one
 build does not fit another."""
 
-CHECKS: dict[str, Callable[[str, object], Any]] = {
-    "theta": phase,
-    "psi": phase,
-    "mode": partial(integer_within, minimum=BACKWARD, maximum=LIFTED),
-    "sliding": partial(integer_within, minimum=BACKWARD, maximum=FORWARD),
-    "reversals": integer,
-    "sticks": integer,
-    "complete": flag,
+PHASE = (-MARK_TOLERANCE, tau)
+"""A phase [rad]: a period may count as ended before its end, and rounding may take one up to it."""
+
+LIMITS: dict[str, tuple[float, float]] = {
+    "theta": PHASE,
+    "psi": PHASE,
+    "mode": (BACKWARD, LIFTED),
+    "sliding": (BACKWARD, FORWARD),
+    "reversals": (0, 2**53),
+    "sticks": (0, 2**53),
+    "complete": (0, 1),
+    "event_age": (0.0, inf),
+    "stop_time": (-float_info.max, inf),
 }
-"""What entries of a moment must be that are not just finite numbers."""
+"""Least and largest value of entries that are not any finite number."""
 
 
-def moment_to_plain(moment: Moment) -> dict[str, Any]:
-    """Return the moment as a dictionary; before any event its age is None."""
-    plain = {field.name: getattr(moment, field.name) for field in fields(moment)}
-    return plain | ({"event_age": None} if moment.event_age == inf else {})
+def number(name: str, value: object, kind: str = "float") -> Any:
+    """Return a number of a stored state, of type `kind`. Raises Refusal for anything else."""
+    low, high = LIMITS.get(name, (-float_info.max, float_info.max))
+    if type(value).__name__ == kind and low <= value <= high:  # type: ignore[operator]
+        return value
+    shown = {"name": name, "value": repr(value)}
+    if kind != "float":
+        limits = {"minimum": int(low), "maximum": int(high)}
+        raise Refusal(refusal_texts.OUT_OF_RANGE_IN_STATE, **shown, **limits)
+    is_phase = (low, high) == PHASE
+    raise Refusal(
+        refusal_texts.PHASE_IN_STATE if is_phase else refusal_texts.INFINITE_IN_STATE, **shown
+    )
 
 
 def moment_from_plain(plain: object) -> Moment:
-    """Invert `moment_to_plain`. Raises Refusal for entries that are missing, odd or unknown."""
-    names = [field.name for field in fields(Moment)]
-    stored = dict(entries("moment", plain, names))
-    no_event = stored["event_age"] is None
-    if no_event:
-        stored["event_age"] = 0.0
-    moment = Moment(*[CHECKS.get(name, number)(name, stored[name]) for name in names])
-    if no_event:
-        moment.event_age = inf
-    return moment
+    """The moment of which `asdict` made `plain`. Raises Refusal for odd or unknown entries."""
+    stored = entries("moment", plain, [field.name for field in fields(Moment)])
+    return Moment(*[number(f.name, stored[f.name], str(f.type)) for f in fields(Moment)])
 
 
 def entries(name: str, plain: object, names: Iterable[str]) -> Mapping[str, Any]:
     """Return a part of a stored state. Raises Refusal if its entries are not just `names`."""
     if not isinstance(plain, Mapping):
-        raise Refusal(f"FMU state refused: {name} = {plain!r}; must be an object with entries")
-    odd = plain.keys() ^ set(names)
+        text = "FMU state refused: {name} = {value}; must be an object with entries"
+        raise Refusal(text, name=name, value=repr(plain))
+    odd = sorted(plain.keys() ^ set(names))
     if odd:
-        raise Refusal(f"FMU state refused: entries of {name} that do not fit: {sorted(odd)!r}")
+        raise Refusal(
+            "FMU state refused: entries of {name} that do not fit: {odd}", name=name, odd=odd
+        )
     return plain
 
 

@@ -90,7 +90,6 @@ def sealed(body: bytes) -> bytes:
 
 
 ODD = ["x", [], {}, True, 1.5, -7, 10**400, -(10**400), math.nan, math.inf, nested(900)]
-# The values that are good somewhere: null for no event, -7 for numbers, and so on.
 NUMBERS = {
     *("time", "stop_time", "last_event_time", "position", "theta", "psi", "event_age"),
     *("bristle", "velocity", "displacement", "rate", "travel", "elapsed", "sticking"),
@@ -102,6 +101,8 @@ def fits(path: Path, value: object) -> bool:
     """Whether an odd value is one that the entry at `path` may have."""
     if path[-1] == "complete":
         return value is True
+    if path[-1] in ("stop_time", "event_age") and value == math.inf:
+        return True
     if path[0] == "values":
         variable = BY_NAME[path[-1]] if len(path) > 1 else None
         try:
