@@ -61,7 +61,7 @@ def test_scipy_agrees_with_bristles() -> None:
     device = Device(friction_law=1, bristle_stiffness=1e4, initial_bristle_deflection=1e-5)
     friction = [(("friction_coefficient", mu), *own[:2]) for mu, own in zip(MU, TUNED, strict=True)]
     times = np.linspace(0.0, EDGES[-1], 50)
-    states = event_free.simulate_bristle(device, held(*friction), times)
+    states = event_free.simulate(device, held(*friction), times)
     assert_equal(simulate(device, held(*friction), times), states, 1e-7)
     across = simulate(device, held(*friction), np.array([2.1e-3 - 1e-9, 2.1e-3 + 1e-9]))
     assert isinstance(across, LugreTrajectory)

@@ -10,11 +10,11 @@ creeps. The bristle of LuGre friction is a fifth state.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.integrate import DOP853, LSODA
+from scipy.integrate import LSODA
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
@@ -28,8 +28,34 @@ from slider_resonator.device.held_inputs import (
 from slider_resonator.references.resolved.contact import LIFTED, SLIP_FORWARD
 from slider_resonator.references.resolved.equations import Number, equations_of, initial_state
 from slider_resonator.references.resolved.recorder import Recorder
-from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
-from slider_resonator.trading.peers.scipy_methods import Method, scipy_method, take_step
+from slider_resonator.references.resolved.trajectory import Trajectory
+
+MAX_EVALUATIONS = 20_000_000
+STEPS_PER_FASTEST_PERIOD = 16
+"""Of bristles, which a longer step would pass by."""
+
+
+def simulate(
+    device: Device,
+    held: Sequence[HeldInputs],
+    times: Array,
+    *,
+    method: Callable[..., Any] = LSODA,
+    rtol: float = 1e-11,
+    atol: float = 1e-13,
+    width: float = 0.0,
+    max_evaluations: int = MAX_EVALUATIONS,
+) -> Trajectory:
+    """Return the motion of a device under held inputs at ``times`` (shape (n,), s).
+
+    Coulomb friction is sgn, or with a ``width`` (m/s) tanh(velocity / width); LuGre friction is
+    that of its bristle. ``method`` is a solver of scipy, ``atol`` in fractions of characteristic
+    sizes of the states. ``contact_mode`` is the sign of the velocity (2 where the contact is open),
+    ``reversals`` counts its changes between steps, chatter included; there are no sticks and no
+    event times. Raises ValueError for inputs with gaps and times outside them, RuntimeError where a
+    step fails or the right hand side is evaluated more than ``max_evaluations`` times.
+    """
+    return _Integration(device, times, method, rtol, atol, width, max_evaluations).run(held)
 
 
 class RunWithoutEvents(ABC):
@@ -39,10 +65,8 @@ class RunWithoutEvents(ABC):
     the deflection of the bristle, shape (4,) or (5,).
     """
 
-    def __init__(self, device: Device, times: Array, law: int = 0) -> None:
+    def __init__(self, device: Device, times: Array) -> None:
         self.recorder = Recorder(times)
-        if device.friction_law != law:
-            raise ValueError(f"friction_law = {device.friction_law!r}: only {law} is covered")
         self.device = device
         self.equations = equations_of(device)
         self.state: Array = np.array(initial_state(device))
@@ -50,24 +74,17 @@ class RunWithoutEvents(ABC):
         self.psi = 0.0
 
     def run(self, held: Sequence[HeldInputs]) -> Trajectory:
-        """Return the motion through the held inputs, or ones with rates.
-
-        ``contact_mode`` is the sign of the velocity (2 where the contact is open), ``reversals``
-        counts its changes of sign between steps; there are no event times. Raises ValueError for
-        inputs with gaps and times outside them, besides what the method raises.
-        """
+        """Return the motion through the held inputs, or ones with rates."""
         check_contiguous(held, rates=RATES)
         check_times(self.recorder.times, held)
         for inputs in with_steady_phase(held, self.device):
-            device = inputs.tuned_device(self.device)
-            if device is not self.device:
-                self.equations = equations_of(device)
-            rate = self.equations.drive_frequency
+            self.equations = equations_of(inputs.tuned_device(self.device))
+            rate, span = self.equations.drive_frequency, inputs.stop - inputs.start
             self.follow(inputs)
-            span = inputs.stop - inputs.start
             self.theta += rate * span
             self.psi += inputs.turned(span, rate)
-        return self.recorder.trajectory()
+        bends = self.device.friction_law == 1
+        return self.recorder.lugre_trajectory() if bends else self.recorder.trajectory()
 
     @abstractmethod
     def follow(self, inputs: HeldInputs) -> None:
@@ -92,88 +109,18 @@ class RunWithoutEvents(ABC):
         )
 
 
-MAX_EVALUATIONS = 20_000_000
-STEPS_PER_FASTEST_PERIOD = 16
-"""Of bristles, which a longer step would pass by."""
-
-
-def simulate_sgn(
-    device: Device,
-    held: Sequence[HeldInputs],
-    times: Array,
-    *,
-    rtol: float = 1e-6,
-    atol: float = 1e-10,
-    max_evaluations: int = MAX_EVALUATIONS,
-) -> Trajectory:
-    """Return the trajectory by the paper's own method, DOP853 on sgn, at ``times`` (shape (n,), s).
-
-    ``atol`` is in fractions of a characteristic velocity and displacement; the cost of stepping
-    over a jump depends on it. A chatter may take ``max_evaluations`` of the right hand side.
-    Counts, modes and errors raised are those of ``_Run``.
-    """
-    return _Run(device, times, DOP853, rtol, atol, max_evaluations=max_evaluations).run(held)
-
-
-def simulate_tanh(
-    device: Device,
-    held: Sequence[HeldInputs],
-    times: Array,
-    *,
-    width: float,
-    rtol: float = 1e-9,
-    atol: float = 1e-11,
-) -> Trajectory:
-    """Return the trajectory with tanh(velocity / ``width``) at ``times`` (shape (n,), s).
-
-    LSODA takes ``width`` in m/s, and ``atol`` in fractions of a characteristic velocity and
-    displacement. Counts and modes are those of ``_Run``, and so are errors raised, besides
-    ValueError for a width that is not above 0.
-    """
-    if not 0.0 < width < np.inf:
-        raise ValueError(f"width = {width!r} m/s: must be a finite number above 0")
-    return _Run(device, times, LSODA, rtol, atol, width).run(held)
-
-
-def simulate_bristle(
-    device: Device,
-    held: Sequence[HeldInputs],
-    times: Array,
-    *,
-    method: str = "LSODA",
-    rtol: float = 1e-11,
-    atol: float = 1e-13,
-) -> LugreTrajectory:
-    """Return the trajectory with LuGre friction, the bristle a state, at ``times`` (shape (n,), s).
-
-    ``method`` is LSODA, Radau or, for soft bristles, DOP853, ``atol`` in fractions of
-    characteristic sizes of the states. Counts and modes are those of ``_Run``, and so are errors
-    raised, besides ValueError for another method.
-    """
-    run = _Run(device, times, scipy_method(method), rtol, atol, law=1)
-    run.run(held)
-    return run.recorder.lugre_trajectory()
-
-
-class _Run(RunWithoutEvents):
-    """A solver of scipy's; ``width`` (m/s) is that of tanh, 0 for sgn and for bristles.
-
-    There are no sticks; reversals are counted over the steps with contact, chatter included.
-    Raises RuntimeError if a step fails or the evaluations of the right hand side become too many.
-    """
-
+class _Integration(RunWithoutEvents):
     def __init__(
         self,
         device: Device,
         times: Array,
-        method: Method,
+        method: Callable[..., Any],
         rtol: float,
         atol: float,
-        width: float = 0.0,
-        max_evaluations: int = MAX_EVALUATIONS,
-        law: int = 0,
+        width: float,
+        max_evaluations: int,
     ) -> None:
-        super().__init__(device, times, law)
+        super().__init__(device, times)
         self._method = method
         self._rtol = rtol
         self._atol = atol
@@ -182,34 +129,34 @@ class _Run(RunWithoutEvents):
 
     def follow(self, inputs: HeldInputs) -> None:
         equations, recorder = self.equations, self.recorder
-        scales, bounds = equations.state_scales(inputs.load), {}
+        span = inputs.stop - inputs.start
+        scales, longest = equations.state_scales(inputs.load), np.inf
         if equations.path_rate:
             scales = np.append(scales, 1.0 / equations.path_rate)
-            later = inputs.later(inputs.stop - inputs.start).frequency_ratio
-            fastest = equations.fastest_rate(max(inputs.frequency_ratio, later, key=abs))
-            bounds = {"max_step": 2.0 * np.pi / fastest / STEPS_PER_FASTEST_PERIOD}
-        solver = self._method(
-            equations.slopes(
-                *(None, inputs.load, self.theta, self.psi + inputs.phase, inputs.frequency_ratio),
-                self._width,
-                load_rate=inputs.load_rate,
-                ratio_rate=inputs.ratio_rate,
-            ),
-            0.0,
-            self.state,
-            inputs.stop - inputs.start,
-            rtol=self._rtol,
-            atol=self._atol * scales,
-            **bounds,
+            ratio = max(inputs.frequency_ratio, inputs.later(span).frequency_ratio, key=abs)
+            longest = 2.0 * np.pi / equations.fastest_rate(ratio) / STEPS_PER_FASTEST_PERIOD
+        slopes = equations.slopes(
+            *(None, inputs.load, self.theta, self.psi + inputs.phase, inputs.frequency_ratio),
+            self._width,
+            load_rate=inputs.load_rate,
+            ratio_rate=inputs.ratio_rate,
         )
+        tolerances = {"rtol": self._rtol, "atol": self._atol * scales}
+        solver = self._method(slopes, 0.0, self.state, span, max_step=longest, **tolerances)
         while solver.status == "running":
             take_step(solver, inputs.start, "use a greater atol")
-            self._check_progress(solver, inputs.start)
+            evaluations = recorder.evaluations + solver.nfev
+            if evaluations > self._max_evaluations:
+                raise RuntimeError(
+                    f"{type(solver).__name__} has used {evaluations} evaluations up to "
+                    f"t = {inputs.start + float(solver.t)!r} s, "
+                    f"max_evaluations = {self._max_evaluations}: it chatters in a stick; use a "
+                    "greater atol, or located events"
+                )
             recorder.steps += 1
-            velocity = float(solver.y[1])
             load = equations.normal_amplitude * np.sin(self.angles(inputs, float(solver.t)))
             if equations.normal_preload + load > 0.0:
-                recorder.contact.slide((velocity > 0.0) - (velocity < 0.0))
+                recorder.contact.slide(int(np.sign(solver.y[1])))
             reached = inputs.start + solver.t if solver.status == "running" else inputs.stop
             local = recorder.pending(reached) - inputs.start
             if local.size:
@@ -217,16 +164,6 @@ class _Run(RunWithoutEvents):
                 self.keep(inputs, local, states, self._friction(inputs, local, states))
         recorder.evaluations += solver.nfev
         self.state = solver.y
-
-    def _check_progress(self, solver: Any, start: float) -> None:
-        evaluations = self.recorder.evaluations + solver.nfev
-        if evaluations > self._max_evaluations:
-            time = start + float(solver.t)
-            raise RuntimeError(
-                f"{type(solver).__name__} has used {evaluations} evaluations up to t = {time!r} s, "
-                f"max_evaluations = {self._max_evaluations}: it chatters in a stick; use a "
-                "greater atol, or located events"
-            )
 
     def _friction(self, inputs: HeldInputs, local: Array, states: Array) -> Array:
         angles, velocity = self.angles(inputs, local), states[:, 1]
@@ -236,3 +173,16 @@ class _Run(RunWithoutEvents):
         limit = np.maximum(0.0, self.equations.friction_limit(angles))
         share = np.tanh(velocity / self._width) if self._width else np.sign(velocity)
         return np.asarray(share * limit)
+
+
+def take_step(solver: Any, time: float, advice: str) -> None:
+    """Take a step of a solver of scipy's that started at a time (s).
+
+    Raises RuntimeError, with the time and the advice, if it fails.
+    """
+    message = solver.step()
+    if solver.status == "failed":
+        raise RuntimeError(
+            f"{type(solver).__name__} failed at t = {time + float(solver.t)!r} s: {message}; "
+            f"{advice}"
+        )

@@ -34,10 +34,8 @@ def simulate(
     ``steps_per_period``-th of a drive period; those of held inputs are equal, and samples between
     their ends are interpolated linearly. ``contact_mode`` is the sign of the velocity (0 in a
     stick, 2 where the contact is open), ``reversals`` counts its changes between steps, and
-    ``event_times`` is empty. Raises ValueError as the other does and for fewer steps than 1.
+    ``event_times`` is empty. Raises ValueError as the other does.
     """
-    if steps_per_period < 1:
-        raise ValueError(f"steps_per_period = {steps_per_period!r}: must be at least 1")
     return _Run(device, times, steps_per_period).run(held)
 
 

@@ -44,7 +44,7 @@ def follow(device: Device, held: list[HeldInputs], times: Array) -> LugreTraject
 )
 def test_scipy_agrees(name: str) -> None:
     device, held = (PROBLEMS | STIFF)[name]
-    found = event_free.simulate_bristle(device, held, TIMES, rtol=1e-13, atol=1e-15)
+    found = event_free.simulate(device, held, TIMES, rtol=1e-13, atol=1e-15)
     assert_agree(follow(device, held, TIMES), found, allowed=1e-8)
 
 
@@ -56,7 +56,7 @@ def test_reversals_lift_offs_and_touchdowns_are_located(name: str) -> None:
     events = exact.event_times
     reverses = np.isin(events, exact.reversal_times)
     found, before, after = (
-        event_free.simulate_bristle(device, held, events + late) for late in (0.0, -1e-9, 1e-9)
+        event_free.simulate(device, held, events + late) for late in (0.0, -1e-9, 1e-9)
     )
     slow = 1e-9 * np.abs(np.gradient(exact.velocity, TIMES)).max()
     assert np.abs(found.velocity[reverses]).max() < slow, "within 1e-9 s of a reversal"

@@ -53,7 +53,7 @@ def position(device: Device, held: Sequence[HeldInputs]) -> Array:
 
 
 def by_scipy(device: Device, held: Sequence[HeldInputs]) -> Array:
-    follow = event_free.simulate_bristle if device.friction_law else located_scipy.simulate
+    follow = event_free.simulate if device.friction_law else located_scipy.simulate
     return follow(device, held, TIMES).position
 
 

@@ -84,8 +84,3 @@ def test_a_contact_that_lifts_has_no_friction() -> None:
     reference = resolved(device, held, times)
     assert np.abs(run.velocity - reference.velocity).max() < 1e-3 * np.abs(reference.velocity).max()
     assert ((run.contact_mode == 2) == (reference.contact_mode == 2))[1:].mean() > 0.95
-
-
-def test_fewer_steps_than_one_are_refused() -> None:
-    with pytest.raises(ValueError, match="steps_per_period = 0: must be at least 1"):
-        simulate(Device(), [HeldInputs(0.0, 1.0)], np.empty(0), steps_per_period=0)
