@@ -158,6 +158,18 @@ def test_a_leap_ends_at_a_kink_next_to_a_steady_velocity(instantiate: Instantiat
     assert found.estimates[-1] > 0.0
 
 
+@pytest.mark.parametrize("tolerance", [1e-14, 1e-12, 1e-10])
+def test_steady_motion_whose_rates_are_rounding_is_leapt_over(
+    instantiate: Instantiate, tolerance: float
+) -> None:
+    """The next point of the slow motion may then be the same number."""
+    values = {"drive_frequency": 35e3, "resonator_frequency": 35e3, "base_amplitude": 1e-5}
+    instance = instantiate().initialize(**values, fidelity=0, tolerance=tolerance)
+    rows = instance.run(25, 2.0)
+    means = [row[OUTPUTS.index("mean_velocity")] for row in rows]
+    assert means[15:] == pytest.approx(means[-1:] * 10, abs=1e-12 * FAST)
+
+
 @pytest.mark.parametrize("law", [0, 1])
 def test_steps_cut_in_two_are_as_exact(instantiate: Instantiate, law: int) -> None:
     values = {"friction_law": law, "tolerance": 1e-6, "phase": 0.4}

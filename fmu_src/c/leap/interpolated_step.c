@@ -10,6 +10,9 @@
 #define STAYS 0.1
 #define INTEGRATED 0.01
 
+/* Rate of the slow velocity over v_q that is rounding. */
+#define ROUNDING (4.0 * EPSILON)
+
 /* What the landing is expected to err by once the last known point is interpolated, too, over what it would if all rates
  * erred as much as those there did before: it was 1/600 to 1/16 in steps that keep a tolerance of 1e-6. */
 #define IMPROVED (1.0 / 100.0)
@@ -48,7 +51,7 @@ static bool interpolated_rate(void *data, double t, double v, SlowRate *rate) {
 }
 
 /* Integrate interpolated rates over `h` periods; a velocity that settles to a share of `allowed` stays. Return false where it
- * changes by more than `reach`. */
+ * changes by more than `reach`, or by jumps. */
 static bool integrate(SlowPath *path, double h, double reach, double allowed, SlowPoint *now) {
     const Visited *here = &path->here;
     double step = h;
@@ -57,6 +60,9 @@ static bool integrate(SlowPath *path, double h, double reach, double allowed, Sl
     while (now->t < h) {
         SlowStep found;
         step = fmin(step, h - now->t);
+        if (now->t + step == now->t) {
+            return false;
+        }
         runge_kutta_step(interpolated_rate, &path->known, now, step, &found);
         bool beyond = !(fabs(found.to.velocity - here->velocity) <= reach);
         if (found.error <= INTEGRATED * allowed) {
@@ -88,7 +94,7 @@ static bool pass(SlowPath *path, double h, Stride *stride) {
     const Visited *here = &path->here;
     double rate = here->rates.acceleration, allowed = map->tolerance * map->speed;
     double reach = TO_GRAZING * fabs(fabs(here->velocity) - map->speed);
-    if (fabs(rate) * h <= STAYS * allowed) {
+    if (fabs(rate) <= fmax(STAYS * allowed / h, ROUNDING * map->speed)) {
         *stride = (Stride){h, h * here->rates.travel, 1.0, h * here->rates.error};
         return true;
     }

@@ -35,7 +35,7 @@ MAX_ERROR = 1e-6
 """Largest error of the mean velocity, over its peak in the run."""
 PAIRS = 5
 DEFAULT_TOLERANCE = 1e-8
-TOLERANCES = tuple(10.0**-digits for digits in range(12, 3, -1))
+TOLERANCES = tuple(10.0 ** (-0.5 * halves) for halves in range(24, 7, -1))
 PERIODS = 1000.0
 """Drive periods in a step whose cost is compared."""
 STEPS = 60
@@ -198,7 +198,7 @@ def main(path: Path) -> None:
                 shown = " ".join(f"{1e3 * value:7.2f} ms" for value in columns)
                 by = (found.averaged_by, found.resolved_by)
                 errors = " ".join(f"{setting.error:.1e}" for setting in by)
-                tolerances = " ".join(f"{setting.tolerance:.0e}" for setting in by)
+                tolerances = " ".join(f"{setting.tolerance:.1e}" for setting in by)
                 ratios = f"{found.ratio:6.1f} {found.ratio_again:6.1f}"
                 print(f"{found.length:6.1f} s {shown} {ratios}  {errors}  {tolerances}", flush=True)
             print_steps(fmu, device)
