@@ -24,7 +24,11 @@ static bool place(SlowPath *path) {
     Manifold *manifold = &path->manifold;
     const PeriodMap *map = manifold->map;
     Visited *here = &path->here;
+    double of_offset = map->share * map->speed * here->rates.offset;
     bool placed = here->rates.offset <= FAST_SHARE * map->tolerance && are_exact(map, &here->rates);
+    if (here->rates.error - of_offset > map->share * map->tolerance * map->speed) {
+        return false;
+    }
     manifold->max_sequences = MAX_SEQUENCES;
     manifold->allowed = FAST_SHARE * map->tolerance;
     path->last = *here;

@@ -21,10 +21,13 @@ enum { MAX_TURNS_OF_PERIOD = 4 };
 
 /* Periods that are resolved after an attempt, by period mapped in vain: attempts cost an eighth of resolved motion at most.
  * `MIN_WAIT` and `MIN_PAUSE` follow an attempt that told that fast states are off the manifold, or that nothing is to be
- * gained: to map a period takes half as long again as to resolve it. */
+ * gained: to map a period takes half as long again as to resolve it. Fast states that are still off the manifold once their
+ * transient should have decayed do not follow the slow motion: nothing is to be gained, either. Attempts become rarer from
+ * one to the next, until one leaps. */
 #define PAUSE 8.0
 #define MIN_WAIT 8.0
 #define MIN_PAUSE 32.0
+enum { MAX_WAITS = 2 };
 
 /* Factor of the tolerance of LuGre friction where a leap is to follow: what resolved motion errs by stays in the slow
  * velocity, and adds up over many periods to several tolerances. */
@@ -66,17 +69,11 @@ static bool resolve_to_section(Way *way, const PeriodMap *map, double periods, b
     return true;
 }
 
-/* Periods to be resolved after an attempt to leap. */
-static double pause_after(const Leap *leap) {
-    switch (leap->outcome) {
-    case NOT_ON_MANIFOLD:
-        return fmax(MIN_WAIT, ceil(leap->wait));
-    case NO_GAIN:
-        return fmax(MIN_PAUSE, PAUSE * leap->in_vain);
-    case LEAPT:
-        break;
-    }
-    return PAUSE * leap->in_vain;
+/* Periods to be resolved after an attempt to leap, the `attempts`-th since the last leap. */
+static double pause_after(const Leap *leap, int attempts) {
+    bool waits = leap->outcome == NOT_ON_MANIFOLD && attempts <= MAX_WAITS;
+    double least = waits ? fmax(MIN_WAIT, ceil(leap->wait)) : attempts * MIN_PAUSE;
+    return fmax(least, PAUSE * leap->in_vain);
 }
 
 /* The period map under the inputs of now. */
@@ -96,6 +93,7 @@ static bool advance(const Law *law, const Moment *moment, double duration, Event
     (void)search;
     Way way = {law, budget, budget->passed, clock_of(duration), duration, *moment};
     double turn = TAU / law->held.plant.drive_frequency, pause = 0.0;
+    int attempts = 0;
     PeriodMap map;
     bool gains = true;
     bool leaps = way.left > SHORTEST_LEAP * turn && prepare_map(&way, &map);
@@ -109,7 +107,8 @@ static bool advance(const Law *law, const Moment *moment, double duration, Event
         Moment before = way.now;
         Leap done = leap(&map, &before, floor(way.left / map.period), budget, &way.now);
         way.left = clock_advance(&way.clock, done.periods * map.period);
-        pause = pause_after(&done);
+        attempts = done.outcome == LEAPT ? 0 : attempts + 1;
+        pause = pause_after(&done, attempts);
         gains = done.outcome != NO_GAIN;
     }
     if (way.left > 0.0 && !resolve(&way, way.left, false, refusal)) {
