@@ -198,6 +198,16 @@ def test_a_ratio_that_grows_and_falls_within_steps(instantiate: Instantiate) -> 
         assert leaping.get(*names) == pytest.approx(full.get(*names), abs=3e-6 * FAST)
 
 
+@pytest.mark.parametrize("law", [0, 1])
+def test_the_load_drifts_on_in_leaps_that_neglect_it(instantiate: Instantiate, law: int) -> None:
+    """A drift too small to change the rates adds up over many leaps."""
+    values = {"frequency_ratio": 1.0 + 1e-12, "friction_law": law, "tolerance": 1e-6}
+    leaping, full = (instantiate().initialize(**values, fidelity=fidelity) for fidelity in (0, 2))
+    for instance in (leaping, full):
+        instance.run(5, 200.3 * PERIOD)
+    assert leaping.get("normal_force") == pytest.approx(full.get("normal_force"), abs=1e-11)
+
+
 def last_outputs(instance: Instance, size: float) -> list[tuple[float, ...]]:
     return instance.run(3, size)
 

@@ -206,7 +206,7 @@ double mean_friction(const Bristle *bristle, const FastMotion *fast, const Vibra
                      double turning) {
     double mu = bristle->coefficient;
     if (!is_elastic(bristle)) {
-        return mu / TAU * vibrating_load_difference(load, turning);
+        return mu * (vibrating_load_difference(load, turning) / TAU);
     }
     VibratingLoad counted = counted_load(bristle, load);
     Quadrature over = {.bristle = bristle, .fast = fast, .load = &counted};

@@ -21,6 +21,7 @@ bool all_finite(const double *numbers, size_t count) {
     return true;
 }
 
+/* Whether all coefficients are finite numbers, and the slider's mass counts beside the resonator's. */
 static bool law_is_finite(const Law *law) {
     const TheoryRange theory = theory_range(law);
     const Plant *plant = &law->held.plant;
@@ -32,7 +33,8 @@ static bool law_is_finite(const Law *law) {
         plant->spring,          plant->damper,            plant->holding_drive.im,
         theory.square,          theory.drag,              theory.strongest,
     };
-    return all_finite(coefficients, sizeof coefficients / sizeof coefficients[0]);
+    return plant->mass_fraction < 1.0 &&
+           all_finite(coefficients, sizeof coefficients / sizeof coefficients[0]);
 }
 
 /* Refuse values that together leave the range of floating point numbers; the text names the value that is

@@ -66,6 +66,7 @@ static void land(const SlowPath *path, double periods, double travel, Moment *af
     const Visited *here = &path->here;
     double period = path->manifold.map->period;
     *after = here->after;
+    after->psi = psi_after(path->manifold.map, path->psi, periods + DIFFERENCES);
     after->position += travel;
     after->counts.reversals += periods * here->rates.reversals;
     after->counts.sticks += periods * here->rates.sticks;

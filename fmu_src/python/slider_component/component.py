@@ -210,6 +210,7 @@ def _prepare(values: Mapping[str, Any]) -> Motion:
     try:
         motion = motion_of(device, inputs)
         finite = all(map(isfinite, (*_coefficients(motion.system), *theory_range(device))))
+        finite = finite and motion.system.mass_fraction < 1.0  # beside it, the slider's mass counts
     except ArithmeticError:
         finite = False
     if not finite:
