@@ -40,6 +40,7 @@ def test_equal_sources_give_equal_bytes(
     assert build_page(tmp_path).read_bytes() == page.read_bytes()
 
 
+@pytest.mark.interop
 def test_one_small_file_that_names_no_other(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     assert len(text.encode()) <= 300_000
@@ -47,6 +48,7 @@ def test_one_small_file_that_names_no_other(page: Path) -> None:
     assert "{{" not in re.sub(r"<script>.*?</script>", "", text, flags=re.DOTALL)
 
 
+@pytest.mark.interop
 def test_every_variable_is_known_by_its_value_reference(page: Path) -> None:
     found = re.search(r'id="variables">(.*?)</script>', page.read_text(encoding="utf-8"))
     assert found is not None
