@@ -273,12 +273,16 @@ def test_no_scenes_are_not_all_scenes() -> None:
         sr.validate("no.fmu", scenes=[])
 
 
-def test_stress_and_trade_are_functions(native_fmu: Path) -> None:
+def test_stress_is_a_function(native_fmu: Path) -> None:
     (stressed,) = sr.stress(native_fmu, random=2, jobs=1)
     assert stressed.passed
     assert len(stressed.table()["verdict"]) == 2
     with pytest.raises(sr.HarnessError, match="random = 2 and device = 'lugre_steel': must be"):
         sr.stress(native_fmu, random=2, device="lugre_steel")
+
+
+@pytest.mark.slow
+def test_trade_is_a_function(native_fmu: Path) -> None:
     (measured,) = sr.trade("table_1", native_fmu, periods=2, repeats=1, budget=0.01)
     assert len(measured.table()["method"]) == len(measured.rows) > 0
     assert "position within 1 %" in repr(measured)
