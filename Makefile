@@ -3,6 +3,7 @@
 PYTHON ?= python3
 VENV := .venv
 PY := $(VENV)/bin/python
+CAN_BUILD := $(VENV)/.can_build
 READY := $(VENV)/.ready
 READY_WITH_HOSTS := $(VENV)/.ready_with_hosts
 LINT := .venv-lint
@@ -26,23 +27,27 @@ $(PY):
 	  echo "make: Python 3.11 or newer is needed, but $(PYTHON) is $$($(PYTHON) -V 2>&1); name a newer one: make $(MAKECMDGOALS) PYTHON=python3.12" >&2; exit 2; }
 	@$(PYTHON) -m venv $(VENV)
 
+$(CAN_BUILD): pyproject.toml | $(PY)
+	$(PY) $(PIP_INSTALL) --editable '.[build]'
+	@touch $@
+
 $(READY): pyproject.toml | $(PY)
 	$(PY) $(PIP_INSTALL) --editable '.[dev]'
-	@touch $@
+	@touch $(CAN_BUILD) $@
 
 $(READY_WITH_HOSTS): pyproject.toml | $(PY)
 	$(PY) $(PIP_INSTALL) --editable '.[dev,hosts]'
-	@touch $(READY) $@
+	@touch $(CAN_BUILD) $(READY) $@
 
 $(LINT)/.ready: requirements-lint.lock
 	@test -x $(LINT)/bin/python || $(PYTHON) -m venv $(LINT)
 	$(LINT)/bin/python $(PIP_INSTALL) -r requirements-lint.lock
 	@touch $@
 
-build: $(READY) ## build the FMUs for all platforms, the closed loop and the page into dist
+build: $(CAN_BUILD) ## build the FMUs for all platforms, the closed loop and the page into dist
 	$(PY) build_fmu.py
 
-validate: $(READY) ## build for this machine, run every built-in scene with both FMUs of FMI 2.0 and compare them with the references; PLATFORMS=all builds as `make build` does
+validate: $(CAN_BUILD) ## build for this machine, run every built-in scene with both FMUs of FMI 2.0 and compare them with the references; PLATFORMS=all builds as `make build` does
 	$(PY) build_fmu.py $(if $(filter all,$(PLATFORMS)),,--platform host)
 	$(PY) -m harness validate
 
@@ -80,10 +85,10 @@ hosts: $(READY_WITH_HOSTS) .venv-hosts/cofmupy/.ready .venv-hosts/fmpy/.ready ##
 interop: hosts ## run table 1 in all of them; compile for other platforms and try what can be tried here
 	$(PY) -m pytest -n 2 --dist loadfile -m interop
 
-docs: build ## write the documentation site, with the page that runs the component, to build/docs
+docs: $(READY) build ## write the documentation site, with the page that runs the component, to build/docs
 	$(PY) -m sphinx -q -W --keep-going docs build/docs
 
-bench: build ## measure what a step costs a host in C
+bench: $(READY) build ## measure what a step costs a host in C
 	$(PY) -m harness bench
 
 clean: ## remove .venv, dist and every cache in this folder
