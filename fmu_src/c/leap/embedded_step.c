@@ -12,7 +12,7 @@
 
 /* The step that is expected to hold, over the time in which rates change, where all that the slow velocity still changes by
  * is the tolerance: what holds in most devices. */
-#define FIRST_STEP 3.3
+#define EXPECTED_STEP 3.3
 
 /* Largest drift of the load's phase [rad] in a step: an eighth of a beat, so that its stages see all phases. */
 #define MAX_STEP_DRIFT (PI / 4.0)
@@ -34,7 +34,7 @@ double expected_step(const SlowPath *path) {
     double acceleration = fabs(path->here.rates.acceleration);
     double gain = fabs(path->here.rates.jerk) / acceleration;
     double change = acceleration / (gain * map->speed);
-    return gain > 0.0 ? FIRST_STEP / gain * pow(map->tolerance / change, 1.0 / ORDER) : INFINITY;
+    return gain > 0.0 ? EXPECTED_STEP / gain * pow(map->tolerance / change, 1.0 / ORDER) : INFINITY;
 }
 
 bool embedded_step(SlowPath *path, double *h, Stride *stride) {

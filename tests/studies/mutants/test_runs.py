@@ -41,7 +41,7 @@ def test_mutants_are_judged_once_and_kept(
     fmu, scene = read_python_fmu(python_fmu), read_scene(faulty_fmus.scene(tmp_path))
     made = fmu_mutants(fmu, ["device.py", "values.py"])
     wrong = next(m for m in made if m.file == "device.py" and m.change == "+ becomes -")
-    unseen = next(m for m in made if "raise refused" in m.change)
+    unseen = next(m for m in made if "raise Refusal" in m.change)
 
     def run_kept() -> MutationRun[Mutant]:
         tried, journal = [wrong, unseen], tmp_path / "verdicts"
