@@ -106,18 +106,27 @@ def case_of(draw: random.Random, law: int, tolerance: float) -> Case:
     return Case(values, fast, 1.0 / share)
 
 
-@pytest.mark.parametrize(("law", "count", "seed"), [(0, 60, 1707), (1, 16, 1708)])
+MANY = [
+    pytest.param(law, tolerance, 1600, 111, marks=pytest.mark.nightly)
+    for law in (0, 1)
+    for tolerance in (1e-4, 1e-6, 1e-8)
+]
+
+
+@pytest.mark.parametrize(
+    ("law", "tolerance", "count", "seed"), [(0, 1e-6, 60, 1707), (1, 1e-6, 16, 1708), *MANY]
+)
 def test_random_devices_keep_the_tolerance_and_know_their_error(
-    instantiate: Instantiate, law: int, count: int, seed: int
+    instantiate: Instantiate, law: int, tolerance: float, count: int, seed: int
 ) -> None:
-    """Nearly all: at most ten times what is allowed, at most three times what is estimated.
+    """At most ten times what is allowed, nearly all at most three times what is estimated.
 
     The estimate is that of leaps: what bristles err by while they are resolved is not in it.
     """
     draw, covered, leapt, kept = random.Random(seed), [], 0, 0
     for _ in range(count):
-        case = case_of(draw, law, 1e-6)
-        allowed = 1e-6 * case.fast
+        case = case_of(draw, law, tolerance)
+        allowed = tolerance * case.fast
         size = max(200.0, case.transient / 3.0) * math.tau / case.values["drive_frequency"]
         found = compared(instantiate, case.values, size, 4)
         kept += max(found.errors) <= 10.0 * allowed
@@ -128,7 +137,7 @@ def test_random_devices_keep_the_tolerance_and_know_their_error(
             if error > 0.1 * allowed and estimate > 0.0
         ]
     assert leapt >= 0.6 * count
-    assert kept >= 0.97 * count
+    assert kept == count
     assert sum(covered) >= 0.9 * len(covered)
 
 

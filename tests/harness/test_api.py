@@ -281,8 +281,13 @@ def test_stress_is_a_function(native_fmu: Path) -> None:
         sr.stress(native_fmu, random=2, device="lugre_steel")
 
 
-@pytest.mark.slow
 def test_trade_is_a_function(native_fmu: Path) -> None:
-    (measured,) = sr.trade("table_1", native_fmu, periods=2, repeats=1, budget=0.01)
+    scene = {
+        "name": "ramped",
+        "title": "Inputs that vary have no steady velocity to be searched for",
+        "run": {"drive_periods": 4, "steps_per_period": 4},
+        "inputs": {"load": {"ramp": [[0.0, 0.0], [0.007, 0.05]]}},
+    }
+    (measured,) = sr.trade(scene, native_fmu, periods=2, repeats=1, budget=0.01)
     assert len(measured.table()["method"]) == len(measured.rows) > 0
     assert "position within 1 %" in repr(measured)

@@ -6,13 +6,13 @@
 /* Number of points of which the one in the widest gap is taken. */
 enum { CANDIDATES = 24 };
 
-void interpolant_add(Interpolant *polynomials, double x, const double values[MAX_FUNCTIONS]) {
-    int count = polynomials->count, functions = polynomials->functions;
+void interpolant_add(Interpolant *polynomials, double x, const double values[FUNCTIONS]) {
+    int count = polynomials->count;
     double *row = polynomials->difference[count];
-    memcpy(row, values, (size_t)functions * sizeof row[0]);
+    memcpy(row, values, FUNCTIONS * sizeof row[0]);
     for (int i = 0; i < count; i++) {
         double distance = x - polynomials->point[i];
-        for (int k = 0; k < functions; k++) {
+        for (int k = 0; k < FUNCTIONS; k++) {
             row[k] = (row[k] - polynomials->difference[i][k]) / distance;
         }
     }
@@ -21,7 +21,7 @@ void interpolant_add(Interpolant *polynomials, double x, const double values[MAX
 }
 
 void interpolant_at(const Interpolant *polynomials, double x, int functions,
-                    double values[MAX_FUNCTIONS]) {
+                    double values[FUNCTIONS]) {
     for (int k = 0; k < functions; k++) {
         values[k] = 0.0;
     }

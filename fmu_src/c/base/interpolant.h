@@ -2,21 +2,21 @@
 #ifndef SLIDER_INTERPOLANT_H
 #define SLIDER_INTERPOLANT_H
 
-enum { MAX_POINTS = 14, MAX_FUNCTIONS = 5 };
+enum { MAX_POINTS = 14, FUNCTIONS = 5 };
 
 /* Newton's form: the divided differences at the points, in the order in which these came. */
 typedef struct {
-    int count, functions;
+    int count;
     double point[MAX_POINTS];
-    double difference[MAX_POINTS][MAX_FUNCTIONS];
+    double difference[MAX_POINTS][FUNCTIONS];
 } Interpolant;
 
-/* Add the values of the functions at `x`, at another point; there must be room. */
-void interpolant_add(Interpolant *polynomials, double x, const double values[MAX_FUNCTIONS]);
+/* Add the values of the functions at `x`, which is no point yet; there must be room. */
+void interpolant_add(Interpolant *polynomials, double x, const double values[FUNCTIONS]);
 
-/* Values at `x` of the first `functions` ones. */
+/* Values at `x` of the first `functions` functions. */
 void interpolant_at(const Interpolant *polynomials, double x, int functions,
-                    double values[MAX_FUNCTIONS]);
+                    double values[FUNCTIONS]);
 
 /* The point between `from` and `to` where the interpolant may err most: where the product of the distances from all points is
  * largest (a Leja point), among equidistant ones. */

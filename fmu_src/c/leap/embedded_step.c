@@ -42,12 +42,11 @@ bool embedded_step(SlowPath *path, double *h, Stride *stride) {
     const Visited *here = &path->here;
     SlowRate rate = {here->rates.acceleration, here->rates.travel};
     SlowPoint from = {here->n, here->velocity, 0.0, rate};
-    double distance = fabs(fabs(here->velocity) - map->speed);
-    double to_grazing = TO_GRAZING * distance / fabs(rate.acceleration);
+    double to_reach = reach_of_step(path) / fabs(rate.acceleration);
     double in_beat = MAX_STEP_DRIFT / fabs(drift_after(map, here->n));
     double allowed = STEP_TOLERANCE * map->tolerance * map->speed;
     SlowStep step;
-    *h = floor(fmin(*h, fmin(in_beat, to_grazing)));
+    *h = floor(fmin(*h, fmin(in_beat, to_reach)));
     if (*h < SHORTEST_STEP || !runge_kutta_step(rate_at, path, &from, *h, &step) ||
         !isfinite(step.error)) {
         *h *= SHORTER;

@@ -37,14 +37,14 @@ static double periods_of_error(double factor, double h) {
 }
 
 static double interpolated_acceleration(const SlowPath *path, double velocity) {
-    double values[INTERPOLATED];
+    double values[FUNCTIONS];
     interpolant_at(&path->known, velocity, TRAVEL, values);
     return values[ACCELERATION];
 }
 
 static bool interpolated_rate(void *data, double t, double v, SlowRate *rate) {
     (void)t;
-    double values[INTERPOLATED];
+    double values[FUNCTIONS];
     interpolant_at(data, v, FAST, values);
     *rate = (SlowRate){values[ACCELERATION], values[TRAVEL]};
     return true;
@@ -93,7 +93,7 @@ static bool pass(SlowPath *path, double h, Stride *stride) {
     const PeriodMap *map = path->manifold.map;
     const Visited *here = &path->here;
     double rate = here->rates.acceleration, allowed = map->tolerance * map->speed;
-    double reach = TO_GRAZING * fabs(fabs(here->velocity) - map->speed);
+    double reach = reach_of_step(path);
     if (fabs(rate) <= fmax(STAYS * allowed / h, ROUNDING * map->speed)) {
         *stride = (Stride){h, h * here->rates.travel, 1.0, h * here->rates.error};
         return true;
@@ -108,7 +108,9 @@ static bool pass(SlowPath *path, double h, Stride *stride) {
     bool landed = true;
     while (path->known.count < MAX_POINTS && visit(path, here->n, at)) {
         know_last(path);
-        landing = path->known.count == 2 ? path->last : landing;
+        if (path->known.count == 2) {
+            landing = path->last;
+        }
         double residual = fabs(path->last.rates.acceleration - expected);
         double factor = factor_until(path, interpolated_acceleration(path, end));
         double periods = periods_of_error(factor, h);

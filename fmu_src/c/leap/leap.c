@@ -12,9 +12,6 @@
 /* Drift of the load's phase [rad] over a leap up to which its rates depend on the slow velocity alone. */
 #define NO_DRIFT 1e-9
 
-/* First step that is tried, in periods: a longer one follows once that holds. */
-#define FIRST_STEP 1e6
-
 /* Number of steps of leaps that a whole budget buys, besides what they map: some map nothing. */
 enum { MAX_LEAP_STEPS = 20000 };
 
@@ -25,14 +22,15 @@ static double max_transient(const PeriodMap *map) {
     return fmin(MAX_TRANSIENT, FAST_SHARE * map->tolerance / effect);
 }
 
-/* Put the start of a leap on the manifold. Return false where there are no rates. */
+/* Put the start of a leap on the manifold. Return false where there are no rates; at once, where they would not be exact
+ * enough on the manifold either. */
 static bool place(SlowPath *path) {
     Manifold *manifold = &path->manifold;
     const PeriodMap *map = manifold->map;
     Visited *here = &path->here;
-    double of_offset = map->share * map->speed * here->rates.offset;
     bool placed = here->rates.offset <= FAST_SHARE * map->tolerance && are_exact(map, &here->rates);
-    if (here->rates.error - of_offset > map->share * map->tolerance * map->speed) {
+    SlowRates on_manifold = {.error = here->rates.error - map->share * map->speed * here->rates.offset};
+    if (!are_exact(map, &on_manifold)) {
         return false;
     }
     manifold->max_sequences = MAX_SEQUENCES;
@@ -48,7 +46,7 @@ static bool place(SlowPath *path) {
 /* Pass at most `longest` periods, as far as that goes. Return how many, and the `travel` [m] in them; `error` is that of the
  * slow velocity [m/s]. */
 static double pass(SlowPath *path, double longest, double *travel, double *error) {
-    double passed = 0.0, h = path->varies ? expected_step(path) : FIRST_STEP;
+    double passed = 0.0, h = path->varies ? expected_step(path) : longest;
     *travel = 0.0;
     Budget *budget = path->manifold.budget;
     while ((h = floor(fmin(h, longest - passed))) >= SHORTEST_STEP &&

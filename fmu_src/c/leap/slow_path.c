@@ -4,7 +4,7 @@
 
 void know_last(SlowPath *path) {
     const Visited *last = &path->last;
-    double values[INTERPOLATED] = {last->rates.acceleration, last->rates.travel};
+    double values[FUNCTIONS] = {last->rates.acceleration, last->rates.travel};
     for (int i = 0; i < MAX_FAST; i++) {
         values[FAST + i] = last->rates.fast[i];
     }
@@ -14,7 +14,6 @@ void know_last(SlowPath *path) {
 void begin_step(SlowPath *path) {
     path->here = path->last;
     path->known.count = 0;
-    path->known.functions = INTERPOLATED;
     know_last(path);
 }
 
@@ -22,8 +21,8 @@ void begin_step(SlowPath *path) {
 static void guess_fast(const SlowPath *path, double n, double velocity, double fast[MAX_FAST]) {
     const Visited *here = &path->here, *last = &path->last;
     if (path->known.count > 1) {
-        double values[INTERPOLATED];
-        interpolant_at(&path->known, velocity, INTERPOLATED, values);
+        double values[FUNCTIONS];
+        interpolant_at(&path->known, velocity, FUNCTIONS, values);
         for (int i = 0; i < MAX_FAST; i++) {
             fast[i] = values[FAST + i];
         }
@@ -58,6 +57,10 @@ bool visit(SlowPath *path, double n, double velocity) {
     }
     path->last = visited;
     return true;
+}
+
+double reach_of_step(const SlowPath *path) {
+    return 0.5 * fabs(fabs(path->here.velocity) - path->manifold.map->speed);
 }
 
 double error_of_rates(const SlowPath *path) {

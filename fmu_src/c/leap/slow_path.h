@@ -17,7 +17,8 @@ typedef struct {
 } Visited;
 
 /* What is interpolated over the slow velocity: its change and the travel by period, and the fast states. */
-enum { ACCELERATION, TRAVEL, FAST, INTERPOLATED = FAST + MAX_FAST };
+enum { ACCELERATION, TRAVEL, FAST };
+_Static_assert(FAST + MAX_FAST == FUNCTIONS, "an interpolant must hold what is interpolated");
 
 /* A step begins `here`; `last` is the point that was visited last. Where rates do not depend on time but for the slow velocity,
  * `known` interpolates those of points of the step; otherwise the motion `varies`. */
@@ -42,6 +43,9 @@ void know_last(SlowPath *path);
 
 /* Whether rates are so exact that the slow velocity errs by no more than is allowed in the time in which friction changes it. */
 bool are_exact(const PeriodMap *map, const SlowRates *rates);
+
+/* Change of the slow velocity [m/s] that a step may make: half the way to a grazing velocity, where rates are singular. */
+double reach_of_step(const SlowPath *path);
 
 /* The larger error of the rates [m/s per period] at the ends of a step. */
 double error_of_rates(const SlowPath *path);

@@ -13,9 +13,6 @@ typedef struct {
 /* Fewest periods of a step: its points map half as many. */
 #define SHORTEST_STEP (12.0 * DIFFERENCES)
 
-/* Part of the way to a grazing velocity that a step may pass: the rates are singular there. */
-#define TO_GRAZING 0.5
-
 /* Factors by which a step becomes shorter that fails, and longer behind one that does not, if its error tells nothing. */
 #define SHORTER 0.5
 #define LONGER 2.0

@@ -14,7 +14,7 @@ from . import refusal_texts
 from .contact import BACKWARD, FORWARD, LIFTED
 from .events import MARK_TOLERANCE
 from .moment import Moment
-from .values import Refusal
+from .values import Refusal, is_finite_number
 
 FORMAT = f"{__name__.rpartition('.')[0]} state"
 """The package inside an FMU is named after its content, so this names the build: a state of one
@@ -31,7 +31,7 @@ LIMITS: dict[str, tuple[float, float]] = {
     "reversals": (0, 2**53),
     "sticks": (0, 2**53),
     "complete": (0, 1),
-    "event_age": (0.0, inf),
+    "event_age": (-float_info.max, inf),
     "stop_time": (-float_info.max, inf),
 }
 """Least and largest value of entries that are not any finite number."""
@@ -40,10 +40,15 @@ LIMITS: dict[str, tuple[float, float]] = {
 def number(name: str, value: object, kind: str = "float") -> Any:
     """Return a number of a stored state, of type `kind`. Raises Refusal for anything else."""
     low, high = LIMITS.get(name, (-float_info.max, float_info.max))
-    if type(value).__name__ == kind and low <= value <= high:  # type: ignore[operator]
-        return value
+    if isinstance(value, (int, float)) and low <= value <= high:
+        if kind == "float" and (is_finite_number(value) or value == inf):
+            return float(value)
+        if type(value).__name__ == kind:
+            return value
     shown = {"name": name, "value": repr(value)}
-    if kind != "float":
+    if kind == "bool":
+        raise Refusal("FMU state refused: {name} = {value}; must be true or false", **shown)
+    if kind == "int":
         limits = {"minimum": int(low), "maximum": int(high)}
         raise Refusal(refusal_texts.OUT_OF_RANGE_IN_STATE, **shown, **limits)
     is_phase = (low, high) == PHASE

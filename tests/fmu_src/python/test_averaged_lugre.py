@@ -8,9 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fmu_src.python.slider_component import mean_friction
 from fmu_src.python.slider_component.device import Device
 from fmu_src.python.slider_component.mean_friction import (
     MAX_WAVES,
+    NODES,
     MeanFriction,
     _gauss_legendre,
 )
@@ -60,10 +62,24 @@ def test_hard_bristles_are_coulomb_friction() -> None:
 
 
 def test_quadrature_rule() -> None:
-    nodes, weights = np.polynomial.legendre.leggauss(12)
-    ours = np.array(sorted(_gauss_legendre(12)))
+    nodes, weights = np.polynomial.legendre.leggauss(NODES)
+    ours = np.array(sorted(_gauss_legendre(NODES)))
     assert ours[:, 0] == pytest.approx(nodes, abs=1e-15)
     assert ours[:, 1] == pytest.approx(weights, abs=1e-14)
+
+
+@pytest.mark.parametrize("stiffness", [1e2, 1e4, 1e6, 1e8, 1e10])
+@pytest.mark.parametrize("n", [0.0, 1.0, 3.0, 17.0, 50.0])
+def test_twice_the_nodes_change_no_mean(
+    monkeypatch: pytest.MonkeyPatch, stiffness: float, n: float
+) -> None:
+    friction = MeanFriction(0.1, stiffness, 0.01, 0.2366, 3500.0)
+    load = VibratingLoad(Device(normal_amplitude=1.5), n, 0.7)
+    turnings = (1e-3, 0.3, 1.1, 2.0, 3.1)
+    means = [friction.mean(load, turning) for turning in turnings]
+    monkeypatch.setattr(mean_friction, "_RULE", _gauss_legendre(2 * NODES))
+    finer = [friction.mean(load, turning) for turning in turnings]
+    assert means == pytest.approx(finer, abs=1e-12 * 0.1)
 
 
 @pytest.mark.parametrize("n", [1, 3, 50])

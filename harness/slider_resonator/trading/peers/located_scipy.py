@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
 from scipy.integrate import DOP853
@@ -56,8 +57,9 @@ def _follow(segment: Segment, rtol: float, atol: float, steps_per_period: int) -
     """Integrate displacement since the start of the segment, velocity, Y and Y'."""
     equations = segment.equations
     longest = 2.0 * math.pi / equations.fastest_rate(segment.largest_ratio) / steps_per_period
-    solver = DOP853(
-        equations.slopes(  # type: ignore[arg-type]
+    method: Callable[..., Any] = DOP853
+    solver = method(
+        equations.slopes(
             segment.mode,
             segment.load,
             segment.theta,
@@ -72,7 +74,7 @@ def _follow(segment: Segment, rtol: float, atol: float, steps_per_period: int) -
         first_step=min(longest, segment.span),
         max_step=longest,
         rtol=rtol,
-        atol=atol * equations.state_scales(segment.load),  # type: ignore[arg-type]
+        atol=atol * equations.state_scales(segment.load),
     )
     samples = [np.empty((0, 4))]
     steps = sampled = event = 0
