@@ -36,7 +36,7 @@ from slider_resonator.scenes.scene_files import find_scenes
 @click.option(
     "--details",
     is_flag=True,
-    help="Show every check of many scenes, every point of a sweep, and why it is expected.",
+    help="Show every check of every scene, every point of a sweep, and why it is expected.",
 )
 @jobs_option
 @time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep, on each FMU.")

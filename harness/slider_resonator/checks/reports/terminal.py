@@ -23,6 +23,8 @@ from slider_resonator.scenes.vocabulary import QUANTITIES
 
 MAX_DETAILED = 3
 """Number of scenes up to which every check is shown; of more only the failed ones."""
+MAX_SCENES = 12
+"""Number of scenes with a line each; of more, those that failed and those nearest to a bound."""
 MAX_NOT_APPLIED = 3
 """Number of checks that do not apply for one reason up to which each has a line."""
 DIGITS = 8
@@ -36,8 +38,8 @@ def print_validation(
     """Print the table of verdicts, the reasons of failures, and a summary line.
 
     Show the worst point of a sweep; with `details` every point, and why each value is expected.
-    Give each of many scenes one line, with the check nearest to its bound. With `only_failed` leave
-    out what has passed.
+    Of many scenes give one line to each that failed, and to those nearest to a bound. With
+    `only_failed` leave out what has passed.
     """
     if not only_failed:
         _print_headline(console, validation.checks)
@@ -45,7 +47,11 @@ def print_validation(
     for check in validation.checks:
         scenes.setdefault(check.scene, []).append(check)
     if len(scenes) > MAX_DETAILED and not (details or only_failed):
-        console.print(rendered(_overview(scenes)))
+        shown = _failed_or_nearest(scenes)
+        console.print(rendered(_overview({scene: scenes[scene] for scene in shown})))
+        if len(shown) < len(scenes):
+            others = f"{number_of(len(scenes) - len(shown), 'more scene')} passed"
+            _print_line(console, Text(f"{others}, none nearer to a bound (--details lists all)"))
         only_failed = True
     checks = [check for check in validation.checks if not (only_failed and check.passed)]
     rows = [(check, 1) for check in checks] if details else worst_of_sweeps(checks)
@@ -106,6 +112,16 @@ def _summary(validation: Validation) -> Text:
     if without:
         parts.append((f"; {escaped(without)}", STYLES[Style.NOTE]))
     return Text.assemble(*parts)
+
+
+def _failed_or_nearest(scenes: Mapping[str, Sequence[Check]]) -> list[str]:
+    """Return the scenes that failed, and up to MAX_SCENES with those nearest to a bound, in order."""
+    failed = {scene for scene, checks in scenes.items() if not all(c.passed for c in checks)}
+    by_severity = sorted(
+        scenes, key=lambda scene: max(check.severity for check in scenes[scene]), reverse=True
+    )
+    shown = failed | set(by_severity[:MAX_SCENES])
+    return [scene for scene in scenes if scene in shown]
 
 
 def _overview(scenes: Mapping[str, Sequence[Check]]) -> Table:

@@ -106,3 +106,12 @@ def test_many_scenes_have_a_line_each_and_their_failures_in_full() -> None:
     assert text.count("steady_velocity") == 9 + 2, "a line each, and two of what fails"
     assert "10 of 11 checks passed" in text
     assert "reason" not in text
+
+
+def test_of_hundreds_of_scenes_those_that_fail_or_come_nearest_have_a_line() -> None:
+    good = [replace(PASSED, scene=f"scene_{n}", deviation=n * 1e-10) for n in range(285)]
+    text = printed(replace(BAD, scene="scene_bad"), *good)
+    rows = [line.split()[0] for line in text.splitlines() if " of 1 " in line]
+    assert rows == ["scene_bad", *(f"scene_{n}" for n in range(274, 285))]
+    assert "274 more scenes passed, none nearer to a bound (--details lists all)" in text
+    assert "285 of 286 checks passed" in text
