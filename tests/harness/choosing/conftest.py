@@ -2,11 +2,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 import pytest
 
 from slider_resonator.choosing import choosing, probe, reference
-from slider_resonator.choosing.steady_need import timed_run
+from slider_resonator.choosing.candidate import Candidate
+from slider_resonator.choosing.steady_need import SteadyValue, find, timed_run
 from slider_resonator.device.device import Device
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.instance import Instance
@@ -18,6 +20,8 @@ PERIOD_COST = {0: 0.7e-6, 1: 5e-6}
 """Stated cost of a resolved drive period by friction law, s."""
 LEAP_PERIODS = 300.0
 """Most drive periods that order 2 resolves."""
+OUTPUT_COST = 1e-4
+"""Stated cost of a steady output of first order, s; of second order it is twice that."""
 
 
 @pytest.fixture
@@ -36,6 +40,15 @@ def stated_costs(monkeypatch: pytest.MonkeyPatch) -> None:
         law = int(values["friction_law"])
         return record, STEP_COST * len(schedule.times) + PERIOD_COST[law] * periods
 
+    def steady(
+        instance: Instance, values: Mapping[str, float], name: str, candidate: Candidate
+    ) -> SteadyValue:
+        found = find(instance, values, name, candidate)
+        if candidate.model.fidelity > 0:
+            return found
+        return replace(found, seconds=OUTPUT_COST * (candidate.model.averaging_order or 1))
+
     for module in (probe, reference):
         monkeypatch.setattr(module, "timed_run", run)
+    monkeypatch.setattr(choosing, "find", steady)
     monkeypatch.setattr(choosing, "ROUNDS", 1)
