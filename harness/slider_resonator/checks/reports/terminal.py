@@ -115,7 +115,7 @@ def _summary(validation: Validation) -> Text:
 
 
 def _failed_or_nearest(scenes: Mapping[str, Sequence[Check]]) -> list[str]:
-    """Return the scenes that failed, and up to MAX_SCENES with those nearest to a bound, in order."""
+    """Return the scenes that failed and those nearest to a bound, MAX_SCENES if so many passed."""
     failed = {scene for scene, checks in scenes.items() if not all(c.passed for c in checks)}
     by_severity = sorted(
         scenes, key=lambda scene: max(check.severity for check in scenes[scene]), reverse=True
