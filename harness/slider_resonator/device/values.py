@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import sys
 from functools import cache
-from math import isfinite
+from math import isclose, isfinite
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
@@ -59,6 +59,7 @@ _EXAMPLES = {
     "1": "2 %",
     "1/m": "0.1 1/um",
     "s/m": "10 s/m",
+    "s": "5 ms",
 }
 
 
@@ -73,7 +74,12 @@ def _registry() -> pint.UnitRegistry[Any]:
 
 
 def si_value(name: str, text: str) -> float:
-    """Return the value of a parameter or input in its SI unit from a number with a unit.
+    """Return the value of a parameter or input in its SI unit, as `si_number` does."""
+    return si_number(name, text, VARIABLES[name].unit)
+
+
+def si_number(name: str, text: str, unit: str) -> float:
+    """Return the number in an SI unit of a text with a unit, or of one that is a number.
 
     Hz, kHz and rpm give rad/s. Raises ValueError with name, text and what it must be.
     """
@@ -81,7 +87,6 @@ def si_value(name: str, text: str) -> float:
         return float(text)
     except ValueError:
         match = _TEXT.fullmatch(text)
-    unit = VARIABLES[name].unit
     must = f"must be a number in {unit}, or a text with a unit such as {_EXAMPLES.get(unit, '1')!r}"
     if match is None:
         raise ValueError(f"{name} = {text!r}: {must}")
@@ -90,11 +95,14 @@ def si_value(name: str, text: str) -> float:
 
     try:
         scale = _registry().Quantity(1.0, match["unit"].replace(" ", ""))
-        return number * float(scale.to("dimensionless" if unit == "1" else unit).magnitude)
+        factor = float(scale.to("dimensionless" if unit == "1" else unit).magnitude)
     except pint.UndefinedUnitError as error:
         raise ValueError(f"{name} = {text!r}: unknown unit {match['unit']!r}; {must}") from error
     except (pint.PintError, ArithmeticError, AssertionError, TypeError, ValueError) as error:
         raise ValueError(f"{name} = {text!r}: not in {unit}; {must}") from error
+    # So that "10 us" is 1e-5, to the last bit.
+    parts = round(1.0 / factor)
+    return number / parts if isclose(parts * factor, 1.0, rel_tol=1e-12) else number * factor
 
 
 def with_unit(name: str, value: float) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from importlib import resources
 from math import pi
@@ -13,7 +12,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.interface import PARAMETERS, VARIABLES
 from slider_resonator.device.values import check_value, si_value, with_unit
 from slider_resonator.errors import SceneError, unknown_name
-from slider_resonator.scenes.device_keys import HAS_UNIT
+from slider_resonator.scenes.si_values import with_si_values
 from slider_resonator.scenes.toml_file import read_toml, toml_value
 
 _TEXTS = ("name", "title", "description")
@@ -40,26 +39,6 @@ def refuse_other_kinds(content: Mapping[str, Any], source: str, expected: str) -
         use = _USES[found].format(file=source)
         must = "an FMU" if expected == "FMU" else f"a {expected} file"
         raise SceneError(f"{source}: is a {found} file; must be {must}. Use it in {use}")
-
-
-def with_si_device(content: Mapping[str, Any], source: str) -> Mapping[str, Any]:
-    """Return the content of a file with the texts of [device] as numbers in SI units.
-
-    Raises SceneError with key, value and requirement.
-    """
-    table = content.get("device")
-    if not isinstance(table, Mapping):
-        return content
-    values = dict(table)
-    for name, value in table.items():
-        is_real = name in PARAMETERS and VARIABLES[name].kind == "Real"
-        # Any other text is refused as what is no number.
-        if is_real and isinstance(value, str) and re.search(HAS_UNIT, value):
-            try:
-                values[name] = si_value(name, value)
-            except ValueError as error:
-                raise SceneError(f"{source}: device.{error}") from error
-    return {**content, "device": values}
 
 
 def example_devices() -> dict[str, Path]:
@@ -111,7 +90,7 @@ def device_content(path: Path) -> dict[str, Any]:
 def device_values(content: Mapping[str, Any], source: str) -> dict[str, float]:
     """Return the parameters below [device] in SI units; SceneError with key, value, requirement."""
     values: dict[str, float] = {}
-    for name, value in with_si_device(content, source).get("device", {}).items():
+    for name, value in with_si_values(content, source).get("device", {}).items():
         if name not in PARAMETERS:
             raise SceneError(f"{source}: device: {unknown_name('parameter', name, PARAMETERS)}")
         try:

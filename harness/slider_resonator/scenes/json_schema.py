@@ -6,6 +6,7 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
+from slider_resonator.scenes.device_keys import HAS_UNIT
 from slider_resonator.scenes.expansion import bundles
 from slider_resonator.scenes.schema import SceneTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -19,6 +20,8 @@ _ONE_OF: Mapping[str, tuple[tuple[str, ...], ...]] = {
     "ExpectTable": (("reference", "value", "at_most", "at_least"),),
 }
 """Keys of a table of which there must be exactly one."""
+_WITHOUT_UNIT = ("drive_periods", "steps_per_period")
+"""Numbers that are counts; any other may be a text with a unit."""
 
 
 def scene_schema() -> dict[str, Any]:
@@ -26,7 +29,7 @@ def scene_schema() -> dict[str, Any]:
 
     Of a file with variants or bundles, which give what a table leaves out, any part is accepted.
     """
-    scene: dict[str, Any] = _without_null(SceneTable.model_json_schema())
+    scene: dict[str, Any] = _with_units(_without_null(SceneTable.model_json_schema()))
     tables = scene.pop("$defs")
     scene["properties"]["expect_bundles"]["items"] = {"enum": list(bundles())}
     scene["properties"]["device"]["type"] = ["object", "string"]  # or a name or file of a device
@@ -51,7 +54,7 @@ def scene_schema() -> dict[str, Any]:
     family["properties"]["variant"]["items"] = {"$ref": "#/$defs/VariantTable"}
     tables |= {"VariantTable": one_of_family, **parts}
     for name in ("InputTable", "PartInputTable"):
-        tables[name] = {"anyOf": [{"type": "number"}, tables[name]]}
+        tables[name] = {"anyOf": [_with_units({"type": "number"}), tables[name]]}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Scene of slider-resonator",
@@ -67,6 +70,19 @@ def _part(table: Mapping[str, Any]) -> dict[str, Any]:
     text = json.dumps({key: table[key] for key in table if key not in ("required", "allOf")})
     part: dict[str, Any] = json.loads(text.replace("#/$defs/", "#/$defs/Part"))
     return part
+
+
+def _with_units(schema: Any) -> Any:
+    """Return a schema that takes a text with a unit in place of each number that may have one."""
+    if isinstance(schema, list):
+        return [_with_units(entry) for entry in schema]
+    if not isinstance(schema, dict):
+        return schema
+    kept = ("examples", "default", *_WITHOUT_UNIT)
+    found = {key: value if key in kept else _with_units(value) for key, value in schema.items()}
+    if found.get("type") == "number":
+        found |= {"type": ["number", "string"], "pattern": rf"^\s*[-+.\d].*{HAS_UNIT}"}
+    return found
 
 
 def _without_null(schema: Any) -> Any:

@@ -24,7 +24,6 @@ from slider_resonator.scenes.device_file import (
     device_values,
     find_device,
     refuse_other_kinds,
-    with_si_device,
 )
 from slider_resonator.scenes.expansion import variants
 from slider_resonator.scenes.expect_table import ExpectTable
@@ -32,6 +31,7 @@ from slider_resonator.scenes.explanations import explanations
 from slider_resonator.scenes.input_tables import InputsTable, InputTable
 from slider_resonator.scenes.need_table import NeedTable
 from slider_resonator.scenes.schema import RunTable, SceneTable, SweepTable
+from slider_resonator.scenes.si_values import with_si_values
 from slider_resonator.scenes.toml_file import read_toml
 
 
@@ -275,8 +275,9 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
     if "name" not in content:
         refuse_other_kinds(content, source, "scene")
     content, device_files = _with_device(content, source, folder)
+    content = with_si_values(content, source)
     try:
-        table = SceneTable.model_validate(with_si_device(content, source))
+        table = SceneTable.model_validate(content)
     except ValidationError as error:
         raise SceneError("\n".join(explanations(source, error, content))) from error
     tables = _tables_of(table.inputs)

@@ -91,7 +91,7 @@ class SweepTable(KeyTable):
         examples=["load"],
         json_schema_extra={"enum": [*SETTABLE]},
     )
-    values: tuple[Number, ...] = required("its values, SI units", [0.0, 0.02, 0.04])
+    values: tuple[Number, ...] = required("its values", [0.0, 0.02, 0.04])
 
     @field_validator("variable")
     @classmethod
@@ -119,7 +119,7 @@ class SceneTable(KeyTable):
 
     rules: ClassVar[tuple[str, ...]] = (
         "Only `name` and `title` are needed. Any key that is not listed is refused.",
-        "All values are in SI units.",
+        'Numbers are in SI units. A text may have another unit: "20 kHz", "30 deg", "5 ms".',
         "A file with [[variant]] tables is several scenes: each has what the file says, and on top "
         "of it what its variant says, key by key. A variant needs a name and a title of its own.",
         "An [[expect]] replaces that of a bundle, and that of a variant one of the file, with the "

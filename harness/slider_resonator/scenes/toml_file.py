@@ -60,7 +60,10 @@ _HABITS: tuple[tuple[str, str], ...] = (
     (r"=\s*([-+]?\d+\.)\s*(#.*)?$", r"a number ends with a digit: write \g<1>0"),
     (r"=\s*(?i:true|yes|on)\s*(#.*)?$", "write true"),
     (r"=\s*(?i:false|no|off)\s*(#.*)?$", "write false"),
-    (rf"=\s*({_NUMBER})\s*[A-Za-z°µμ/]+\s*(#.*)?$", r"a number stands without its unit: write \1"),
+    (
+        rf"=\s*({_NUMBER}\s*[A-Za-z°µμ/]+)\s*(#.*)?$",
+        r'a number with a unit is in quotes: write "\1"',
+    ),
     (r"=\s*[\w.()]+\s*[*/^+-]\s*[-+\w.(]", "nothing is computed: write the number, such as 1e-3"),
     (r"^([A-Za-z]\w*) +(\w+)\s*=", r"a key has no blanks: did you mean \1_\2?"),
     (r"=\s*(?i:null|none|nil)\s*(#.*)?$", "delete the line: a key without a value is left out"),

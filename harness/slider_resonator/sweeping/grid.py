@@ -28,6 +28,7 @@ from slider_resonator.scenes.device_file import device_values, refuse_other_kind
 from slider_resonator.scenes.explanations import AXIS, explanations
 from slider_resonator.scenes.key_table import KeyTable, Number
 from slider_resonator.scenes.scene_files import built_in_scenes
+from slider_resonator.scenes.si_values import with_si_values
 from slider_resonator.scenes.toml_file import read_toml
 from slider_resonator.sweeping.measures import Run, Task, check_measure
 
@@ -216,6 +217,7 @@ def grid_from(
     content: Mapping[str, Any], source: str, device: Mapping[str, float] | None = None
 ) -> Sweep:
     """Return the sweep of parsed TOML, or data of the same form; HarnessError with `source`."""
+    content = with_si_values(content, source)
     try:
         table = GridTable.model_validate(content)
     except ValidationError as error:

@@ -65,10 +65,10 @@ BELOW_THE_HEAD = {
     "number in quotes": Mistake(
         '[device]\nslider_mass = "1.0"\n', "device.slider_mass", "must be a number"
     ),
-    "unit in a text": Mistake(
-        '[run]\nstop_time = "100 ms"\nstep_size = 0.1\n',
-        "run.stop_time = '100 ms'",
-        "must be a number, in s",
+    "unit that does not fit": Mistake(
+        '[inputs]\nload = { steps = [[0, 0], ["5 mm", "50 mN"]] }\n',
+        "inputs.load.steps[2][1] = '5 mm'",
+        "must be a number in s, or a text with a unit such as '5 ms'",
     ),
     "not a number": Mistake("[device]\nslider_mass = nan\n", "device.slider_mass", "finite"),
     "fraction for an integer": Mistake(
@@ -218,7 +218,9 @@ BELOW_THE_HEAD = {
     "typographic minus": Mistake("[inputs]\nphase = −0.4\n", "phase", "a minus sign is -"),
     "no digit before the point": Mistake("[inputs]\nphase = -.5\n", "phase", "write -0.5"),
     "no digit after the point": Mistake("[inputs]\nphase = 5.\n", "phase", "write 5.0"),
-    "a number with its unit": Mistake("[run]\nstop_time = 1.5e-1 s\n", "stop_time", "write 1.5e-1"),
+    "a number with its unit": Mistake(
+        "[run]\nstop_time = 1.5e-1 s\n", "stop_time", 'write "1.5e-1 s"'
+    ),
     "true in another spelling": Mistake(RUN + "read_twice = True\n", "read_twice", "write true"),
     "a power": Mistake("[run]\nstop_time = 10^-3\n", "stop_time", "nothing is computed"),
     "a formula": Mistake("[inputs]\nphase = pi/2\n", "phase", "nothing is computed"),
@@ -243,7 +245,7 @@ BELOW_THE_HEAD = {
         "write 1e-2",
     ),
     "a micrometre": Mistake(
-        "[device]\nbase_amplitude = 100µm\n", "base_amplitude", "without its unit: write 100"
+        "[device]\nbase_amplitude = 100µm\n", "base_amplitude", 'in quotes: write "100µm"'
     ),
     "a key without a value": Mistake("[inputs]\nload = null\n", "load", "delete the line"),
     "pi": Mistake("[inputs]\nphase = pi\n", "phase", "nothing is computed"),

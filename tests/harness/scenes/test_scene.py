@@ -1,13 +1,17 @@
 from __future__ import annotations
 
+import math
+import tomllib
 from pathlib import Path
 
+import jsonschema
 import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import TUNABLES
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.input_tables import TuningTable
+from slider_resonator.scenes.json_schema import scene_schema
 from slider_resonator.scenes.scene import scene_from
 from slider_resonator.scenes.scene_files import find_scene
 from tests.harness.scene_text import read_scene, scene_file
@@ -39,6 +43,48 @@ def test_inputs_of_every_kind(tmp_path: Path) -> None:
     assert signals["load"].at(0.05) == pytest.approx(0.025)
     assert signals["frequency_ratio"].at(0.5) == pytest.approx(1.5)
     assert 0.01 in scene.schedule().times, "a step of an input is a communication point"
+
+
+def test_values_may_have_a_unit(tmp_path: Path) -> None:
+    text = """
+    [inputs]
+    phase = "30 deg"
+    load = { steps = [[0.0, "0 N"], ["1 ms", "50 mN"]] }
+    [tuning]
+    drive_frequency = { ramp = [[0.0, "20 kHz"], ["2 ms", 130e3]] }
+    [beside]
+    device = { slider_mass = "5 g" }
+    inputs = { load = "2 mN" }
+    [run]
+    stop_time = "2 ms"
+    step_sizes = ["10 us", 2e-5]
+    [[expect]]
+    quantity = "last_event_time"
+    at_most = "1 ms"
+    why = "test"
+    [need]
+    position = { abs = "1 um", rel = "1 %" }
+    [sweep]
+    variable = "damping_ratio"
+    values = [0.1, "5 %"]
+    """
+    path = scene_file(tmp_path, text)
+    jsonschema.validate(tomllib.loads(path.read_text()), scene_schema())
+    scene = read_scene(path)
+    assert scene.signals["phase"].at(0.0) == pytest.approx(math.pi / 6.0)
+    assert (scene.signals["load"].times, scene.signals["load"].values) == ((0.0, 1e-3), (0.0, 0.05))
+    assert scene.tuning["drive_frequency"].values == pytest.approx((40e3 * math.pi, 130e3))
+    assert scene.beside is not None
+    assert scene.beside.parameters == {"slider_mass": 0.005}
+    assert scene.beside.signals["load"].at(0.0) == 0.002
+    assert scene.run is not None
+    assert (scene.stop_time, scene.run.step_sizes) == (2e-3, (1e-5, 2e-5))
+    assert scene.expect[0].at_most == 1e-3
+    assert scene.need is not None
+    assert scene.need.position is not None
+    assert (scene.need.position.abs, scene.need.position.rel) == pytest.approx((1e-6, 0.01))
+    assert scene.sweep is not None
+    assert scene.sweep.values == (0.1, 0.05)
 
 
 def test_tuned_parameters_start_as_the_tuning_says_and_a_value_replaces_it(tmp_path: Path) -> None:

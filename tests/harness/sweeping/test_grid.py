@@ -1,7 +1,9 @@
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from slider_resonator.errors import HarnessError
@@ -27,6 +29,20 @@ def test_a_log_axis_has_equal_ratios(tmp_path: Path) -> None:
     axis = '{ from = 1e3, to = 1e7, count = 5, spacing = "log" }'
     sweep = _read(tmp_path, f"[grid]\nbristle_stiffness = {axis}")
     assert [v for (v,) in sweep.points] == pytest.approx([1e3, 1e4, 1e5, 1e6, 1e7], rel=1e-14)
+
+
+def test_values_may_have_a_unit(tmp_path: Path) -> None:
+    text = (
+        '[fixed]\nload = "50 mN"\n[grid]\nphase = { from = "0 deg", to = "180 deg", count = 3 }\n'
+        '[list]\ndrive_frequency = ["20 kHz", 1e5]\n'
+    )
+    sweep = _read(tmp_path, text)
+    assert dict(sweep.task.fixed) == {"load": 0.05}
+    frequencies = (40e3 * math.pi, 1e5)
+    expected = [(phase, w) for phase in (0.0, math.pi / 2.0, math.pi) for w in frequencies]
+    assert np.array(sweep.points) == pytest.approx(np.array(expected))
+    with pytest.raises(HarnessError, match=r"grid.phase.to = '1 mm': not in rad; must be a number"):
+        _read(tmp_path, '[grid]\nphase = { from = 0, to = "1 mm", count = 3 }\n')
 
 
 def test_grid_list_and_random_are_combined(tmp_path: Path) -> None:

@@ -47,10 +47,10 @@ def print_validation(
     for check in validation.checks:
         scenes.setdefault(check.scene, []).append(check)
     if len(scenes) > MAX_DETAILED and not (details or only_failed):
-        shown = _failed_or_nearest(scenes)
-        console.print(rendered(_overview({scene: scenes[scene] for scene in shown})))
-        if len(shown) < len(scenes):
-            others = f"{number_of(len(scenes) - len(shown), 'more scene')} passed"
+        listed = _failed_or_nearest(scenes)
+        console.print(rendered(_overview({scene: scenes[scene] for scene in listed})))
+        if len(listed) < len(scenes):
+            others = f"{number_of(len(scenes) - len(listed), 'more scene')} passed"
             _print_line(console, Text(f"{others}, none nearer to a bound (--details lists all)"))
         only_failed = True
     checks = [check for check in validation.checks if not (only_failed and check.passed)]

@@ -1,0 +1,73 @@
+"""Texts with a unit in scene, grid and device files, as numbers in SI units."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from slider_resonator.device.interface import VARIABLES
+from slider_resonator.device.values import si_number
+from slider_resonator.errors import SceneError
+from slider_resonator.scenes.device_keys import HAS_UNIT
+from slider_resonator.scenes.vocabulary import QUANTITIES
+
+_UNITS: Mapping[str, str] = {
+    **{name: v.unit for name, v in VARIABLES.items() if v.kind == "Real"},
+    **dict.fromkeys(("start_time", "stop_time", "step_size", "step_sizes", "event_times"), "s"),
+    **dict.fromkeys(("rel", "relative"), "1"),
+    "mean_velocity_throughout": "m/s",
+    "beat": "Hz",
+}
+"""Keys of values, or of tables of values, and their units."""
+_INHERITED = (
+    *("constant", "steps", "ramp", "from", "to", "values"),
+    *("abs", "absolute", "value", "at_most", "at_least"),
+)
+"""Keys of values whose unit is that of the table they are in."""
+
+
+def with_si_values(content: Mapping[str, Any], source: str) -> dict[str, Any]:
+    """Return the content of a file, with numbers in SI units for its texts with a unit.
+
+    What is no such text stays as it is, for the schema to refuse. Raises SceneError with key, value
+    and requirement for a unit that does not fit.
+    """
+    try:
+        return {key: _in_si(value, key, _UNITS.get(key, "")) for key, value in content.items()}
+    except ValueError as error:
+        raise SceneError(f"{source}: {error}") from error
+
+
+def _in_si(value: Any, path: str, unit: str) -> Any:
+    """Return a value, list or table; `unit` is that of its values, empty for what has none."""
+    if isinstance(value, str):
+        is_number = unit and re.search(HAS_UNIT, value) and not value.lower().endswith(".csv")
+        return si_number(path, value, unit) if is_number else value
+    if isinstance(value, Mapping):
+        own = _own_unit(value) or unit
+        return {
+            key: _in_si(one, f"{path}.{key}", _UNITS.get(key, own if key in _INHERITED else ""))
+            for key, one in value.items()
+        }
+    if not isinstance(value, list | tuple):
+        return value
+    in_points = path.rpartition(".")[2] in ("steps", "ramp")
+    found = []
+    for number, one in enumerate(value, start=1):
+        place = f"{path}[{number}]"
+        if in_points and isinstance(one, list | tuple):
+            units = ("s", *[unit] * (len(one) - 1))
+            found.append([_in_si(v, f"{place}[{k + 1}]", units[k]) for k, v in enumerate(one)])
+        else:
+            found.append(_in_si(one, place, unit))
+    return found
+
+
+def _own_unit(table: Mapping[str, Any]) -> str:
+    """Return the unit of the variable or quantity that a table is about, if it names one."""
+    variable, quantity = str(table.get("variable")), str(table.get("quantity"))
+    if quantity not in QUANTITIES:
+        return _UNITS.get(variable, "")
+    unit = QUANTITIES[quantity].unit
+    return unit if unit in _UNITS.values() else ""
