@@ -81,7 +81,7 @@ def schedule_for_window(scene: Scene, window: tuple[float, float]) -> Schedule:
     if is_long(scene, window):
         within = period * np.arange(COLUMN_POINTS + 1) / COLUMN_POINTS
         times = (_columns(window)[:-1, None] + within).ravel()
-        return scene.schedule().read_at(times[times < end], 0.01 * period / COLUMN_POINTS)
+        return scene.schedule().read_at(times[times <= end], 0.01 * period / COLUMN_POINTS)
     count = int(np.ceil((end - begin) / period * SMOOTH_POINTS)) + 1
     times = np.linspace(begin, end, max(count, 2))
     return scene.schedule().read_at(times, 0.01 * float(times[1] - times[0]))
@@ -102,19 +102,22 @@ def envelope(
 ) -> tuple[Array, Array, Array, Array]:
     """Return the beginnings of the columns, and lowest, mean and highest value in each, (n,).
 
-    `times` (s) and `values` have shape (m,). The mean is that of the period at the beginning;
-    extremes are those of all points of the column. Columns without two points are left out.
+    `times` (s) and `values` have shape (m,). The mean is that of the period at the beginning, or of
+    the last one; extremes are those of all points of the column and of that period. Columns without
+    points are left out.
     """
     rounding = 0.1 * period / COLUMN_POINTS  # points may also have moved to those of the scene
     edges = _columns(window) - rounding
     rows = []
     for left, right in pairwise(np.searchsorted(times, edges, side="left").tolist()):
-        if right - left > 1:
-            end = times[left] + period + rounding
-            first = slice(left, left + int(np.searchsorted(times[left:right], end)))
-            span = times[first][-1] - times[first][0]
-            mean = np.trapezoid(values[first], times[first]) / span
-            rows.append((times[left], values[left:right].min(), mean, values[left:right].max()))
+        if right > left:
+            begin = min(times[left], times[-1] - period)
+            ends = (begin - rounding, begin + period + rounding)
+            first, last = np.searchsorted(times, ends).tolist()
+            span = times[last - 1] - times[first]
+            mean = np.trapezoid(values[first:last], times[first:last]) / span
+            column = values[first : max(last, right)]
+            rows.append((times[left], column.min(), mean, column.max()))
     start, lowest, mean, highest = np.array(rows).T
     return start, lowest, mean, highest
 
