@@ -160,17 +160,19 @@ class Scene(Shown):
         return replace(plan, start_time=self.start_time, reads_twice=self.run.read_twice)
 
     def check_plain(self, command: str) -> None:
-        """Raise SceneError for a scene with tuning, a start time or several step sizes.
+        """Raise SceneError for a scene whose drive or contact changes, or with odd times or steps.
 
         `command` names the command that supports none of these.
         """
         run = self.run
-        keys = {
-            "tuning": bool(self.tuning),
-            "run.start_time": run is not None and run.start_time != 0.0,
-            "run.step_sizes": run is not None and run.step_sizes is not None,
-        }
-        found = [key for key, given in keys.items() if given]
+        found = [
+            f"{'inputs' if name in DEVIATIONS else 'tuning'}.{name} over time"
+            for name in self.tuning
+        ]
+        if run is not None and run.start_time != 0.0:
+            found.append("run.start_time")
+        if run is not None and run.step_sizes is not None:
+            found.append("run.step_sizes")
         if found:
             raise SceneError(f"{self.source}: {command} takes no scene with {', '.join(found)}")
 

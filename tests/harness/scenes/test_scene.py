@@ -144,6 +144,9 @@ def test_commands_that_ignore_the_tuning_refuse_it(tmp_path: Path) -> None:
     scene = read_scene(scene_file(tmp_path, run))
     with pytest.raises(SceneError, match="trade takes no scene with run"):
         scene.check_plain("trade")
+    bursts = "[inputs]\namplitude_deviation = { steps = [[0, 0], [1e-3, -1]] }\n"
+    with pytest.raises(SceneError, match=r"no scene with inputs\.amplitude_deviation over time"):
+        read_scene(scene_file(tmp_path, bursts + RUN)).check_plain("trade")
     read_scene(scene_file(tmp_path, RUN)).check_plain("trade")
 
 
