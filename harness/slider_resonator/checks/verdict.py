@@ -43,12 +43,22 @@ def measure_of(check: Check) -> str:
         return "of points"
     if quantity.in_periods:
         return "periods"
-    return "of scale" if _near_zero(check) else "of peak"
+    return "of scale" if near_zero(check) else "of peak"
 
 
-def _near_zero(check: Check) -> bool:
+def near_zero(check: Check) -> bool:
     """Return whether the peak of a reference counts as larger than it is."""
     return check.scale is not None and check.scale != check.reference
+
+
+def sizes(check: Check) -> tuple[float | None, float | None, str]:
+    """Return deviation, allowed deviation and what they are counted in, for people to read.
+
+    Shares of a scale that is not the peak would say nothing: these are in the unit of the signal.
+    """
+    if check.scale is None or check.deviation is None or not near_zero(check):
+        return check.deviation, check.allowed, measure_of(check)
+    return check.deviation * check.scale, (check.allowed or 0.0) * check.scale, check.unit
 
 
 def place(at: Mapping[str, float], before: str = "") -> str:
@@ -94,10 +104,11 @@ def _signal_sentence(check: Check, unit: str) -> str:
     else:
         tube = f"a tube of {check.tube:g} drive periods to each side " if check.tube else ""
         size = "outside " + tube if tube else "off "
-        near_zero = _near_zero(check)
-        what = "its scale" if near_zero else "the peak"
-        which = check.scale if near_zero else check.reference
-        size += f"by {check.deviation:.2g} of {what}, which is {_value(which, unit)}"
+        peak = _value(check.reference, unit)
+        if near_zero(check):
+            size += f"by {sizes(check)[0]:.2g}{unit} of a peak of {peak}"
+        else:
+            size += f"by {check.deviation:.2g} of the peak, which is {peak}"
     text = f"{size}, {_times(check)}"
     if check.first_time is None or check.worst_time is None:
         return text
@@ -108,8 +119,8 @@ def _times(check: Check) -> str:
     assert check.deviation is not None
     if not check.allowed:
         return "must be 0"
-    ratio = check.deviation / check.allowed
-    return f"{ratio:.3g} times the allowed {check.allowed:.2g}"
+    unit = f" {check.unit}" if near_zero(check) and check.unit != "1" else ""
+    return f"{check.severity:.3g} times the allowed {sizes(check)[1]:.2g}{unit}"
 
 
 def _value(value: Value, unit: str) -> str:

@@ -21,7 +21,7 @@ from slider_resonator.checks.validate import (
     provenance_of_all,
     worst_of_sweeps,
 )
-from slider_resonator.checks.verdict import TITLE, measure_of, place, sentence, title, value_text
+from slider_resonator.checks.verdict import TITLE, place, sentence, sizes, title, value_text
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.fmu.provenance_text import provenance_html
 from slider_resonator.output.hover_plot import (
@@ -255,8 +255,9 @@ def _label(name: str, unit: str) -> str:
 
 
 def _row(check: Check) -> Row:
-    sizes = ["-" if s is None else f"{s:.2g}" for s in (check.deviation, check.allowed)]
+    *counted, measure = sizes(check)
+    shown = ["-" if s is None else f"{s:.2g}" for s in counted]
     unit = f" [{check.unit}]" if check.unit not in ("", "1") else ""
     values = [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
     first = (title(check) + unit, verdict(check.passed))
-    return (*first, *values, *sizes, measure_of(check), check.why)
+    return (*first, *values, *shown, measure, check.why)

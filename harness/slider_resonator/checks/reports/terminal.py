@@ -15,7 +15,7 @@ from slider_resonator.checks.validate import (
     not_applied,
     worst_of_sweeps,
 )
-from slider_resonator.checks.verdict import called, measure_of, place, sentence, value_text
+from slider_resonator.checks.verdict import called, near_zero, place, sentence, sizes, value_text
 from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
 from slider_resonator.output.terminal import STYLES, aligned, rendered, words
@@ -24,7 +24,9 @@ from slider_resonator.scenes.vocabulary import QUANTITIES
 MAX_DETAILED = 3
 """Number of scenes up to which every check is shown; of more only the failed ones."""
 MAX_SCENES = 12
-"""Number of scenes with a line each; of more, those that failed and those nearest to a bound."""
+"""Number of scenes with a line each: the first that failed, then those nearest to a bound."""
+MAX_FAILED = 24
+"""Number of failed checks that are shown: of more, the worst of each of the first scenes."""
 MAX_NOT_APPLIED = 3
 """Number of checks that do not apply for one reason up to which each has a line."""
 DIGITS = 8
@@ -38,8 +40,9 @@ def print_validation(
     """Print the table of verdicts, the reasons of failures, and a summary line.
 
     Show the worst point of a sweep; with `details` every point, and why each value is expected.
-    Of many scenes give one line to each that failed, and to those nearest to a bound. With
-    `only_failed` leave out what has passed.
+    Without it give of many scenes one line to each of the first that failed, and to those nearest
+    to a bound, and show of many failures the worst of each scene. With `only_failed` leave out what
+    has passed.
     """
     if not only_failed:
         _print_headline(console, validation.checks)
@@ -47,20 +50,18 @@ def print_validation(
     for check in validation.checks:
         scenes.setdefault(check.scene, []).append(check)
     if len(scenes) > MAX_DETAILED and not (details or only_failed):
-        listed = _failed_or_nearest(scenes)
-        console.print(rendered(_overview({scene: scenes[scene] for scene in listed})))
-        if len(listed) < len(scenes):
-            others = f"{number_of(len(scenes) - len(listed), 'more scene')} passed"
-            _print_line(console, Text(f"{others}, none nearer to a bound (--details lists all)"))
+        _print_overview(console, scenes)
         only_failed = True
     checks = [check for check in validation.checks if not (only_failed and check.passed)]
     rows = [(check, 1) for check in checks] if details else worst_of_sweeps(checks)
+    more = 0
+    if only_failed and not details and len(rows) > MAX_FAILED:
+        more = len(rows) - MAX_FAILED
+        rows = _worst_of_scenes(rows, MAX_FAILED)
     if rows:
         console.print(rendered(_table(rows, details)))
     if any(_of_peak(check) for check, _ in rows):
         mark = f"{SIGNAL} the peak of a signal; off by and allowed are shares of it"
-        if any(measure_of(check) == "of scale" for check, _ in rows):
-            mark += ", or of what counts near zero"
         mark += "; all others are in their unit"
         console.print(words(mark, console.width))
     for check, _ in rows:
@@ -68,6 +69,8 @@ def print_validation(
             text = f"{check.scene}: {check.quantity}{place(check.at, ' at ')}: {check.why}"
             shown = words(escaped(f"FAIL {text}\n     {sentence(check)}"), console.width, "     ")
             console.print(Text.assemble(("FAIL", STYLES[Style.FAIL]), shown.removeprefix("FAIL")))
+    if more:
+        _print_line(console, Text(f"{number_of(more, 'more check')} failed (--details lists all)"))
     for line in _not_applied_lines(validation, details):
         _print_line(console, Text(escaped(f"not applicable: {line}")))
     _print_line(console, _summary(validation))
@@ -114,14 +117,33 @@ def _summary(validation: Validation) -> Text:
     return Text.assemble(*parts)
 
 
-def _failed_or_nearest(scenes: Mapping[str, Sequence[Check]]) -> list[str]:
-    """Return the scenes that failed and those nearest to a bound, MAX_SCENES if so many passed."""
-    failed = {scene for scene, checks in scenes.items() if not all(c.passed for c in checks)}
-    by_severity = sorted(
-        scenes, key=lambda scene: max(check.severity for check in scenes[scene]), reverse=True
-    )
-    shown = failed | set(by_severity[:MAX_SCENES])
-    return [scene for scene in scenes if scene in shown]
+def _print_overview(console: Console, scenes: Mapping[str, Sequence[Check]]) -> None:
+    """Print a line for each of the first scenes that failed, and of those nearest to a bound."""
+    failed = [name for name, checks in scenes.items() if not all(c.passed for c in checks)]
+    passed = [name for name in scenes if name not in failed]
+    by_severity = sorted(passed, key=lambda name: -max(check.severity for check in scenes[name]))
+    listed = {*failed[:MAX_SCENES], *by_severity[: max(0, MAX_SCENES - len(failed))]}
+    shown = {name: checks for name, checks in scenes.items() if name in listed}
+    console.print(rendered(_overview(shown)))
+    more_failed = len(failed) - len(listed.intersection(failed))
+    more_passed = len(passed) - len(listed.intersection(passed))
+    parts = [f"{number_of(more_failed, 'more scene')} failed"] if more_failed else []
+    if more_passed:
+        nearer = "" if more_failed else ", none nearer to a bound"
+        parts.append(f"{number_of(more_passed, 'more scene')} passed{nearer}")
+    if parts:
+        _print_line(console, Text(f"{', '.join(parts)} (--details lists all)"))
+
+
+def _worst_of_scenes(rows: Sequence[tuple[Check, int]], count: int) -> list[tuple[Check, int]]:
+    """Return so many rows in their order: the worst of each scene, then the second, and so on."""
+    ranks: dict[int, int] = {}
+    seen: dict[str, int] = {}
+    for index in sorted(range(len(rows)), key=lambda index: -rows[index][0].severity):
+        scene = rows[index][0].scene
+        ranks[index] = seen[scene] = seen.get(scene, 0) + 1
+    chosen = sorted(range(len(rows)), key=lambda index: (ranks[index], index))[:count]
+    return [rows[index] for index in sorted(chosen)]
 
 
 def _overview(scenes: Mapping[str, Sequence[Check]]) -> Table:
@@ -130,8 +152,9 @@ def _overview(scenes: Mapping[str, Sequence[Check]]) -> Table:
     for scene, checks in scenes.items():
         passed = sum(check.passed for check in checks)
         nearest = max(checks, key=lambda check: check.severity)
-        sizes = (_size(nearest.deviation), _size(nearest.allowed))
-        cells = (scene, f"{passed} of {len(checks)}", nearest.quantity, *sizes, measure_of(nearest))
+        off, allowed, measure = sizes(nearest)
+        counts = f"{passed} of {len(checks)}"
+        cells = (scene, counts, nearest.quantity, _size(off), _size(allowed), measure)
         rows.append((*cells, verdict(passed == len(checks))))
     columns = (
         *(*texts("scene"), *numbers("passed"), *texts("nearest to its bound")),
@@ -157,7 +180,7 @@ def _table(checks: Sequence[tuple[Check, int]], details: bool) -> Table:
         cells = [f" {_quantity(check)}", *([place(check.at)] if swept else [])]
         cells += [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
         cells.append(called(check.against))
-        cells += [_size(check.deviation), _size(check.allowed)]
+        cells += [_size(size) for size in sizes(check)[:2]]
         rows.append((*cells, verdict(check.passed)))
         if details:
             rows.append([Cell(check.why, Style.NOTE)])
@@ -171,7 +194,7 @@ def _quantity(check: Check) -> str:
 
 
 def _of_peak(check: Check) -> bool:
-    return QUANTITIES[check.quantity].relative_to_peak
+    return QUANTITIES[check.quantity].relative_to_peak and not near_zero(check)
 
 
 def _size(size: float | None) -> str:

@@ -9,6 +9,7 @@ from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.terminal import print_validation
 from slider_resonator.checks.validate import Validation
 from slider_resonator.output.console import LOG_WIDTH
+from slider_resonator.scenes.vocabulary import QUANTITIES
 from tests.harness.verdicts import NONE, PASSED, WORD
 
 BAD = replace(NONE, reference=0.15, note="no steady motion")
@@ -115,3 +116,19 @@ def test_of_hundreds_of_scenes_those_that_fail_or_come_nearest_have_a_line() -> 
     assert rows == ["scene_bad", *(f"scene_{n}" for n in range(274, 285))]
     assert "274 more scenes passed, none nearer to a bound (--details lists all)" in text
     assert "285 of 286 checks passed" in text
+
+
+def test_of_hundreds_of_failures_the_worst_of_the_first_scenes_are_shown() -> None:
+    bad = replace(PASSED, deviation=1e-3, passed=False)
+    worse = replace(bad, quantity="blocking_force", deviation=1e-2)
+    text = printed(*(replace(one, scene=f"scene_{n}") for n in range(285) for one in (bad, worse)))
+    rows = [line.split()[0] for line in text.splitlines() if "0 of 2 " in line]
+    assert rows == [f"scene_{n}" for n in range(12)]
+    assert "273 more scenes failed (--details lists all)" in text
+    failures = [line for line in text.splitlines() if line.startswith("FAIL scene_")]
+    assert len(failures) == 24
+    assert failures[23].startswith("FAIL scene_23: blocking_force"), "the worst of each"
+    assert "546 more checks failed (--details lists all)" in text
+    assert "570 failed, 0 of 570 checks passed" in text
+    few = printed(*(replace(bad, quantity=name) for name in QUANTITIES))
+    assert "more checks failed" not in few, "of few scenes all are shown"
