@@ -48,7 +48,7 @@ def run_figure(record: Record, scene: Scene) -> Figure:
         factor, unit = plot_unit("s", record.times)
         times = factor * record.times
         _position(axes[0], record, times)
-        _velocity(axes[1], record, times, unit)
+        _velocity(axes[1], record, times, unit, held=not scene.interpolates)
         if resolved:
             _zoom(axes[2], record, period)
             _resonator(axes[3], record, period)
@@ -67,15 +67,22 @@ def _position(axes: Axes, record: Record, times: Array) -> None:
     axes.tick_params(labelbottom=False)
 
 
-def _velocity(axes: Axes, record: Record, times: Array, time_unit: str) -> None:
+def _velocity(axes: Axes, record: Record, times: Array, time_unit: str, *, held: bool) -> None:
+    """Plot the mean velocity, and the steady one: of inputs that are held, of the step before."""
     mean, steady = record["mean_velocity"], record["steady_velocity"]
     valid = record.outputs.get("prediction_valid", np.ones_like(steady)) == 1.0
     factor, unit = plot_unit("m/s", mean, steady[valid])
     axes.plot(times, factor * mean, color=COLOURS["slow"], label="mean velocity")
     if valid.any():
         predicted = np.where(valid, factor * steady, np.nan)
-        label = "steady, for these inputs"
-        axes.plot(times, predicted, "--", color=COLOURS["theory"], label=label)
+        axes.plot(
+            times,
+            predicted,
+            "--",
+            color=COLOURS["theory"],
+            drawstyle="steps-pre" if held else "default",
+            label="steady, for these inputs",
+        )
     axes.set(xlabel=f"time [{time_unit}]", ylabel=f"velocity [{unit}]", xlim=(times[0], times[-1]))
     limit_to_later(axes, times, factor * mean, np.where(valid, factor * steady, 0.0))
     axes.legend()
