@@ -32,6 +32,8 @@ MAX_NOT_APPLIED = 3
 DIGITS = 8
 """Significant digits in the table; what is asserted is the deviation, which has its own column."""
 SIGNAL = "*"
+PEAK = "the peak of a signal; off by and allowed are shares of it; all others are in their unit"
+"""What the mark says."""
 
 
 def print_validation(
@@ -61,9 +63,7 @@ def print_validation(
     if rows:
         console.print(rendered(_table(rows, details)))
     if any(_of_peak(check) for check, _ in rows):
-        mark = f"{SIGNAL} the peak of a signal; off by and allowed are shares of it"
-        mark += "; all others are in their unit"
-        console.print(words(mark, console.width))
+        console.print(words(f"{SIGNAL} {PEAK}", console.width))
     for check, _ in rows:
         if not check.passed:
             text = f"{check.scene}: {check.quantity}{place(check.at, ' at ')}: {check.why}"
