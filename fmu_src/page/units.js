@@ -52,7 +52,10 @@ function valueOf(variable, text, bareUnit = variable.unit) {
     throw new Refused(
       `${name} = ${text} refused: ${given} is no unit of ${of} that is known here; ${mustBe(variable, bareUnit)}`);
   }
-  return Number(number) * scale.factor;
+  // So that "10 um" is 1e-5, to the last bit.
+  const parts = Math.round(1 / scale.factor);
+  const whole = Math.abs(parts * scale.factor - 1) < 1e-12;
+  return whole ? Number(number) / parts : Number(number) * scale.factor;
 }
 
 function mustBe({ unit, display_unit: display }, bareUnit) {
