@@ -93,11 +93,3 @@ def test_processes_end_with_the_block() -> None:
     for future in expected._ahead.values():
         ended = future.cancelled() or isinstance(future.result().error, FmuDied)
         assert ended, "in the middle of its work"
-
-
-def test_one_job_starts_no_process() -> None:
-    some = points("stuck")
-    with ExpectedValues(some) as expected:
-        assert expected.ready(some[0])
-        assert expected._processes is None
-        assert len(expected.at(some[0])) == len(some[0].scene.expect)

@@ -9,12 +9,6 @@ from slider_resonator.scenes.scene_files import find_scene
 from tests.harness.scene_text import scene_of
 
 
-def test_everything_is_computed_once(instance: Instance) -> None:
-    side = FmuSide(instance, find_scene("table_1"))
-    assert side.record is side.record
-    assert side.steady is side.steady
-
-
 def test_the_blocking_force_does_not_depend_on_the_load_of_the_scene(instance: Instance) -> None:
     loaded = FmuSide(instance, find_scene("table_1", {"load": 0.3}))
     free = FmuSide(instance, find_scene("table_1"))

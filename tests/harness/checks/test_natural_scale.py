@@ -6,10 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from slider_resonator.checks import natural_scale
 from slider_resonator.checks.natural_scale import NEAR_ZERO, smallest_reference
 from slider_resonator.device.device import Device
-from slider_resonator.scenes.vocabulary import QUANTITIES
 
 TABLE_1 = Device()
 
@@ -35,7 +33,3 @@ def test_quantities_without_a_scale_have_none() -> None:
     assert scale("beat_frequency") == 0.0, "a beat may be as slow as it likes"
     undamped = replace(TABLE_1, damping_ratio=0.0, resonator_frequency=3500.0 * (1 / 1.1) ** 0.5)
     assert scale("velocity", undamped) == 0.0, "at resonance the vibration grows for ever"
-
-
-def test_every_scale_is_of_a_quantity() -> None:
-    assert set(natural_scale._SCALES) <= set(QUANTITIES)

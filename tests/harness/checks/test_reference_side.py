@@ -3,7 +3,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from slider_resonator.checks.period_means import last_events
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.references.resolved.simulate import simulate
 from tests.harness.scene_text import scene_of
@@ -13,13 +12,6 @@ RUN = "[run]\ndrive_periods = 12.3\nsteps_per_period = 8\n"
 
 def side(text: str) -> ReferenceSide:
     return ReferenceSide(scene_of(text))
-
-
-def test_signals_are_at_the_communication_points() -> None:
-    reference = side(RUN)
-    position = reference.signal("located_events", "position")
-    assert position.shape == reference.times.shape
-    assert position[0] == 0.0
 
 
 def test_the_mean_velocity_is_that_of_the_last_whole_period() -> None:
@@ -39,21 +31,6 @@ def test_a_device_that_never_moves_sticks_all_the_time() -> None:
     assert reference.last_event_time("located_events") == 0.0
 
 
-def test_in_a_run_shorter_than_a_period_the_mean_is_that_since_the_start() -> None:
-    reference = side(RUN.replace("12.3", "0.7"))
-    position = reference.signal("located_events", "position")
-    mean = reference.mean_velocity("located_events")
-    assert mean == pytest.approx(position[-1] / reference.times[-1], rel=1e-12)
-
-
-def test_averaged_motion_is_at_the_communication_points() -> None:
-    reference = side(RUN)
-    averaged = reference.averaged_motion
-    assert (averaged.time == reference.times).all()
-    resolved = reference.signal("located_events", "position")
-    assert averaged.position == pytest.approx(resolved, abs=0.1 * np.abs(resolved).max())
-
-
 def test_a_tube_contains_signals_shifted_by_less_than_its_width() -> None:
     reference = side(RUN)
     tube = reference.tube("located_events", "velocity", 0.02)
@@ -66,18 +43,6 @@ def test_a_tube_contains_signals_shifted_by_less_than_its_width() -> None:
         shifted = simulate(reference.device, held, np.unique(times)).velocity
         shifted = shifted[np.searchsorted(np.unique(times), times)]
         assert (np.max(tube.outside(shifted)) < 1e-3 * np.abs(velocity).max()) == inside
-
-
-def test_event_times_are_in_drive_periods_and_open_where_they_coincide() -> None:
-    reference = side(RUN)
-    tube = reference.in_run("located_events", last_events)
-    last = tube.middle[-1] * reference.drive_period
-    assert last == pytest.approx(reference.last_event_time("located_events"), rel=1e-12)
-    assert (tube.middle * reference.drive_period <= reference.times).all()
-    assert (np.diff(tube.middle) >= 0.0).all()
-    assert np.array_equal(tube.lower, tube.upper), "no event falls on a communication point here"
-    rest = side("[device]\nbase_amplitude = 5e-9\nnormal_amplitude = 0.5\n" + RUN)
-    assert not rest.in_run("located_events", last_events).upper.any()
 
 
 def test_predictions_follow_the_inputs_before_each_point() -> None:

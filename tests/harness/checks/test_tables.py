@@ -15,8 +15,3 @@ def test_every_reference_of_a_quantity_has_its_function() -> None:
     named = {name: set(quantity.references) for name, quantity in QUANTITIES.items()}
     assert {name: set(EXPECTED.get(name, {})) for name in QUANTITIES} == named
     assert set(EXPECTED) <= set(QUANTITIES)
-
-
-def test_tubes_are_around_references_of_the_quantity() -> None:
-    for quantity in QUANTITIES.values():
-        assert set(quantity.tube_references) <= set(quantity.references)

@@ -36,11 +36,6 @@ def test_a_scene_that_expects_nothing_cannot_be_validated(python_fmu: Path, tmp_
         validate([python_fmu], [scene_read(tmp_path, "")])
 
 
-def test_a_broken_scene_is_noticed_before_anything_runs(tmp_path: Path) -> None:
-    with pytest.raises(SceneError):
-        validate([tmp_path / "no.fmu"], [scene_read(tmp_path, "[runs]\n")])
-
-
 def test_progress_names_the_scene_at_work(python_fmu: Path, tmp_path: Path) -> None:
     reported: list[tuple[str, float]] = []
     scene = scene_read(tmp_path, EXPECT.format(0.126667))
@@ -79,18 +74,6 @@ def test_repeated_validations_of_a_correct_fmu_give_equal_checks(
     for other in others:
         assert other.checks == first.checks, "every verdict and number must be the same"
         assert not other.run_failures
-
-
-@pytest.mark.slow
-def test_several_fmus_are_judged_one_by_one(tmp_path: Path, python_fmu: Path) -> None:
-    copy = tmp_path / "copy.fmu"
-    copy.write_bytes(python_fmu.read_bytes())
-    scene = scene_read(tmp_path, EXPECT.format(0.126667))
-    reported: list[float] = []
-    results = validate([python_fmu, copy], [scene], lambda name, share: reported.append(share))
-    assert [result.fmu for result in results] == [str(python_fmu), str(copy)]
-    assert all(result.passed and len(result.checks) == 1 for result in results)
-    assert reported == sorted(reported)
 
 
 def test_a_refused_scene_does_not_keep_others_from_being_judged(

@@ -26,17 +26,6 @@ def scene(tmp_path: Path) -> Path:
     return faulty_fmus.scene(tmp_path)
 
 
-def test_an_fmu_that_does_nothing_fails_and_its_output_does_no_harm(
-    native_fmu: Path, tmp_path: Path, scene: Path
-) -> None:
-    validation = judged(compiled(native_fmu, tmp_path / "still.fmu", "IN_STEP=PRINT"), scene)
-    assert validation.exit_code == 1
-    (curves,) = validation.curves
-    assert curves.check is validation.checks[0]
-    assert curves.fmu.shape == curves.reference.shape == curves.times.shape == (17,)
-    assert not curves.fmu.any(), "it never moves"
-
-
 def test_modules_in_the_present_folder_are_not_imported(
     native_fmu: Path, tmp_path: Path, scene: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -2,15 +2,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from slider_resonator.checks.conduct.findings import NOTHING, Findings, differences
+from slider_resonator.checks.conduct.findings import Findings, differences
 
 TIMES = np.array([0.0, 0.5, 1.0])
 ROWS = [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]
-
-
-def test_equal_rows_are_nothing() -> None:
-    assert differences("x", ("a", "b"), TIMES, ROWS, ROWS) == NOTHING
-    assert NOTHING.text == ""
 
 
 def test_the_last_bit_counts() -> None:

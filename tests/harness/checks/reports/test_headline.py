@@ -21,13 +21,6 @@ def test_table_1_answers_before_the_scenes_of_the_user() -> None:
     ]
 
 
-def test_a_scene_of_the_user_answers_alone() -> None:
-    force = replace(MINE, quantity="blocking_force", unit="N", at={"phase": 0.4})
-    (velocity, _), (blocking, _) = headline([MINE, force])
-    assert velocity.text == "steady velocity: mine"
-    assert blocking.text == "blocking force: mine, phase 0.4"
-
-
 def test_a_bound_or_a_value_is_no_answer() -> None:
     assert headline([replace(MINE, against="at least"), replace(MINE, against="value")]) == []
 

@@ -1,9 +1,8 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
-from slider_resonator.checks.reports.json_report import validations_as_json, write_json
+from slider_resonator.checks.reports.json_report import validations_as_json
 from tests.harness.verdicts import BAD, BROKEN, GOOD
 
 
@@ -22,9 +21,3 @@ def test_a_check_is_reported_with_size_and_place() -> None:
     assert signal["first_time"] == 0.0125
     assert signal["deviation"] == 3e-4
     assert "from 0.0125 s on" in signal["verdict"]
-
-
-def test_a_file_holds_the_same(tmp_path: Path) -> None:
-    path = tmp_path / "report.json"
-    write_json(path, [BAD])
-    assert path.read_text() == validations_as_json([BAD]) + "\n"
