@@ -1,9 +1,10 @@
-"""The resolved reference under inputs that change at constant rates."""
+"""References under inputs that change at constant rates, with each other and with held steps."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ STOP = 0.03
 TIMES = np.linspace(0.0, STOP, 200)
 DEVICE = Device()
 PHASE = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, phase_rate=2.0)
+LOAD = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, load_rate=3.0)
 CHIRP = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, ratio_rate=13.0)
 BACK = HeldInputs(0.0, STOP, 0.2, 0.01, frequency_ratio=0.4, ratio_rate=-40.0)
 """The normal load turns back."""
@@ -28,6 +30,22 @@ STICKS = replace(DEVICE, friction_coefficient=30.0)
 RIGID = replace(LIFTS, fidelity=1)
 LUGRE = replace(DEVICE, friction_law=1, bristle_stiffness=1e4)
 LUGRE_LIFTS = replace(LUGRE, normal_amplitude=1.6)
+
+
+def cut(inputs: HeldInputs, count: int) -> list[HeldInputs]:
+    """Return the same lines in intervals, the first of them shorter."""
+    edges = [0.0, *np.linspace(0.1, 1.0, count) * inputs.stop]
+    return [replace(inputs.later(begin), stop=end) for begin, end in pairwise(edges)]
+
+
+def staircase(inputs: HeldInputs, count: int) -> list[HeldInputs]:
+    """Return steps that hold the values in the middle of each."""
+    size = inputs.stop / count
+    still = {"phase_rate": 0.0, "load_rate": 0.0, "ratio_rate": 0.0}
+    return [
+        replace(inputs.later((i + 0.5) * size), start=i * size, stop=(i + 1) * size, **still)
+        for i in range(count)
+    ]
 
 
 def position(device: Device, held: Sequence[HeldInputs]) -> Array:
@@ -47,6 +65,28 @@ def off(one: Array, other: Array) -> float:
 @pytest.mark.parametrize("device", [DEVICE, LIFTS, STICKS, RIGID, LUGRE, LUGRE_LIFTS])
 def test_scipy_agrees(device: Device, inputs: HeldInputs) -> None:
     assert off(by_scipy(device, [inputs]), position(device, [inputs])) < 2e-9
+
+
+@pytest.mark.parametrize("device", [LIFTS, STICKS, LUGRE])
+def test_cutting_lines_into_pieces_changes_nothing(device: Device) -> None:
+    assert off(position(device, cut(ALL, 7)), position(device, [ALL])) < 1e-11
+
+
+@pytest.mark.parametrize(
+    ("device", "inputs"),
+    [
+        (DEVICE, PHASE),
+        (DEVICE, CHIRP),
+        (LUGRE, LOAD),
+        (LIFTS, BACK),
+        (replace(LUGRE, normal_amplitude=1.6), BACK),
+    ],
+)
+def test_held_steps_tend_to_the_line_with_second_order(device: Device, inputs: HeldInputs) -> None:
+    line = position(device, [inputs])
+    coarse, fine = (off(position(device, staircase(inputs, n)), line) for n in (200, 800))
+    assert fine < 1e-4
+    assert fine < coarse / 8.0, "sixteen, but for where steps lie in a period"
 
 
 def test_a_ramp_of_the_phase_is_a_shift_of_the_normal_frequency() -> None:
