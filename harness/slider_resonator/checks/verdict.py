@@ -106,7 +106,7 @@ def _signal_sentence(check: Check, unit: str) -> str:
         size = "outside " + tube if tube else "off "
         peak = _value(check.reference, unit)
         if near_zero(check):
-            size += f"by {sizes(check)[0]:.2g}{unit} of a peak of {peak}"
+            size += f"by {sizes(check)[0]:.2g}{unit}, where the peak is {peak}"
         else:
             size += f"by {check.deviation:.2g} of the peak, which is {peak}"
     text = f"{size}, {_times(check)}"

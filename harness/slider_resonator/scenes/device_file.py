@@ -90,7 +90,8 @@ def device_content(path: Path) -> dict[str, Any]:
 def device_values(content: Mapping[str, Any], source: str) -> dict[str, float]:
     """Return the parameters below [device] in SI units; SceneError with key, value, requirement."""
     values: dict[str, float] = {}
-    for name, value in with_si_values(content, source).get("device", {}).items():
+    table = with_si_values({"device": content.get("device", {})}, source)["device"]
+    for name, value in table.items():
         if name not in PARAMETERS:
             raise SceneError(f"{source}: device: {unknown_name('parameter', name, PARAMETERS)}")
         try:

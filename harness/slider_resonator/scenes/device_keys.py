@@ -9,6 +9,11 @@ from slider_resonator.device.interface import PARAMETERS, VARIABLES
 
 HAS_UNIT = "[A-DF-Za-df-zµμ°%]"
 """A character that a text has which is a number with a unit, and one without does not have."""
+NUMBER_OR_TEXT: Mapping[str, Any] = {
+    "type": ["number", "string"],
+    "pattern": rf"^\s*[-+.\d].*{HAS_UNIT}",
+}
+"""The JSON schema of a number that may be a text with a unit."""
 
 PARAMETER_MEANINGS: Mapping[str, str] = {
     "slider_mass": "mass of the slider, M",
@@ -50,11 +55,7 @@ def _property(name: str, meaning: str) -> dict[str, Any]:
     bounds = {"minimum": variable.minimum, "maximum": variable.maximum}
     is_integer = variable.kind == "Integer"
     return {
-        **(
-            {"type": "integer"}
-            if is_integer
-            else {"type": ["number", "string"], "pattern": HAS_UNIT}
-        ),
+        **({"type": "integer"} if is_integer else NUMBER_OR_TEXT),
         "description": meaning,
         "unit": variable.unit,
         "default": variable.start,

@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from slider_resonator.scenes.device_keys import HAS_UNIT
+from slider_resonator.scenes.device_keys import NUMBER_OR_TEXT
 from slider_resonator.scenes.expansion import bundles
 from slider_resonator.scenes.schema import SceneTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -54,7 +54,7 @@ def scene_schema() -> dict[str, Any]:
     family["properties"]["variant"]["items"] = {"$ref": "#/$defs/VariantTable"}
     tables |= {"VariantTable": one_of_family, **parts}
     for name in ("InputTable", "PartInputTable"):
-        tables[name] = {"anyOf": [_with_units({"type": "number"}), tables[name]]}
+        tables[name] = {"anyOf": [NUMBER_OR_TEXT, tables[name]]}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Scene of slider-resonator",
@@ -80,9 +80,7 @@ def _with_units(schema: Any) -> Any:
         return schema
     kept = ("examples", "default", *_WITHOUT_UNIT)
     found = {key: value if key in kept else _with_units(value) for key, value in schema.items()}
-    if found.get("type") == "number":
-        found |= {"type": ["number", "string"], "pattern": rf"^\s*[-+.\d].*{HAS_UNIT}"}
-    return found
+    return {**found, **NUMBER_OR_TEXT} if found.get("type") == "number" else found
 
 
 def _without_null(schema: Any) -> Any:

@@ -47,6 +47,16 @@ def required(meaning: str, example: Any) -> Any:
     return Field(description=meaning, examples=[example])
 
 
+def units_of(table: type[KeyTable]) -> dict[str, str]:
+    """Return the units of the keys that have one."""
+    extras = {name: field.json_schema_extra for name, field in table.model_fields.items()}
+    return {
+        n: str(extra["unit"])
+        for n, extra in extras.items()
+        if isinstance(extra, dict) and "unit" in extra
+    }
+
+
 def exactly_one(table: str, given: list[str], choices: str) -> None:
     """Raise ValueError unless one key is given of those that exclude each other."""
     if len(given) != 1:

@@ -83,7 +83,7 @@ class NeedTable(KeyTable):
     )
     event_times: AllowedTable | None = key("time of each event", {"rel": 0.01}, unit="s")
     beat: AllowedTable | None = key(
-        "slow velocity beside an integer frequency ratio", {"rel": 0.05}, unit="m/s"
+        "frequency of the slow velocity beside an integer ratio", {"rel": 0.05}, unit="Hz"
     )
     friction_law: Literal["given", "free"] = key(
         "whether either friction law may be chosen", "free", default="given"

@@ -165,10 +165,8 @@ class Scene(Shown):
         `command` names the command that supports none of these.
         """
         run = self.run
-        found = [
-            f"{'inputs' if name in DEVIATIONS else 'tuning'}.{name} over time"
-            for name in self.tuning
-        ]
+        keys = self._all_signals
+        found = [f"{key} over time" for key in keys if key.rpartition(".")[2] in self.tuning]
         if run is not None and run.start_time != 0.0:
             found.append("run.start_time")
         if run is not None and run.step_sizes is not None:

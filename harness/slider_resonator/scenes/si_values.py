@@ -10,14 +10,16 @@ from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.values import si_number
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.device_keys import HAS_UNIT
+from slider_resonator.scenes.key_table import units_of
+from slider_resonator.scenes.need_table import NeedTable
+from slider_resonator.scenes.schema import RunTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 _UNITS: Mapping[str, str] = {
     **{name: v.unit for name, v in VARIABLES.items() if v.kind == "Real"},
-    **dict.fromkeys(("start_time", "stop_time", "step_size", "step_sizes", "event_times"), "s"),
+    **{name: unit for name, unit in units_of(RunTable).items() if unit == "s"},
+    **units_of(NeedTable),
     **dict.fromkeys(("rel", "relative"), "1"),
-    "mean_velocity_throughout": "m/s",
-    "beat": "Hz",
 }
 """Keys of values, or of tables of values, and their units."""
 _INHERITED = (
@@ -25,6 +27,8 @@ _INHERITED = (
     *("abs", "absolute", "value", "at_most", "at_least"),
 )
 """Keys of values whose unit is that of the table they are in."""
+_POINT = re.compile(r"\.(steps|ramp)\[\d+\]$")
+"""The end of the path of a pair [time, value]."""
 
 
 def with_si_values(content: Mapping[str, Any], source: str) -> dict[str, Any]:
@@ -52,16 +56,13 @@ def _in_si(value: Any, path: str, unit: str) -> Any:
         }
     if not isinstance(value, list | tuple):
         return value
-    in_points = path.rpartition(".")[2] in ("steps", "ramp")
-    found = []
-    for number, one in enumerate(value, start=1):
-        place = f"{path}[{number}]"
-        if in_points and isinstance(one, list | tuple):
-            units = ("s", *[unit] * (len(one) - 1))
-            found.append([_in_si(v, f"{place}[{k + 1}]", units[k]) for k, v in enumerate(one)])
-        else:
-            found.append(_in_si(one, place, unit))
-    return found
+    units = ("s", unit) if _POINT.search(path) else (unit,)
+    return [
+        _in_si(one, f"{path}[{k + 1}]", units[min(k, len(units) - 1)])
+        if isinstance(one, str | Mapping | list | tuple)
+        else one
+        for k, one in enumerate(value)
+    ]
 
 
 def _own_unit(table: Mapping[str, Any]) -> str:

@@ -58,4 +58,4 @@ def test_a_deviation_is_a_share_or_has_a_unit() -> None:
 def test_where_the_reference_is_near_zero_the_deviation_has_its_unit() -> None:
     near_zero = replace(SIGNAL, reference=0.0, scale=2e-6)
     assert measure_of(near_zero) == "of scale"
-    assert sentence(near_zero).startswith("off by 6e-10 m of a peak of ")
+    assert sentence(near_zero).startswith("off by 6e-10 m, where the peak is 0 m, ")

@@ -33,7 +33,7 @@ DIGITS = 8
 """Significant digits in the table; what is asserted is the deviation, which has its own column."""
 SIGNAL = "*"
 PEAK = "the peak of a signal; off by and allowed are shares of it; all others are in their unit"
-"""What the mark says."""
+"""What the asterisk means, by the names of the columns."""
 
 
 def print_validation(
@@ -56,9 +56,8 @@ def print_validation(
         only_failed = True
     checks = [check for check in validation.checks if not (only_failed and check.passed)]
     rows = [(check, 1) for check in checks] if details else worst_of_sweeps(checks)
-    more = 0
-    if only_failed and not details and len(rows) > MAX_FAILED:
-        more = len(rows) - MAX_FAILED
+    count = len(rows)
+    if only_failed and not details:
         rows = _worst_of_scenes(rows, MAX_FAILED)
     if rows:
         console.print(rendered(_table(rows, details)))
@@ -69,8 +68,9 @@ def print_validation(
             text = f"{check.scene}: {check.quantity}{place(check.at, ' at ')}: {check.why}"
             shown = words(escaped(f"FAIL {text}\n     {sentence(check)}"), console.width, "     ")
             console.print(Text.assemble(("FAIL", STYLES[Style.FAIL]), shown.removeprefix("FAIL")))
-    if more:
-        _print_line(console, Text(f"{number_of(more, 'more check')} failed (--details lists all)"))
+    if len(rows) < count:
+        more = number_of(count - len(rows), "more check")
+        _print_line(console, Text(f"{more} failed (--details lists all)"))
     for line in _not_applied_lines(validation, details):
         _print_line(console, Text(escaped(f"not applicable: {line}")))
     _print_line(console, _summary(validation))
@@ -136,14 +136,12 @@ def _print_overview(console: Console, scenes: Mapping[str, Sequence[Check]]) -> 
 
 
 def _worst_of_scenes(rows: Sequence[tuple[Check, int]], count: int) -> list[tuple[Check, int]]:
-    """Return so many rows in their order: the worst of each scene, then the second, and so on."""
-    ranks: dict[int, int] = {}
-    seen: dict[str, int] = {}
+    """Return at most so many rows in order: the worst of each scene before the second worst."""
+    by_scene: dict[str, list[int]] = {}
     for index in sorted(range(len(rows)), key=lambda index: -rows[index][0].severity):
-        scene = rows[index][0].scene
-        ranks[index] = seen[scene] = seen.get(scene, 0) + 1
-    chosen = sorted(range(len(rows)), key=lambda index: (ranks[index], index))[:count]
-    return [rows[index] for index in sorted(chosen)]
+        by_scene.setdefault(rows[index][0].scene, []).append(index)
+    ranked = [(rank, index) for worst in by_scene.values() for rank, index in enumerate(worst)]
+    return [rows[index] for index in sorted(index for _, index in sorted(ranked)[:count])]
 
 
 def _overview(scenes: Mapping[str, Sequence[Check]]) -> Table:

@@ -75,16 +75,16 @@ def test_sgn_agrees_with_located_events(
 
 
 def test_ramps_of_all_inputs_are_followed() -> None:
-    times = np.linspace(0.0, 6 * PERIOD, 25)
-    reference = resolved.simulate(TABLE_1, RAMPS, times)
-    followed = simulate(TABLE_1, RAMPS, times, method=DOP853, rtol=1e-8, atol=1e-8)
-    stepped = moreau_jean.simulate(TABLE_1, RAMPS, times, steps_per_period=2048)
+    """By a slider that moves from the start: at rest sgn chatters, and its error is rounding's."""
+    device, times = replace(TABLE_1, initial_velocity=-0.02), np.linspace(0.0, 6 * PERIOD, 25)
+    reference = resolved.simulate(device, RAMPS, times)
+    followed = simulate(device, RAMPS, times, method=DOP853, rtol=1e-12, atol=1e-12)
+    stepped = moreau_jean.simulate(device, RAMPS, times, steps_per_period=4096)
     still = [replace(one, phase_rate=0.0, load_rate=0.0, ratio_rate=0.0) for one in RAMPS]
-    held = resolved.simulate(TABLE_1, still, times)
-    ramps = max(deviation(reference, held, name) for name in SIGNALS)
-    for run in (followed, stepped):
-        errors = {name: deviation(reference, run, name) for name in SIGNALS}
-        assert max(errors.values()) < 0.02 * ramps, f"{errors}, where ramps count {ramps:.2g}"
+    held = resolved.simulate(device, still, times)
+    for run, allowed in ((followed, 1e-8), (stepped, 1e-4)):
+        assert max(deviation(reference, run, name) for name in SIGNALS) < allowed
+    assert max(deviation(reference, held, name) for name in SIGNALS) > 1e-3, "the ramps count"
 
 
 def test_tanh_is_coulomb_friction_in_the_limit_and_creeps() -> None:
