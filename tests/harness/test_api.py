@@ -101,8 +101,18 @@ def test_what_a_script_gets_wrong_is_named(native_fmu: Path) -> None:
         with pytest.raises(sr.HarnessError, match=r"phase = '0\.4 kg': not in rad; must be"):
             fmu.steady(phase="0.4 kg")
     for read in (record.__getitem__, record.final):
-        with pytest.raises(sr.HarnessError, match="unknown output 'positon'; did you mean 'pos"):
+        with pytest.raises(sr.HarnessError, match="unknown column 'positon'; did you mean 'pos"):
             read("positon")
+
+
+def test_a_record_is_read_by_the_names_of_its_table(native_fmu: Path) -> None:
+    with sr.open_fmu(native_fmu) as fmu:
+        record = fmu.run({"run": {"stop_time": 0.02, "step_size": 0.01}}, load=0.05)
+    assert record["time"].tolist() == record.times.tolist() == [0.0, 0.01, 0.02]
+    assert record["load"].tolist() == [0.05] * 3
+    assert {name: record[name].tolist() for name in record.table()} == {
+        name: column.tolist() for name, column in record.table().items()
+    }
 
 
 def test_a_refusal_of_the_fmu_is_an_error_with_its_text(native_fmu: Path) -> None:

@@ -34,13 +34,14 @@ class Record(Shown, Tabular):
     tuned: Mapping[str, Array] = field(default_factory=dict, kw_only=True)
 
     def __getitem__(self, name: str) -> Array:
-        """Return one output over the run, shape (n,); HarnessError names the nearest."""
-        if name not in self.outputs:
-            raise HarnessError(unknown_name("output", name, self.outputs))
-        return self.outputs[name]
+        """Return `time`, what was given or an output, shape (n,); HarnessError names the nearest."""
+        table = self.table()
+        if name not in table:
+            raise HarnessError(unknown_name("column", name, table))
+        return table[name]
 
     def final(self, name: str) -> float:
-        """Return the last value of an output; HarnessError names the nearest."""
+        """Return the last value of a column; HarnessError names the nearest."""
         return float(self[name][-1])
 
     @property
