@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from math import pi
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from slider_resonator.checks.measures import Tube, no_tube
 from slider_resonator.checks.period_means import (
     COINCIDENCE,
     DrivePeriods,
+    drive_periods,
     last_events,
     mean_velocities,
     quadrature,
@@ -206,11 +206,7 @@ class ReferenceSide:
         """The whole periods of the drive."""
         if not self.scene.tuning:
             return DrivePeriods(self.drive_period)
-        held = self.scene.schedule().held()
-        rates = [_drive_frequency(inputs, self.device) for inputs in held]
-        passed = [r * (h.stop - h.start) / (2.0 * pi) for r, h in zip(rates, held, strict=True)]
-        times = (held[0].start, *(inputs.stop for inputs in held))
-        return DrivePeriods(self.drive_period, times, (0.0, *np.cumsum(passed).tolist()))
+        return drive_periods(self.device, self.scene.schedule().held())
 
 
 def _drive_frequency(inputs: HeldInputs, device: Device) -> float:

@@ -180,18 +180,25 @@ class Schedule:
         return replace(
             self,
             times=_merged(times, self.times, distance),
-            phase=self._as_held(self.phase),
-            load=self._as_held(self.load),
-            frequency_ratio=self._as_held(self.frequency_ratio),
-            tuning={name: self._as_held(signal) for name, signal in self.tuning.items()},
+            phase=self._as_seen(self.phase),
+            load=self._as_seen(self.load),
+            frequency_ratio=self._as_seen(self.frequency_ratio),
+            tuning=self.held_tuning,
         )
 
-    def _as_held(self, signal: Signal) -> Signal:
-        """Return a signal as it is held between the points of this schedule."""
+    @property
+    def held_tuning(self) -> dict[str, Signal]:
+        """The `tuning` as it is held between the points of this schedule."""
+        return {name: self._sampled(signal, hold=True) for name, signal in self.tuning.items()}
+
+    def _as_seen(self, signal: Signal) -> Signal:
+        """Return an input as it is between the points of this schedule: held, or a line."""
+        return self._sampled(signal, hold=signal.hold or not self.interpolates)
+
+    def _sampled(self, signal: Signal, *, hold: bool) -> Signal:
         if len(signal.times) == 1:
             return signal
-        held = signal.hold or not self.interpolates
-        return Signal(tuple(self.times.tolist()), tuple(signal.over(self.times).tolist()), held)
+        return Signal(tuple(self.times.tolist()), tuple(signal.over(self.times).tolist()), hold)
 
     def held(self) -> list[HeldInputs]:
         """Return the inputs as the FMU sees them, equal neighbours merged into one interval."""

@@ -34,7 +34,7 @@ class Record(Shown, Tabular):
     tuned: Mapping[str, Array] = field(default_factory=dict, kw_only=True)
 
     def __getitem__(self, name: str) -> Array:
-        """Return `time`, what was given or an output, shape (n,); HarnessError names the nearest."""
+        """Return a column of `table`, shape (n,); HarnessError names the nearest."""
         table = self.table()
         if name not in table:
             raise HarnessError(unknown_name("column", name, table))

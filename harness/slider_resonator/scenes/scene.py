@@ -159,21 +159,6 @@ class Scene(Shown):
         )
         return replace(plan, start_time=self.start_time, reads_twice=self.run.read_twice)
 
-    def check_plain(self, command: str) -> None:
-        """Raise SceneError for a scene whose drive or contact changes, or with odd times or steps.
-
-        `command` names the command that supports none of these.
-        """
-        run = self.run
-        keys = self._all_signals
-        found = [f"{key} over time" for key in keys if key.rpartition(".")[2] in self.tuning]
-        if run is not None and run.start_time != 0.0:
-            found.append("run.start_time")
-        if run is not None and run.step_sizes is not None:
-            found.append("run.step_sizes")
-        if found:
-            raise SceneError(f"{self.source}: {command} takes no scene with {', '.join(found)}")
-
     def with_values(self, values: Mapping[str, float]) -> Scene:
         """Return the scene with parameters replaced, and inputs by a constant.
 

@@ -162,7 +162,7 @@ def _measured(
         title=problem.title,
         friction_law=problem.device.friction_law,
         periods=problem.periods,
-        simulated=problem.periods * problem.period,
+        simulated=problem.duration(problem.periods),
         rows=tuple(c.timed(taken) for c, taken in zip(candidates, seconds, strict=True)),
         omissions=tuple(notes.omissions),
     )
@@ -239,7 +239,7 @@ def _follow(
         _Candidate(
             _row(problem, label, "run", periods, found, solution),
             seconds=lambda: method.seconds(periods),
-            per=periods * problem.period,
+            per=problem.duration(periods),
             estimate=taken,
         )
     ]

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from math import pi
+from math import tau
 
 import numpy as np
 
 from slider_resonator.arrays import Array
+from slider_resonator.checks.period_means import DrivePeriods, drive_periods
 from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
@@ -30,7 +31,8 @@ class Problem:
     """A scene as a problem for every method.
 
     `device` is the full device under the scene's friction law, whatever fidelity the scene asks
-    for; `step` (s) the scene's own communication step, `periods` the whole drive periods of a run.
+    for; `signals` are its inputs, `tuning` is what it changes of drive and contact, in steps.
+    `drive` has the drive periods, of which a run has `periods`.
     """
 
     name: str
@@ -38,19 +40,20 @@ class Problem:
     device: Device
     parameters: Mapping[str, float]
     signals: Mapping[str, Signal]
-    step: float
+    tuning: Mapping[str, Signal]
+    drive: DrivePeriods
     periods: int
 
     @property
     def period(self) -> float:
-        """Drive period in s."""
-        return 2.0 * pi / self.device.drive_frequency
+        """Drive period in s, without deviation."""
+        return self.drive.period
 
     @property
     def constant(self) -> bool:
-        """Whether no input varies within the run."""
-        stop = self.periods * self.period
-        return all(
+        """Whether no input varies within the run, and nothing of drive and contact."""
+        stop = self.duration(self.periods)
+        return not self.tuning and all(
             len(set(signal.values)) == 1 or signal.times[0] >= stop
             for signal in self.signals.values()
         )
@@ -95,7 +98,7 @@ class Problem:
 
     def window(self, end: int) -> Array:
         """Return the times (s), shape (POINTS + 1,), of the readings in a window."""
-        return np.asarray(self.period * (end - 1 + np.arange(POINTS + 1) / POINTS))
+        return self.drive.instants(end - 1 + np.arange(POINTS + 1) / POINTS)
 
     def readings(self, periods: int) -> Array:
         """Return the times (s) of the readings in all windows of a run, ascending."""
@@ -104,36 +107,39 @@ class Problem:
 
     def ends(self, periods: int) -> Array:
         """Return the times (s), shape (periods + 1,), at which drive periods begin and end."""
-        return np.asarray(self.period * np.arange(periods + 1))
+        return self.drive.instants(np.arange(periods + 1.0))
+
+    def duration(self, periods: int) -> float:
+        """Return how long drive periods take from the start on, s."""
+        return float(self.drive.instants(np.array(periods)))
 
     def schedule(self, periods: int, step: float) -> Schedule:
         """Return the inputs sampled at steps (s) and held; all their jumps are points."""
-        return schedule(periods * self.period, step, **self.signals)
+        return schedule(self.duration(periods), step, self.tuning, **self.signals)
 
     def interpolated(self, periods: int, step: float) -> Schedule:
         """Return the inputs with straight lines passed on; all their corners are points."""
-        return schedule(periods * self.period, step, None, True, **self.signals)
+        return schedule(self.duration(periods), step, self.tuning, True, **self.signals)
 
     def lines(self, periods: int) -> list[HeldInputs]:
         """Return the inputs of reference and peers: straight lines from corner to corner."""
-        return self.interpolated(periods, periods * self.period).held()
+        return self.interpolated(periods, self.duration(periods)).held()
 
 
 def problem_of(scene: Scene, varied: Mapping[str, float], max_periods: int | None) -> Problem:
     """Return the problem of a scene; `varied` are the values of its sweep.
 
-    `max_periods` cuts the run short. Raises SceneError for a scene without a run whose inputs
-    vary, and as `Scene.check_plain` does.
+    What a scene tunes is held over its own steps, for all methods. `max_periods` cuts the run
+    short. Raises SceneError for a scene without a run whose inputs vary.
     """
-    scene.check_plain("trade")
     full = replace(scene.device, fidelity=2)
-    period = 2.0 * pi / full.drive_frequency
-    varying = any(len(set(signal.values)) > 1 for signal in scene.signals.values())
-    periods, step = MIN_PERIODS, period
+    varying = scene.tuning or any(len(set(one.values)) > 1 for one in scene.signals.values())
+    tuning: Mapping[str, Signal] = {}
+    periods, drive = MIN_PERIODS, DrivePeriods(tau / full.drive_frequency)
     if varying or scene.stop_time is not None:
         plan = scene.schedule()
-        periods = int(float(plan.times[-1]) / period * (1.0 + 1e-9))
-        step = scene.step_size or period
+        tuning, drive = plan.held_tuning, drive_periods(full, plan.held())
+        periods = int(drive.whole(plan.times[-1:])[0])
         if not varying:
             periods = max(periods, MIN_PERIODS)
     if max_periods is not None:
@@ -146,6 +152,7 @@ def problem_of(scene: Scene, varied: Mapping[str, float], max_periods: int | Non
         device=full,
         parameters={k: v for k, v in scene.parameters.items() if k not in own},
         signals=scene.signals,
-        step=step,
+        tuning=tuning,
+        drive=drive,
         periods=max(periods, 1),
     )

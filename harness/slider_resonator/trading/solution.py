@@ -72,10 +72,12 @@ def windows(problem: Problem, solution: Solution, periods: int) -> WindowReading
     places = [nearest(solution.times, problem.window(end)) for end in problem.windows(periods)]
     position = np.array([solution.position[at] for at in places])
     last = [at[-1] for at in places]
-    mean = (position[:, -1] - position[:, 0]) / problem.period
+    times = np.array([problem.window(end) for end in problem.windows(periods)])
+    lengths = times[:, -1] - times[:, 0]
+    mean = (position[:, -1] - position[:, 0]) / lengths
     if solution.mean_velocity is not None:
         mean = solution.mean_velocity[last]
-    slow = [slow_displacement(problem.window(1), row, problem.period)[-1] for row in position]
+    slow = [slow_displacement(*one)[-1] for one in zip(times, position, lengths, strict=True)]
     return WindowReadings(
         position=position,
         velocity=np.array([solution.velocity[at] for at in places]),

@@ -198,3 +198,11 @@ def test_lines_are_held_or_have_rates_and_corners() -> None:
     check_contiguous(lines.held(), rates=["load_rate"])
     finer = lines.refined(0.2, 0.01)
     assert np.allclose(finer.rates[:, 1], np.where(finer.times < 0.35 - 1e-9, 2.0, 0.0))
+
+
+def test_more_points_leave_tuning_as_it_is_held_beside_lines() -> None:
+    tuning = {"friction_coefficient": ramp([(0.0, 0.1), (1.0, 0.3)])}
+    lines = schedule(1.0, 0.25, tuning, True, load=ramp([(0.0, 0.0), (1.0, 1.0)]))
+    fine = lines.refined(0.2, 0.01)
+    at = np.searchsorted(lines.times, fine.times, side="right") - 1
+    assert fine.tuned[:, 0].tolist() == lines.tuned[at, 0].tolist()

@@ -139,17 +139,6 @@ base_amplitude = { steps = [[0.0, 1e-4], [0.07, 2e-4]] }
     assert [d.base_amplitude for d in found] == [0.5e-4, 1e-4]
 
 
-def test_commands_that_ignore_the_tuning_refuse_it(tmp_path: Path) -> None:
-    run = "[run]\nstop_time = 1.0\nstep_sizes = [0.1, 0.2]\nstart_time = 3.0\n"
-    scene = read_scene(scene_file(tmp_path, run))
-    with pytest.raises(SceneError, match="trade takes no scene with run"):
-        scene.check_plain("trade")
-    bursts = "[inputs]\namplitude_deviation = { steps = [[0, 0], [1e-3, -1]] }\n"
-    with pytest.raises(SceneError, match=r"no scene with inputs\.amplitude_deviation over time"):
-        read_scene(scene_file(tmp_path, bursts + RUN)).check_plain("trade")
-    read_scene(scene_file(tmp_path, RUN)).check_plain("trade")
-
-
 def test_every_tunable_parameter_has_a_key() -> None:
     assert tuple(TuningTable.model_fields) == TUNABLES
 

@@ -43,6 +43,15 @@ load = { steps = [[0.0, 0.0], [0.0101, 0.05]] }
 drive_periods = 16
 steps_per_period = 8
 """
+SCAN = """
+[inputs]
+frequency_deviation = { ramp = [[0.0, -0.1], [0.02, 0.1]] }
+amplitude_deviation = { steps = [[0.0, 0.0], [0.008, -1.0], [0.012, 0.5]] }
+load = { ramp = [[0.0, 0.0], [0.02, 0.1]] }
+[run]
+drive_periods = 16
+steps_per_period = 2
+"""
 BEAT = """
 [inputs]
 frequency_ratio = 1.05

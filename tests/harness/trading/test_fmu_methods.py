@@ -14,7 +14,7 @@ from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import AVERAGED
 from slider_resonator.trading.solution import errors
 from tests.harness.in_process import InProcess
-from tests.harness.trading.problems import LUGRE, RAMP, TABLE_1, problem, reference_of
+from tests.harness.trading.problems import LUGRE, RAMP, SCAN, TABLE_1, problem, reference_of
 
 
 def followed(problem: Problem, method: Method) -> dict[str, float]:
@@ -50,6 +50,15 @@ def test_a_held_ramp_costs_the_first_power_of_the_step(
     wrong = [followed(ramp, pick(ramp, instance, 2, step))["slow_displacement"] for step in steps]
     order = np.polyfit(np.log(steps), np.log(wrong), 1)[0]
     assert order == pytest.approx(1.0, abs=0.15), f"inputs lag half a step: {wrong}"
+
+
+@pytest.mark.parametrize("law", [0, 1])
+def test_a_drive_that_changes_costs_nothing(instance: Instance, law: int) -> None:
+    scan = problem(f"{SCAN}[device]\nfriction_law = {law}\nbristle_stiffness = 1e4\n")
+    for step in (0.1, 10.0):
+        found = followed(scan, pick(scan, instance, 2, step))
+        allowed = 1e-7 if law else 1e-10
+        assert max(found.values()) < allowed, f"steps of {step:g} periods: {found}"
 
 
 def test_under_constant_inputs_the_step_costs_nothing(instance: Instance) -> None:

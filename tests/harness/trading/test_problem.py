@@ -14,6 +14,7 @@ from tests.harness.trading.problems import (
     JUMPS,
     LUGRE,
     RAMP,
+    SCAN,
     TABLE_1,
     TURNS_BACK,
     problem,
@@ -80,6 +81,30 @@ def test_reference_and_peers_follow_ramps() -> None:
     assert (line.start, line.stop, line.load) == (0.0, 0.02, 0.0)
     assert line.load_rate == pytest.approx(5.0)
     assert (constant.load, constant.load_rate) == (0.1, 0.0), "from where the ramp ends"
+
+
+def test_a_drive_that_changes_is_held_over_the_steps_of_the_scene() -> None:
+    found = problem(SCAN)
+    assert not found.constant
+    drives = [inputs.tuned_device(found.device) for inputs in found.lines(16)]
+    assert [drives[i].base_amplitude for i in (0, 10, -1)] == pytest.approx([1e-4, 0.0, 1.5e-4])
+    ramp = np.arange(5) * PERIOD / 2.0 / 0.02 * 0.2 - 0.1
+    rates = [drive.drive_frequency for drive in drives[:5]]
+    assert rates == pytest.approx(3500.0 * (1.0 + ramp)), "whatever the step of a method"
+
+
+def test_a_window_is_a_period_of_the_drive_as_it_is() -> None:
+    found = problem(SCAN)
+    assert found.periods == 16
+    turned = 0.0
+    ends = [0.0]
+    for inputs in found.lines(16):
+        rate = inputs.tuned_device(found.device).drive_frequency / (2.0 * pi)
+        for turn in range(len(ends), int(turned + rate * (inputs.stop - inputs.start) + 1e-9) + 1):
+            ends.append(inputs.start + (turn - turned) / rate)
+        turned += rate * (inputs.stop - inputs.start)
+    assert found.ends(16) == pytest.approx(ends, rel=1e-12)
+    assert found.window(7)[[0, -1]] == pytest.approx(ends[6:8], rel=1e-12)
 
 
 def test_lines_that_turn_the_normal_load_back_are_the_limit_of_shorter_steps() -> None:

@@ -8,7 +8,7 @@ from slider_resonator.trading.peers.peer import Peer
 from slider_resonator.trading.peers.registry import peers
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.solution import errors
-from tests.harness.trading.problems import LUGRE, TABLE_1, problem, reference_of
+from tests.harness.trading.problems import LUGRE, SCAN, TABLE_1, problem, reference_of
 
 PERIODS = 4
 UNDAMPED_RESONANCE = """
@@ -40,6 +40,21 @@ def test_the_last_setting_of_each_family_is_near_the_reference(text: str) -> Non
         compared = "slow_displacement" if peer.family.startswith("averaged") else "velocity"
         assert found[compared] < allowed, f"{peer.family}: {found}"
         assert ("event_times" in found) == ("event_times" not in peer.missing), peer.family
+
+
+@pytest.mark.parametrize("text", [SCAN, f"{SCAN}{LUGRE}"])
+def test_peers_follow_a_drive_that_changes(text: str) -> None:
+    scan = problem(text)
+    periods = scan.periods
+    reference = reference_of(scan)
+    for peer in most_exact(scan):
+        if peer.cannot_stick:
+            with pytest.raises(ValueError, match="inputs vary, which it does not cover"):
+                peer.follow(scan.device, scan.lines(periods), scan.readings(periods))
+        elif any(peer.family.startswith(family) for family in EXACT):
+            solution = peer.follow(scan.device, scan.lines(periods), scan.readings(periods))
+            found = errors(scan, solution, reference, periods)
+            assert found["velocity"] < 1e-6, f"{peer.family}: {found}"
 
 
 def test_a_width_in_fast_velocities_needs_a_steady_vibration() -> None:
