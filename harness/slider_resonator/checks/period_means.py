@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from math import tau
-
 import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.measures import Tube
-from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.device.drive_periods import DrivePeriods
 from slider_resonator.references.resolved.contact import STICK
 from slider_resonator.references.resolved.trajectory import Trajectory
 
@@ -20,61 +15,6 @@ COINCIDENCE = 1e-6
 
 NODES, PANELS = 12, 16
 """Nodes of each panel of a quadrature, and panels between two events."""
-
-_ENDED = 1e-9
-"""Share of a drive period that may be missing from one that counts as ended."""
-
-
-@dataclass(frozen=True)
-class DrivePeriods:
-    """The whole periods of a drive; `period` (s) is that without deviation.
-
-    Of a drive whose frequency changes `times` (s) are those of the changes, first and last instant
-    included, and `passed` the periods by then; else both are empty.
-    """
-
-    period: float
-    times: tuple[float, ...] = ()
-    passed: tuple[float, ...] = ()
-
-    def instants(self, passed: Array) -> Array:
-        """Return the times (s) by which so many periods have passed, of the same shape."""
-        return np.interp(passed, self.passed, self.times) if self.times else passed * self.period
-
-    def ends(self, times: Array) -> Array:
-        """Return begin and end (s) of the last whole period before each time, shape (n, 2).
-
-        Before the first is over they are the start, 0 s, and the time itself.
-        """
-        ended = self.whole(times)
-        whole = self.instants(np.column_stack([ended - 1.0, ended]))
-        running = np.column_stack([np.zeros_like(times), times])
-        return np.where(ended[:, None] >= 1.0, np.minimum(whole, times[:, None]), running)
-
-    def lengths(self, times: Array) -> Array:
-        """Return what lies between the `ends` (s), shape (n,)."""
-        if self.times:
-            return np.asarray(np.diff(self.ends(times), axis=1)[:, 0])
-        return np.where(self.whole(times) >= 1.0, self.period, times)
-
-    def whole(self, times: Array) -> Array:
-        """Return how many periods have ended by each time (s)."""
-        passed = np.interp(times, self.times, self.passed) if self.times else times / self.period
-        return np.asarray(np.floor(passed + _ENDED))
-
-
-def drive_periods(device: Device, held: Sequence[HeldInputs]) -> DrivePeriods:
-    """Return the drive periods of a run of a device through inputs, which may tune its drive.
-
-    `period` is that of the device.
-    """
-    rates = [inputs.tuned_device(device).drive_frequency for inputs in held]
-    period = tau / device.drive_frequency
-    if set(rates) == {device.drive_frequency}:
-        return DrivePeriods(period)
-    passed = [r * (h.stop - h.start) / tau for r, h in zip(rates, held, strict=True)]
-    times = (held[0].start, *(inputs.stop for inputs in held))
-    return DrivePeriods(period, times, (0.0, *np.cumsum(passed).tolist()))
 
 
 def mean_velocities(run: Trajectory, times: Array, periods: DrivePeriods) -> Array:

@@ -14,8 +14,6 @@ from slider_resonator.arrays import Array
 from slider_resonator.checks.measures import Tube, no_tube
 from slider_resonator.checks.period_means import (
     COINCIDENCE,
-    DrivePeriods,
-    drive_periods,
     last_events,
     mean_velocities,
     quadrature,
@@ -23,6 +21,7 @@ from slider_resonator.checks.period_means import (
 )
 from slider_resonator.checks.steady_references import SteadyReferences
 from slider_resonator.device.device import FULL, Device
+from slider_resonator.device.drive_periods import DrivePeriods
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
 from slider_resonator.references.averaged.averaged_outputs import AveragedOutputs, averaged_outputs
@@ -204,9 +203,7 @@ class ReferenceSide:
     @cached_property
     def periods(self) -> DrivePeriods:
         """The whole periods of the drive."""
-        if not self.scene.tuning:
-            return DrivePeriods(self.drive_period)
-        return drive_periods(self.device, self.scene.schedule().held())
+        return self.scene.drive_periods
 
 
 def _drive_frequency(inputs: HeldInputs, device: Device) -> float:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
-from math import pi
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -228,7 +227,7 @@ def _summary(
     how: str | None,
 ) -> RunSummary:
     simulated = float(record.times[-1])
-    periods = simulated * scene.device.drive_frequency / (2.0 * pi)
+    periods = float(scene.drive_periods.passed_by(record.times[-1:])[0])
     return RunSummary(
         fmu=str(fmu),
         scene=scene.name,

@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
+from slider_resonator.device.drive_periods import DrivePeriods
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.record import Record
@@ -27,19 +27,18 @@ SMOOTH_POINTS = 64
 
 def schedule_to_plot(scene: Scene) -> Schedule:
     """Return the schedule of a scene with more points in its last drive periods."""
-    period = scene.drive_period
-    schedule = scene.schedule()
-    return schedule.refined(
-        float(schedule.times[-1]) - ZOOM_PERIODS * period, period / SMOOTH_POINTS
-    )
+    schedule, drive = scene.schedule(), scene.drive_periods
+    stop = float(schedule.times[-1])
+    begin = drive.instants(drive.passed_by(np.array(stop)) - ZOOM_PERIODS)
+    return schedule.refined(float(begin), (stop - float(begin)) / (ZOOM_PERIODS * SMOOTH_POINTS))
 
 
 def run_figure(record: Record, scene: Scene) -> Figure:
     """Draw a run: the last drive periods where its points resolve them, and inputs that vary."""
-    period = scene.drive_period
+    before = _periods_before_the_end(record, scene.drive_periods)
     varying = [name for name, values in record.given.items() if np.ptp(values) > 0.0]
-    gaps = np.diff(record.times[_last_periods(record, period)])
-    resolved = gaps.size > 0 and bool(np.max(gaps) * MIN_POINTS <= period)
+    gaps = np.diff(before)
+    resolved = gaps.size > 0 and bool(np.max(gaps) * MIN_POINTS <= 1.0)
     with style():
         heights = [2.0, 2.0, *([2.0, 1.6, 1.6] if resolved else []), *[1.3 for _ in varying]]
         figure = Picture(figsize=(8.0, sum(heights) + 0.3), layout="constrained")
@@ -50,9 +49,9 @@ def run_figure(record: Record, scene: Scene) -> Figure:
         _position(axes[0], record, times)
         _velocity(axes[1], record, times, unit, held=not scene.interpolates)
         if resolved:
-            _zoom(axes[2], record, period)
-            _resonator(axes[3], record, period)
-            _forces(axes[4], record, period)
+            _zoom(axes[2], record, before)
+            _resonator(axes[3], record, before)
+            _forces(axes[4], record, before)
         for panel, name in zip(axes[len(heights) - len(varying) :], varying, strict=True):
             _input(panel, record, times, unit, name)
         figure.align_ylabels(axes)
@@ -88,59 +87,50 @@ def _velocity(axes: Axes, record: Record, times: Array, time_unit: str, *, held:
     axes.legend()
 
 
-def _zoom(axes: Axes, record: Record, period: float) -> None:
+def _zoom(axes: Axes, record: Record, before: Array) -> None:
     """Plot the last drive periods over the directions of slip."""
-    window = _last_periods(record, period)
-    entries = _over_last_periods(axes, record, period)
-    velocity = record["velocity"][window]
+    entries = _over_last_periods(axes, record, before)
+    velocity = record["velocity"][-len(before) :]
     factor, unit = plot_unit("m/s", velocity)
-    axes.plot(_periods(record, period), factor * velocity, color=COLOURS["velocity"])
+    axes.plot(before, factor * velocity, color=COLOURS["velocity"])
     axes.axhline(0.0, color="0.4", linewidth=0.6)
     axes.set(ylabel=f"velocity [{unit}]")
     axes.tick_params(labelbottom=False)
     axes.legend(handles=entries, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=len(entries))
 
 
-def _resonator(axes: Axes, record: Record, period: float) -> None:
+def _resonator(axes: Axes, record: Record, before: Array) -> None:
     """Plot the resonator relative to the slider."""
-    _over_last_periods(axes, record, period)
-    displacement = record["resonator_displacement"][_last_periods(record, period)]
+    _over_last_periods(axes, record, before)
+    displacement = record["resonator_displacement"][-len(before) :]
     factor, unit = plot_unit("m", displacement)
-    axes.plot(_periods(record, period), factor * displacement, color=COLOURS["position"])
+    axes.plot(before, factor * displacement, color=COLOURS["position"])
     axes.set(ylabel=f"resonator [{unit}]")
     axes.tick_params(labelbottom=False)
 
 
-def _forces(axes: Axes, record: Record, period: float) -> None:
+def _forces(axes: Axes, record: Record, before: Array) -> None:
     """Plot normal force and friction."""
-    window = _last_periods(record, period)
-    _over_last_periods(axes, record, period)
+    _over_last_periods(axes, record, before)
     for name, look in (("normal_force", "-"), ("friction_force", "--")):
         colour = COLOURS["theory" if name == "friction_force" else "velocity"]
         label = name.replace("_", " ")
-        axes.plot(_periods(record, period), record[name][window], look, color=colour, label=label)
+        axes.plot(before, record[name][-len(before) :], look, color=colour, label=label)
     axes.set(xlabel="drive periods before the end", ylabel="force [N]")
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=2)
 
 
-def _over_last_periods(axes: Axes, record: Record, period: float) -> list[Patch]:
+def _over_last_periods(axes: Axes, record: Record, before: Array) -> list[Patch]:
     """Shade the directions of slip in the last drive periods and return their legend entries."""
-    modes = record["contact_mode"][_last_periods(record, period)]
     axes.set(xlim=(-ZOOM_PERIODS, 0.0))
-    return shade_directions(axes, _periods(record, period), modes)
+    return shade_directions(axes, before, record["contact_mode"][-len(before) :])
 
 
-def _periods(record: Record, period: float) -> Array:
-    """Return the last times in drive periods before the end."""
-    times: Array = (record.times[_last_periods(record, period)] - record.times[-1]) / period
-    return times
-
-
-def _last_periods(record: Record, period: float) -> NDArray[np.bool_]:
-    """Return which points of the run are in the last drive periods."""
-    window: NDArray[np.bool_]
-    window = record.times >= record.times[-1] - ZOOM_PERIODS * period * (1.0 + 1e-9)
-    return window
+def _periods_before_the_end(record: Record, drive: DrivePeriods) -> Array:
+    """Return the last times in drive periods before the end, at least one."""
+    passed = drive.passed_by(record.times)
+    before: Array = passed - passed[-1]
+    return before[before >= -ZOOM_PERIODS * (1.0 + 1e-9)]
 
 
 def _constant_inputs(record: Record, varying: list[str]) -> str:

@@ -11,6 +11,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from slider_resonator.device.device import DEVIATIONS, Device
+from slider_resonator.device.drive_periods import DrivePeriods, drive_periods
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule, schedule, step_count
 from slider_resonator.device.signal import Signal, constant, ramp, steps
@@ -99,8 +100,15 @@ class Scene(Shown):
 
     @property
     def drive_period(self) -> float:
-        """Drive period in seconds."""
+        """Drive period in seconds, without what is tuned."""
         return 2.0 * pi / self.device.drive_frequency
+
+    @property
+    def drive_periods(self) -> DrivePeriods:
+        """The drive periods of its run, in which the drive may be tuned."""
+        if not self.tuning:
+            return DrivePeriods(self.drive_period)
+        return drive_periods(self.device, self.schedule().held())
 
     @property
     def stop_time(self) -> float | None:

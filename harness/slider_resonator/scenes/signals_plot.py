@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +13,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
+from slider_resonator.device.drive_periods import DrivePeriods
 from slider_resonator.device.interface import INPUTS, OUTPUTS, VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import HarnessError, unknown_name
@@ -77,49 +77,58 @@ def schedule_for_window(scene: Scene, window: tuple[float, float]) -> Schedule:
     They are on the whole of a short window, and on the first period of each column of a long one.
     """
     begin, end = window
-    period = scene.drive_period
+    drive = scene.drive_periods
     if is_long(scene, window):
-        within = period * np.arange(COLUMN_POINTS + 1) / COLUMN_POINTS
-        times = (_columns(window, period)[:-1, None] + within).ravel()
-        return scene.schedule().read_at(times[times <= end], 0.01 * period / COLUMN_POINTS)
-    count = int(np.ceil((end - begin) / period * SMOOTH_POINTS)) + 1
+        within = np.arange(COLUMN_POINTS + 1) / COLUMN_POINTS
+        times = drive.instants(_columns(window, drive)[:, None] + within)
+        closest = 0.01 * float(np.diff(times, axis=1).min())
+        return scene.schedule().read_at(times[times <= end], closest)
+    count = int(np.ceil(_periods_in(scene, window) * SMOOTH_POINTS)) + 1
     times = np.linspace(begin, end, max(count, 2))
     return scene.schedule().read_at(times, 0.01 * float(times[1] - times[0]))
 
 
+def _periods_in(scene: Scene, window: tuple[float, float]) -> float:
+    """Return how many drive periods pass in a window (s)."""
+    begin, end = scene.drive_periods.passed_by(np.array(window)).tolist()
+    return float(end - begin)
+
+
 def is_long(scene: Scene, window: tuple[float, float]) -> bool:
     """Whether a window (s) has too many drive periods to draw each."""
-    return window[1] - window[0] > MAX_SMOOTH_PERIODS * scene.drive_period
+    return _periods_in(scene, window) > MAX_SMOOTH_PERIODS
 
 
-def _columns(window: tuple[float, float], period: float) -> Array:
-    """Return the edges of the columns of an envelope (s), shape (n + 1,).
+def _columns(window: tuple[float, float], drive: DrivePeriods) -> Array:
+    """Return after how many drive periods the columns of an envelope begin, shape (n,).
 
-    All but the last are whole periods (s) from the first: columns that begin at different angles of
-    the drive would show a beat.
+    They are whole periods apart: columns that begin at different angles of the drive would show a
+    beat.
     """
-    begin, end = window
-    periods = np.unique(np.floor(np.linspace(0.0, (end - begin) / period, COLUMNS + 1)))
-    return np.append(begin + period * periods[:-1], end)
+    begin, end = drive.passed_by(np.array(window)).tolist()
+    whole = np.unique(np.floor(np.linspace(0.0, end - begin, COLUMNS + 1)))[:-1]
+    return np.asarray(begin + whole)
 
 
 def envelope(
-    times: Array, values: Array, window: tuple[float, float], period: float
+    times: Array, values: Array, window: tuple[float, float], drive: DrivePeriods
 ) -> tuple[Array, Array, Array, Array]:
     """Return the beginnings of the columns, and lowest, mean and highest value in each, (n,).
 
     `times` (s) and `values` have shape (m,). The mean is that of the period at the beginning;
     extremes are those of all points of the column.
     """
-    rounding = 0.1 * period / COLUMN_POINTS  # points may also have moved to those of the scene
-    edges = _columns(window, period) - rounding
+    columns = _columns(window, drive)
+    begins, ends = drive.instants(columns), drive.instants(columns + 1.0)
+    rounding = 0.1 * (ends - begins) / COLUMN_POINTS  # points may have moved to those of the scene
+    lefts = np.searchsorted(times, begins - rounding).tolist()
+    rights = np.searchsorted(times, ends + rounding).tolist()
     rows = []
-    for left, right in pairwise(np.searchsorted(times, edges, side="left").tolist()):
-        ends = times[left] + period + rounding
-        first = slice(left, int(np.searchsorted(times, ends)))
-        span = times[first][-1] - times[left]
-        mean = np.trapezoid(values[first], times[first]) / span
-        column = values[left : max(right, first.stop)]
+    for left, right, following in zip(lefts, rights, [*lefts[1:], len(times)], strict=True):
+        period = slice(left, right)
+        span = times[right - 1] - times[left]
+        mean = np.trapezoid(values[period], times[period]) / span
+        column = values[left : max(right, following)]
         rows.append((times[left], column.min(), mean, column.max()))
     start, lowest, mean, highest = np.array(rows).T
     return start, lowest, mean, highest
@@ -153,7 +162,7 @@ def plot_signals(
         panels = figure.subplots(len(rows), 1, sharex=True, squeeze=False, height_ratios=heights)[
             :, 0
         ]
-        short = window[1] - window[0] <= BAND_PERIODS * scene.drive_period
+        short = _periods_in(scene, window) <= BAND_PERIODS
         time_factor, time_unit = plot_unit("s", np.asarray(window))
         bands: dict[str, Patch] = {}
         for axes, (name, below) in zip(panels, rows, strict=True):
@@ -194,7 +203,7 @@ def _panel(
             continue
         times = one.record.times[inside]
         if enveloped:
-            times, lowest, curve, highest = envelope(times, curve, window, scene.drive_period)
+            times, lowest, curve, highest = envelope(times, curve, window, scene.drive_periods)
             band = (time_factor * times, factor * lowest, factor * highest)
             axes.fill_between(*band, color=COLOURS[index % len(COLOURS)], alpha=0.25, linewidth=0.0)
         axes.plot(

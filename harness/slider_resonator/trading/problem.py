@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from math import tau
 
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.period_means import DrivePeriods, drive_periods
 from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
+from slider_resonator.device.drive_periods import DrivePeriods
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.device.schedule import Schedule, schedule
 from slider_resonator.device.signal import Signal
@@ -135,10 +134,10 @@ def problem_of(scene: Scene, varied: Mapping[str, float], max_periods: int | Non
     full = replace(scene.device, fidelity=2)
     varying = scene.tuning or any(len(set(one.values)) > 1 for one in scene.signals.values())
     tuning: Mapping[str, Signal] = {}
-    periods, drive = MIN_PERIODS, DrivePeriods(tau / full.drive_frequency)
+    periods, drive = MIN_PERIODS, scene.drive_periods
     if varying or scene.stop_time is not None:
         plan = scene.schedule()
-        tuning, drive = plan.held_tuning, drive_periods(full, plan.held())
+        tuning = plan.held_tuning
         periods = int(drive.whole(plan.times[-1:])[0])
         if not varying:
             periods = max(periods, MIN_PERIODS)

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from slider_resonator.checks.period_means import (
-    DrivePeriods,
     last_events,
     mean_velocities,
     reversal_counts,
     stick_fractions,
 )
 from slider_resonator.device.device import Device
+from slider_resonator.device.drive_periods import DrivePeriods
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory

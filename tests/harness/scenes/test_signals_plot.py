@@ -77,14 +77,32 @@ def test_a_long_vibration_is_drawn_as_its_envelope(periods: float) -> None:
     phase = 2.0 * pi / scene.drive_period * times
     sampled = np.sin(2.0 * pi / scene.drive_period * np.linspace(*window, 8000))
     assert np.ptp(sampled) > 1.9, "what would be drawn without an envelope"
-    start, lowest, mean, highest = envelope(times, 0.3 + np.sin(phase), window, scene.drive_period)
+    drive = scene.drive_periods
+    start, lowest, mean, highest = envelope(times, 0.3 + np.sin(phase), window, drive)
     assert len(start) == min(COLUMNS, int(periods))
     assert np.abs(lowest + 0.7).max() < 2e-3
     assert np.abs(highest - 1.3).max() < 2e-3
     assert np.abs(mean - 0.3).max() < 1e-4
-    jumps = envelope(times, np.sign(np.sin(phase - 1.0)), window, scene.drive_period)[2]
+    jumps = envelope(times, np.sign(np.sin(phase - 1.0)), window, drive)[2]
     assert np.abs(jumps).max() < 0.02 * 2.0, "friction jumps twice in a period"
     assert np.ptp(jumps) < 0.002, "what points miss of jumps is the same in all columns"
+
+
+def test_the_envelope_follows_a_drive_whose_frequency_changes() -> None:
+    """Columns of other periods than the drive has would show a beat, and a slow drive too low."""
+    changes = {"frequency_deviation": {"ramp": [[0.0, -0.6], [1.0, 0.7]]}}
+    run = {"stop_time": 1.0, "step_size": 0.05}
+    scene = scene_from({"name": "scan", "title": "scan", "inputs": changes, "run": run}, "scan")
+    window = (0.03, 0.97)
+    times = schedule_for_window(scene, window).times
+    drive = scene.drive_periods
+    phase = 2.0 * pi * drive.passed_by(times)
+    start, lowest, mean, highest = envelope(times, 0.3 + np.sin(phase), window, drive)
+    assert len(start) == COLUMNS
+    assert np.abs(lowest + 0.7).max() < 2e-3
+    assert np.abs(highest - 1.3).max() < 2e-3
+    off = np.abs(mean - 0.3) > 1e-4
+    assert np.count_nonzero(off) <= 20, "only periods in which the frequency changes are no sines"
 
 
 def test_each_signal_has_a_panel_with_its_unit_over_contact(
