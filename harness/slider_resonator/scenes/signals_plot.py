@@ -19,8 +19,8 @@ from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.record import Record
 from slider_resonator.output.plot_style import CONTACT, save, shade_directions, style
+from slider_resonator.output.plot_units import plot_unit
 from slider_resonator.output.start_beyond import limit_to_later
-from slider_resonator.scenes.plot_units import plot_unit
 from slider_resonator.scenes.scene import Scene
 
 SIGNALS = (

@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
+from slider_resonator.output.plot_units import plot_unit
 from slider_resonator.scenes import signals_plot
-from slider_resonator.scenes.plot_units import plot_unit
 from slider_resonator.scenes.run_plot import run_figure, schedule_to_plot
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.signals_plot import Run, plot_signals
