@@ -11,9 +11,10 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fitting.measurements import Measurements, Point
 from slider_resonator.output.plot_style import COLOURS, Picture, style
+from slider_resonator.output.plot_units import Drawn, drawn, plot_unit
 
-Panel = tuple[str, str, Array, Array, Array, Array]
-"""Label of the abscissa, title, abscissa, measured, predicted and residuals, (n,) each."""
+Panel = tuple[Drawn, str, Array, Array, Array]
+"""Abscissa, title, measured and predicted values, and residuals, (n,) each."""
 
 
 def fit_figure(measurements: Measurements, numbers: Array) -> Figure:
@@ -27,8 +28,9 @@ def fit_figure(measurements: Measurements, numbers: Array) -> Figure:
         axes = figure.subplots(
             2, len(panels), squeeze=False, sharex="col", height_ratios=[2.0, 1.0]
         )
-        for column, (label, title, x, measured, predicted, residuals) in enumerate(panels):
+        for column, (over, title, measured, predicted, residuals) in enumerate(panels):
             above, below = axes[0][column], axes[1][column]
+            x = over.values
             above.plot(x, measured, "o", ms=4, color=COLOURS["theory"], label="measured")
             order = np.argsort(x, kind="stable")
             is_line = len(np.unique(x)) == len(x)
@@ -38,7 +40,7 @@ def fit_figure(measurements: Measurements, numbers: Array) -> Figure:
             above.legend()
             below.axhline(0.0, color="0.6", lw=0.8)
             below.plot(x, residuals, "o", ms=3, color=COLOURS["slow"])
-            below.set_xlabel(label)
+            below.set_xlabel(over.label)
             below.set_ylabel("residual / deviation")
     return figure
 
@@ -48,22 +50,29 @@ def _point_panels(measurements: Measurements, numbers: Array) -> list[Panel]:
     panels: list[Panel] = []
     for quantity in dict.fromkeys(point.quantity for point in points):
         rows = [i for i, point in enumerate(points) if point.quantity == quantity]
-        label, x = _abscissa([points[i] for i in rows])
-        title = f"{quantity}, {VARIABLES[quantity].unit}"
-        panels.append((label, title, x, *numbers[:, rows]))
+        over = _abscissa([points[i] for i in rows])
+        panels.append(_panel(over, quantity, "", numbers[:, rows]))
     return panels
 
 
-def _abscissa(points: list[Point]) -> tuple[str, Array]:
+def _panel(over: Drawn, name: str, source: str, numbers: Array) -> Panel:
+    """Return the panel of a measured output; `numbers` (3, n) are those of `fit_figure`."""
+    measured, predicted, residuals = numbers
+    factor, unit = plot_unit(VARIABLES[name].unit, measured, predicted)
+    title = f"{name.replace('_', ' ')} [{unit}]{source}"
+    return over, title, factor * measured, factor * predicted, residuals
+
+
+def _abscissa(points: list[Point]) -> Drawn:
     """Return the variable with most values among the points, or their numbers."""
     names = dict.fromkeys(name for point in points for name in point.values)
     counts = {name: len({point.values.get(name) for point in points}) for name in names}
     if not counts or max(counts.values()) < 2:
-        return "number of the measurement", np.arange(1.0, len(points) + 1.0)
+        return Drawn("number of the measurement", "1", np.arange(1.0, len(points) + 1.0))
     name = max(counts, key=lambda one: counts[one])
     start = VARIABLES[name].start or 0.0
-    values = [point.values.get(name, start) for point in points]
-    return f"{name}, {VARIABLES[name].unit}", np.array(values)
+    values = np.array([point.values.get(name, start) for point in points])
+    return drawn(name, VARIABLES[name].unit, values)
 
 
 def _run_panels(measurements: Measurements, numbers: Array) -> list[Panel]:
@@ -74,6 +83,6 @@ def _run_panels(measurements: Measurements, numbers: Array) -> list[Panel]:
             there = np.isfinite(column)
             own = slice(begin, begin + int(there.sum()))
             begin = own.stop
-            title = f"{name}, {VARIABLES[name].unit} ({Path(run.source).name})"
-            panels.append(("time, s", title, run.schedule.times[there], *numbers[:, own]))
+            over = drawn("time", "s", run.schedule.times[there])
+            panels.append(_panel(over, name, f" ({Path(run.source).name})", numbers[:, own]))
     return panels

@@ -13,7 +13,7 @@ from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.record import Record
 from slider_resonator.output.plot_style import COLOURS, Picture, shade_directions, style
-from slider_resonator.output.plot_units import plot_unit
+from slider_resonator.output.plot_units import drawn, plot_unit
 from slider_resonator.output.start_beyond import limit_to_later
 from slider_resonator.scenes.scene import Scene
 
@@ -112,11 +112,12 @@ def _resonator(axes: Axes, record: Record, before: Array) -> None:
 def _forces(axes: Axes, record: Record, before: Array) -> None:
     """Plot normal force and friction."""
     _over_last_periods(axes, record, before)
-    for name, look in (("normal_force", "-"), ("friction_force", "--")):
+    forces = {name: record[name][-len(before) :] for name in ("normal_force", "friction_force")}
+    factor, unit = plot_unit("N", *forces.values())
+    for (name, force), look in zip(forces.items(), ("-", "--"), strict=True):
         colour = COLOURS["theory" if name == "friction_force" else "velocity"]
-        label = name.replace("_", " ")
-        axes.plot(before, record[name][-len(before) :], look, color=colour, label=label)
-    axes.set(xlabel="drive periods before the end", ylabel="force [N]")
+        axes.plot(before, factor * force, look, color=colour, label=name.replace("_", " "))
+    axes.set(xlabel="drive periods before the end", ylabel=f"force [{unit}]")
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=2)
 
 
@@ -135,15 +136,17 @@ def _periods_before_the_end(record: Record, drive: DrivePeriods) -> Array:
 
 def _constant_inputs(record: Record, varying: list[str]) -> str:
     """Return a line with the inputs that are constant, but not at their start value."""
-    shown = [
-        f"{name} {values[0]:g} {VARIABLES[name].unit.removeprefix('1')}".strip()
+    constant = [
+        drawn(name, VARIABLES[name].unit, values[:1])
         for name, values in record.given.items()
         if name not in varying and values[0] != VARIABLES[name].start
     ]
+    shown = [one.named(one.values[0]) for one in constant]
     return "\n" + ", ".join(shown) if shown else ""
 
 
 def _input(axes: Axes, record: Record, times: Array, unit: str, name: str) -> None:
-    axes.step(times, record.given[name], where="post", color=COLOURS["slow"])
-    label = f"{name.replace('_', ' ')}\n[{VARIABLES[name].unit}]"
+    given = drawn(name, VARIABLES[name].unit, record.given[name])
+    axes.step(times, given.values, where="post", color=COLOURS["slow"])
+    label = f"{given.words}\n[{given.unit}]"
     axes.set(xlabel=f"time [{unit}]", ylabel=label, xlim=(times[0], times[-1]))

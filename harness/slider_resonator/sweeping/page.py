@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import matplotlib as mpl
@@ -11,6 +11,7 @@ from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
+from slider_resonator.device.interface import SETTABLE
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.fmu.provenance_text import provenance_html
@@ -23,16 +24,17 @@ from slider_resonator.output.hover_plot import (
     write_plot_page,
 )
 from slider_resonator.output.html_page import escaped, rendered
+from slider_resonator.output.plot_units import Drawn, drawn
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Row, Table, numbers, texts
 from slider_resonator.sweeping.grid import Sweep
 from slider_resonator.sweeping.picture import (
     NO_ANSWER,
     check_picture,
-    measure_label,
+    drawn_measure,
+    drawn_variables,
     scale_of,
     split_into_lines,
-    variable_label,
 )
 from slider_resonator.sweeping.table import Columns
 
@@ -52,51 +54,50 @@ def write_sweep_page(path: Path, sweep: Sweep, columns: Columns, provenance: Pro
     """Write the page of a sweep over one or two variables."""
     failed = sum(error is not None for error in columns["error"])
     counts = f"<p>{number_of(len(sweep.points), 'point')}, {failed} of them failed.</p>"
-    parts = [counts, rendered(_setup(sweep))]
+    variables = drawn_variables(sweep, columns)
+    parts = [counts, rendered(_setup(sweep, variables))]
     for measure in sweep.task.measures:
-        parts += _measure(sweep, columns, measure)
+        parts += _measure(sweep, variables, columns, measure)
     parts.append(provenance_html(provenance))
     write_plot_page(path, sweep.title or "Sweep", parts)
 
 
-def _setup(sweep: Sweep) -> Table:
+def _setup(sweep: Sweep, variables: Mapping[str, Drawn]) -> Table:
     rows: list[Row] = []
-    for column, name in enumerate(sweep.task.names):
-        values = {point[column] for point in sweep.points}
+    for name, one in variables.items():
         spacing = ", logarithmic" if name in sweep.logarithmic else ""
-        rows.append(
-            (
-                variable_label(name),
-                f"{min(values):g}",
-                f"{max(values):g}",
-                f"{len(values)}{spacing}",
-            )
-        )
+        count = len(np.unique(one.values))
+        span = (f"{one.values.min():g}", f"{one.values.max():g}")
+        rows.append((one.label, *span, f"{count}{spacing}"))
     for name, value in sweep.task.fixed:
-        rows.append((variable_label(name), f"{value:g}", f"{value:g}", "fixed"))
+        one = drawn(name, SETTABLE[name], np.array([value]))
+        rows.append((one.label, f"{one.values[0]:g}", f"{one.values[0]:g}", "fixed"))
     return Table((*texts("variable"), *numbers("from", "to", "values")), rows)
 
 
-def _measure(sweep: Sweep, columns: Columns, measure: str) -> list[str]:
-    names = sweep.task.names
-    values = {name: np.array(columns[name], dtype=np.float64) for name in names}
-    result = np.array(columns[measure], dtype=np.float64)  # None becomes NaN
-    notes = [_note(columns, measure, point) for point in range(len(result))]
-    label, title = measure_label(measure), measure.replace("_", " ")
-    lines = split_into_lines(sweep, values)
+def _measure(
+    sweep: Sweep, variables: Mapping[str, Drawn], columns: Columns, measure: str
+) -> list[str]:
+    drawn_result = drawn_measure(columns, measure)
+    result = drawn_result.values
+    notes = [_note(columns, measure, drawn_result, point) for point in range(len(result))]
+    label, title = drawn_result.label, drawn_result.words
+    lines = split_into_lines(sweep, variables)
     if lines is not None:
         abscissa, groups = lines
         series = [
             one
             for index, (name, chosen) in enumerate(groups)
-            for one in _line(index, name or title, values[abscissa], result, chosen, notes)
+            for one in _line(
+                index, name or title, variables[abscissa].values, result, chosen, notes
+            )
         ]
-        plot = HoverPlot(title, _axis(sweep, abscissa), Axis(label), series)
+        plot = HoverPlot(title, _axis(sweep, variables, abscissa), Axis(label), series)
         return [plot_html(plot)]
     colours, scale = _coloured(result, label)
     found = np.flatnonzero(np.isfinite(result))
     missing = np.flatnonzero(np.isnan(result))
-    x, y = (values[name] for name in names)
+    x, y = (one.values for one in variables.values())
     series = []
     if found.size:
         colour = colours[len(found) // 2]
@@ -113,8 +114,8 @@ def _measure(sweep: Sweep, columns: Columns, measure: str) -> list[str]:
             notes=[notes[i] for i in missing],
         )
         series.append(none)
-    plot = HoverPlot(title, _axis(sweep, names[0]), _axis(sweep, names[1]), series)
-    return [plot_html(plot), scale]
+    across, up = (_axis(sweep, variables, name) for name in variables)
+    return [plot_html(HoverPlot(title, across, up, series)), scale]
 
 
 def _line(
@@ -152,13 +153,13 @@ def _coloured(result: Array, label: str) -> tuple[list[str], str]:
     return [to_hex(one) for one in colours(norm(answers))], scale
 
 
-def _axis(sweep: Sweep, name: str) -> Axis:
-    return Axis(variable_label(name), log=name in sweep.logarithmic)
+def _axis(sweep: Sweep, variables: Mapping[str, Drawn], name: str) -> Axis:
+    return Axis(variables[name].label, log=name in sweep.logarithmic)
 
 
-def _note(columns: Columns, measure: str, point: int) -> str:
-    value, error = columns[measure][point], columns["error"][point]
-    lines = [NO_ANSWER if value is None else f"{measure_label(measure)}: {value:.8g}"]
+def _note(columns: Columns, measure: str, drawn_result: Drawn, point: int) -> str:
+    value, error = drawn_result.values[point], columns["error"][point]
+    lines = [NO_ANSWER if np.isnan(value) else f"{drawn_result.label}: {value:.8g}"]
     status = columns.get(f"{measure}_status")
     if status is not None and status[point] is not None:
         lines.append(str(status[point]))

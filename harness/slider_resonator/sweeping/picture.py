@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.plot_style import Picture, style
+from slider_resonator.output.plot_units import Drawn, drawn
 from slider_resonator.sweeping.grid import Sweep
 from slider_resonator.sweeping.measures import unit
 from slider_resonator.sweeping.table import Columns
@@ -34,9 +36,8 @@ def check_picture(sweep: Sweep, option: str) -> None:
 
 def sweep_figure(sweep: Sweep, columns: Columns) -> Figure:
     """Draw every measure over what was varied."""
-    names = sweep.task.names
-    values = {name: np.array(columns[name], dtype=np.float64) for name in names}
-    lines = split_into_lines(sweep, values)
+    variables = drawn_variables(sweep, columns)
+    lines = split_into_lines(sweep, variables)
     with style():
         count = len(sweep.task.measures)
         figure = Picture(figsize=(6.4, 3.9 * count), layout="constrained")
@@ -44,40 +45,41 @@ def sweep_figure(sweep: Sweep, columns: Columns) -> Figure:
             figure.suptitle(sweep.title)
         for index, measure in enumerate(sweep.task.measures):
             axes = figure.add_subplot(count, 1, index + 1)
-            result = np.array(columns[measure], dtype=np.float64)  # None becomes NaN: a gap
-            label = measure_label(measure)
+            result = drawn_measure(columns, measure)
             if lines is not None:
                 abscissa, groups = lines
+                x = variables[abscissa]
                 for name, chosen in groups:
-                    _line(axes, values[abscissa][chosen], result[chosen], name or None)
-                axes.set(xlabel=variable_label(abscissa), ylabel=label)
+                    _line(axes, x.values[chosen], result.values[chosen], name or None)
+                axes.set(xlabel=x.label, ylabel=result.label)
                 if len(groups) > 1:
                     axes.legend()
-            elif sweep.is_grid:
-                _map(axes, sweep, values, result, label)
+                _scale(axes, sweep, abscissa, None)
             else:
-                points = axes.scatter(values[names[0]], values[names[1]], c=result, s=12)
-                _unanswered(axes, values[names[0]], values[names[1]], result)
-                axes.set_ylabel(variable_label(names[1]))
-                figure.colorbar(points, ax=axes, label=label)
-            if not axes.get_xlabel():
-                axes.set_xlabel(variable_label(names[0]))
-            _scale(axes, sweep, lines[0] if lines else names[0], None if lines else names[1])
+                _map(axes, sweep, variables, result)
+                _scale(axes, sweep, *variables)
     return figure
 
 
-def _map(axes: Axes, sweep: Sweep, values: Mapping[str, Array], result: Array, label: str) -> None:
-    one, other = sweep.task.names
-    x, column = np.unique(values[one], return_inverse=True)
-    y, row = np.unique(values[other], return_inverse=True)
-    image = np.full((len(y), len(x)), np.nan)
-    image[row, column] = result
-    norm, colours = scale_of(result)
-    mesh = axes.pcolormesh(x, y, image, shading="nearest", rasterized=True, norm=norm, cmap=colours)
-    _unanswered(axes, values[one], values[other], result)
-    axes.grid(False)
-    axes.set_ylabel(variable_label(other))
-    axes.figure.colorbar(mesh, ax=axes, label=label)
+def _map(axes: Axes, sweep: Sweep, variables: Mapping[str, Drawn], result: Drawn) -> None:
+    """Draw a measure over two variables: cells of a grid, or points."""
+    across, up = variables.values()
+    colours: ScalarMappable
+    if sweep.is_grid:
+        x, column = np.unique(across.values, return_inverse=True)
+        y, row = np.unique(up.values, return_inverse=True)
+        image = np.full((len(y), len(x)), np.nan)
+        image[row, column] = result.values
+        norm, name = scale_of(result.values)
+        colours = axes.pcolormesh(
+            x, y, image, shading="nearest", rasterized=True, norm=norm, cmap=name
+        )
+        axes.grid(False)
+    else:
+        colours = axes.scatter(across.values, up.values, c=result.values, s=12)
+    _unanswered(axes, across.values, up.values, result.values)
+    axes.set(xlabel=across.label, ylabel=up.label)
+    axes.figure.colorbar(colours, ax=axes, label=result.label)
 
 
 def scale_of(result: Array) -> tuple[Normalize, str]:
@@ -125,23 +127,19 @@ def _unanswered(axes: Axes, x: Array, y: Array, result: Array) -> None:
         axes.legend()
 
 
-def _unit(name: str) -> str:
-    """Return the unit of a parameter or input, 1 where it has none."""
-    return SETTABLE[name]
+def drawn_variables(sweep: Sweep, columns: Columns) -> dict[str, Drawn]:
+    """Return what was varied, by name, as it is drawn."""
+    names = sweep.task.names
+    return {n: drawn(n, SETTABLE[n], np.array(columns[n], dtype=np.float64)) for n in names}
 
 
-def variable_label(name: str) -> str:
-    """Return the label of an axis over a parameter or input, with its unit."""
-    return f"{_name(name)} [{_unit(name)}]"
-
-
-def measure_label(measure: str) -> str:
-    """Return the label of an axis over a measure, with its unit."""
-    return f"{_name(measure)} [{unit(measure)}]"
+def drawn_measure(columns: Columns, measure: str) -> Drawn:
+    """Return a measure as it is drawn, NaN where there is no answer."""
+    return drawn(measure, unit(measure), np.array(columns[measure], dtype=np.float64))
 
 
 def split_into_lines(
-    sweep: Sweep, values: Mapping[str, Array]
+    sweep: Sweep, variables: Mapping[str, Drawn]
 ) -> tuple[str, list[tuple[str, NDArray[np.intp]]]] | None:
     """Return the variable along lines, and the label and the points of each line; None for a map.
 
@@ -150,18 +148,12 @@ def split_into_lines(
     names = sweep.task.names
     if len(names) == 1:
         return names[0], [("", np.arange(len(sweep.points)))]
-    few = min(names, key=lambda name: len(np.unique(values[name])))
-    if not sweep.is_grid or len(np.unique(values[few])) > MAX_LINES:
+    found = {name: np.unique(variables[name].values) for name in names}
+    few = min(names, key=lambda name: len(found[name]))
+    if not sweep.is_grid or len(found[few]) > MAX_LINES:
         return None
     (abscissa,) = (name for name in names if name != few)
+    line = variables[few]
     return abscissa, [
-        (
-            f"{_name(few)} {value:.4g} {_unit(few)}".removesuffix(" 1"),
-            np.flatnonzero(values[few] == value),
-        )
-        for value in np.unique(values[few])
+        (line.named(value), np.flatnonzero(line.values == value)) for value in found[few]
     ]
-
-
-def _name(name: str) -> str:
-    return name.replace("_", " ")

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from math import pi
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,12 @@ from slider_resonator.scenes.signals_plot import Run, plot_signals
         ("m/s", 12.0, (1.0, "m/s")),
         ("s", 0.2, (1e3, "ms")),
         ("s", 4.0, (1.0, "s")),
-        ("N", 1e-3, (1.0, "N")),
+        ("N", 0.085, (1e3, "mN")),
+        ("N", 0.6, (1.0, "N")),
+        ("rad", 0.6, (180.0 / pi, "deg")),
+        ("rad/s", 3500.0, (0.5 / pi, "Hz")),
+        ("rad/s", 4e4 * pi, (5e-4 / pi, "kHz")),
+        ("1", 1e-3, (1.0, "1")),
     ],
 )
 def test_the_unit_suits_the_peak(unit: str, peak: float, expected: tuple[float, str]) -> None:

@@ -58,7 +58,7 @@ def test_the_lines_and_constant_inputs_are_named(instance: Instance, tmp_path: P
     save(run_figure(record, scene), tmp_path / "run.svg")
     text = (tmp_path / "run.svg").read_text()
     assert "steady, for these inputs" in text
-    assert "phase 0.4 rad, load 0.05 N" in text
+    assert "phase 22.92 deg, load 50 mN" in text
     assert "frequency_ratio" not in text, "it is at its start"
 
 

@@ -114,7 +114,7 @@ def test_each_signal_has_a_panel_with_its_unit_over_contact(
     plot_signals([Run("a", record)], scene, names, WINDOW, tmp_path / "a.png")
     velocity, load, contact = drawn[0].axes
     assert velocity.get_ylabel() == "velocity\n[mm/s]"
-    assert load.get_ylabel() == "load\n[N]"
+    assert load.get_ylabel() == "load\n[mN]"
     assert contact.get_xlabel() == "time [ms]"
     assert [label.get_text() for label in contact.get_yticklabels()][1:3] == [
         "sticks",

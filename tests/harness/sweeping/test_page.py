@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import json
 import re
+from math import pi
 from pathlib import Path
 from typing import Any
 
@@ -43,11 +44,11 @@ def plots(path: Path, content: dict[str, Any], *, answered: bool = True) -> list
 def test_a_line_has_every_point_with_what_it_is(tmp_path: Path) -> None:
     (plot,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS}, "title": "<i>"})
     line, missing = plot["series"]
-    assert plot["x"]["label"] == "phase [rad]"
+    assert plot["x"]["label"] == "phase [deg]"
     assert plot["y"]["label"] == "steady velocity [m/s]"
     assert line["y"] == [-3.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.0]
     assert line["notes"][0] == "steady velocity [m/s]: -3\nsteady"
-    assert missing["x"] == [pytest.approx(1.0 / 7.0)]
+    assert missing["x"] == [pytest.approx(180.0 / pi / 7.0)]
     assert missing["y"] == [None]
     assert missing["notes"] == ["no answer\n<refused>"]
 
@@ -55,7 +56,7 @@ def test_a_line_has_every_point_with_what_it_is(tmp_path: Path) -> None:
 def test_few_values_are_lines_that_differ_and_many_are_cells(tmp_path: Path) -> None:
     (lines,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS, "load": [0.0, 0.1]}})
     drawn = [one for one in lines["series"] if one["width"] > 0]
-    assert [one["label"] for one in drawn] == ["load 0 N", "load 0.1 N"]
+    assert [one["label"] for one in drawn] == ["load 0 mN", "load 100 mN"]
     assert drawn[0]["colour"] != drawn[1]["colour"]
     assert drawn[0]["marker"] != drawn[1]["marker"]
     (cells,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS, "load": AXIS}})
