@@ -237,5 +237,5 @@ def test_sweep(browser: Chrome, native_fmu_for_wine: Path, tmp_path: Path, phase
     page = tmp_path / "sweep.html"
     write_sweep_page(page, sweep, done.columns, provenance_of(native_fmu_for_wine))
     assert opened(browser, page) == 1
-    assert "steady velocity [m/s]: " in hovered(browser)
+    assert "steady velocity [mm/s]: " in hovered(browser)
     assert browser.title == "</script><b>"
