@@ -22,6 +22,7 @@ from fmpy.fmi2 import (
 
 from slider_resonator.checks.conduct.event_mode import event_mode_faults
 from slider_resonator.checks.conduct.findings import Findings
+from slider_resonator.checks.conduct.memory import instance_leaks
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import NotApplicable
 from slider_resonator.fmu import fmu_log
@@ -79,6 +80,8 @@ def host_faults(fmu: FmuSide) -> Findings:
     faults += _offer_faults(instance, slave)
     with instance.explained():
         instance.terminate()
+    faults += _integer_faults(instance)
+    faults += instance_leaks(instance)
     return Findings.of(faults)
 
 
@@ -226,6 +229,27 @@ def _many_values_faults(instance: Instance) -> Iterator[str]:
         instance.call("fmi2GetReal", references, MANY, found)
         if set(found) != {expected}:
             yield f"normal_force read {MANY} times in a call is not {expected!r} each time"
+
+
+def _integer_faults(instance: Instance) -> Iterator[str]:
+    """Set and read all Integers in one call each, at lowest and highest values in turn."""
+    found = [v for v in instance.fmu.variables.values() if v.type == "Integer"]
+    references = [variable.valueReference for variable in found]
+    for begin in range(2):
+        values = [
+            int(float((one.min, one.max)[(begin + place) % 2] or one.start))
+            for place, one in enumerate(found)
+        ]
+        with instance.explained():
+            instance.set_up()
+            instance.slave.setInteger(references, values)
+            at_once = list(instance.slave.getInteger(references))
+            one_by_one = [instance.slave.getInteger([one])[0] for one in references]
+        if not values == at_once == one_by_one:
+            yield (
+                f"Integers set to {values} in a call are {at_once} in a call, and {one_by_one} in "
+                "calls of their own"
+            )
 
 
 def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:

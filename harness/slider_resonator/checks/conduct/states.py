@@ -10,6 +10,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
 from slider_resonator.checks.conduct.findings import Findings, adding_refusal, other_value
+from slider_resonator.checks.conduct.memory import state_leaks
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fmu.instance import Instance
@@ -37,6 +38,7 @@ def state_faults(fmu: FmuSide) -> Findings:
         if instance.fmu.offers.canSerializeFMUstate:
             faults.extend(_damage_faults(instance))
         faults.extend(_freeing_faults(instance))
+        faults.extend(state_leaks(instance))
         faults.extend(_early_faults(instance, fmu.scene.parameters))
         instance.terminate()
     return Findings.of(faults)

@@ -1,0 +1,70 @@
+"""Memory that an FMU takes and does not give back, where the C library counts it, as glibc does."""
+
+from __future__ import annotations
+
+import ctypes
+import gc
+from collections.abc import Callable, Iterator
+
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.saved_state import SavedState
+
+CYCLES = 16
+"""How often something is made and freed while memory is counted, after as many times before."""
+ALLOWED = 256.0
+"""Bytes that each time may leave: those of the host vary by some."""
+STEP = 1.1e-3
+"""Size of a step, s."""
+
+
+class _Counts(ctypes.Structure):
+    """The result of mallinfo2."""
+
+    _fields_ = [
+        (name, ctypes.c_size_t)
+        for name in (
+            *("arena", "ordblks", "smblks", "hblks", "hblkhd"),
+            *("usmblks", "fsmblks", "uordblks", "fordblks", "keepcost"),
+        )
+    ]
+
+
+def instance_leaks(instance: Instance) -> Iterator[str]:
+    """Make and free instances that have been in use."""
+
+    def use() -> None:
+        with instance.explained():
+            instance.renew()
+            instance.start({})
+            instance.step_by(STEP)
+            instance.terminate()
+
+    yield from _leaks("instance", use)
+
+
+def state_leaks(instance: Instance) -> Iterator[str]:
+    """Save states and free them, with an instance in use."""
+    yield from _leaks("state", lambda: SavedState.of(instance).free())
+
+
+def _leaks(what: str, use: Callable[[], None]) -> Iterator[str]:
+    counts: list[int] = []
+    for _ in range(2):
+        for _ in range(CYCLES):
+            use()
+        gc.collect()
+        counts += _in_use()
+    left = (counts[-1] - counts[0]) / CYCLES if counts else 0.0
+    if left > ALLOWED:
+        yield f"each {what} that is made and freed leaves {left:.0f} bytes behind"
+
+
+def _in_use() -> list[int]:
+    """Return the bytes that are allocated, nothing where the C library does not tell."""
+    try:
+        count = ctypes.CDLL(None).mallinfo2
+    except (AttributeError, OSError, TypeError):
+        return []
+    count.restype = _Counts
+    counts = count()
+    return [counts.uordblks + counts.hblkhd]
