@@ -78,44 +78,49 @@ def _setup(sweep: Sweep, variables: Mapping[str, Drawn]) -> Table:
 def _measure(
     sweep: Sweep, variables: Mapping[str, Drawn], columns: Columns, measure: str
 ) -> list[str]:
-    drawn_result = drawn_measure(columns, measure)
-    result = drawn_result.values
-    notes = [_note(columns, measure, drawn_result, point) for point in range(len(result))]
-    label, title = drawn_result.label, drawn_result.words
+    answers = drawn_measure(columns, measure)
+    notes = [_note(columns, measure, answers, point) for point in range(len(answers.values))]
+    axes = {n: Axis(one.label, log=n in sweep.logarithmic) for n, one in variables.items()}
     lines = split_into_lines(sweep, variables)
-    if lines is not None:
-        abscissa, groups = lines
-        series = [
-            one
-            for index, (name, chosen) in enumerate(groups)
-            for one in _line(
-                index, name or title, variables[abscissa].values, result, chosen, notes
-            )
-        ]
-        plot = HoverPlot(title, _axis(sweep, variables, abscissa), Axis(label), series)
-        return [plot_html(plot)]
-    colours, scale = _coloured(result, label)
-    found = np.flatnonzero(np.isfinite(result))
-    missing = np.flatnonzero(np.isnan(result))
-    x, y = (one.values for one in variables.values())
+    if lines is None:
+        x, y = (one.values for one in variables.values())
+        colours, scale = _coloured(answers)
+        series = _points(x, y, answers, notes, colours, cells=sweep.is_grid)
+        across, up = axes.values()
+        return [plot_html(HoverPlot(answers.words, across, up, series)), scale]
+    abscissa, groups = lines
+    x = variables[abscissa].values
+    series = [
+        one
+        for index, (name, chosen) in enumerate(groups)
+        for one in _line(index, name or answers.words, x, answers.values, chosen, notes)
+    ]
+    return [plot_html(HoverPlot(answers.words, axes[abscissa], Axis(answers.label), series))]
+
+
+def _points(
+    x: Array, y: Array, answers: Drawn, notes: list[str], colours: list[str], *, cells: bool
+) -> list[Series]:
+    """Return the series of points with and without an answer; `colours` are those of the former."""
+    found = np.flatnonzero(np.isfinite(answers.values)).tolist()
+    missing = np.flatnonzero(np.isnan(answers.values)).tolist()
     series = []
-    if found.size:
+    if found:
         colour = colours[len(found) // 2]
-        answers = Series(
-            *(title, x[found].tolist(), y[found].tolist(), colour, "●"),
+        answered = Series(
+            *(answers.words, x[found].tolist(), y[found].tolist(), colour, "●"),
             notes=[notes[i] for i in found],
             colours=colours,
-            cells=sweep.is_grid,
+            cells=cells,
         )
-        series.append(answers)
-    if missing.size:
+        series.append(answered)
+    if missing:
         none = Series(
             *(NO_ANSWER, x[missing].tolist(), y[missing].tolist(), GREY, "✖"),
             notes=[notes[i] for i in missing],
         )
         series.append(none)
-    across, up = (_axis(sweep, variables, name) for name in variables)
-    return [plot_html(HoverPlot(title, across, up, series)), scale]
+    return series
 
 
 def _line(
@@ -137,29 +142,25 @@ def _line(
     return [line, none] if missing else [line]
 
 
-def _coloured(result: Array, label: str) -> tuple[list[str], str]:
+def _coloured(answers: Drawn) -> tuple[list[str], str]:
     """Return the colours of the answers, and their scale as HTML; symmetric about 0 if signed."""
-    answers = result[np.isfinite(result)]
-    if not answers.size:
+    found = answers.values[np.isfinite(answers.values)]
+    if not found.size:
         return [], ""
-    norm, name = scale_of(result)
+    norm, name = scale_of(found)
     colours = mpl.colormaps[name]
     shades = ",".join(to_hex(colours(share)) for share in np.linspace(0.0, 1.0, 9))
     scale = (
         f'<div class="scale"><span>{norm.vmin:.4g}</span>'
         f'<i style="background:linear-gradient(to right,{shades})"></i>'
-        f"<span>{norm.vmax:.4g}</span><span>{escaped(label)}</span></div>"
+        f"<span>{norm.vmax:.4g}</span><span>{escaped(answers.label)}</span></div>"
     )
-    return [to_hex(one) for one in colours(norm(answers))], scale
+    return [to_hex(one) for one in colours(norm(found))], scale
 
 
-def _axis(sweep: Sweep, variables: Mapping[str, Drawn], name: str) -> Axis:
-    return Axis(variables[name].label, log=name in sweep.logarithmic)
-
-
-def _note(columns: Columns, measure: str, drawn_result: Drawn, point: int) -> str:
-    value, error = drawn_result.values[point], columns["error"][point]
-    lines = [NO_ANSWER if np.isnan(value) else f"{drawn_result.label}: {value:.8g}"]
+def _note(columns: Columns, measure: str, answers: Drawn, point: int) -> str:
+    value, error = answers.values[point], columns["error"][point]
+    lines = [NO_ANSWER if np.isnan(value) else f"{answers.label}: {value:.8g}"]
     status = columns.get(f"{measure}_status")
     if status is not None and status[point] is not None:
         lines.append(str(status[point]))

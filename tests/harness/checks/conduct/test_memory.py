@@ -18,7 +18,9 @@ def test_a_sound_fmu_gives_everything_back(instance: Instance) -> None:
     assert [*state_leaks(instance), *instance_leaks(instance)] == []
 
 
-@pytest.mark.parametrize(("kind", "begin"), [("state", "getFMUstate"), ("instance", "freeInstance")])
+@pytest.mark.parametrize(
+    ("kind", "begin"), [("state", "getFMUstate"), ("instance", "freeInstance")]
+)
 def test_what_is_not_given_back_is_a_fault(
     instance: Instance, monkeypatch: pytest.MonkeyPatch, kind: str, begin: str
 ) -> None:
