@@ -10,19 +10,23 @@ from pathlib import Path
 
 from slider_resonator.device.signal import Signal, ramp, steps
 
-SEPARATORS = (";", "\t", "|")
-"""What other programs write for the comma between two columns."""
+SEPARATORS = (";", "\t")
+"""What programs write between two columns where numbers may have a decimal comma."""
 
 
 def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     """Return the header of a CSV file, and its other rows with their line numbers.
 
-    Raises ValueError naming the file and what is wrong.
+    Columns are apart by commas, or by what the header has of `SEPARATORS`. Lines that begin with #
+    are left out. Raises ValueError naming the file and what is wrong.
     """
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
-            reader = csv.reader(file)
-            rows = [(reader.line_num, row) for row in reader]
+            lines = [(n, line) for n, line in enumerate(file, 1) if not line.startswith("#")]
+        first = lines[0][1] if lines else ""
+        separator = next((one for one in SEPARATORS if one in first), ",")
+        reader = csv.reader((line for _, line in lines), delimiter=separator)
+        rows = [(lines[reader.line_num - 1][0], row) for row in reader]
     except OSError as error:
         raise ValueError(f"csv {path} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
@@ -30,12 +34,8 @@ def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     except csv.Error as error:
         raise ValueError(f"csv {path}: {error}; must be lines of numbers") from error
     header = [name.strip() for name in rows[0][1]] if rows else []
-    found = [one for one in SEPARATORS if any(one in name for name in header)]
-    if found:
-        raise ValueError(
-            f"csv {path}: the header is {rows[0][1]}: a comma must be between two columns, not "
-            f"{found[0]!r}"
-        )
+    if separator != ",":
+        rows = [(line, [cell.replace(",", ".") for cell in row]) for line, row in rows]
     return header, rows[1:]
 
 

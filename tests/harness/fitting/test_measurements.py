@@ -50,7 +50,7 @@ def test_a_run_begins_at_zero_and_may_lack_values(tmp_path: Path) -> None:
     ("text", "said"),
     [
         ("", "0 rows below the header; must be 1 to"),
-        ("phase;load\n1;2\n", "a comma must be between two columns, not ';'"),
+        ("phase;load\n1;2\n", "measures nothing; must have a column"),
         ("time [N],velocity\n0,1\n1,2\n", "heading 'time [N]'"),
         ("phase,velocity\n0.1,x\n", "line 2: velocity = 'x': must be a finite number, or empty"),
         ("phase\n0.1\n", "measures nothing; must have a column"),

@@ -21,6 +21,21 @@ def test_a_run_written_by_the_harness_can_be_read_back_as_an_input(tmp_path: Pat
 
 
 @pytest.mark.parametrize(
+    "text",
+    [
+        "time;load\n0;0,5\n1,5;-2e-3\n",
+        "time\tload\n0\t0.5\n1.5\t-2e-3\n",
+        "\ufeff# measured\n# on a Monday\ntime,load\n0,0.5\n# a pause\n1.5,-2e-3\n",
+        '\ufeff"time";"load"\n"0";"0,5"\n"1,5";"-0,002"\n',
+    ],
+)
+def test_what_other_programs_write_is_read(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "in.csv"
+    path.write_text(text, encoding="utf-8")
+    assert csv_points(path, "load") == [(0.0, 0.5), (1.5, -2e-3)]
+
+
+@pytest.mark.parametrize(
     ("text", "message"),
     [
         ("", "must begin with 'time'"),
@@ -28,6 +43,8 @@ def test_a_run_written_by_the_harness_can_be_read_back_as_an_input(tmp_path: Pat
         ("time,lod\n0,1\n", "no column 'load'"),
         ("time,load\n0,1\n1,x\n", "line 3"),
         ("time,load\n0\n", "line 2"),
+        ("# a comment\ntime;load\n0;1\n1;x\n", "line 4: load = 'x'"),
+        ("time,load\n0,1 000,5\n", "line 2"),
     ],
 )
 def test_a_csv_that_cannot_be_used_is_named(tmp_path: Path, text: str, message: str) -> None:

@@ -322,9 +322,6 @@ BELOW_THE_HEAD = {
         "delete the key",
     ),
     # CSV files:
-    "CSV with semicolons": Mistake(
-        RUN + '[inputs]\nload = { csv = "semicolons.csv" }\n', "inputs.load", "a comma"
-    ),
     "CSV without a header": Mistake(
         RUN + '[inputs]\nload = { csv = "bare.csv" }\n', "inputs.load", "begin with 'time'"
     ),
@@ -348,7 +345,6 @@ MISTAKES = IN_THE_HEAD | {
 def test_a_mistake_is_one_line_with_file_key_and_remedy(name: str, tmp_path: Path) -> None:
     text, key, remedy = MISTAKES[name]
     (tmp_path / "short.csv").write_text("time,load\n0,0\n0.05,1\n")
-    (tmp_path / "semicolons.csv").write_text("time;load\n0;0,5\n1;1,5\n")
     (tmp_path / "bare.csv").write_text("0,0\n1,1\n")
     (tmp_path / "negative.csv").write_text("time,value\n0,0.1\n0.1,-1\n")
     (tmp_path / "words.csv").write_text("time,load\n0,none\n")
