@@ -262,12 +262,13 @@ QUANTITIES: Mapping[str, Quantity] = {
         needs_run=False,
     ),
     "host_faults": _count(
-        "wrong answers about the FMU itself: versions, instances that must not be made, logging, "
-        "event mode",
+        "wrong answers about the FMU itself: versions, instances that must not be made or stay in "
+        "memory, logging, event mode",
         needs_run=False,
     ),
     "state_faults": _count(
-        "states that are got again, damaged or freed, and wrong then", needs_run=False
+        "states that are got again, damaged or freed, and wrong then or still in memory",
+        needs_run=False,
     ),
 }
 """Every quantity by the name that scene files use."""
