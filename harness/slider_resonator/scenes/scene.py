@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -103,7 +104,7 @@ class Scene(Shown):
         """Drive period in seconds, without what is tuned."""
         return 2.0 * pi / self.device.drive_frequency
 
-    @property
+    @cached_property
     def drive_periods(self) -> DrivePeriods:
         """The drive periods of its run, in which the drive may be tuned."""
         if not self.tuning:
