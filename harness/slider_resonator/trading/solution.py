@@ -69,10 +69,10 @@ class WindowReadings:
 
 def windows(problem: Problem, solution: Solution, periods: int) -> WindowReadings:
     """Return the readings of a solution over `periods` drive periods, window by window."""
-    places = [nearest(solution.times, problem.window(end)) for end in problem.windows(periods)]
+    times = np.array([problem.window(end) for end in problem.windows(periods)])
+    places = [nearest(solution.times, window) for window in times]
     position = np.array([solution.position[at] for at in places])
     last = [at[-1] for at in places]
-    times = np.array([problem.window(end) for end in problem.windows(periods)])
     lengths = times[:, -1] - times[:, 0]
     mean = (position[:, -1] - position[:, 0]) / lengths
     if solution.mean_velocity is not None:

@@ -24,6 +24,7 @@ from slider_resonator.checks.conduct.event_mode import event_mode_faults
 from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.conduct.memory import instance_leaks
 from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.device.interface import INTEGERS, PARAMETERS, VARIABLES
 from slider_resonator.errors import NotApplicable
 from slider_resonator.fmu import fmu_log
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
@@ -233,13 +234,11 @@ def _many_values_faults(instance: Instance) -> Iterator[str]:
 
 def _integer_faults(instance: Instance) -> Iterator[str]:
     """Set and read all Integers in one call each, at lowest and highest values in turn."""
-    found = [v for v in instance.fmu.variables.values() if v.type == "Integer"]
-    references = [variable.valueReference for variable in found]
+    names = [name for name in PARAMETERS if name in INTEGERS and name in instance.fmu.variables]
+    references = [instance.fmu.reference(name) for name in names]
+    ranges = [(VARIABLES[name].minimum or 0.0, VARIABLES[name].maximum or 0.0) for name in names]
     for begin in range(2):
-        values = [
-            int(float((one.min, one.max)[(begin + place) % 2] or one.start))
-            for place, one in enumerate(found)
-        ]
+        values = [int(ends[(begin + place) % 2]) for place, ends in enumerate(ranges)]
         with instance.explained():
             instance.set_up()
             instance.slave.setInteger(references, values)
