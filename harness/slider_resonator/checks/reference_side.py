@@ -200,7 +200,7 @@ class ReferenceSide:
         starts = np.array([inputs.start for inputs in held[1:]])
         return np.asarray(values[np.searchsorted(starts, self.times, side="left")])
 
-    @cached_property
+    @property
     def periods(self) -> DrivePeriods:
         """The whole periods of the drive."""
         return self.scene.drive_periods
