@@ -176,3 +176,16 @@ def test_nothing_heats_at_rest_or_in_flight(instantiate: Instantiate) -> None:
     instance = instantiate().initialize(normal_preload=0.0, normal_amplitude=0.0)
     instance.step(3 * TURN)
     assert instance.get("friction_power") == (0.0,)
+
+
+def test_averaged_power_is_bounded_work_at_any_ratio(instantiate: Instantiate) -> None:
+    """What a rapid normal load adds falls with the square of the ratio."""
+    powers = []
+    for ratio in (999.0, 9999.0, 10001.0, 1e300):
+        values = {"fidelity": 0, "averaging_order": 1, "phase": 0.7, "frequency_ratio": ratio}
+        instance = instantiate().initialize(**values)
+        instance.step(0.5 * TURN)
+        powers.append(instance.get("friction_power")[0])
+    far = powers.pop()
+    for power, allowed in zip(powers, (1e-5, 1e-7, 1e-7), strict=True):
+        assert power == pytest.approx(far, rel=allowed)

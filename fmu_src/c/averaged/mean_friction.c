@@ -25,6 +25,10 @@ static const double EDGE[EDGES] = {0.0, 0.05, 0.15, 0.35, 0.65, 1.0};
  * add to the mean friction falls with their number, to less than 1e-3 of full friction. */
 #define MAX_WAVES 1000.0
 
+/* The same for the mean power: friction times velocity has no jump, so that what waves add falls with the
+ * square of their number, to less than 1e-8 of full power. */
+#define MAX_POWER_WAVES 10000.0
+
 /* What the quadrature is over: `waves` of the integrand over a turn, and the load (`load`), with its kinks, or, where
  * that is NULL, unit loads: 1 and sine and cosine of `waves` times the angle. The `sum` of friction beyond
  * Coulomb's under these loads is its result; under a load it has one part, PLAIN. With `powers` it is that of friction
@@ -179,15 +183,14 @@ static void integrate_turn(Quadrature *over, double turning) {
     integrate_arc(over, &backward);
 }
 
-/* The load with its mean alone where it has too many waves for bristles to follow. */
-static VibratingLoad counted_load(const Bristle *bristle, const VibratingLoad *load) {
-    bool is_many = is_elastic(bristle) && fabs(vibrating_load_waves(load)) > MAX_WAVES;
-    return is_many ? vibrating_load_flattened(load) : *load;
+/* The load with its mean alone where it has more waves than `most`. */
+static VibratingLoad counted_load(const VibratingLoad *load, double most) {
+    return fabs(vibrating_load_waves(load)) > most ? vibrating_load_flattened(load) : *load;
 }
 
 double mean_power(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load, double turning,
                   double velocity) {
-    VibratingLoad counted = counted_load(bristle, load);
+    VibratingLoad counted = counted_load(load, is_elastic(bristle) ? MAX_WAVES : MAX_POWER_WAVES);
     double mu = bristle->coefficient, sine = sin(turning), cosine = cos(turning);
     Quadrature over = {.bristle = bristle, .fast = fast, .load = &counted, .powers = true};
     over.waves = vibrating_load_waves(&counted);
@@ -208,7 +211,7 @@ double mean_friction(const Bristle *bristle, const FastMotion *fast, const Vibra
     if (!is_elastic(bristle)) {
         return mu * (vibrating_load_difference(load, turning) / TAU);
     }
-    VibratingLoad counted = counted_load(bristle, load);
+    VibratingLoad counted = counted_load(load, MAX_WAVES);
     Quadrature over = {.bristle = bristle, .fast = fast, .load = &counted};
     over.waves = vibrating_load_waves(&counted);
     integrate_turn(&over, turning);

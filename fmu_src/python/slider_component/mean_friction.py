@@ -30,6 +30,10 @@ MAX_WAVES = 1000
 """Waves of the normal load over a turn of the drive beyond which only its mean counts: what they
 add to the mean friction falls with their number, to less than 1e-3 of full friction."""
 
+MAX_POWER_WAVES = 10_000
+"""The same for the mean power: friction times velocity has no jump, so that what waves add falls
+with the square of their number, to less than 1e-8 of full power."""
+
 SHORTEST_ARC = 1e-12
 HALVINGS = 12
 """Halvings, on a logarithmic scale from the shortest part of an arc on, that find where it ends."""
@@ -92,7 +96,7 @@ class MeanFriction:
 
     def power(self, load: VibratingLoad, velocity: float) -> float:
         """Mean power of friction [W] of one face at a slow velocity [m/s]."""
-        if self.is_expensive and abs(load.wave_number) > MAX_WAVES:
+        if abs(load.wave_number) > (MAX_WAVES if self.is_expensive else MAX_POWER_WAVES):
             load = load.flattened()
         turning = self.turning(velocity)
         beyond = velocity - self.fast * cos(turning)
