@@ -34,6 +34,12 @@ def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     except csv.Error as error:
         raise ValueError(f"csv {path}: {error}; must be lines of numbers") from error
     header = [name.strip() for name in rows[0][1]] if rows else []
+    for line, row in rows[1:]:
+        if any(cell.strip() for cell in row[len(header) :]):
+            raise ValueError(
+                f"csv {path} line {line}: {len(row)} cells below {len(header)} headings; "
+                "must be as many (with decimal commas columns are apart by ;)"
+            )
     if separator != ",":
         rows = [(line, [cell.replace(",", ".") for cell in row]) for line, row in rows]
     return header, rows[1:]

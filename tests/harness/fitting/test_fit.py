@@ -114,6 +114,14 @@ def test_known_deviations_are_used(instance: Instance) -> None:
     assert widths[1] / widths[0] == pytest.approx(2.0, rel=0.1)
 
 
+def test_a_parameter_without_bounds_may_be_free(instance: Instance) -> None:
+    true = {**TRUE, "tangential_force": 40.0}
+    start = {**true, "tangential_force": 30.0}
+    free = ["tangential_force", "friction_coefficient"]
+    found = fitted(instance, measured(instance, true, POINTS), free, parameters=start)
+    assert found.parameters[0].value == pytest.approx(40.0, rel=1e-6)
+
+
 def test_slopes_at_a_bound_are_those_inside(instance: Instance) -> None:
     """A difference that the bound cuts off is over what is left, not half the slope."""
     data = measured(instance, TRUE, POINTS)

@@ -45,6 +45,7 @@ def test_what_other_programs_write_is_read(tmp_path: Path, text: str) -> None:
         ("time,load\n0\n", "line 2"),
         ("# a comment\ntime;load\n0;1\n1;x\n", "line 4: load = 'x'"),
         ("time,load\n0,1 000,5\n", "line 2"),
+        ("time,load\n0,1,5\n", "line 2: 3 cells below 2 headings"),
     ],
 )
 def test_a_csv_that_cannot_be_used_is_named(tmp_path: Path, text: str, message: str) -> None:
