@@ -128,3 +128,6 @@ INTEGERS = frozenset(name for name in PARAMETERS if VARIABLES[name].kind == "Int
 
 OUTPUTS = _units("output", later=False)
 """Output name to unit, of those that every FMU has."""
+
+ALL_OUTPUTS = _units("output", later=True)
+"""The same of every output, also of those that FMUs of earlier versions lack."""

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.drive_periods import DrivePeriods
-from slider_resonator.device.interface import INPUTS, OUTPUTS, VARIABLES
+from slider_resonator.device.interface import ALL_OUTPUTS, INPUTS, VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.record import Record
@@ -52,7 +52,7 @@ class Run:
 
 def check_signals(names: Sequence[str], scene: Scene) -> None:
     """Raise HarnessError for a name that is no output, input or tuned, or is given twice."""
-    allowed = [*OUTPUTS, *INPUTS, *scene.tuning]
+    allowed = [*ALL_OUTPUTS, *INPUTS, *scene.tuning]
     for name in names:
         if name not in allowed:
             raise HarnessError(f"--signals: {unknown_name('output or input', name, allowed)}")
@@ -145,15 +145,19 @@ def plot_signals(
 ) -> None:
     """Write a plot with a panel for each signal; each run has its own colour and dash.
 
-    With `differences` a panel below that of an output has the other runs less the first.
+    With `differences` a panel below that of an output has the other runs less the first. Raises
+    HarnessError for a signal that a run does not have.
     """
+    for one in runs:
+        if missing := [name for name in signals if name not in one.record.table()]:
+            raise HarnessError(f"--signals: {', '.join(missing)}: {one.label} has no such output")
     rows = [(name, False) for name in signals]
     if differences and _same_times(runs):
         rows = [
             (name, below)
             for name in signals
             for below in (False, True)
-            if not below or name in OUTPUTS.keys() - {"contact_mode"}
+            if not below or name in ALL_OUTPUTS.keys() - {"contact_mode"}
         ]
     heights = [1.2 if below else 1.9 for _, below in rows]
     with style():
@@ -194,8 +198,8 @@ def _panel(
     if differences:
         curves = [curve - curves[0] for curve in curves]
     factor, unit = plot_unit(VARIABLES[name].unit, *curves)
-    enveloped = is_long(scene, window) and name in OUTPUTS
-    held = name not in OUTPUTS or (name == "contact_mode" and not enveloped)
+    enveloped = is_long(scene, window) and name in ALL_OUTPUTS
+    held = name not in ALL_OUTPUTS or (name == "contact_mode" and not enveloped)
     if _same_times(runs) and not held:
         limit_to_later(axes, runs[0].record.times[windows[0]], *(factor * one for one in curves))
     for index, (one, inside, curve) in enumerate(zip(runs, windows, curves, strict=True)):

@@ -11,7 +11,7 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.interface import INPUT_STARTS, INPUTS, INTEGERS, OUTPUTS
+from slider_resonator.device.interface import ALL_OUTPUTS, INPUT_STARTS, INPUTS, INTEGERS
 from slider_resonator.device.schedule import schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import HarnessError, unknown_name
@@ -86,8 +86,8 @@ def check_measure(name: object) -> None:
     if not isinstance(name, str):
         raise ValueError(f"measure {name!r}: must be a name in quotes")
     output, dot, statistic = name.partition(".")
-    if dot and output not in OUTPUTS:
-        raise ValueError(f"measure {name!r}: {unknown_name('output', output, OUTPUTS)}")
+    if dot and output not in ALL_OUTPUTS:
+        raise ValueError(f"measure {name!r}: {unknown_name('output', output, ALL_OUTPUTS)}")
     if dot and statistic not in STATISTICS:
         raise ValueError(f"measure {name!r}: {unknown_name('statistic', statistic, STATISTICS)}")
     if not dot and name not in SEARCHED:
@@ -96,7 +96,7 @@ def check_measure(name: object) -> None:
 
 def unit(measure: str) -> str:
     """Return the unit of a measure."""
-    return SEARCHED.get(measure) or OUTPUTS[measure.partition(".")[0]]
+    return SEARCHED.get(measure) or ALL_OUTPUTS[measure.partition(".")[0]]
 
 
 def measure(
