@@ -123,3 +123,10 @@ def test_values_that_leave_the_range_are_named(
     instance = instantiate().enter_initialization(**values)
     with instance.refuses(named, "must be nearer to"):
         instance.slave.exitInitializationMode()
+
+
+def test_a_prediction_that_takes_too_much_work_is_not_valid(instantiate: Instantiate) -> None:
+    """All maps of a search draw from one budget: a read takes no longer than a few steps may."""
+    for ratio, valid in ((1.0, 1.0), (9999.03125, 0.0)):
+        instance = instantiate().initialize(normal_amplitude=1.5, frequency_ratio=ratio)
+        assert instance.get("prediction_valid") == (valid,)

@@ -43,6 +43,7 @@ enum { SQUARINGS = 24 };
  * load; `change` is what a period changes them by, in place of the load the position. */
 typedef struct {
     PeriodMap map;
+    Budget budget;                             /* of all the maps of the search */
     double psi;                                /* normal phase at the section [rad] */
     bool blocked;                              /* whether it must not travel, under a load that is looked for */
     int count;                                 /* number of unknowns */
@@ -68,9 +69,8 @@ static bool change_in_period(Search *search, const double unknown[UNKNOWNS],
     Moment moment = {.mode = STICK};
     Visit visits[2];
     uint64_t itinerary;
-    Budget budget = budget_of(map->period);
     moment_place(map, at[0], fast, search->psi, &moment);
-    if (!map_periods(map, 0.0, 1, &moment, &budget, visits, &itinerary)) {
+    if (!map_periods(map, 0.0, 1, &moment, &search->budget, visits, &itinerary)) {
         return false;
     }
     for (int i = 0; i < states; i++) {
@@ -178,6 +178,7 @@ static Search search_of(const PeriodMap *map, double psi, bool blocked, double v
     const Plant *plant = &map->law.held.plant;
     int states = 1 + map->fast_count;
     Search search = {.map = *map, .psi = psi, .blocked = blocked, .count = states + blocked};
+    search.budget = budget_of(map->period);
     Response swing = steady_swing(map->vibration.resonator, map->section, plant->drive_frequency);
     const double fast[MAX_FAST] = {swing.displacement, swing.rate, map->scale[2]};
     search.scale[0] = map->speed;

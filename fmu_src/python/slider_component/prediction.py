@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import copysign, cos, pi, tau
 
+from .budget import Budget
 from .device import EPSILON, Device, System, held_amplitude, vibration
 from .mean_friction import mean_friction
 from .parameters import Inputs
@@ -61,8 +62,8 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
         system = System(replace(device, fidelity=2), inputs)
         period_map = PeriodMap(system, vibration(device), turns)
         psi = (normal_lead + inputs.frequency_ratio * period_map.section) % tau
-        steady = PeriodicMotion(period_map, psi, blocked=False)
-        blocked = PeriodicMotion(period_map, psi, blocked=True)
+        steady = PeriodicMotion(period_map, psi, blocked=False, budget=Budget(period_map.period))
+        blocked = PeriodicMotion(period_map, psi, blocked=True, budget=Budget(period_map.period))
         return Prediction(
             steady.found(first.steady_velocity, 0.0),
             blocked.found(0.0, first.blocking_force),
