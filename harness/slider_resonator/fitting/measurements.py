@@ -17,7 +17,7 @@ from slider_resonator.device.schedule import Schedule, in_order
 from slider_resonator.device.signal import steps
 from slider_resonator.device.values import si_value
 from slider_resonator.errors import HarnessError, unknown_name
-from slider_resonator.scenes.csv_signal import csv_number, csv_rows
+from slider_resonator.scenes.csv_signal import check_cells, csv_number, csv_rows
 
 STEADY = ("steady_velocity", "blocking_force")
 """What can be measured without a run, by the outputs of the FMU."""
@@ -164,6 +164,7 @@ def _columns(path: Path) -> dict[str, Array]:
     """Return the columns by name in SI units, empty cells as NaN."""
     try:
         header, lines = csv_rows(path)
+        check_cells(path, header, lines)
         rows = [(line, row) for line, row in lines if any(cell.strip() for cell in row)]
         if not 1 <= len(rows) <= MAX_ROWS:
             raise ValueError(f"{path}: {len(rows)} rows below the header; must be 1 to {MAX_ROWS}")

@@ -34,15 +34,19 @@ def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     except csv.Error as error:
         raise ValueError(f"csv {path}: {error}; must be lines of numbers") from error
     header = [name.strip() for name in rows[0][1]] if rows else []
-    for line, row in rows[1:]:
+    if separator != ",":
+        rows = [(line, [cell.replace(",", ".") for cell in row]) for line, row in rows]
+    return header, rows[1:]
+
+
+def check_cells(path: Path, header: Sequence[str], rows: Sequence[tuple[int, list[str]]]) -> None:
+    """Raise ValueError for a row that has more cells than the header, naming file and line."""
+    for line, row in rows:
         if any(cell.strip() for cell in row[len(header) :]):
             raise ValueError(
                 f"csv {path} line {line}: {len(row)} cells below {len(header)} headings; "
                 "must be as many (with decimal commas columns are apart by ;)"
             )
-    if separator != ",":
-        rows = [(line, [cell.replace(",", ".") for cell in row]) for line, row in rows]
-    return header, rows[1:]
 
 
 def csv_signal(path: Path, column: str, between: str) -> Signal:
@@ -80,6 +84,7 @@ def csv_points(path: Path, column: str) -> list[tuple[float, float]]:
             points.append((csv_number("time", row, 0), csv_number(name, row, index)))
         except ValueError as error:
             raise ValueError(f"csv {path} line {line}: {error}") from error
+    check_cells(path, header, rows)
     return points
 
 
