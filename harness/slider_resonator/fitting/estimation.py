@@ -154,12 +154,9 @@ def minimise(instance: Instance, problem: Problem, start: Array) -> Minimum:
     residuals = problem.residuals(instance)
     low = np.array([one.internal(one.low) for one in problem.free])
     high = np.array([one.internal(one.high) for one in problem.free])
-    width = high - low
-    margin = np.where(np.isfinite(width), 1e-9 * width, 0.0)
-    inside = np.clip(start, low + margin, high - margin)
     found = least_squares(
         residuals,
-        inside,
+        np.clip(start, low, high),
         partial(_slopes, residuals, low, high),
         bounds=(low, high),
         x_scale="jac",
