@@ -35,8 +35,9 @@ static Moment start(const Law *law) {
 
 /* In this order: take the slow velocity and the centre of the pair from the state; pass the slow motion; turn the phases;
  * add the steady vibration again. */
-static bool advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
-                    Budget *budget, Moment *after, Refusal *refusal) {
+static bool averaged_advance(const Law *law, const Moment *moment, double duration,
+                             EventSearch *search, Budget *budget, Moment *after,
+                             Refusal *refusal) {
     (void)search;
     const Plant *plant = &law->held.plant;
     double w = plant->drive_frequency, drive = law->fast.pair_velocity;
@@ -153,7 +154,7 @@ const Motion AVERAGED_MOTION = {
     .averages = true,
     .prepare = prepare,
     .start = start,
-    .advance = advance,
+    .advance = averaged_advance,
     .mode = mode,
     .force = force,
     .power = power,

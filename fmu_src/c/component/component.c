@@ -3,61 +3,37 @@
 #include <math.h>
 #include <string.h>
 
-#include "../averaged/friction_table.h"
-#include "../base/constants.h"
 #include "../base/refusal_texts.h"
 #include "../device/device.h"
-#include "../friction/bending_kernels.h"
 #include "../friction/law.h"
-#include "component_law.h"
-#include "outputs.h"
+#include "ramped_step.h"
 #include "values.h"
 
 void component_begin(Component *component, const Memory *memory) {
-    component->memory = *memory;
+    component->tables = (Tables){.memory = *memory};
 }
 
 void component_end(Component *component) {
-    const Memory *memory = &component->memory;
-    memory->release(memory->host, component->tables);
-    memory->release(memory->host, component->bending);
-    component->tables = NULL;
-    component->bending = NULL;
+    const Memory *memory = &component->tables.memory;
+    memory->release(memory->host, component->tables.means);
+    memory->release(memory->host, component->tables.bending);
 }
 
-/* A table of `size` bytes: the one that is `kept`, or a new one, NULL if out of memory. */
-static void *table_of(const Memory *memory, void *kept, size_t size) {
-    return kept != NULL ? kept : memory->allocate(memory->host, size);
+static const Law *present_law(const Component *component) {
+    return &component->laws[component->present];
 }
 
-/* Make the tables that a law needs, and let it point to them. */
-static bool provide_tables(Component *component, Law *law, Refusal *refusal) {
-    const Memory *memory = &component->memory;
-    bool averages = law->motion->averages;
-    bool tabulates = averages && is_elastic(&law->bristle);
-    bool bends = !averages && is_elastic(&law->bristle);
-    if (tabulates) {
-        component->tables = table_of(memory, component->tables, sizeof *component->tables);
-    }
-    if (bends) {
-        component->bending = table_of(memory, component->bending, sizeof *component->bending);
-    }
-    if ((tabulates && component->tables == NULL) || (bends && component->bending == NULL)) {
-        return refuse(refusal, "out of memory: the host gives none for tables of friction");
-    }
-    law->tables = tabulates ? component->tables : NULL;
-    law->bending = bends ? component->bending : NULL;
-    return true;
+/* Room for a law beside the present one. */
+static Law *other_law(Component *component) {
+    return &component->laws[1 - component->present];
 }
 
 /* Prepare the law of `values`; it replaces the present law unless it is refused. */
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
-    int next = 1 - component->present;
-    Law *law = &component->laws[next];
-    if (!prepare_law(values, law, refusal) || !provide_tables(component, law, refusal)) {
+    if (!prepare_law(values, &component->tables, other_law(component), refusal)) {
         return false;
     }
-    component->present = next;
+    component->present = 1 - component->present;
     component->prepared = true;
     component->theory.known = false;
     return true;
@@ -65,10 +41,6 @@ static bool prepare(Component *component, const double values[SETTABLE_COUNT], R
 
 static bool prepare_present(Component *component, Refusal *refusal) {
     return component->prepared || prepare(component, component->now.values, refusal);
-}
-
-static const Law *present_law(const Component *component) {
-    return &component->laws[component->present];
 }
 
 void component_reset(Component *component) {
@@ -229,6 +201,75 @@ bool component_get_derivatives(Component *component, const unsigned *references,
     return true;
 }
 
+/* Where a step leads: the moment at its end and, where inputs vary, the values then. */
+typedef struct {
+    Moment moment;
+    double values[SETTABLE_COUNT];
+} StepEnd;
+
+/* Find where a step leads, at most to the event that a `search` finds; the component does not change. The motion takes
+ * `duration` [s], the step size but for a rounding error. In this order: refuse a wrong state or time; advance the moment;
+ * refuse numbers out of range. */
+static bool find_end(Component *component, double time, double step_size, double duration,
+                     EventSearch *search, StepEnd *end, Refusal *refusal) {
+    const Snapshot *now = &component->now;
+    const Law *law = present_law(component);
+    Moment *after = &end->moment;
+    Budget budget = budget_of(step_size);
+    if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)
+        || !step_check(now->time, now->stop_time, time, step_size, refusal)) {
+        return false;
+    }
+    bool done = inputs_vary(now->derivatives)
+                    ? ramped_step(other_law(component), &component->tables, now, duration, &budget, after,
+                                  end->values, refusal)
+                    : law->motion->advance(law, &now->moment, duration, search, &budget, after, refusal);
+    if (!done) {
+        return false;
+    }
+    const double reached[] = {after->position,   after->state.velocity, after->state.displacement,
+                              after->state.rate, after->theta,          after->psi,
+                              time + step_size};
+    return all_finite(reached, sizeof reached / sizeof reached[0])
+           || refuse_infinite_motion(refusal, step_size);
+}
+
+/* Take over the inputs at the end of a step during which they vary. */
+static bool take_reached_inputs(Component *component, const double *reached, Refusal *refusal) {
+    Snapshot *now = &component->now;
+    static const unsigned inputs[VARYING_COUNT] = {VR_PHASE, VR_LOAD, VR_FREQUENCY_RATIO};
+    size_t count = now->derivatives[VR_FREQUENCY_RATIO].value != 0.0 ? VARYING_COUNT : VR_LOAD + 1;
+    if (!change(component, reached, inputs, count, refusal)) {
+        return false;
+    }
+    memcpy(now->values, reached, sizeof now->values);
+    return true;
+}
+
+/* Go on to the end of a step, `elapsed` [s] after `time` [s]. */
+static bool go_on(Component *component, const StepEnd *end, double time, double elapsed,
+                  Refusal *refusal) {
+    Snapshot *now = &component->now;
+    double age = end->moment.event_age;
+    if (inputs_vary(now->derivatives) && !take_reached_inputs(component, end->values, refusal)) {
+        return false;
+    }
+    /* Without an event the age grows by the step size, up to rounding. */
+    if (age < elapsed + 0.5 * now->moment.event_age) {
+        now->last_event_time = time + fmax(0.0, elapsed - age);
+    }
+    now->moment = end->moment;
+    now->time = time + elapsed;
+    derivatives_used(now->derivatives);
+    return true;
+}
+
+bool component_step(Component *component, double time, double step_size, Refusal *refusal) {
+    StepEnd end;
+    return find_end(component, time, step_size, step_size, NULL, &end, refusal)
+           && go_on(component, &end, time, step_size, refusal);
+}
+
 /* Smallest time [s] by which a later time must differ from `time` [s] to be another number. */
 static double time_resolution(double time) {
     return 2.0 * (nextafter(fabs(time), INFINITY) - fabs(time));
@@ -246,87 +287,27 @@ static double owed_time(double carry, double step_size) {
     return carry == 0.0 ? 0.0 : fmax(-half, fmin(carry, half));
 }
 
-static void go_on(Snapshot *now, const Moment *after, double time, double elapsed) {
-    /* Without an event the age grows by the step size, up to rounding. */
-    if (after->event_age < elapsed + 0.5 * now->moment.event_age) {
-        now->last_event_time = time + fmax(0.0, elapsed - after->event_age);
-    }
-    now->moment = *after;
-    now->time = time + elapsed;
-    derivatives_used(now->derivatives);
-}
-
-/* The moment after a step or, with a `search`, at the event that it finds. */
-static bool advance(Component *component, double step_size, double duration, EventSearch *search,
-                    Moment *after, Refusal *refusal) {
-    const Snapshot *now = &component->now;
-    const Law *law = present_law(component);
-    Budget budget = budget_of(step_size);
-    if (inputs_vary(now->derivatives)) {
-        return ramped_step(&component->ramped, now, duration, component->tables, &budget, after,
-                           refusal);
-    }
-    return law->motion->advance(law, &now->moment, duration, search, &budget, after, refusal);
-}
-
-/* Take over the inputs at the end of a step during which they vary. */
-static bool take_reached_inputs(Component *component, Refusal *refusal) {
-    Snapshot *now = &component->now;
-    const double *reached = component->ramped.reached;
-    static const unsigned inputs[VARYING_COUNT] = {VR_PHASE, VR_LOAD, VR_FREQUENCY_RATIO};
-    size_t count = now->derivatives[VR_FREQUENCY_RATIO].value != 0.0 ? VARYING_COUNT : VR_LOAD + 1;
-    if (!change(component, reached, inputs, count, refusal)) {
-        return false;
-    }
-    memcpy(now->values, reached, sizeof now->values);
-    return true;
-}
-
-/* Take a step; with a `search`, only to the event that it finds. In this order: refuse a wrong state or time; advance the
- * moment; refuse numbers out of range; take over the inputs at the end; go on to the new moment and time. */
-static bool step(Component *component, double time, double step_size, EventSearch *search,
-                 Refusal *refusal) {
-    Snapshot *now = &component->now;
-    double owed = owed_time(now->time_carry, step_size), duration = step_size - owed;
-    Moment after;
-    if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)
-        || !step_check(now->time, now->stop_time, time, step_size, refusal)
-        || !advance(component, step_size, duration, search, &after, refusal)) {
-        return false;
-    }
-    const double reached[] = {after.position,   after.state.velocity, after.state.displacement,
-                              after.state.rate, after.theta,          after.psi,
-                              time + step_size};
-    if (!all_finite(reached, sizeof reached / sizeof reached[0])) {
-        return refuse_infinite_motion(refusal, step_size);
-    }
-    if (inputs_vary(now->derivatives) && !take_reached_inputs(component, refusal)) {
-        return false;
-    }
-    now->time_carry -= owed;
-    if (search == NULL) {
-        go_on(now, &after, time, step_size);
-        return true;
-    }
-    bool early = search->found && search->elapsed < duration;
-    double elapsed = early ? search->elapsed + owed : step_size;
-    now->time_carry += lost_in_sum(time, elapsed) + search->carry;
-    go_on(now, &after, time, elapsed);
-    return true;
-}
-
-bool component_step(Component *component, double time, double step_size, Refusal *refusal) {
-    return step(component, time, step_size, NULL, refusal);
-}
-
+/* Times of events are rounded to floating point numbers: the motion makes up for that in the next step, so that stopping at
+ * events does not change it. */
 bool component_step_to_event(Component *component, double time, double step_size, bool *event,
                              Refusal *refusal) {
+    Snapshot *now = &component->now;
+    double owed = owed_time(now->time_carry, step_size), duration = step_size - owed;
     /* At an event the next one comes at a later time; elsewhere it may come at once. */
-    bool at_event = component->now.moment.event_age == 0.0;
-    EventSearch search = event_search(at_event ? time_resolution(time) : -1.0);
-    bool done = step(component, time, step_size, &search, refusal);
-    *event = done && search.found;
-    return done;
+    EventSearch search = event_search(now->moment.event_age == 0.0 ? time_resolution(time) : -1.0);
+    StepEnd end;
+    *event = false;
+    if (!find_end(component, time, step_size, duration, &search, &end, refusal)) {
+        return false;
+    }
+    bool early = search.found && search.elapsed < duration;
+    double elapsed = early ? search.elapsed + owed : step_size;
+    if (!go_on(component, &end, time, elapsed, refusal)) {
+        return false;
+    }
+    now->time_carry = now->time_carry - owed + (lost_in_sum(time, elapsed) + search.carry);
+    *event = search.found;
+    return true;
 }
 
 bool component_enter_event_mode(Component *component, Refusal *refusal) {

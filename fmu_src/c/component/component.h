@@ -8,23 +8,19 @@
 #include "../base/memory.h"
 #include "../base/refusal.h"
 #include "../friction/law.h"
+#include "component_law.h"
 #include "experiment.h"
 #include "outputs.h"
-#include "ramped_step.h"
 #include "snapshot.h"
 
-/* A slider-resonator: its complete state, and caches of what follows from it. Tables take far more memory than the rest:
- * each is NULL until a law needs it, and stays. Laws point to them. */
+/* A slider-resonator: its complete state, and caches of what follows from it. */
 typedef struct {
-    Snapshot now;                  /* the complete state */
-    bool prepared;                 /* whether a law of the present values is prepared */
-    int present;                   /* index of that law; the other one is for the law tried next */
-    Law laws[2];                   /* the law of the present values, and room for another */
-    RampedStep ramped;             /* the last step under inputs that vary */
-    Memory memory;                 /* of the host, where tables come from */
-    struct FrictionTables *tables; /* means of friction of bristles, in averaged motion */
-    struct BendingTables *bending; /* panels of bending bristles, in resolved motion */
-    Theory theory;                 /* the last prediction */
+    Snapshot now;  /* the complete state */
+    bool prepared; /* whether a law of the present values is prepared */
+    int present;   /* index of that law; the other one is for the law tried next, and for those during a step */
+    Law laws[2];   /* the law of the present values, and room for another */
+    Tables tables; /* of friction, to which the laws point */
+    Theory theory; /* the last prediction */
 } Component;
 
 #include "component_functions.h"

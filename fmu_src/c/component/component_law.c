@@ -3,9 +3,11 @@
 #include <math.h>
 
 #include "../averaged/averaged.h"
+#include "../averaged/friction_table.h"
 #include "../averaged/slow_motion.h"
 #include "../base/refusal_texts.h"
 #include "../device/device.h"
+#include "../friction/bending_kernels.h"
 #include "../friction/law.h"
 #include "../leap/leaping_motion.h"
 #include "../resolved/resolved_motion.h"
@@ -82,7 +84,28 @@ const Motion *motion_of(Device *device) {
     return &LEAPING_MOTION;
 }
 
-bool prepare_law(const double values[SETTABLE_COUNT], Law *law, Refusal *refusal) {
+/* A table of `size` bytes: the one that is `kept`, or a new one, NULL if out of memory. */
+static void *table_of(const Memory *memory, void *kept, size_t size) {
+    return kept != NULL ? kept : memory->allocate(memory->host, size);
+}
+
+/* Make the table that a law needs, and let it point to that. */
+static bool provide_table(Tables *tables, Law *law, Refusal *refusal) {
+    if (!is_elastic(&law->bristle)) {
+        return true;
+    }
+    if (law->motion->averages) {
+        tables->means = table_of(&tables->memory, tables->means, sizeof *tables->means);
+        law->tables = tables->means;
+    } else {
+        tables->bending = table_of(&tables->memory, tables->bending, sizeof *tables->bending);
+        law->bending = tables->bending;
+    }
+    return law->tables != NULL || law->bending != NULL
+           || refuse(refusal, "out of memory: the host gives none for tables of friction");
+}
+
+bool prepare_law(const double values[SETTABLE_COUNT], Tables *tables, Law *law, Refusal *refusal) {
     Device device = driven_device(values);
     Inputs inputs = reduced_inputs(values);
     const Variable *frequency = &VARIABLES[VR_DRIVE_FREQUENCY];
@@ -95,5 +118,5 @@ bool prepare_law(const double values[SETTABLE_COUNT], Law *law, Refusal *refusal
         return false;
     }
     law->motion = motion;
-    return law_is_finite(law) || refuse_extreme(values, refusal);
+    return (law_is_finite(law) || refuse_extreme(values, refusal)) && provide_table(tables, law, refusal);
 }

@@ -5,9 +5,18 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "../base/memory.h"
 #include "../base/refusal.h"
 #include "../resolved/motion.h"
 #include "variables.h"
+
+/* Tables of friction, to which laws point. They take far more memory than the rest: each is NULL until a law needs it, and
+ * stays. */
+typedef struct {
+    Memory memory;                 /* of the host, where they come from */
+    struct FrictionTables *means;  /* means of friction of bristles, in averaged motion */
+    struct BendingTables *bending; /* panels of bending bristles, in resolved motion */
+} Tables;
 
 bool all_finite(const double *numbers, size_t count);
 
@@ -20,7 +29,8 @@ Device driven_device(const double values[SETTABLE_COUNT]);
 /* The motion of a device, by its fidelity and averaging order; `device` becomes the one that this motion moves. */
 const Motion *motion_of(Device *device);
 
-/* Prepare the law of `values`, without tables. Refuse values that do not fit together; `law` is then undefined. */
-bool prepare_law(const double values[SETTABLE_COUNT], Law *law, Refusal *refusal);
+/* Prepare the law of `values`, and the tables that it needs. Refuse values that do not fit together; `law` is then
+ * undefined. */
+bool prepare_law(const double values[SETTABLE_COUNT], Tables *tables, Law *law, Refusal *refusal);
 
 #endif

@@ -44,16 +44,16 @@ static Ramp ramp_from(const double values[SETTABLE_COUNT], double drive_frequenc
                   derivatives[VR_FREQUENCY_RATIO].value};
 }
 
-static bool prepare_part(RampedStep *step, const double values[SETTABLE_COUNT], const Ramp *ramp,
-                         double duration, struct FrictionTables *tables, Refusal *refusal) {
+/* Prepare the law of a part of the step. */
+static bool prepare_part(Law *law, Tables *tables, const double values[SETTABLE_COUNT],
+                         const Ramp *ramp, double duration, Refusal *refusal) {
     double middle[SETTABLE_COUNT];
     memcpy(middle, values, sizeof middle);
     middle[VR_FREQUENCY_RATIO] = ramp->ratio + 0.5 * ramp->ratio_rate * duration;
-    if (!prepare_law(middle, &step->law, refusal)) {
+    if (!prepare_law(middle, tables, law, refusal)) {
         return false;
     }
-    step->law.tables = tables;
-    law_ramp(&step->law, ramp, duration);
+    law_ramp(law, ramp, duration);
     return true;
 }
 
@@ -64,16 +64,16 @@ static void hold_phase(double ratio, double w, const Ramp *ramp, double duration
     after->psi = within_turn(after->psi - remainder(added * duration, TAU));
 }
 
-bool ramped_step(RampedStep *step, const Snapshot *now, double duration, struct FrictionTables *tables,
-                 Budget *budget, Moment *after, Refusal *refusal) {
+bool ramped_step(Law *law, Tables *tables, const Snapshot *now, double duration, Budget *budget,
+                 Moment *after, double reached[SETTABLE_COUNT], Refusal *refusal) {
     double values[SETTABLE_COUNT], left = duration;
     Device device = driven_device(now->values);
     const Motion *motion = motion_of(&device);
     Clock clock = clock_of(duration);
     *after = now->moment;
-    grow(now, duration, step->reached);
+    grow(now, duration, reached);
     memcpy(values, now->values, sizeof values);
-    if (!reached_check(now, step->reached, duration, refusal)) {
+    if (!reached_check(now, reached, duration, refusal)) {
         return false;
     }
     while (left > 0.0) {
@@ -85,8 +85,8 @@ bool ramped_step(RampedStep *step, const Snapshot *now, double duration, struct 
             return budget_refuse(budget, 0.0, MAX_SLOW_PHASES, "slow phases of the normal load",
                                  refusal);
         }
-        if (!prepare_part(step, values, &ramp, part, tables, refusal)
-            || !motion->advance(&step->law, &before, part, NULL, budget, after, refusal)) {
+        if (!prepare_part(law, tables, values, &ramp, part, refusal)
+            || !motion->advance(law, &before, part, NULL, budget, after, refusal)) {
             return false;
         }
         left = part == left ? 0.0 : clock_advance(&clock, part);

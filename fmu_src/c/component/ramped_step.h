@@ -11,15 +11,9 @@
 #include "component_law.h"
 #include "snapshot.h"
 
-/* The law during the step, and the values at the end (`reached`). */
-typedef struct {
-    Law law;
-    double reached[SETTABLE_COUNT];
-} RampedStep;
-
-/* The moment after a step of `duration` [s] from `now` on. Refuses inputs that leave their bounds, and what the motion
- * refuses; `after` is then undefined. */
-bool ramped_step(RampedStep *step, const Snapshot *now, double duration, struct FrictionTables *tables,
-                 Budget *budget, Moment *after, Refusal *refusal);
+/* The moment after a step of `duration` [s] from `now` on, and the values `reached` there; `law` is room for the laws during
+ * the step. Refuses inputs that leave their bounds, and what the motion refuses; `after` is then undefined. */
+bool ramped_step(Law *law, Tables *tables, const Snapshot *now, double duration, Budget *budget,
+                 Moment *after, double reached[SETTABLE_COUNT], Refusal *refusal);
 
 #endif

@@ -14,8 +14,7 @@
 #include "bristle.h"
 #include "leg.h"
 
-/* The caches outlive the law; the laws of one instance share them. They are NULL where the functions that need them do
- * without. */
+/* The caches outlive the law; the laws of one instance share them. They are NULL where the motion does without. */
 typedef struct Law {
     Device device;                      /* the parameters; `fidelity` is that of what moves */
     Inputs inputs;                      /* phase [rad], load [N] and frequency ratio [1], at the start if they grow */

@@ -65,9 +65,8 @@ void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const 
     double scale = velocity_scale(&held->plant, &now->state);
     leg_know_phasors(leg, &held->plant, now);
     BendingMotion motion =
-        tables == NULL ? BY_SERIES
-                       : bending_panel_begin(panel, tables, held, bristle, direction, now,
-                                             &leg->known.phasors, longest, tolerance * scale);
+        bending_panel_begin(panel, tables, held, bristle, direction, now, &leg->known.phasors, longest,
+                            tolerance * scale);
     switch (motion) {
     case BY_SERIES:
         begin_series(leg, held, bristle, now, direction, tolerance, scale);

@@ -47,8 +47,7 @@ void leg_begin_rest(Leg *leg, const Held *held, const Moment *now);
  * series where there is none. */
 void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int direction);
 
-/* Sliding in `direction` while a bristle bends, to a relative `tolerance`, for up to `longest` [s]. Series
- * alone are used if `tables` is NULL. */
+/* Sliding in `direction` while a bristle bends, to a relative `tolerance`, for up to `longest` [s]. */
 void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const Bristle *bristle,
                        const Moment *now, int direction, double longest, double tolerance);
 

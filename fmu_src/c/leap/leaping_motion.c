@@ -88,8 +88,8 @@ static bool prepare_map(const Way *way, PeriodMap *map) {
  * 2. leap over as many periods as are left, or as far as that gains;
  * 3. repeat while enough periods are left;
  * 4. resolve the rest. */
-static bool advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
-                    Budget *budget, Moment *after, Refusal *refusal) {
+static bool leaping_advance(const Law *law, const Moment *moment, double duration,
+                            EventSearch *search, Budget *budget, Moment *after, Refusal *refusal) {
     (void)search;
     Way way = {law, budget, budget->passed, clock_of(duration), duration, *moment};
     double turn = TAU / law->held.plant.drive_frequency, pause = 0.0;
@@ -120,7 +120,7 @@ static bool advance(const Law *law, const Moment *moment, double duration, Event
 
 const Motion LEAPING_MOTION = {
     .start = resolved_start,
-    .advance = advance,
+    .advance = leaping_advance,
     .mode = resolved_mode,
     .force = resolved_force,
     .power = resolved_power,

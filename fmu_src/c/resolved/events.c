@@ -95,14 +95,6 @@ static double time_to_turn(const Plant *plant) {
     return t > 0.0 ? t : INFINITY;
 }
 
-/* Sets load and normal frequency to their values `elapsed` [s] after `begin`, at the end of a leg;
- * `turned`: the normal frequency changes its sign there. */
-static void ramp_to(Plant *plant, const Plant *begin, double elapsed, bool turned) {
-    plant->load = begin->load + begin->load_rate * elapsed;
-    plant->normal_frequency =
-        turned ? 0.0 : begin->normal_frequency + begin->normal_rate * elapsed;
-}
-
 /* Add a contact mode to an itinerary, unless it is the last one. */
 static void pass_mode(Itinerary *itinerary, int mode) {
     if (mode != itinerary->last) {
@@ -117,11 +109,12 @@ static void pass_mode(Itinerary *itinerary, int mode) {
  * contact mode. A search ends the motion at the first event. */
 bool events_advance(const Law *start, const Moment *moment, double duration, EventSearch *search,
                     Itinerary *itinerary, Budget *budget, Moment *now, Refusal *refusal) {
-    Law moving;
+    bool inputs_grow = is_ramped(&start->held.plant);
+    Law grown;
     const Law *law = start;
-    if (is_ramped(&start->held.plant)) {
-        moving = *start;
-        law = &moving;
+    if (inputs_grow) {
+        grown = *start;
+        law = &grown;
     }
     const FrictionLaw *friction = law->friction;
     const Held *held = &law->held;
@@ -158,8 +151,11 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
             pass_mode(itinerary, leg.mode == LIFTED ? LIFTED : leg.direction);
         }
         leg_finish(&leg, held, now);
-        if (law == &moving) {
-            ramp_to(&moving.held.plant, &start->held.plant, clock.elapsed + leg.t, leg.t == turning);
+        if (inputs_grow) {
+            grown = law_after(start, clock.elapsed + leg.t);
+            if (leg.t == turning) {
+                grown.held.plant.normal_frequency = 0.0;
+            }
         }
         if (search != NULL && found_reversal(search, &clock, &leg, &begin, now)) {
             break;

@@ -41,8 +41,9 @@ static bool bounded_work_check(const Law *law, double duration, const Budget *bu
            refuse_too_many_turns(refusal, budget->step_size, frequency, MAX_TURNS);
 }
 
-static bool advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
-                    Budget *budget, Moment *after, Refusal *refusal) {
+static bool resolved_advance(const Law *law, const Moment *moment, double duration,
+                             EventSearch *search, Budget *budget, Moment *after,
+                             Refusal *refusal) {
     return bounded_work_check(law, duration, budget, refusal) &&
            events_advance(law, moment, duration, search, NULL, budget, after, refusal);
 }
@@ -91,7 +92,7 @@ double resolved_error(const Law *law, const Moment *moment) {
 
 const Motion RESOLVED_MOTION = {
     .start = resolved_start,
-    .advance = advance,
+    .advance = resolved_advance,
     .mode = resolved_mode,
     .force = resolved_force,
     .power = resolved_power,
