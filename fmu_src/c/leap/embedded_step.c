@@ -22,7 +22,7 @@
 
 static bool rate_at(void *data, double n, double velocity, SlowRate *rate) {
     SlowPath *path = data;
-    if (!visit(path, n, velocity)) {
+    if (!evaluate(path, n, velocity)) {
         return false;
     }
     *rate = (SlowRate){path->last.rates.acceleration, path->last.rates.travel};
@@ -37,9 +37,9 @@ double expected_step(const SlowPath *path) {
     return gain > 0.0 ? EXPECTED_STEP / gain * pow(map->tolerance / change, 1.0 / ORDER) : INFINITY;
 }
 
-bool embedded_step(SlowPath *path, double *h, Stride *stride) {
+bool embedded_step(SlowPath *path, double *h, PathStep *result) {
     const PeriodMap *map = path->manifold.map;
-    const Visited *here = &path->here;
+    const PathPoint *here = &path->here;
     SlowRate rate = {here->rates.acceleration, here->rates.travel};
     SlowPoint from = {here->n, here->velocity, 0.0, rate};
     double to_reach = reach_of_step(path) / fabs(rate.acceleration);
@@ -55,7 +55,7 @@ bool embedded_step(SlowPath *path, double *h, Stride *stride) {
     double gain = fmax(step.gain, -MAX_DECAY * map->share);
     double factor = gain < 0.0 ? exp(gain * *h) : 1.0;
     double error = step.error / OVERESTIMATE + *h * error_of_rates(path);
-    *stride = (Stride){*h, step.to.travel, factor, error};
+    *result = (PathStep){*h, step.to.travel, factor, error};
     *h *= step_growth(step.error, allowed);
     return step.error <= allowed;
 }

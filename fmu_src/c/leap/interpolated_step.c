@@ -5,7 +5,7 @@
 #include "../base/runge_kutta.h"
 #include "slow_step.h"
 
-/* Shares of the allowed error: of a velocity that hardly changes, so that no other point is visited, and of the integration of
+/* Shares of the allowed error: of a velocity that hardly changes, so that no other point is evaluated, and of the integration of
  * interpolated rates. */
 #define STAYS 0.1
 #define INTEGRATED 0.01
@@ -38,7 +38,7 @@ static double periods_of_error(double factor, double h) {
 
 static double interpolated_acceleration(const SlowPath *path, double velocity) {
     double values[FUNCTIONS];
-    interpolant_at(&path->known, velocity, TRAVEL, values);
+    interpolant_at(&path->interpolant, velocity, TRAVEL, values);
     return values[ACCELERATION];
 }
 
@@ -53,7 +53,7 @@ static bool interpolated_rate(void *data, double t, double v, SlowRate *rate) {
 /* Integrate interpolated rates over `h` periods; a velocity that settles to a share of `allowed` stays. Return false where it
  * changes by more than `reach`, or by jumps. */
 static bool integrate(SlowPath *path, double h, double reach, double allowed, SlowPoint *now) {
-    const Visited *here = &path->here;
+    const PathPoint *here = &path->here;
     double step = h;
     *now = (SlowPoint){.velocity = here->velocity,
                        .rate = {here->rates.acceleration, here->rates.travel}};
@@ -63,7 +63,7 @@ static bool integrate(SlowPath *path, double h, double reach, double allowed, Sl
         if (now->t + step == now->t) {
             return false;
         }
-        runge_kutta_step(interpolated_rate, &path->known, now, step, &found);
+        runge_kutta_step(interpolated_rate, &path->interpolant, now, step, &found);
         bool beyond = !(fabs(found.to.velocity - here->velocity) <= reach);
         if (found.error <= INTEGRATED * allowed) {
             if (beyond) {
@@ -86,16 +86,16 @@ static bool integrate(SlowPath *path, double h, double reach, double allowed, Sl
 /* In this order:
  *
  * 1. stay where the velocity hardly changes;
- * 2. follow the tangent to an end, and visit that;
- * 3. visit points between, each where the interpolated rates may err most, until the last one tells that they hardly do;
- * 4. integrate them to a new end, and visit that: it is where to land, if with one point more the end is the same. */
-static bool pass(SlowPath *path, double h, Stride *stride) {
+ * 2. follow the tangent to an end, and evaluate the rates there;
+ * 3. do so at points between, each where the interpolated rates may err most, until the last one tells that they hardly do;
+ * 4. integrate them to a new end, and evaluate that: it is where to land, if with one point more the end is the same. */
+static bool try_step(SlowPath *path, double h, PathStep *result) {
     const PeriodMap *map = path->manifold.map;
-    const Visited *here = &path->here;
+    const PathPoint *here = &path->here;
     double rate = here->rates.acceleration, allowed = map->tolerance * map->speed;
     double reach = reach_of_step(path);
     if (fabs(rate) <= fmax(STAYS * allowed / h, ROUNDING * map->speed)) {
-        *stride = (Stride){h, h * here->rates.travel, 1.0, h * here->rates.error};
+        *result = (PathStep){h, h * here->rates.travel, 1.0, h * here->rates.error};
         return true;
     }
     double gain = fmin(0.0, here->rates.jerk / rate);
@@ -104,11 +104,11 @@ static bool pass(SlowPath *path, double h, Stride *stride) {
     if (!(fabs(end - here->velocity) <= reach)) {
         return false;
     }
-    Visited landing;
+    PathPoint landing;
     bool landed = true;
-    while (path->known.count < MAX_POINTS && visit(path, here->n, at)) {
-        know_last(path);
-        if (path->known.count == 2) {
+    while (path->interpolant.count < MAX_POINTS && evaluate(path, here->n, at)) {
+        interpolate_last(path);
+        if (path->interpolant.count == 2) {
             landing = path->last;
         }
         double residual = fabs(path->last.rates.acceleration - expected);
@@ -124,24 +124,24 @@ static bool pass(SlowPath *path, double h, Stride *stride) {
             if (landed && error <= allowed) {
                 path->last = landing;
                 error += periods * error_of_rates(path);
-                *stride = (Stride){h, to.travel, factor, error};
+                *result = (PathStep){h, to.travel, factor, error};
                 return true;
             }
             end = to.velocity;
-            if (!visit(path, here->n, end)) {
+            if (!evaluate(path, here->n, end)) {
                 return false;
             }
             landing = path->last;
         }
         landed = likely;
-        at = interpolant_gap(&path->known, here->velocity, end);
+        at = interpolant_gap(&path->interpolant, here->velocity, end);
         expected = interpolated_acceleration(path, at);
     }
     return false;
 }
 
-bool interpolated_step(SlowPath *path, double *h, Stride *stride) {
-    bool passes = pass(path, *h, stride);
+bool interpolated_step(SlowPath *path, double *h, PathStep *result) {
+    bool passes = try_step(path, *h, result);
     *h *= passes ? LONGER : SHORTER;
     return passes;
 }

@@ -24,10 +24,10 @@ static double max_transient(const PeriodMap *map) {
 
 /* Put the start of a leap on the manifold. Return false where there are no rates; at once, where they would not be exact
  * enough on the manifold either. */
-static bool place(SlowPath *path) {
+static bool begin_on_manifold(SlowPath *path) {
     Manifold *manifold = &path->manifold;
     const PeriodMap *map = manifold->map;
-    Visited *here = &path->here;
+    PathPoint *here = &path->here;
     bool placed = here->rates.offset <= FAST_SHARE * map->tolerance && are_exact(map, &here->rates);
     SlowRates on_manifold = {.error = here->rates.error - map->share * map->speed * here->rates.offset};
     if (!are_exact(map, &on_manifold)) {
@@ -36,7 +36,7 @@ static bool place(SlowPath *path) {
     manifold->max_sequences = MAX_SEQUENCES;
     manifold->allowed = FAST_SHARE * map->tolerance;
     path->last = *here;
-    if (!placed && !visit(path, 0.0, here->velocity)) {
+    if (!placed && !evaluate(path, 0.0, here->velocity)) {
         return false;
     }
     begin_step(path);
@@ -45,13 +45,13 @@ static bool place(SlowPath *path) {
 
 /* Pass at most `longest` periods, as far as that goes. Return how many, and the `travel` [m] in them; `error` is that of the
  * slow velocity [m/s]. */
-static double pass(SlowPath *path, double longest, double *travel, double *error) {
+static double take_steps(SlowPath *path, double longest, double *travel, double *error) {
     double passed = 0.0, h = path->varies ? expected_step(path) : longest;
     *travel = 0.0;
     Budget *budget = path->manifold.budget;
     while ((h = floor(fmin(h, longest - passed))) >= SHORTEST_STEP &&
            budget_left(budget, MAX_LEAP_STEPS) > 0) {
-        Stride step;
+        PathStep step;
         budget_spend(budget, 1, MAX_LEAP_STEPS);
         bool passes = path->varies ? embedded_step(path, &h, &step)
                                    : interpolated_step(path, &h, &step);
@@ -70,7 +70,7 @@ static double pass(SlowPath *path, double longest, double *travel, double *error
 
 /* The moment behind the landing. All periods of a leap have the same events. */
 static void land(const SlowPath *path, double periods, double travel, Moment *after) {
-    const Visited *here = &path->here;
+    const PathPoint *here = &path->here;
     double period = path->manifold.map->period;
     *after = here->after;
     after->psi = psi_after(path->manifold.map, path->psi, periods + DIFFERENCES);
@@ -88,13 +88,13 @@ Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *bu
         .manifold = {map, budget, 1, max_transient(map), 0},
         .psi = moment->psi,
         .varies = fabs(map->drift) * longest > NO_DRIFT || is_ramped(&map->law.held.plant),
-        .here = {.velocity = momentum_velocity(map, moment), .landing = *moment},
+        .here = {.velocity = momentum_velocity(map, moment), .moment = *moment},
     };
     Manifold *manifold = &path.manifold;
-    Visited *here = &path.here;
+    PathPoint *here = &path.here;
     Leap done = {.outcome = NO_GAIN, .periods = DIFFERENCES};
     double error = moment->leap_error;
-    bool found = slow_rates(manifold, 0.0, &here->landing, &here->after, &here->rates);
+    bool found = slow_rates(manifold, 0.0, &here->moment, &here->after, &here->rates);
     if (!found && isinf(here->rates.offset)) {
         *after = *moment;
         return (Leap){.outcome = NO_GAIN};
@@ -105,8 +105,8 @@ Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *bu
         done.wait = log(here->rates.offset / manifold->allowed) / -log(map->decay);
         return done;
     }
-    if (place(&path)) {
-        double travel, passed = pass(&path, longest - DIFFERENCES, &travel, &error);
+    if (begin_on_manifold(&path)) {
+        double travel, passed = take_steps(&path, longest - DIFFERENCES, &travel, &error);
         if (passed > 0.0) {
             land(&path, passed, travel, after);
             after->leap_error = error;

@@ -33,7 +33,7 @@ enum { MAX_WAITS = 2 };
  * velocity, and adds up over many periods to several tolerances. */
 #define TIGHT 0.1
 
-/* A motion on its way: the present moment, and the time left [s]. It began `passed` [s] after the step. */
+/* How far a step is: the present moment, and the time left [s]. It began `passed` [s] after the step. */
 typedef struct {
     const Law *law;
     Budget *budget;
@@ -41,31 +41,31 @@ typedef struct {
     Clock clock;
     double left;
     Moment now;
-} Way;
+} Progress;
 
 /* Resolve the motion for `duration` [s]; `tight` where a leap is to follow. */
-static bool resolve(Way *way, double duration, bool tight, Refusal *refusal) {
-    Moment before = way->now;
-    Law law = law_after(way->law, way->clock.elapsed);
+static bool resolve(Progress *progress, double duration, bool tight, Refusal *refusal) {
+    Moment before = progress->now;
+    Law law = law_after(progress->law, progress->clock.elapsed);
     law.device.tolerance *= tight ? TIGHT : 1.0;
-    way->budget->passed = way->passed + way->clock.elapsed;
-    if (!events_advance(&law, &before, duration, NULL, NULL, way->budget, &way->now, refusal)) {
+    progress->budget->passed = progress->passed + progress->clock.elapsed;
+    if (!events_advance(&law, &before, duration, NULL, NULL, progress->budget, &progress->now, refusal)) {
         return false;
     }
-    way->left = duration == way->left ? 0.0 : clock_advance(&way->clock, duration);
+    progress->left = duration == progress->left ? 0.0 : clock_advance(&progress->clock, duration);
     return true;
 }
 
 /* Resolve the motion for `periods`, and on to the next section. */
-static bool resolve_to_section(Way *way, const PeriodMap *map, double periods, bool tight,
+static bool resolve_to_section(Progress *progress, const PeriodMap *map, double periods, bool tight,
                                Refusal *refusal) {
-    double w = way->law->held.plant.drive_frequency;
-    double to_section = within_turn(map->section - way->now.theta) / w;
+    double w = progress->law->held.plant.drive_frequency;
+    double to_section = within_turn(map->section - progress->now.theta) / w;
     double duration = periods * map->period + to_section;
-    if (duration > 0.0 && !resolve(way, duration, tight, refusal)) {
+    if (duration > 0.0 && !resolve(progress, duration, tight, refusal)) {
         return false;
     }
-    way->now.theta = map->section;
+    progress->now.theta = map->section;
     return true;
 }
 
@@ -77,8 +77,8 @@ static double pause_after(const Leap *leap, int attempts) {
 }
 
 /* The period map under the inputs of now. */
-static bool prepare_map(const Way *way, PeriodMap *map) {
-    Law law = law_after(way->law, way->clock.elapsed);
+static bool prepare_map(const Progress *progress, PeriodMap *map) {
+    Law law = law_after(progress->law, progress->clock.elapsed);
     return period_map_prepare(map, &law, MAX_TURNS_OF_PERIOD);
 }
 
@@ -91,30 +91,30 @@ static bool prepare_map(const Way *way, PeriodMap *map) {
 static bool leaping_advance(const Law *law, const Moment *moment, double duration,
                             EventSearch *search, Budget *budget, Moment *after, Refusal *refusal) {
     (void)search;
-    Way way = {law, budget, budget->passed, clock_of(duration), duration, *moment};
+    Progress progress = {law, budget, budget->passed, clock_of(duration), duration, *moment};
     double turn = TAU / law->held.plant.drive_frequency, pause = 0.0;
     int attempts = 0;
     PeriodMap map;
     bool gains = true;
-    bool leaps = way.left > SHORTEST_LEAP * turn && prepare_map(&way, &map);
-    while (leaps && way.left > (SHORTEST_LEAP + pause) * map.period) {
-        if (!resolve_to_section(&way, &map, pause, gains, refusal)) {
+    bool leaps = progress.left > SHORTEST_LEAP * turn && prepare_map(&progress, &map);
+    while (leaps && progress.left > (SHORTEST_LEAP + pause) * map.period) {
+        if (!resolve_to_section(&progress, &map, pause, gains, refusal)) {
             return false;
         }
-        if (is_ramped(&law->held.plant) && !prepare_map(&way, &map)) {
+        if (is_ramped(&law->held.plant) && !prepare_map(&progress, &map)) {
             break;
         }
-        Moment before = way.now;
-        Leap done = leap(&map, &before, floor(way.left / map.period), budget, &way.now);
-        way.left = clock_advance(&way.clock, done.periods * map.period);
+        Moment before = progress.now;
+        Leap done = leap(&map, &before, floor(progress.left / map.period), budget, &progress.now);
+        progress.left = clock_advance(&progress.clock, done.periods * map.period);
         attempts = done.outcome == LEAPT ? 0 : attempts + 1;
         pause = pause_after(&done, attempts);
         gains = done.outcome != NO_GAIN;
     }
-    if (way.left > 0.0 && !resolve(&way, way.left, false, refusal)) {
+    if (progress.left > 0.0 && !resolve(&progress, progress.left, false, refusal)) {
         return false;
     }
-    *after = way.now;
+    *after = progress.now;
     return true;
 }
 

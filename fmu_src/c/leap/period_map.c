@@ -117,18 +117,18 @@ void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_F
     moment->counts.sliding = moment->mode == LIFTED ? STICK : moment->mode;
 }
 
-static Visit visit_of(const PeriodMap *map, const Moment *moment) {
-    return (Visit){{momentum_velocity(map, moment), moment->state.displacement, moment->state.rate,
+static SectionState section_state(const PeriodMap *map, const Moment *moment) {
+    return (SectionState){{momentum_velocity(map, moment), moment->state.displacement, moment->state.rate,
                     moment->bristle, moment->position, moment->counts.reversals,
                     moment->counts.sticks}};
 }
 
 bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, Budget *budget,
-                 Visit *visits, uint64_t *itinerary) {
+                 SectionState *sections, uint64_t *itinerary) {
     Refusal refusal;
     Law later = law_after(&map->law, begin * map->period);
     Itinerary passed = {0, NO_MODE, false};
-    visits[0] = visit_of(map, moment);
+    sections[0] = section_state(map, moment);
     for (int k = 1; k <= count; k++) {
         Moment before = *moment;
         passed.works = k > 1 && k + 1 >= count; /* in the last whole turn, as far as a sequence has one */
@@ -137,15 +137,15 @@ bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, 
             return false;
         }
         moment->theta = map->section;
-        visits[k] = visit_of(map, moment);
+        sections[k] = section_state(map, moment);
         if (is_ramped(&map->law.held.plant)) {
             later = law_after(&map->law, (begin + k) * map->period);
         }
     }
     *itinerary = passed.hash;
     double sum = 0.0;
-    for (int k = 0; k < VISITED; k++) {
-        sum += visits[count].at[k];
+    for (int k = 0; k < NUMBERS; k++) {
+        sum += sections[count].at[k];
     }
     return isfinite(sum);
 }

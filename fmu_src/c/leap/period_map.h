@@ -19,11 +19,11 @@
 enum { MAX_FAST = 3 };
 
 /* The motion at a section, as numbers: slow velocity V [m/s], the fast states, position X [m], and counts so far. */
-enum { SLOW_VELOCITY, FAST_STATES, SLOW_POSITION = FAST_STATES + MAX_FAST, REVERSALS, STICKS, VISITED };
+enum { SLOW_VELOCITY, FAST_STATES, SLOW_POSITION = FAST_STATES + MAX_FAST, REVERSALS, STICKS, NUMBERS };
 
 typedef struct {
-    double at[VISITED];
-} Visit;
+    double at[NUMBERS];
+} SectionState;
 
 /* The period map under the inputs of `law`, which may grow. An error by `scale` in a fast state is as large as the
  * vibration, or changes V by v_q times `share`. */
@@ -63,10 +63,10 @@ void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_F
                   Moment *moment);
 
 /* Advance a moment at the section, `begin` periods after the inputs of the law began to grow, by `count` periods.
- * `visits` are the count + 1 visits of the section, from the first on, `itinerary` the hash of the contact modes. Return
+ * `sections` are the motion at the count + 1 sections, from the first on, `itinerary` the hash of the contact modes. Return
  * false if the motion is refused or leaves the range of floating point. */
 bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, Budget *budget,
-                 Visit *visits, uint64_t *itinerary);
+                 SectionState *sections, uint64_t *itinerary);
 
 /* Apply `resolvent` to fast states, `times` times: the change of the fast state that undoes their differences of that
  * order. */

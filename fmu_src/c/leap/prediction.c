@@ -67,16 +67,16 @@ static bool change_in_period(Search *search, const double unknown[UNKNOWNS],
     }
     memcpy(fast, at + 1, (size_t)map->fast_count * sizeof fast[0]);
     Moment moment = {.mode = STICK};
-    Visit visits[2];
+    SectionState sections[2];
     uint64_t itinerary;
     moment_place(map, at[0], fast, search->psi, &moment);
-    if (!map_periods(map, 0.0, 1, &moment, &search->budget, visits, &itinerary)) {
+    if (!map_periods(map, 0.0, 1, &moment, &search->budget, sections, &itinerary)) {
         return false;
     }
     for (int i = 0; i < states; i++) {
-        change[i] = (visits[1].at[i] - visits[0].at[i]) / search->scale[i];
+        change[i] = (sections[1].at[i] - sections[0].at[i]) / search->scale[i];
     }
-    search->travel = visits[1].at[SLOW_POSITION] - visits[0].at[SLOW_POSITION];
+    search->travel = sections[1].at[SLOW_POSITION] - sections[0].at[SLOW_POSITION];
     if (search->blocked) {
         change[states] = search->travel / (map->speed * map->period);
     }

@@ -10,19 +10,19 @@
 /* Largest factor by which corrections shrink. */
 #define SHRINKS 0.5
 
-/* Replace the visits of a sequence by their differences of all orders. */
-static void take_differences(Visit *visits) {
+/* Replace the sections of a sequence by their differences of all orders. */
+static void take_differences(SectionState *sections) {
     for (int j = 1; j <= DIFFERENCES; j++) {
         for (int i = DIFFERENCES; i >= j; i--) {
-            for (int k = 0; k < VISITED; k++) {
-                visits[i].at[k] -= visits[i - 1].at[k];
+            for (int k = 0; k < NUMBERS; k++) {
+                sections[i].at[k] -= sections[i - 1].at[k];
             }
         }
     }
 }
 
 /* Rate per period of number `k` of a smooth sequence: the logarithm of the shift operator. */
-static double rate_of(const Visit *differences, int k) {
+static double rate_of(const SectionState *differences, int k) {
     double rate = 0.0;
     for (int j = DIFFERENCES; j >= 1; j--) {
         rate += (j % 2 == 1 ? differences[j].at[k] : -differences[j].at[k]) / j;
@@ -32,21 +32,21 @@ static double rate_of(const Visit *differences, int k) {
 
 /* The factor by which differences of an order shrink to the next: the larger of the last two of the velocity, as either may
  * happen to be next to zero, but not more than the slow motion and the drift allow. */
-static double ratio_of(const PeriodMap *map, const Visit *differences) {
+static double ratio_of(const PeriodMap *map, const SectionState *differences) {
     double first = differences[1].at[SLOW_VELOCITY], second = differences[2].at[SLOW_VELOCITY];
     double larger = fmax(fabs(differences[3].at[SLOW_VELOCITY] / second), fabs(second / first));
     return fmin(MAX_RATE * map->share + fabs(map->drift), larger);
 }
 
 /* Size of the next difference of number `k` after that of an order, if differences shrink by a `ratio`. */
-static double next_difference(const Visit *differences, int order, double ratio, int k) {
+static double next_difference(const SectionState *differences, int order, double ratio, int k) {
     double last = fabs(differences[order].at[k]), before = fabs(differences[order - 1].at[k]);
     return ratio * fmax(last, ratio * before);
 }
 
 /* The correction of the fast states: their last differences must vanish. `missing` is the size of what those are on the
  * manifold, estimated from lower orders, as a change of the fast states. */
-static void correction_of(const PeriodMap *map, const Visit *differences, double ratio,
+static void correction_of(const PeriodMap *map, const SectionState *differences, double ratio,
                           double correction[MAX_FAST], double *missing) {
     double beyond[MAX_FAST];
     for (int i = 0; i < MAX_FAST; i++) {
@@ -58,8 +58,8 @@ static void correction_of(const PeriodMap *map, const Visit *differences, double
     *missing = fast_size(map, beyond);
 }
 
-/* The rates of a sequence of visits. */
-static SlowRates rates_of(const Visit *differences, double ratio, const double step[MAX_FAST]) {
+/* The rates of a sequence of sections. */
+static SlowRates rates_of(const SectionState *differences, double ratio, const double step[MAX_FAST]) {
     double second = differences[2].at[SLOW_VELOCITY], third = differences[3].at[SLOW_VELOCITY];
     SlowRates rates = {.acceleration = rate_of(differences, SLOW_VELOCITY),
                        .travel = rate_of(differences, SLOW_POSITION),
@@ -77,25 +77,25 @@ bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
     const PeriodMap *map = manifold->map;
     double velocity = momentum_velocity(map, moment), offset = 0.0, before = INFINITY;
     for (int i = 0; i < manifold->max_sequences; i++) {
-        Visit visits[DIFFERENCES + 1];
+        SectionState sections[DIFFERENCES + 1];
         double missing, step[MAX_FAST];
         uint64_t itinerary;
         *after = *moment;
         manifold->maps += DIFFERENCES;
-        if (!map_periods(map, begin, DIFFERENCES, after, manifold->budget, visits, &itinerary)) {
+        if (!map_periods(map, begin, DIFFERENCES, after, manifold->budget, sections, &itinerary)) {
             rates->offset = INFINITY;
             return false;
         }
-        Visit *last = &visits[DIFFERENCES];
+        SectionState *last = &sections[DIFFERENCES];
         double reversals = last->at[REVERSALS] - last[-1].at[REVERSALS];
         double sticks = last->at[STICKS] - last[-1].at[STICKS];
-        take_differences(visits);
-        double ratio = ratio_of(map, visits);
-        correction_of(map, visits, ratio, step, &missing);
+        take_differences(sections);
+        double ratio = ratio_of(map, sections);
+        correction_of(map, sections, ratio, step, &missing);
         double size = fast_size(map, step);
         offset = i == 0 ? size : offset;
         if (size <= manifold->allowed) {
-            *rates = rates_of(visits, ratio, step);
+            *rates = rates_of(sections, ratio, step);
             rates->reversals = reversals;
             rates->sticks = sticks;
             rates->error += map->share * map->speed * (missing + size);
@@ -110,7 +110,7 @@ bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
         before = size;
         double fast[MAX_FAST];
         for (int j = 0; j < MAX_FAST; j++) {
-            fast[j] = visits[0].at[FAST_STATES + j] + step[j];
+            fast[j] = sections[0].at[FAST_STATES + j] + step[j];
         }
         moment_place(map, velocity, fast, moment->psi, moment);
     }

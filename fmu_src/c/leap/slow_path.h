@@ -1,4 +1,4 @@
-/* The slow motion from a moment at the section on: points of it that were visited, and what they tell of others.
+/* The slow motion from a moment at the section on: points of it whose rates were evaluated, and what they tell of others.
  *
  * The slow velocity V obeys dV/dn = g(V, n), n being the number of periods, with g from the slow manifold (stroboscopic
  * averaging, projective integration). */
@@ -8,38 +8,38 @@
 #include "../base/interpolant.h"
 #include "slow_manifold.h"
 
-/* A point, `n` periods after the start: the slow velocity [m/s], its rates, the moment there (`landing`) and the one a few
+/* A point, `n` periods after the start: the slow velocity [m/s], its rates, the `moment` there and the one a few
  * periods later (`after`). */
 typedef struct {
     double n, velocity;
     SlowRates rates;
-    Moment landing, after;
-} Visited;
+    Moment moment, after;
+} PathPoint;
 
 /* What is interpolated over the slow velocity: its change and the travel by period, and the fast states. */
 enum { ACCELERATION, TRAVEL, FAST };
 _Static_assert(FAST + MAX_FAST == FUNCTIONS, "an interpolant must hold what is interpolated");
 
-/* A step begins `here`; `last` is the point that was visited last. Where rates do not depend on time but for the slow velocity,
- * `known` interpolates those of points of the step; otherwise the motion `varies`. */
+/* A step begins `here`; `last` is the point that was evaluated last. Where rates do not depend on time but for the slow velocity,
+ * `interpolant` goes through those of points of the step; otherwise the motion `varies`. */
 typedef struct {
     Manifold manifold;
     double psi; /* normal phase at the start [rad] */
     bool varies;
-    Visited here, last;
-    Interpolant known;
+    PathPoint here, last;
+    Interpolant interpolant;
 } SlowPath;
 
-/* Begin a step at the point that was visited last. */
+/* Begin a step at the point that was evaluated last. */
 void begin_step(SlowPath *path);
 
-/* Visit the point at `n` periods and a slow velocity [m/s]. Return false where there are no rates: where they are not exact
+/* Evaluate the rates at `n` periods and a slow velocity [m/s]. Return false where there are no rates: where they are not exact
  * enough, or where sliding does not repeat as it did at the start of the step, as they have a kink in between. */
-bool visit(SlowPath *path, double n, double velocity);
+bool evaluate(SlowPath *path, double n, double velocity);
 
-/* Interpolate through the point that was visited last, too. There must be room, and no known point next to it: rounding of its
+/* Interpolate through the point that was evaluated last, too. There must be room, and no known point next to it: rounding of its
  * rates would then add to those of others. */
-void know_last(SlowPath *path);
+void interpolate_last(SlowPath *path);
 
 /* Whether rates are so exact that the slow velocity errs by no more than is allowed in the time in which friction changes it. */
 bool are_exact(const PeriodMap *map, const SlowRates *rates);

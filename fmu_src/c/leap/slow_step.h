@@ -8,7 +8,7 @@
  * the error [m/s] that it added. */
 typedef struct {
     double periods, travel, factor, error;
-} Stride;
+} PathStep;
 
 /* Fewest periods of a step: its points map half as many. */
 #define SHORTEST_STEP (12.0 * DIFFERENCES)
@@ -19,13 +19,13 @@ typedef struct {
 
 /* One step of `h` periods where rates do not depend on time but for the slow velocity: they are interpolated. `last` is then the
  * landing. Return false where there are no rates or too many points would be needed; `h` becomes what to try next. */
-bool interpolated_step(SlowPath *path, double *h, Stride *stride);
+bool interpolated_step(SlowPath *path, double *h, PathStep *result);
 
 /* Number of periods of an embedded step that may be expected to hold here. */
 double expected_step(const SlowPath *path);
 
 /* One step of at most `h` periods, by an embedded Runge-Kutta pair. `last` is then the landing. Return false where there are no rates,
  * or its error is too large; `h` becomes what to try next. */
-bool embedded_step(SlowPath *path, double *h, Stride *stride);
+bool embedded_step(SlowPath *path, double *h, PathStep *result);
 
 #endif
