@@ -90,7 +90,7 @@ def guid_header(guid: str) -> str:
     """Return the text of the header with the GUID of the model description."""
     about = "The GUID of the model description."
     definition = f'#define MODEL_GUID "{guid}"\n'
-    return c_header("model_guid", about, "building/c_sources.py", definition)
+    return c_header(about, "building/c_sources.py", definition)
 
 
 def c_files(sources: Iterable[str]) -> list[str]:

@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 
-def c_header(name: str, about: str, source: str, body: str) -> str:
-    """Return a header with an include guard; `source` is a path below `fmu_src`."""
-    guard = f"SLIDER_{name.upper()}_H"
-    return (
-        f"/* {about}\n *\n * {generated_from(source)} */\n"
-        f"#ifndef {guard}\n#define {guard}\n\n{body}\n#endif\n"
-    )
+def c_header(about: str, source: str, body: str) -> str:
+    """Return a header that counts once; `source` is a path below `fmu_src`."""
+    return f"/* {about}\n *\n * {generated_from(source)} */\n#pragma once\n\n{body}"
 
 
 def generated_from(source: str) -> str:

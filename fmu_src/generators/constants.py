@@ -10,4 +10,4 @@ def c_constants() -> str:
     """Return the text of constants.h; repr gives texts that read back as the same numbers."""
     macros = [f"#define {k} {v!r}\n" for k, v in vars(constants).items() if k.isupper()]
     source = "python/slider_component/constants.py"
-    return c_header("constants", "Constants that the twins share.", source, "".join(macros))
+    return c_header("Constants that the twins share.", source, "".join(macros))

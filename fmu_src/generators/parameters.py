@@ -80,9 +80,9 @@ def c_parameters(variables: Sequence[Variable]) -> Mapping[str, str]:
     declarations = _filled(_DECLARATIONS, variables, "    {c_type} {name};")
     definitions = _filled(_DEFINITIONS, variables, "        .{name} = {cast}values[VR_{upper}],")
     return {
-        "device/parameters.h": c_header("parameters", about, _TABLE, declarations),
+        "device/parameters.h": c_header(about, _TABLE, declarations),
         "component/parameter_values.h": c_header(
-            "parameter_values", "Parameters and inputs from values.", _TABLE, _FUNCTIONS
+            "Parameters and inputs from values.", _TABLE, _FUNCTIONS
         ),
         "component/parameter_values.c": definitions,
     }

@@ -18,7 +18,6 @@ def c_refusal_texts() -> str:
     """Return the text of refusal_texts.h."""
     texts = {name: text for name, text in vars(refusal_texts).items() if name.isupper()}
     return c_header(
-        "refusal_texts",
         "Refusals that the twins share: each function writes its text and returns false.",
         "python/slider_component/refusal_texts.py",
         '#include "refusal.h"\n' + "".join(c_function(*entry) for entry in texts.items()),

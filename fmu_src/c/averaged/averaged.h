@@ -5,8 +5,7 @@
  * integer, the normal load is N(n tau + delta) and the mean friction is an elementary integral over
  * those two arcs (eq. 4 for n = 1 without flight). At any other ratio all phases are met and the
  * mean load counts. Friction averaged so is accurate to the order of 1 / Omega. */
-#ifndef SLIDER_AVERAGED_H
-#define SLIDER_AVERAGED_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -34,5 +33,3 @@ TheoryRange theory_range(const Law *law);
  * results are 0 without vibration, and where undamped resonance leaves no steady vibration. In these
  * cases, and where the vibration does not break the contact loose, they are not `valid`. */
 Averaged averaged(const Law *law, double normal_lead);
-
-#endif

@@ -3,8 +3,7 @@
  * Averaged motion asks for it several times a step, and each mean costs a quadrature. Means are smooth in Theta = arccos(V /
  * v_q), with a layer at its ends that gets thinner for harder bristles: polynomials on panels, halved until they hold.
  * Turning Theta into pi - Theta mirrors the motion, so half is kept. */
-#ifndef SLIDER_FRICTION_TABLE_H
-#define SLIDER_FRICTION_TABLE_H
+#pragma once
 
 #include "../base/gauss_nodes.h"
 #include "mean_friction.h"
@@ -45,5 +44,3 @@ const FrictionTable *friction_table_of(FrictionTables *tables, const Bristle *br
 
 /* The means when sliding turns forward at tau = `turning` in [0, pi] [rad]. */
 void tabulated_means(const FrictionTable *table, double turning, double means[MEANS]);
-
-#endif

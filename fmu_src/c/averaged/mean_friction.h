@@ -4,8 +4,7 @@
  * arccos(V / v_q), `turning` [rad] in [0, pi]. Coulomb friction, that of a rigid bristle, is an elementary integral over
  * the two arcs of sliding (eqs 4 and 20). A bristle responds periodically, and explicitly in the path between the two
  * reversals, so that the rest is a quadrature: soft bristles give the paper's slow manifold (17), hard ones (5). */
-#ifndef SLIDER_MEAN_FRICTION_H
-#define SLIDER_MEAN_FRICTION_H
+#pragma once
 
 #include "../device/vibrating_load.h"
 #include "../friction/bristle.h"
@@ -30,5 +29,3 @@ double mean_power(const Bristle *bristle, const FastMotion *fast, const Vibratin
  * (cos(delta) sine + sin(delta) cosine). */
 void friction_means(const Bristle *bristle, const FastMotion *fast, double n, double turning,
                     double means[MEANS]);
-
-#endif

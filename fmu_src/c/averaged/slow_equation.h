@@ -1,6 +1,5 @@
 /* The slow equation (M + m) V' = -mean friction - load, over a time. */
-#ifndef SLIDER_SLOW_EQUATION_H
-#define SLIDER_SLOW_EQUATION_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -14,5 +13,3 @@
  * constant friction in each piece of a beat. */
 bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoint *now,
                Refusal *refusal);
-
-#endif

@@ -3,8 +3,7 @@
  * The normal load counts with its phase near integer frequency ratios n, where that phase drifts by
  * (ratio - n) w (Appendix A for n = 1), and with its mean elsewhere. A load that lifts the contact
  * has harmonics, and counts with its phase near fractions too. */
-#ifndef SLIDER_SLOW_FRICTION_H
-#define SLIDER_SLOW_FRICTION_H
+#pragma once
 
 #include <stddef.h>
 
@@ -48,5 +47,3 @@ double slow_friction_power(const SlowFriction *slow, double velocity);
 
 /* The next ratio above (`direction` 1) or below (-1) `ratio` at which the phase of the load begins or ceases to count. */
 double next_slow_boundary(const Device *device, double ratio, double direction);
-
-#endif

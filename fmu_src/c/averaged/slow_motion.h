@@ -6,11 +6,8 @@
  * the steady vibration (32)-(33), added in closed form.
  *
  * The bristle follows the motion periodically; it has no state here. */
-#ifndef SLIDER_SLOW_MOTION_H
-#define SLIDER_SLOW_MOTION_H
+#pragma once
 
 #include "../resolved/motion.h"
 
 extern const Motion AVERAGED_MOTION;
-
-#endif

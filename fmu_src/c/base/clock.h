@@ -1,6 +1,5 @@
 /* Time within a step, summed without loss. */
-#ifndef SLIDER_CLOCK_H
-#define SLIDER_CLOCK_H
+#pragma once
 
 /* Time `elapsed` [s] of a step of `duration` [s], with the rounding error of that sum in `carry`. */
 typedef struct {
@@ -20,5 +19,3 @@ static inline double clock_advance(Clock *clock, double t) {
     clock->elapsed = total;
     return (clock->duration - total) - clock->carry;
 }
-
-#endif

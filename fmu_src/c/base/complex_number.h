@@ -1,7 +1,6 @@
 /* Complex numbers as a plain struct. C99's complex types are missing from some compilers, and slow in
  * others because they treat infinities, which do not occur here. */
-#ifndef SLIDER_COMPLEX_NUMBER_H
-#define SLIDER_COMPLEX_NUMBER_H
+#pragma once
 
 #include <math.h>
 
@@ -61,5 +60,3 @@ static inline Complex complex_div(Complex a, Complex b) {
     double ratio = b.re / b.im, denominator = b.re * ratio + b.im;
     return complex_of((a.re * ratio + a.im) / denominator, (a.im * ratio - a.re) / denominator);
 }
-
-#endif

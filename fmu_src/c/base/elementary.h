@@ -1,7 +1,6 @@
 /* <math.h> with elementary functions that give the same bits on every platform, for .c files only: its
  * macros would reach whoever includes a header. */
-#ifndef SLIDER_ELEMENTARY_H
-#define SLIDER_ELEMENTARY_H
+#pragma once
 
 #include <math.h>
 
@@ -17,5 +16,3 @@
 #define expm1(x) elementary_expm1(x)
 #define log(x) elementary_log(x)
 #define pow(a, b) elementary_pow(a, b)
-
-#endif

@@ -8,8 +8,7 @@
  *
  * Errors are up to 2 units in the last place, those of sine and cosine where they pass through 0 up to
  * 1e-25 for each quarter turn. */
-#ifndef SLIDER_ELEMENTARY_FUNCTIONS_H
-#define SLIDER_ELEMENTARY_FUNCTIONS_H
+#pragma once
 
 typedef struct {
     double sine, cosine;
@@ -28,5 +27,3 @@ double elementary_log(double x);
 
 /* To 1e-13. */
 double elementary_pow(double x, double y);
-
-#endif

@@ -1,6 +1,5 @@
 /* exp(-x) without a call, in a form that compilers turn into vector instructions. */
-#ifndef SLIDER_FAST_DECAY_H
-#define SLIDER_FAST_DECAY_H
+#pragma once
 
 #include <stdint.h>
 #include <string.h>
@@ -27,5 +26,3 @@ static inline double fast_decay(double x) {
     memcpy(&scale, &bits, sizeof scale);
     return grown * scale;
 }
-
-#endif

@@ -8,8 +8,7 @@
  *
  * A zero that is expected at some time is looked for there at once. It is the first one if the
  * parabola from the start and that from the zero backwards leave no gap between them. */
-#ifndef SLIDER_FIRST_ZERO_H
-#define SLIDER_FIRST_ZERO_H
+#pragma once
 
 /* Signal f, f', and a bound of |f''| from this time on, over the horizon of the signal. */
 typedef struct {
@@ -38,5 +37,3 @@ double first_zero(const Watch *watch, double limit, double start);
 
 /* The same zero, found with fewer evaluations if it is near `expected` [s]; NO_ZERO expects none. */
 double first_zero_near(const Watch *watch, double limit, double start, double expected);
-
-#endif

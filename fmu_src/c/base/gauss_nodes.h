@@ -1,6 +1,5 @@
 /* Gauss and Legendre's rule, and integrals of the polynomial through values at its nodes. */
-#ifndef SLIDER_GAUSS_NODES_H
-#define SLIDER_GAUSS_NODES_H
+#pragma once
 
 /* Sixteen nodes: as many as the smooth functions here need for 1e-10, and a multiple of what processors add at
  * once. */
@@ -31,5 +30,3 @@ void gauss_coefficients(const GaussIntegrals *gauss, const double *values,
 
 /* The larger absolute value of the last two of these. */
 double gauss_last(const GaussIntegrals *gauss, const double *values);
-
-#endif

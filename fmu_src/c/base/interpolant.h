@@ -1,6 +1,5 @@
 /* Interpolation of several smooth functions of one variable by polynomials through points that come one by one. */
-#ifndef SLIDER_INTERPOLANT_H
-#define SLIDER_INTERPOLANT_H
+#pragma once
 
 enum { MAX_POINTS = 14, FUNCTIONS = 5 };
 
@@ -21,5 +20,3 @@ void interpolant_at(const Interpolant *polynomials, double x, int functions,
 /* The point between `from` and `to` where the interpolant may err most: where the product of the distances from all points is
  * largest (a Leja point), among equidistant ones. */
 double interpolant_gap(const Interpolant *polynomials, double from, double to);
-
-#endif

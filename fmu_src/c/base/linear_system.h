@@ -1,6 +1,5 @@
 /* Systems of a few linear equations. */
-#ifndef SLIDER_LINEAR_SYSTEM_H
-#define SLIDER_LINEAR_SYSTEM_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -11,5 +10,3 @@ enum { UNKNOWNS = 5 };
  * `right` becomes x, `matrix` is unchanged. Returns false, with `right` undefined, where the matrix is
  * singular up to rounding or not finite. */
 bool solve_linear(double matrix[UNKNOWNS][UNKNOWNS], double right[UNKNOWNS], int count);
-
-#endif

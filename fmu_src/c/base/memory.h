@@ -1,6 +1,5 @@
 /* Memory of a host, for what is made when it is first needed. */
-#ifndef SLIDER_MEMORY_H
-#define SLIDER_MEMORY_H
+#pragma once
 
 #include <stddef.h>
 
@@ -11,5 +10,3 @@ typedef struct {
     void (*release)(const void *host, void *memory);
     const void *host;
 } Memory;
-
-#endif

@@ -1,6 +1,5 @@
 /* Numbers of every file. */
-#ifndef SLIDER_NUMBER_H
-#define SLIDER_NUMBER_H
+#pragma once
 
 #include <math.h>
 
@@ -18,5 +17,3 @@ static inline double within_turn(double angle) {
     double rest = fmod(angle, TAU);
     return rest < 0.0 ? rest + TAU : rest;
 }
-
-#endif

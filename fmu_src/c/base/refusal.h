@@ -1,6 +1,5 @@
 /* Why a call is refused: a text that names the thing, its value and what it must be. */
-#ifndef SLIDER_REFUSAL_H
-#define SLIDER_REFUSAL_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -16,5 +15,3 @@ bool refuse(Refusal *refusal, const char *format, ...);
 /* The shortest text that reads back as `value`, with a decimal point in every locale, like Python's
  * repr: "0.1", "1e-05", "3500.0", "nan", "inf". Returns `text`. */
 const char *number_text(double value, char text[NUMBER_SIZE]);
-
-#endif

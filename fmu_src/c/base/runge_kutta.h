@@ -1,6 +1,5 @@
 /* An embedded Runge-Kutta pair for one velocity and its travel, whose rates depend on time and velocity. */
-#ifndef SLIDER_RUNGE_KUTTA_H
-#define SLIDER_RUNGE_KUTTA_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -41,5 +40,3 @@ bool linear_step(SlowRateFunction rate, void *motion, const SlowPoint *from, dou
 
 /* Factor by which the next step may be longer or shorter than one with this error. */
 double step_growth(double error, double tolerance);
-
-#endif

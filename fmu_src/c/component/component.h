@@ -1,6 +1,5 @@
 /* The component between numerics and FMI: values by reference, lifecycle, steps. */
-#ifndef SLIDER_COMPONENT_H
-#define SLIDER_COMPONENT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -42,5 +41,3 @@ bool component_get_derivatives(Component *component, const unsigned *references,
 /* Event mode of FMI 3.0: values may be set, time stands still. */
 bool component_enter_event_mode(Component *component, Refusal *refusal);
 bool component_enter_step_mode(Component *component, Refusal *refusal);
-
-#endif

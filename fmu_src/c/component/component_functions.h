@@ -2,8 +2,7 @@
  * before it includes this.
  *
  * A function that refuses leaves the component as it was. */
-#ifndef COMPONENT_FUNCTIONS_H
-#define COMPONENT_FUNCTIONS_H
+#pragma once
 
 #include "../base/memory.h"
 
@@ -37,5 +36,3 @@ bool component_step(Component *component, double time, double step_size, Refusal
 
 /* Restore a snapshot, of this or another component. */
 bool component_restore(Component *component, const Snapshot *snapshot, Refusal *refusal);
-
-#endif

@@ -1,6 +1,5 @@
 /* The law of the values of a component. */
-#ifndef COMPONENT_LAW_H
-#define COMPONENT_LAW_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -32,5 +31,3 @@ const Motion *motion_of(Device *device);
 /* Prepare the law of `values`, and the tables that it needs. Refuse values that do not fit together; `law` is then
  * undefined. */
 bool prepare_law(const double values[SETTABLE_COUNT], Tables *tables, Law *law, Refusal *refusal);
-
-#endif

@@ -1,6 +1,5 @@
 /* The times of an experiment and of its steps, as FMI defines them. */
-#ifndef SLIDER_EXPERIMENT_H
-#define SLIDER_EXPERIMENT_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -24,5 +23,3 @@ bool experiment_check(const Experiment *experiment, Refusal *refusal);
 /* Refuse a step of `step_size` that is not above 0, does not start at the present time `now`, or ends
  * after `stop_time`, all in s. */
 bool step_check(double now, double stop_time, double time, double step_size, Refusal *refusal);
-
-#endif

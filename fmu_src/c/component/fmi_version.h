@@ -1,6 +1,5 @@
 /* Names that differ between versions of FMI. */
-#ifndef SLIDER_FMI_VERSION_H
-#define SLIDER_FMI_VERSION_H
+#pragma once
 
 /* STEP_COMPLETE of FMI 2.0 is the step mode of FMI 3.0; only FMI 3.0 has EVENT_MODE. */
 typedef enum {
@@ -43,5 +42,3 @@ typedef struct {
 
 /* The version that this FMU is for. */
 extern const FmiVersion FMI;
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Like a value, a derivative holds until it is set again. An input that is set after a step without its
  * derivative is held from then on. */
-#ifndef INPUT_DERIVATIVES_H
-#define INPUT_DERIVATIVES_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -35,5 +34,3 @@ void hold_inputs(InputDerivative derivatives[VARYING_COUNT], const unsigned *ref
 
 /* Note that a step was made: no derivative is new any more. */
 void derivatives_used(InputDerivative derivatives[VARYING_COUNT]);
-
-#endif

@@ -1,6 +1,5 @@
 /* The states of FMI co-simulation, and which call needs which. */
-#ifndef SLIDER_LIFECYCLE_H
-#define SLIDER_LIFECYCLE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -29,5 +28,3 @@ static inline bool lifecycle_change(Lifecycle *state, const char *call, Lifecycl
     *state = to;
     return true;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* The outputs of the interface, each from the present moment and the present inputs. */
-#ifndef SLIDER_OUTPUTS_H
-#define SLIDER_OUTPUTS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -25,5 +24,3 @@ double output_value(unsigned reference, const Law *law, const Moment *moment,
  * without derivative. */
 bool output_derivative(unsigned reference, const Law *law, const Moment *moment, double phase_rate,
                        double *derivative, Refusal *refusal);
-
-#endif

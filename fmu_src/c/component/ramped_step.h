@@ -3,8 +3,7 @@
  * A phase that grows is a shift of the normal frequency: during the step psi grows instead, and at the end
  * that growth is moved to the phase. So the law of the step has a load and a normal frequency that may
  * grow. */
-#ifndef RAMPED_STEP_H
-#define RAMPED_STEP_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -15,5 +14,3 @@
  * the step. Refuses inputs that leave their bounds, and what the motion refuses; `after` is then undefined. */
 bool ramped_step(Law *law, Tables *tables, const Snapshot *now, double duration, Budget *budget,
                  Moment *after, double reached[SETTABLE_COUNT], Refusal *refusal);
-
-#endif

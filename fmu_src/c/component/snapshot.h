@@ -1,6 +1,5 @@
 /* The complete state of a component and its bytes, which are the same on every platform. */
-#ifndef SLIDER_SNAPSHOT_H
-#define SLIDER_SNAPSHOT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -32,5 +31,3 @@ void snapshot_write(const Snapshot *snapshot, unsigned char *bytes);
 /* Read what snapshot_write wrote. Refuse bytes of another build, damaged ones, and numbers that no
  * component can have; `snapshot` is then undefined. */
 bool snapshot_read(Snapshot *snapshot, const unsigned char *bytes, size_t size, Refusal *refusal);
-
-#endif

@@ -1,6 +1,5 @@
 /* The format of a serialised state, whatever the component: header, numbers, checksum. */
-#ifndef STATE_BYTES_H
-#define STATE_BYTES_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -20,5 +19,3 @@ void state_seal(unsigned char *bytes, size_t size);
 
 /* Refuse bytes that are not a state of `expected` bytes from this build, or damaged. */
 bool state_seal_check(const unsigned char *bytes, size_t size, size_t expected, Refusal *refusal);
-
-#endif

@@ -1,6 +1,5 @@
 /* Values of variables by reference: what a host may read and set. */
-#ifndef SLIDER_VALUES_H
-#define SLIDER_VALUES_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -33,5 +32,3 @@ bool change_values(double values[SETTABLE_COUNT], Lifecycle lifecycle, const uns
 
 /* The value as messages show it: integers without a point. Returns `text`. */
 const char *value_text(const Variable *variable, double value, char text[NUMBER_SIZE]);
-
-#endif

@@ -1,6 +1,5 @@
 /* The work of one communication step: all its parts draw from one budget. */
-#ifndef SLIDER_BUDGET_H
-#define SLIDER_BUDGET_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -29,5 +28,3 @@ static inline void budget_spend(Budget *budget, int count, int max_count) {
  * part began takes less: the text names the power of ten below it. Return false. */
 bool budget_refuse(const Budget *budget, double reached, int max_count, const char *what,
                    Refusal *refusal);
-
-#endif

@@ -1,6 +1,5 @@
 /* When the contact lifts and touches down: N = max(0, N0 + dN sin(chi)) with dN > N0. */
-#ifndef SLIDER_CONTACT_H
-#define SLIDER_CONTACT_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -42,5 +41,3 @@ int mode_by_velocity(const FlightWindow *window, const Plant *plant, double velo
 
 /* Limit of the friction force [N] of all faces at normal phase `psi` [rad]; 0 in flight. */
 double friction_limit(const Plant *plant, double psi);
-
-#endif

@@ -1,6 +1,5 @@
 /* The device: its parameters, the masses that follow from them, and what moves. */
-#ifndef SLIDER_DEVICE_H
-#define SLIDER_DEVICE_H
+#pragma once
 
 #include "../base/number.h"
 #include "parameters.h"
@@ -19,5 +18,3 @@ static inline double device_mass_fraction(const Device *device) {
 typedef struct {
     double velocity, displacement, rate;
 } State;
-
-#endif

@@ -1,6 +1,5 @@
 /* A device under held inputs: all that depends on parameters and inputs alone. */
-#ifndef SLIDER_HELD_H
-#define SLIDER_HELD_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -22,5 +21,3 @@ bool held_prepare(Held *held, const Device *device, const Inputs *inputs, Refusa
 /* Let the load grow by `load_rate` [N/s] and the normal frequency by `normal_rate` [rad/s^2] for
  * `duration` [s]. */
 void held_ramp(Held *held, double load_rate, double normal_rate, double duration);
-
-#endif

@@ -1,6 +1,5 @@
 /* A moment of a motion: all that the motion carries from one step to the next. */
-#ifndef SLIDER_MOMENT_H
-#define SLIDER_MOMENT_H
+#pragma once
 
 #include <math.h>
 
@@ -77,5 +76,3 @@ static inline void moment_enter(Moment *moment, int mode) {
         moment->event_age = 0.0;
     }
 }
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Free motion is regular at and around critical damping and without damping. Where the forcing frequency
  * meets the damped one, the response from rest is regular, unlike the steady one. */
-#ifndef SLIDER_OSCILLATOR_H
-#define SLIDER_OSCILLATOR_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -59,5 +58,3 @@ static inline Response free_motion(const Oscillator *oscillator, Response start,
  * frequency > 0. `turn` is exp(i frequency t). */
 ComplexResponse response_from_rest(const Oscillator *oscillator, double frequency, double t,
                                    Complex turn);
-
-#endif

@@ -1,6 +1,5 @@
 /* Means over whole drive periods, which end where the drive phase theta passes 2 pi. */
-#ifndef SLIDER_PERIOD_H
-#define SLIDER_PERIOD_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -53,5 +52,3 @@ double period_friction_power(const PeriodMeans *means, double power);
 
 /* Fraction of time that the slider sticks, likewise. */
 double period_stick_fraction(const PeriodMeans *means, bool sticks);
-
-#endif

@@ -8,8 +8,7 @@
  *   stick:  Y'' + 2 xi wn Y' + wn^2 Y = A w^2 sin(theta),              X' = 0
  *
  * where e = -i exp(i theta). At fidelity 1 the resonator acts through its steady force (34) alone. */
-#ifndef SLIDER_PLANT_H
-#define SLIDER_PLANT_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -101,5 +100,3 @@ static inline Response steady_swing(Complex amplitude, double theta, double freq
 /* Coefficients of the motion of `device` while `inputs` are held. Refuses at fidelity 0 and 1 where
  * the steady force of the resonator is unbounded. */
 bool plant_prepare(Plant *plant, const Device *device, const Inputs *inputs, Refusal *refusal);
-
-#endif

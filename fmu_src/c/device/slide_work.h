@@ -8,8 +8,7 @@
  *   i q K = [n (X' + r T ((k - 2 i d q) Y' - i q k Y))] - integral of n (P + r q^2 T G)
  *
  * where P are the forces on the pair per total mass, and G those on the resonator per its mass. */
-#ifndef SLIDER_SLIDE_WORK_H
-#define SLIDER_SLIDE_WORK_H
+#pragma once
 
 #include "plant.h"
 
@@ -32,5 +31,3 @@ typedef struct {
 /* Im K [m] of a slide of `t` [s] in direction `sign`. */
 double slide_work_swung(const SlideWork *work, const Plant *plant, int sign, double t, const SlideEnd *first,
                         const SlideEnd *last);
-
-#endif

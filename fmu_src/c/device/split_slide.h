@@ -4,8 +4,7 @@
  * solutions at drive and normal frequency are split off from the free motion of the resonator, whose rate is
  * u. That loses digits near resonance, for soft resonators and under slow normal loads; `split_prepare` returns false there, and
  * series are used (taylor_slide.h). */
-#ifndef SLIDER_SPLIT_SLIDE_H
-#define SLIDER_SPLIT_SLIDE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -109,5 +108,3 @@ Watch split_slide_watch(SplitSlide *slide);
 
 /* State after `t` [s], the passage until then, and the phasors. */
 State split_slide_end(const SplitSlide *slide, double t, Passage *passed, KnownPhasors *known);
-
-#endif

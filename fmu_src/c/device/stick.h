@@ -1,7 +1,6 @@
 /* Sticking: the slider rests, the resonator swings against it, and the force needed to hold the
  * slider is compared with what friction can supply. */
-#ifndef SLIDER_STICK_H
-#define SLIDER_STICK_H
+#pragma once
 
 #include "../base/first_zero.h"
 #include "device.h"
@@ -31,5 +30,3 @@ int stick_watches(Stick *stick, double longest, Watch watches[2]);
 
 /* State after `t` [s]. */
 State stick_state(const Stick *stick, double t);
-
-#endif

@@ -1,6 +1,5 @@
 /* The normal load as a function of the drive angle, for averages over a turn of it. */
-#ifndef SLIDER_VIBRATING_LOAD_H
-#define SLIDER_VIBRATING_LOAD_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -61,5 +60,3 @@ double vibrating_load_at(const VibratingLoad *load, double angle);
 /* The integral over [turning, 2 pi - turning], where sliding goes forward, less that over
  * [-turning, turning] [N rad]. */
 double vibrating_load_difference(const VibratingLoad *load, double turning);
-
-#endif

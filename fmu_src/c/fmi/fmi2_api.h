@@ -1,6 +1,5 @@
 /* The functions of FMI 2.0, and the answers of an instance as their status. */
-#ifndef SLIDER_FMI2_API_H
-#define SLIDER_FMI2_API_H
+#pragma once
 
 #include "../component/values.h"
 #include "fmi2Functions.h"
@@ -26,5 +25,3 @@ static inline fmi2Status answer(const Instance *instance, bool done, const Refus
 /* Refuse null pointers, more values than there are variables, and references that do not fit. */
 bool references_check(const char *call, const fmi2ValueReference *references, size_t count,
                       const void *values, ValueType type, Refusal *refusal);
-
-#endif

@@ -1,6 +1,5 @@
 /* The functions of FMI 3.0, and the answers of an instance as their status. */
-#ifndef SLIDER_FMI3_API_H
-#define SLIDER_FMI3_API_H
+#pragma once
 
 #include "fmi3Functions.h"
 #include "instance.h"
@@ -18,5 +17,3 @@ bool results_check(const char *call, bool all_given, Refusal *refusal);
 
 /* A host of FMI 3.0. */
 Host fmi3_host(fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger);
-
-#endif

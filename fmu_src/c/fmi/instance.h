@@ -1,6 +1,5 @@
 /* An FMI instance: a component, and the host's memory and logger. The same for every version of FMI. */
-#ifndef SLIDER_INSTANCE_H
-#define SLIDER_INSTANCE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -68,5 +67,3 @@ Status send_report(const Instance *instance, Status status, const char *text);
 /* Return STATUS_OK for a call that is `done`; otherwise report the refusal and return STATUS_ERROR. A
  * call without an instance is never done. */
 Status send_answer(const Instance *instance, bool done, const Refusal *refusal);
-
-#endif

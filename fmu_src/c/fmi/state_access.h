@@ -1,7 +1,6 @@
 /* The state of an instance as FMI hands it out, whatever its version: a Snapshot behind a pointer.
  * `call` is the name of the FMI function, for refusals. */
-#ifndef SLIDER_STATE_ACCESS_H
-#define SLIDER_STATE_ACCESS_H
+#pragma once
 
 #include "instance.h"
 
@@ -20,5 +19,3 @@ Status state_write(const Instance *instance, const char *call, const void *state
 /* Read what state_write wrote into *state, which is allocated where it is NULL. */
 Status state_read(const Instance *instance, const char *call, const void *bytes, size_t size,
                   void **state);
-
-#endif

@@ -7,8 +7,7 @@
  *
  * Panels have lengths from a geometric grid, so that few tables serve a motion. A table is a function
  * of plant and length alone: whether it was there before makes no difference. */
-#ifndef SLIDER_BENDING_KERNELS_H
-#define SLIDER_BENDING_KERNELS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -72,5 +71,3 @@ typedef struct BendingTables {
 /* The kernels of the shortest panel of the grid of lengths that lasts at least `length` > 0 [s]. They are valid
  * until the next call. */
 BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, double length);
-
-#endif

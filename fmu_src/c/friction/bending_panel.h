@@ -13,8 +13,7 @@
  *
  * A panel is used where it is guaranteed to end before the next stop, and where the error that it turns out to
  * have is below the tolerance; series are used elsewhere. */
-#ifndef SLIDER_BENDING_PANEL_H
-#define SLIDER_BENDING_PANEL_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -56,5 +55,3 @@ Passage bending_panel_passage(const BendingPanel *panel, double t);
 
 /* State after `t` [s], not before the end of the panel; passage and phasors as of a slide. */
 State bending_panel_end(const BendingPanel *panel, double t, Passage *passed, KnownPhasors *known);
-
-#endif

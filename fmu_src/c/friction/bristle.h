@@ -1,6 +1,5 @@
 /* The bristle of LuGre friction as a function of the path (eq. 8). */
-#ifndef SLIDER_BRISTLE_H
-#define SLIDER_BRISTLE_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -25,5 +24,3 @@ static inline double bristle_after(const Bristle *bristle, double friction, doub
     double bent = elementary_expm1(-bristle->stiffness * fabs(travel) / bristle->coefficient);
     return friction - (limit - friction) * bent;
 }
-
-#endif

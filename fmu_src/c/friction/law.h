@@ -1,8 +1,7 @@
 /* A law: a device under held inputs, with all that follows from these alone, and the row of functions of its friction.
  *
  * A new law of friction is a file that ends with its row, and an entry in law.c. */
-#ifndef SLIDER_LAW_H
-#define SLIDER_LAW_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -69,5 +68,3 @@ void law_ramp(Law *law, const Ramp *ramp, double duration);
 
 /* The law `t` [s] later. */
 Law law_after(const Law *law, double t);
-
-#endif

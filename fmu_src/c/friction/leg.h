@@ -1,7 +1,6 @@
 /* A leg: motion without an event, at rest, sliding or in flight, up to the first zero of what it
  * watches. */
-#ifndef SLIDER_LEG_H
-#define SLIDER_LEG_H
+#pragma once
 
 #include "../device/held.h"
 #include "../device/moment.h"
@@ -68,5 +67,3 @@ static inline bool leg_released(const Leg *leg) {
 
 /* Moves on to the end of the leg, in its mode. */
 void leg_finish(Leg *leg, const Held *held, Moment *now);
-
-#endif

@@ -8,8 +8,7 @@
  *
  * so no stiff state remains, and deep presliding, where g_r and 1 - E are small, loses no digits. The Taylor
  * coefficients of all factors follow by recurrence. */
-#ifndef SLIDER_TAYLOR_SLIDE_H
-#define SLIDER_TAYLOR_SLIDE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -50,5 +49,3 @@ Passage taylor_slide_passage(const TaylorSlide *slide, double t, bool counts_wor
 
 /* State after `t` [s]. */
 State taylor_slide_state(const TaylorSlide *slide, double t);
-
-#endif

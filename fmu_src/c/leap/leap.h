@@ -1,6 +1,5 @@
 /* A leap: the slow motion over many periods, from the period map alone. */
-#ifndef SLIDER_LEAP_H
-#define SLIDER_LEAP_H
+#pragma once
 
 #include "slow_manifold.h"
 
@@ -21,5 +20,3 @@ typedef struct {
  * of the map is allowed. */
 Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *budget,
           Moment *after);
-
-#endif

@@ -4,8 +4,7 @@
  * sliding is about to end reversing at all. There the slow state is V = W and the position X, with W = X' + r Y' + D /
  * (Mt w) cos(theta) and exactly Mt W' = -F - load. The fast state is the resonator's Y and Y' and, with LuGre friction, the bristle. From
  * period to period both change slowly and smoothly (stroboscopic averaging: Calvo, Chartier, Murua, Sanz-Serna 2011). */
-#ifndef SLIDER_PERIOD_MAP_H
-#define SLIDER_PERIOD_MAP_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -74,5 +73,3 @@ void apply_resolvent(const PeriodMap *map, int times, double fast[MAX_FAST]);
 
 /* Size of a change of the fast state, over the scales. */
 double fast_size(const PeriodMap *map, const double fast[MAX_FAST]);
-
-#endif

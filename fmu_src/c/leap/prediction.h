@@ -1,6 +1,5 @@
 /* Steady velocity and blocking force for the present inputs: by averages of first order, or exact. */
-#ifndef SLIDER_PREDICTION_H
-#define SLIDER_PREDICTION_H
+#pragma once
 
 #include "../averaged/averaged.h"
 #include "../friction/law.h"
@@ -11,5 +10,3 @@ int turns_of_load(const Law *law);
 /* The prediction of the averaging order of the device; `normal_lead` [rad] is psi - ratio theta. Where second order finds
  * no periodic motion, or the normal load never repeats, it is that of first order and not `valid`. */
 Averaged prediction_of(const Law *law, double normal_lead);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * On the slow manifold the fast states follow the slow velocity smoothly: their differences of high order over the
  * periods vanish (Gear, Kaper, Kevrekidis, Zagaris 2005). */
-#ifndef SLIDER_SLOW_MANIFOLD_H
-#define SLIDER_SLOW_MANIFOLD_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -42,5 +41,3 @@ typedef struct {
  * to be mapped, and `after` then undefined. */
 bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
                 SlowRates *rates);
-
-#endif

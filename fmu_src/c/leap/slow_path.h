@@ -2,8 +2,7 @@
  *
  * The slow velocity V obeys dV/dn = g(V, n), n being the number of periods, with g from the slow manifold (stroboscopic
  * averaging, projective integration). */
-#ifndef SLIDER_SLOW_PATH_H
-#define SLIDER_SLOW_PATH_H
+#pragma once
 
 #include "../base/interpolant.h"
 #include "slow_manifold.h"
@@ -49,5 +48,3 @@ double reach_of_step(const SlowPath *path);
 
 /* The larger error of the rates [m/s per period] at the ends of a step. */
 double error_of_rates(const SlowPath *path);
-
-#endif

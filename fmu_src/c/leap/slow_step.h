@@ -1,6 +1,5 @@
 /* Steps of the slow motion: from here to a landing, a whole number of periods later. */
-#ifndef SLIDER_SLOW_STEP_H
-#define SLIDER_SLOW_STEP_H
+#pragma once
 
 #include "slow_path.h"
 
@@ -27,5 +26,3 @@ double expected_step(const SlowPath *path);
 /* One step of at most `h` periods, by an embedded Runge-Kutta pair. `last` is then the landing. Return false where there are no rates,
  * or its error is too large; `h` becomes what to try next. */
 bool embedded_step(SlowPath *path, double *h, PathStep *result);
-
-#endif

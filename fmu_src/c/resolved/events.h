@@ -1,6 +1,5 @@
 /* The loop over events: resolved motion under any friction law, leg by leg. */
-#ifndef SLIDER_EVENTS_H
-#define SLIDER_EVENTS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -42,5 +41,3 @@ enum { NO_MODE = -2 };
  * point, entries of `now` are not finite. */
 bool events_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
                     Itinerary *itinerary, Budget *budget, Moment *now, Refusal *refusal);
-
-#endif

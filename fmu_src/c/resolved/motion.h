@@ -3,8 +3,7 @@
  * Motion is resolved (fidelity 1 and 2), averaged (fidelity 0, order 1), or leaps over periods (fidelity 0, order 2):
  * component_law.c picks it. A law is prepared, a motion started, then advanced step by step, to an event if one is wanted;
  * all else reads the moment in between. */
-#ifndef SLIDER_MOTION_H
-#define SLIDER_MOTION_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -53,5 +52,3 @@ typedef struct Motion {
      * all of it. */
     double (*part)(const Device *device, const Ramp *ramp, double left);
 } Motion;
-
-#endif

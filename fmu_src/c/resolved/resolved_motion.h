@@ -1,6 +1,5 @@
 /* Resolved motion, and what motion that leaps over periods shares with it; see motion.h. */
-#ifndef SLIDER_RESOLVED_MOTION_H
-#define SLIDER_RESOLVED_MOTION_H
+#pragma once
 
 #include "../base/constants.h"
 #include "motion.h"
@@ -16,5 +15,3 @@ Rates resolved_rates(const Law *law, const Moment *moment);
 
 /* The error that leaps have left in the slow velocity. */
 double resolved_error(const Law *law, const Moment *moment);
-
-#endif

@@ -1,6 +1,5 @@
 /* The controller between its law and FMI: values by reference, lifecycle, steps. */
-#ifndef CONTROLLER_COMPONENT_H
-#define CONTROLLER_COMPONENT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -16,5 +15,3 @@ typedef struct {
 
 /* A step takes the samples due from its start up to, but not including, its end. */
 #include "component_functions.h"
-
-#endif

@@ -2,8 +2,7 @@
  *
  * The mean force of the vibration on the slider is proportional to u, (20), so the gain of the loop
  * does not depend on the phase. It grows with the phase while |phase + theta1| < pi/2. */
-#ifndef CONTROLLER_CONTROL_H
-#define CONTROLLER_CONTROL_H
+#pragma once
 
 /* The state of the law, each within the effort limit at the time of its sample. */
 typedef struct {
@@ -23,5 +22,3 @@ Control control_sampled(const Tuning *tuning, Control before, double error);
 
 /* The phase [rad] with this effort, on the branch where the velocity grows with the phase. */
 double control_phase(double effort, double force_phase);
-
-#endif

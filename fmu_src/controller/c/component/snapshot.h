@@ -1,6 +1,5 @@
 /* The complete state of a controller, and its bytes: the same on every platform. */
-#ifndef CONTROLLER_SNAPSHOT_H
-#define CONTROLLER_SNAPSHOT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -28,5 +27,3 @@ void snapshot_write(const Snapshot *snapshot, unsigned char *bytes);
 /* Read what snapshot_write wrote. Refuse bytes of another build, damaged ones, and numbers that no
  * controller can have; `snapshot` is then undefined. */
 bool snapshot_read(Snapshot *snapshot, const unsigned char *bytes, size_t size, Refusal *refusal);
-
-#endif
