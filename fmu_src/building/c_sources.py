@@ -50,6 +50,7 @@ SHARED = (
     "refusal_texts",
     "state_access",
     "state_bytes",
+    "value_access",
     "values",
 )
 """The slider's C files that serve any table of variables, without folder and suffix."""

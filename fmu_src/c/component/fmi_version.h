@@ -37,7 +37,8 @@ typedef struct {
     int states;
     const char *state_names[LIFECYCLES];
     const char *type_names[VALUE_TYPES];
-    const char *token; /* FMI's name of MODEL_GUID */
+    const char *count_name; /* FMI's name of the number of references in a call */
+    const char *token;      /* FMI's name of MODEL_GUID */
 } FmiVersion;
 
 /* The version that this FMU is for. */

@@ -1,7 +1,6 @@
 /* The functions of FMI 2.0, and the answers of an instance as their status. */
 #pragma once
 
-#include "../component/values.h"
 #include "fmi2Functions.h"
 #include "instance.h"
 
@@ -21,7 +20,3 @@ static inline fmi2Status report(const Instance *instance, fmi2Status status, con
 static inline fmi2Status answer(const Instance *instance, bool done, const Refusal *refusal) {
     return (fmi2Status)send_answer(instance, done, refusal);
 }
-
-/* Refuse null pointers, more values than there are variables, and references that do not fit. */
-bool references_check(const char *call, const fmi2ValueReference *references, size_t count,
-                      const void *values, ValueType type, Refusal *refusal);

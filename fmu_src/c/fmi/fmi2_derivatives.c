@@ -1,10 +1,12 @@
 /* FMI 2.0 for co-simulation: first derivatives of inputs and outputs, all of a call or none. */
 #include "fmi2_api.h"
+#include "value_access.h"
 
 /* Refuse what is no call for Reals, and any order but 1. */
 static bool derivatives_check(const char *call, const fmi2ValueReference *references, size_t count,
-                              const fmi2Integer *orders, const void *values, Refusal *refusal) {
-    if (!references_check(call, references, count, values, REAL_TYPE, refusal)) {
+                              const fmi2Integer *orders, const void *values, unsigned *places,
+                              Refusal *refusal) {
+    if (!places_check(call, references, count, values, REAL_TYPE, places, &count, refusal)) {
         return false;
     }
     if (count > 0 && orders == NULL) {
@@ -14,7 +16,7 @@ static bool derivatives_check(const char *call, const fmi2ValueReference *refere
     for (size_t i = 0; i < count; i++) {
         if (orders[i] != 1) {
             return refuse(refusal, "%s: derivative of %s of order %d refused: the order must be 1",
-                          call, VARIABLES[references[i]].name, (int)orders[i]);
+                          call, VARIABLES[places[i]].name, (int)orders[i]);
         }
     }
     return true;
@@ -24,9 +26,10 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
                                        const fmi2Integer order[], const fmi2Real value[]) {
     Instance *instance = c;
     Refusal refusal;
+    unsigned places[VARIABLE_COUNT + 1];
     bool done = instance != NULL
-                && derivatives_check("fmi2SetRealInputDerivatives", vr, nvr, order, value, &refusal)
-                && component_set_derivatives(&instance->component, vr, value, nvr, &refusal);
+                && derivatives_check("fmi2SetRealInputDerivatives", vr, nvr, order, value, places, &refusal)
+                && component_set_derivatives(&instance->component, places, value, nvr, &refusal);
     return answer(instance, done, &refusal);
 }
 
@@ -34,8 +37,9 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
                                         const fmi2Integer order[], fmi2Real value[]) {
     Instance *instance = c;
     Refusal refusal;
+    unsigned places[VARIABLE_COUNT + 1];
     bool done = instance != NULL
-                && derivatives_check("fmi2GetRealOutputDerivatives", vr, nvr, order, value, &refusal)
-                && component_get_derivatives(&instance->component, vr, value, nvr, &refusal);
+                && derivatives_check("fmi2GetRealOutputDerivatives", vr, nvr, order, value, places, &refusal)
+                && component_get_derivatives(&instance->component, places, value, nvr, &refusal);
     return answer(instance, done, &refusal);
 }

@@ -64,11 +64,8 @@ void fmi2FreeInstance(fmi2Component c) {
 
 fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nCategories,
                                const fmi2String categories[]) {
-    Refusal refusal;
-    bool done = c != NULL
-                && set_debug_logging(c, "fmi2SetDebugLogging", loggingOn != fmi2False, nCategories,
-                                     categories, &refusal);
-    return answer(c, done, &refusal);
+    return (fmi2Status)set_debug_logging(c, "fmi2SetDebugLogging", loggingOn != fmi2False, nCategories,
+                                         categories);
 }
 
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fmi2Real tolerance,
@@ -83,31 +80,18 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fm
     return answer(instance, done, &refusal);
 }
 
-static fmi2Status change_lifecycle(fmi2Component c, bool (*change)(Component *, Refusal *)) {
-    Instance *instance = c;
-    Refusal refusal;
-    bool done = instance != NULL && change(&instance->component, &refusal);
-    return answer(instance, done, &refusal);
-}
-
 fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
-    return change_lifecycle(c, component_enter_initialization);
+    return (fmi2Status)lifecycle_call(c, component_enter_initialization);
 }
 
 fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
-    return change_lifecycle(c, component_exit_initialization);
+    return (fmi2Status)lifecycle_call(c, component_exit_initialization);
 }
 
 fmi2Status fmi2Terminate(fmi2Component c) {
-    return change_lifecycle(c, component_terminate);
+    return (fmi2Status)lifecycle_call(c, component_terminate);
 }
 
 fmi2Status fmi2Reset(fmi2Component c) {
-    Instance *instance = c;
-    if (instance == NULL) {
-        return fmi2Error;
-    }
-    component_reset(&instance->component);
-    instance->last_step = fmi2OK;
-    return fmi2OK;
+    return (fmi2Status)instance_reset(c);
 }

@@ -7,5 +7,6 @@ const FmiVersion FMI = {
     .states = TERMINATED + 1,
     .state_names = {"instantiated", "initialization mode", "step complete", "terminated"},
     .type_names = {"Real", "Integer", "Boolean", "String"},
+    .count_name = "nvr",
     .token = "fmuGUID",
 };

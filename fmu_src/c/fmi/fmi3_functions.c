@@ -52,11 +52,8 @@ void fmi3FreeInstance(fmi3Instance instance) {
 
 fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean loggingOn, size_t nCategories,
                                const fmi3String categories[]) {
-    Refusal refusal;
-    bool done = instance != NULL
-                && set_debug_logging(instance, "fmi3SetDebugLogging", loggingOn, nCategories,
-                                     categories, &refusal);
-    return answer(instance, done, &refusal);
+    return (fmi3Status)set_debug_logging(instance, "fmi3SetDebugLogging", loggingOn, nCategories,
+                                         categories);
 }
 
 /* The times of the experiment come with the change to initialization mode. */
@@ -85,17 +82,9 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
 }
 
 fmi3Status fmi3Terminate(fmi3Instance instance) {
-    Instance *own = instance;
-    Refusal refusal;
-    bool done = own != NULL && component_terminate(&own->component, &refusal);
-    return answer(own, done, &refusal);
+    return (fmi3Status)lifecycle_call(instance, component_terminate);
 }
 
 fmi3Status fmi3Reset(fmi3Instance instance) {
-    Instance *own = instance;
-    if (own == NULL) {
-        return fmi3Error;
-    }
-    component_reset(&own->component);
-    return fmi3OK;
+    return (fmi3Status)instance_reset(instance);
 }

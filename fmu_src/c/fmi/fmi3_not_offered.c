@@ -14,7 +14,7 @@
 #define DEPENDENCIES "the model description lists them"
 #define DISCRETE_STATES "there are none (providesEvaluateDiscreteStates is false)"
 
-fmi3Status not_offered(fmi3Instance instance, const char *call, const char *reason) {
+static fmi3Status not_offered(fmi3Instance instance, const char *call, const char *reason) {
     Refusal refusal;
     refuse(&refusal, "%s refused: %s", call, reason);
     return answer(instance, false, &refusal);

@@ -5,7 +5,8 @@
 #include "../component/lifecycle.h"
 #include "fmi3_api.h"
 
-bool results_check(const char *call, bool all_given, Refusal *refusal) {
+/* Refuse NULL where the function `call` must write its results. */
+static bool results_check(const char *call, bool all_given, Refusal *refusal) {
     return all_given
            || refuse(refusal, "%s: a null pointer refused: must point to memory for a result", call);
 }

@@ -1,107 +1,28 @@
 /* FMI 3.0: get and set values of variables, all of a call or none. */
-#include "../component/values.h"
 #include "fmi3_api.h"
+#include "value_access.h"
 
-/* Of `time`, which is no row of the table. */
-enum { TIME_REFERENCE = 1 };
-
-/* Refuse null pointers, numbers of values that do not fit, and more than there are variables. */
-static bool count_check(const char *call, const fmi3ValueReference *references, size_t count,
-                        const void *values, size_t value_count, Refusal *refusal) {
-    if (count > VARIABLE_COUNT + 1) {
-        return refuse(refusal, "%s: nValueReferences = %lu refused: must be at most %d, each "
-                      "variable once", call, (unsigned long)count, VARIABLE_COUNT + 1);
-    }
-    if (value_count != count) {
-        return refuse(refusal, "%s: nValues = %lu refused: must be %lu, one for each reference",
-                      call, (unsigned long)value_count, (unsigned long)count);
-    }
-    return count == 0 || (references != NULL && values != NULL)
-           || refuse(refusal, "%s: a null pointer refused: must point to %lu references or values",
-                     call, (unsigned long)count);
+/* Refuse a number of values that does not fit the references. */
+static fmi3Status refuse_value_count(fmi3Instance instance, const char *call, size_t count,
+                                     size_t value_count) {
+    Refusal refusal;
+    refuse(&refusal, "%s: nValues = %lu refused: must be %lu, one for each reference", call,
+           (unsigned long)value_count, (unsigned long)count);
+    return answer(instance, false, &refusal);
 }
 
-static bool is_time(fmi3ValueReference reference, ValueType type) {
-    return reference == TIME_REFERENCE && type == REAL_TYPE;
-}
-
-/* Translate references to places in the table, without the time; refuse those that do not fit, and more
- * of them than the table has. */
-static bool places_of(const fmi3ValueReference *references, size_t count, ValueType type,
-                      unsigned *places, size_t *place_count, Refusal *refusal) {
-    *place_count = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (references[i] == TIME_REFERENCE && type != REAL_TYPE) {
-            return refuse_wrong_type(refusal, "time", TIME_REFERENCE, FMI.type_names[REAL_TYPE],
-                                     FMI.type_names[type]);
-        }
-        if (is_time(references[i], type)) {
-            continue;
-        }
-        unsigned place = references[i] - FMI.reference_offset;
-        if (!reference_check(place, type, refusal)) {
-            return false;
-        }
-        places[(*place_count)++] = place;
-    }
-    return *place_count <= VARIABLE_COUNT
-           || refuse(refusal, "valueReferences: %lu variables refused: must be at most %d, each once",
-                     (unsigned long)*place_count, VARIABLE_COUNT);
-}
-
-/* Check a call and translate its references; refuse what does not fit. */
-static bool call_check(const Instance *own, const char *call,
-                       const fmi3ValueReference *references, size_t count, const void *values,
-                       size_t value_count, ValueType type, unsigned *places, size_t *place_count,
-                       Refusal *refusal) {
-    return own != NULL && count_check(call, references, count, values, value_count, refusal)
-           && places_of(references, count, type, places, place_count, refusal);
-}
-
-/* There are no variables but of type Float64 and Int32: of the other types only an empty call passes. */
 static fmi3Status get_values(fmi3Instance instance, const char *call,
                              const fmi3ValueReference *references, size_t count, void *values,
                              size_t value_count, ValueType type) {
-    Instance *own = instance;
-    Refusal refusal;
-    unsigned places[VARIABLE_COUNT + 1];
-    double found[VARIABLE_COUNT + 1];
-    size_t place_count = 0;
-    bool done = call_check(own, call, references, count, values, value_count, type, places,
-                           &place_count, &refusal)
-                && component_get(&own->component, places, found, place_count, &refusal);
-    const double *next = found;
-    for (size_t i = 0; done && i < count; i++) {
-        double value = is_time(references[i], type) ? own->component.now.time : *next++;
-        if (type == REAL_TYPE) {
-            ((fmi3Float64 *)values)[i] = value;
-        } else {
-            ((fmi3Int32 *)values)[i] = (fmi3Int32)value;
-        }
-    }
-    return answer(own, done, &refusal);
+    return value_count != count ? refuse_value_count(instance, call, count, value_count)
+                                : (fmi3Status)values_get(instance, call, references, count, values, type);
 }
 
 static fmi3Status set_values(fmi3Instance instance, const char *call,
                              const fmi3ValueReference *references, size_t count,
                              const void *values, size_t value_count, ValueType type) {
-    Instance *own = instance;
-    Refusal refusal;
-    unsigned places[VARIABLE_COUNT + 1];
-    double changes[VARIABLE_COUNT + 1];
-    size_t place_count = 0;
-    bool done = call_check(own, call, references, count, values, value_count, type, places,
-                           &place_count, &refusal);
-    if (done && place_count < count) {
-        done = refuse(&refusal, "time (valueReference = %d) refused: it is the independent variable "
-                      "and cannot be set", TIME_REFERENCE);
-    }
-    for (size_t i = 0; done && i < count; i++) {
-        changes[i] = type == REAL_TYPE ? ((const fmi3Float64 *)values)[i]
-                                       : ((const fmi3Int32 *)values)[i];
-    }
-    done = done && component_set(&own->component, places, changes, count, &refusal);
-    return answer(own, done, &refusal);
+    return value_count != count ? refuse_value_count(instance, call, count, value_count)
+                                : (fmi3Status)values_set(instance, call, references, count, values, type);
 }
 
 #define GET_AND_SET(NAME, TYPE) \

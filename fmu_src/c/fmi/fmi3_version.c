@@ -10,5 +10,6 @@ const FmiVersion FMI = {
                     "event mode"},
     .type_names = {"Float64", "Int32", "Boolean", "String", "Float32", "Int8", "UInt8", "Int16",
                    "UInt16", "UInt32", "Int64", "UInt64", "Binary", "Clock"},
+    .count_name = "nValueReferences",
     .token = "instantiationToken",
 };

@@ -105,25 +105,42 @@ static bool enable(Instance *instance, const char *call, const char *category, R
                   CATEGORIES[STATUS_OK]);
 }
 
-bool set_debug_logging(Instance *instance, const char *call, bool logging_on, size_t count,
-                       const char *const *categories, Refusal *refusal) {
+Status set_debug_logging(Instance *instance, const char *call, bool logging_on, size_t count,
+                         const char *const *categories) {
+    Refusal refusal;
+    if (instance == NULL) {
+        return STATUS_ERROR;
+    }
     bool before[STATUSES];
     memcpy(before, instance->enabled, sizeof before);
-    bool known = count <= STATUSES && (count == 0 || categories != NULL);
-    if (!known) {
-        refuse(refusal, "%s: nCategories = %lu refused: must be from 0 to %d, with as many "
-               "categories", call, (unsigned long)count, STATUSES);
-    }
+    bool known = (count <= STATUSES && (count == 0 || categories != NULL))
+                 || refuse(&refusal, "%s: nCategories = %lu refused: must be from 0 to %d, with as many "
+                           "categories", call, (unsigned long)count, STATUSES);
     enable_all(instance, logging_on && count == 0);
     for (size_t i = 0; known && i < count; i++) {
-        known = enable(instance, call, categories[i], refusal);
+        known = enable(instance, call, categories[i], &refusal);
     }
     if (!known) {
         memcpy(instance->enabled, before, sizeof before);
     } else if (!logging_on) {
         enable_all(instance, false);
     }
-    return known;
+    return send_answer(instance, known, &refusal);
+}
+
+Status instance_reset(Instance *instance) {
+    if (instance == NULL) {
+        return STATUS_ERROR;
+    }
+    component_reset(&instance->component);
+    instance->last_step = STATUS_OK;
+    return STATUS_OK;
+}
+
+Status lifecycle_call(Instance *instance, bool (*change)(Component *component, Refusal *refusal)) {
+    Refusal refusal;
+    bool done = instance != NULL && change(&instance->component, &refusal);
+    return send_answer(instance, done, &refusal);
 }
 
 Status send_report(const Instance *instance, Status status, const char *text) {

@@ -57,9 +57,15 @@ Instance *instance_create(const Host *host, const char *call, const char *name, 
 
 void instance_free(Instance *instance);
 
+/* Give an instance its start values. */
+Status instance_reset(Instance *instance);
+
+/* Change the state of the life cycle by a function of the component. */
+Status lifecycle_call(Instance *instance, bool (*change)(Component *component, Refusal *refusal));
+
 /* Enable the log categories named, or all if none is; or disable all. */
-bool set_debug_logging(Instance *instance, const char *call, bool logging_on, size_t count,
-                       const char *const *categories, Refusal *refusal);
+Status set_debug_logging(Instance *instance, const char *call, bool logging_on, size_t count,
+                         const char *const *categories);
 
 /* Send a text if there is an instance and its category is enabled; return the status. */
 Status send_report(const Instance *instance, Status status, const char *text);

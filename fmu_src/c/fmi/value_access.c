@@ -1,0 +1,83 @@
+#include "value_access.h"
+
+/* Whether the time is a variable, which is no row of the table: its reference is the lowest one. */
+static bool has_time(void) {
+    return FMI.min_reference < FMI.reference_offset;
+}
+
+static bool is_time(unsigned reference) {
+    return has_time() && reference == FMI.min_reference;
+}
+
+/* Refuse more references than there are variables. */
+static bool count_check(const char *call, size_t count, int most, Refusal *refusal) {
+    return count <= (size_t)most
+           || refuse(refusal, "%s: %s = %lu refused: must be at most %d, each variable once", call,
+                     FMI.count_name, (unsigned long)count, most);
+}
+
+bool places_check(const char *call, const unsigned *references, size_t count, const void *values,
+                  ValueType type, unsigned *places, size_t *place_count, Refusal *refusal) {
+    *place_count = 0;
+    if (!count_check(call, count, VARIABLE_COUNT + has_time(), refusal)) {
+        return false;
+    }
+    if (count > 0 && (references == NULL || values == NULL)) {
+        return refuse(refusal, "%s: a null pointer refused: must point to %lu references or values",
+                      call, (unsigned long)count);
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (is_time(references[i]) && type != REAL_TYPE) {
+            return refuse_wrong_type(refusal, "time", references[i], FMI.type_names[REAL_TYPE],
+                                     FMI.type_names[type]);
+        }
+        if (!is_time(references[i])) {
+            unsigned place = references[i] - FMI.reference_offset;
+            if (!reference_check(place, type, refusal)) {
+                return false;
+            }
+            places[(*place_count)++] = place;
+        }
+    }
+    return count_check(call, *place_count, VARIABLE_COUNT, refusal);
+}
+
+Status values_get(Instance *instance, const char *call, const unsigned *references, size_t count,
+                  void *values, ValueType type) {
+    Refusal refusal;
+    unsigned places[VARIABLE_COUNT + 1];
+    double found[VARIABLE_COUNT];
+    size_t place_count;
+    bool done = instance != NULL
+                && places_check(call, references, count, values, type, places, &place_count, &refusal)
+                && component_get(&instance->component, places, found, place_count, &refusal);
+    const double *next = found;
+    for (size_t i = 0; done && i < count; i++) {
+        double value = is_time(references[i]) ? instance->component.now.time : *next++;
+        if (type == REAL_TYPE) {
+            ((double *)values)[i] = value;
+        } else {
+            ((int *)values)[i] = (int)value;
+        }
+    }
+    return send_answer(instance, done, &refusal);
+}
+
+Status values_set(Instance *instance, const char *call, const unsigned *references, size_t count,
+                  const void *values, ValueType type) {
+    Refusal refusal;
+    unsigned places[VARIABLE_COUNT + 1];
+    double changes[VARIABLE_COUNT];
+    size_t place_count;
+    bool done = instance != NULL
+                && places_check(call, references, count, values, type, places, &place_count, &refusal);
+    if (done && place_count < count) {
+        done = refuse(&refusal, "time (valueReference = %u) refused: it is the independent variable "
+                      "and cannot be set", FMI.min_reference);
+    }
+    for (size_t i = 0; done && i < count; i++) {
+        changes[i] = type == REAL_TYPE ? ((const double *)values)[i] : ((const int *)values)[i];
+    }
+    done = done && component_set(&instance->component, places, changes, count, &refusal);
+    return send_answer(instance, done, &refusal);
+}
