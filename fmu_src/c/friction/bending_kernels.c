@@ -99,12 +99,6 @@ static void prepare(BendingKernels *kernels, const GaussIntegrals *gauss, const 
     kernels->end_free = turned[END];
 }
 
-/* 2^((k + 1) / LENGTHS_PER_OCTAVE) / 2. */
-static const double OCTAVE[LENGTHS_PER_OCTAVE] = {
-    0.5452538663326288, 0.5946035575013605, 0.6484197773255048, 0.7071067811865476,
-    0.7711054127039704, 0.8408964152537145, 0.9170040432046712, 1.0,
-};
-
 BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, double length) {
     PlantKey key_of_plant = {plant->slider_mass, plant->total_mass, plant->mass_fraction,
                              plant->drive_frequency, plant->slip.eigenvalue};
@@ -120,12 +114,7 @@ BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, do
         }
     }
     double w = plant->drive_frequency;
-    int exponent, part = 0;
-    double share = frexp(length * w, &exponent);
-    while (OCTAVE[part] < share) {
-        part++;
-    }
-    int key = LENGTHS_PER_OCTAVE * exponent + part, place = 0;
+    int key = (int)ceil(log(length * w) / LENGTH_STEP), place = 0;
     while (place < tables->kept_count && tables->key[place] != key) {
         place++;
     }
@@ -137,7 +126,7 @@ BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, do
             tables->kept_count++;
         }
         tables->key[place] = key;
-        prepare(&tables->kept[place], &tables->gauss, plant, ldexp(OCTAVE[part], exponent) / w);
+        prepare(&tables->kept[place], &tables->gauss, plant, exp(key * LENGTH_STEP) / w);
     }
     BendingKernels *kernels = &tables->kept[place];
     if (!kernels->has_normal) {

@@ -45,11 +45,13 @@ typedef struct {
     double slope[POINTS - 1][GAUSS_NODES];
 } BendingKernels;
 
-/* Largest length of a panel over the length asked for. */
+/* Difference of the logarithms of two panel lengths in the grid, an eighth of that of 2; largest length of a panel over the
+ * length asked for. */
+#define LENGTH_STEP 0.08664339756999316
 #define MAX_KERNELS_STEP 1.0906
 
-/* Panel lengths per octave, and number of tables kept. */
-enum { LENGTHS_PER_OCTAVE = 8, KEPT_KERNELS = 12 };
+/* Number of tables kept. */
+enum { KEPT_KERNELS = 12 };
 
 /* What kernels depend on, but for the normal frequency. */
 typedef struct {

@@ -41,49 +41,20 @@ static double value(const double *coefficients, double t) {
 #define NEGLIGIBLE_MOTION 1e-200
 enum { FIRST_TERMS = 5, MAX_SHRINKS = 10 };
 
-/* Smallest coefficient that limits how far a series holds. */
+/* Smallest coefficient that limits how far a series holds: compilers divide before they choose, and hosts may trap x / 0. */
 #define SMALLEST 1e-300
 
-/* The tolerance over the last two coefficients of a series. The series holds up to the smaller one of
- * their roots, of order TAYLOR_ORDER - 1 and TAYLOR_ORDER [s]. */
-typedef struct {
-    double lower, higher;
-} LastTerms;
-
-/* A coefficient of 0 counts as SMALLEST: compilers divide before they choose, and hosts may trap x / 0. */
-static double tolerance_over(double tolerance, double coefficient) {
-    return tolerance / fmax(fabs(coefficient), SMALLEST);
-}
-
-static LastTerms last_terms(const double *coefficients, double tolerance) {
-    return (LastTerms){tolerance_over(tolerance, coefficients[TAYLOR_ORDER - 1]),
-                       tolerance_over(tolerance, coefficients[TAYLOR_ORDER])};
-}
-
-/* x^(TAYLOR_ORDER - 1). */
-static double power_lower(double x) {
-    double x2 = x * x, x4 = x2 * x2, x5 = x4 * x, x10 = x5 * x5;
-    return x10 * x10 * x;
-}
-
-/* How far series hold [s]: up to where one of these terms reaches the tolerance. Roots are expensive:
- * products decide which of the two is taken. */
-static double series_reach(LastTerms terms) {
-    double lower = terms.lower, higher = terms.higher;
-    double smaller = lower * power_lower(lower / higher);
-    if (smaller > 0.0 && smaller < 1.0) {
-        return pow(lower, INVERSE[TAYLOR_ORDER - 1]);
-    }
-    if (smaller > 1.0 && smaller < INFINITY) {
-        return pow(higher, INVERSE[TAYLOR_ORDER]);
-    }
-    return fmin(pow(lower, INVERSE[TAYLOR_ORDER - 1]), pow(higher, INVERSE[TAYLOR_ORDER]));
+/* How far a series holds [s]: up to where one of its last two terms reaches the tolerance. */
+static double series_reach(const double *coefficients, double tolerance) {
+    double lower = tolerance / fmax(fabs(coefficients[TAYLOR_ORDER - 1]), SMALLEST);
+    double higher = tolerance / fmax(fabs(coefficients[TAYLOR_ORDER]), SMALLEST);
+    return exp(fmin(INVERSE[TAYLOR_ORDER - 1] * log(lower), INVERSE[TAYLOR_ORDER] * log(higher)));
 }
 
 /* How far the series of a velocity holds [s] if its last terms may reach `tolerance` times `scale` [m/s] or, if
  * that is much less, times the velocity itself. */
 static double reach_of(const double *coefficients, double tolerance, double scale) {
-    double reach = series_reach(last_terms(coefficients, tolerance * scale));
+    double reach = series_reach(coefficients, tolerance * scale);
     for (int i = 0; i < MAX_SHRINKS && reach < INFINITY; i++) {
         double size = 0.0;
         for (int k = FIRST_TERMS - 1; k >= 0; k--) {
@@ -93,7 +64,7 @@ static double reach_of(const double *coefficients, double tolerance, double scal
             break;
         }
         scale = size;
-        reach = series_reach(last_terms(coefficients, tolerance * scale));
+        reach = series_reach(coefficients, tolerance * scale);
     }
     return reach;
 }
