@@ -91,26 +91,6 @@ static double balanced_turning(const Balance *balance, Point low, Point high) {
     return 0.5 * (low.turning + high.turning);
 }
 
-TheoryRange theory_range(const Law *law) {
-    const Device *device = &law->device;
-    TheoryRange range;
-    double fastest = 0.0;
-    FastVibration fast;
-    Refusal refusal;
-    if (fast_vibration_prepare(&fast, device, &refusal)) {
-        fastest = fast.velocity;
-    }
-    range.square = fastest * fastest;
-    fastest = fmax(fastest, fabs(device->initial_velocity));
-    double mu = law->bristle.coefficient;
-    double drag = law->bristle.damping * fastest;
-    double normal = device->normal_preload + device->normal_amplitude;
-    range.drag = drag / (mu > 0.0 ? mu : 1.0); /* Without friction there is no drag. */
-    double bent = fabs(law->friction->first_bristle(law)) * (1.0 + range.drag);
-    range.strongest = TAU * normal * (1.0 + device->friction_faces * (mu + drag + bent));
-    return range;
-}
-
 /* Whether the vibration alone overcomes the mean `friction` [N] of sliding: the amplitude of its force on the pair must, and
  * so must that of its force on a held slider. */
 static bool breaks_loose(const Balance *balance, double friction) {

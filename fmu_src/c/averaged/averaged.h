@@ -17,15 +17,6 @@ typedef struct {
     bool valid;
 } Averaged;
 
-/* Motion and averaged theory stay in the range of floating point where all of these are finite: the square
- * of the fast velocity [m^2/s^2]; the drag over mu at the fast or the initial velocity, whichever is larger;
- * and a bound on integrals of load and friction [N], with the initial bristle deflection. */
-typedef struct {
-    double square, drag, strongest;
-} TheoryRange;
-
-TheoryRange theory_range(const Law *law);
-
 /* Averaged theory of the device and inputs of a law (eqs 20-22 with both faces).
  *
  * `normal_lead` [rad] is psi - n theta, which earlier changes of the ratio make different from 0. Where

@@ -86,7 +86,7 @@ double slow_friction_to_kink(const SlowFriction *slow, double t) {
     const FlightWindow *window = &slow->law->held.window;
     double chi = load_at(slow, t, &turned)->delta, drift = slow->drift + slow->chirp * t;
     double going = drift != 0.0 ? drift : slow->chirp;
-    return time_to_switch_chirped(window, chi, drift, slow->chirp, is_lifted(window, chi, going));
+    return time_to_switch(window, chi, drift, slow->chirp, is_lifted(window, chi, going));
 }
 
 double slow_friction_sway(const SlowFriction *slow) {

@@ -1,7 +1,14 @@
-#include "slow_motion.h"
-
+/* Averaged motion of first order, fidelity 0: the slow motion of the pair under mean friction.
+ *
+ * With D the amplitude of the drive force on the pair, its momentum over the total mass is P = X' + r_m Y'
+ * = V - D cos(theta) / (w (M + m)), and its centre is X + r_m Y. Both are continuous, also where a parameter
+ * is tuned. V is the slow velocity: (M + m) V' = -mean friction - load. The fast parts of all outputs are
+ * the steady vibration (32)-(33), added in closed form.
+ *
+ * The bristle follows the motion periodically; it has no state here. */
 #include "../base/elementary.h"
 #include "../base/number.h"
+#include "../resolved/motion.h"
 #include "slow_equation.h"
 
 /* Error of first order in friction shares and v_q: that of the average, and that of what the average leaves

@@ -104,7 +104,7 @@ static double lowest_between(double from, Signal before, double to, Signal at) {
     return turns ? from + (to - from) * before.slope / (before.slope - at.slope) : to;
 }
 
-double first_zero_near(const Watch *watch, double limit, double start, double expected) {
+double first_zero(const Watch *watch, double limit, double start, double expected) {
     double noise = watch->noise, horizon = watch->horizon;
     double t = start, from = start, shortest = SHORTEST_STEP / watch->fastest;
     double longest_forced = SHORT_STEP / watch->fastest;
@@ -143,8 +143,4 @@ double first_zero_near(const Watch *watch, double limit, double start, double ex
         t += step > horizon ? horizon : step; /* NaN stays NaN, and ends the search */
     }
     return NO_ZERO;
-}
-
-double first_zero(const Watch *watch, double limit, double start) {
-    return first_zero_near(watch, limit, start, NO_ZERO);
 }

@@ -29,11 +29,9 @@ typedef struct {
 /* Returned where there is no zero; times are not negative. */
 #define NO_ZERO (-1.0)
 
-/* Time of the first downward zero in [start, limit) [s], or NO_ZERO.
+/* Time of the first downward zero in [start, limit) [s], or NO_ZERO; fewer evaluations find it if it is near `expected` [s],
+ * where NO_ZERO expects none.
  *
  * The signal is non-negative at `start`. Two zeros closer than 1e-7 / fastest enclose a dip within
  * rounding and count as a touch, which is no zero. */
-double first_zero(const Watch *watch, double limit, double start);
-
-/* The same zero, found with fewer evaluations if it is near `expected` [s]; NO_ZERO expects none. */
-double first_zero_near(const Watch *watch, double limit, double start, double expected);
+double first_zero(const Watch *watch, double limit, double start, double expected);

@@ -155,23 +155,31 @@ static bool moment_to_read(Component *component, unsigned reference, Moment *fir
     return true;
 }
 
-bool component_get(Component *component, const unsigned *references, double *values, size_t count,
-                   Refusal *refusal) {
+/* Read variables by reference or, as asked, their derivatives: all or none. */
+static bool read(Component *component, bool derivatives, const unsigned *references, double *values,
+                 size_t count, Refusal *refusal) {
+    const Snapshot *now = &component->now;
     double found[VARIABLE_COUNT];
     Moment first;
     const Moment *moment = NULL;
     for (size_t i = 0; i < count; i++) {
-        if (references[i] < SETTABLE_COUNT) {
-            found[i] = component->now.values[references[i]];
+        unsigned reference = references[i];
+        if (reference < SETTABLE_COUNT && !derivatives) {
+            found[i] = now->values[reference];
             continue;
         }
-        if (!moment && !moment_to_read(component, references[i], &first, &moment, refusal)) {
+        if (!moment && !moment_to_read(component, reference, &first, &moment, refusal)) {
             return false;
         }
-        found[i] = output_value(references[i], present_law(component), moment,
-                                component->now.last_event_time, &component->theory);
+        const Law *law = present_law(component);
+        if (!derivatives) {
+            found[i] = output_value(reference, law, moment, now->last_event_time, &component->theory);
+        } else if (!output_derivative(reference, law, moment, now->derivatives[VR_PHASE].value,
+                                      &found[i], refusal)) {
+            return false;
+        }
         if (!isfinite(found[i])) {
-            return refuse_infinite_output(refusal, VARIABLES[references[i]].name, found[i]);
+            return refuse_infinite_output(refusal, VARIABLES[reference].name, found[i]);
         }
     }
     if (count > 0) { /* `values` may be null for a count of 0 */
@@ -180,25 +188,14 @@ bool component_get(Component *component, const unsigned *references, double *val
     return true;
 }
 
+bool component_get(Component *component, const unsigned *references, double *values, size_t count,
+                   Refusal *refusal) {
+    return read(component, false, references, values, count, refusal);
+}
+
 bool component_get_derivatives(Component *component, const unsigned *references, double *values,
                                size_t count, Refusal *refusal) {
-    double found[VARIABLE_COUNT];
-    Moment first;
-    const Moment *moment = NULL;
-    for (size_t i = 0; i < count; i++) {
-        if ((!moment && !moment_to_read(component, references[i], &first, &moment, refusal))
-            || !output_derivative(references[i], present_law(component), moment,
-                                  component->now.derivatives[VR_PHASE].value, &found[i], refusal)) {
-            return false;
-        }
-        if (!isfinite(found[i])) {
-            return refuse_infinite_output(refusal, VARIABLES[references[i]].name, found[i]);
-        }
-    }
-    if (count > 0) {
-        memcpy(values, found, count * sizeof *values);
-    }
-    return true;
+    return read(component, true, references, values, count, refusal);
 }
 
 /* Where a step leads: the moment at its end and, where inputs vary, the values then. */

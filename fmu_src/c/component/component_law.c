@@ -2,15 +2,11 @@
 
 #include <math.h>
 
-#include "../averaged/averaged.h"
 #include "../averaged/friction_table.h"
-#include "../averaged/slow_motion.h"
 #include "../base/refusal_texts.h"
 #include "../device/device.h"
 #include "../friction/bending_kernels.h"
 #include "../friction/law.h"
-#include "../leap/leaping_motion.h"
-#include "../resolved/resolved_motion.h"
 #include "parameter_values.h"
 #include "values.h"
 
@@ -23,20 +19,30 @@ bool all_finite(const double *numbers, size_t count) {
     return true;
 }
 
-/* Whether all coefficients are finite numbers, and the slider's mass counts beside the resonator's. */
+/* Whether all coefficients are finite numbers, and so are bounds of what motion and averages compute: the square of the fast
+ * velocity [m^2/s^2], the drag over mu, and the integrals of load and friction [N]. The slider's mass must count beside the
+ * resonator's. */
 static bool law_is_finite(const Law *law) {
-    const TheoryRange theory = theory_range(law);
     const Plant *plant = &law->held.plant;
-    const double coefficients[] = {
+    const Device *device = &law->device;
+    FastVibration vibration;
+    Refusal unbounded;
+    double fast = fast_vibration_prepare(&vibration, device, &unbounded) ? vibration.velocity : 0.0;
+    double mu = law->bristle.coefficient;
+    double drag = law->bristle.damping * fmax(fast, fabs(device->initial_velocity));
+    double drag_over_mu = drag / (mu > 0.0 ? mu : 1.0); /* without friction there is no drag */
+    double bent = fabs(bristle_bent(&law->bristle, device->initial_bristle_deflection));
+    double friction = device->friction_faces * (mu + drag + bent * (1.0 + drag_over_mu));
+    double strongest = TAU * (device->normal_preload + device->normal_amplitude) * (1.0 + friction);
+    const double numbers[] = {
         plant->total_mass,      plant->mass_fraction,     plant->normal_frequency,
         plant->slip.decay,      plant->slip.stiffness,    plant->stick.decay,
         plant->stick.stiffness, plant->drive.re,          plant->drive.im,
         plant->relative_drive,  plant->base_acceleration, plant->holding_drive.re,
         plant->spring,          plant->damper,            plant->holding_drive.im,
-        theory.square,          theory.drag,              theory.strongest,
+        fast * fast,            drag_over_mu,             strongest,
     };
-    return plant->mass_fraction < 1.0 &&
-           all_finite(coefficients, sizeof coefficients / sizeof coefficients[0]);
+    return plant->mass_fraction < 1.0 && all_finite(numbers, sizeof numbers / sizeof numbers[0]);
 }
 
 /* Refuse values that together leave the range of floating point numbers; the text names the value that is

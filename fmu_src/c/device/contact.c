@@ -40,30 +40,23 @@ bool is_lifted(const FlightWindow *window, double chi, double frequency) {
     return -REACHED < inside && inside < width + REACHED;
 }
 
-double time_to_switch(const FlightWindow *window, double chi, double frequency, bool lifted) {
-    if (!window->exists || frequency == 0.0 || window->last - window->first >= TAU) {
+double time_to_switch(const FlightWindow *window, double chi, double frequency, double rate, bool lifted) {
+    double going = frequency != 0.0 ? frequency : rate;
+    if (!window->exists || going == 0.0 || window->last - window->first >= TAU) {
         return INFINITY;
     }
-    bool to_last = lifted == (frequency > 0.0);
+    bool to_last = lifted == (going > 0.0);
     double ahead = (to_last ? window->last : window->first) - chi;
-    ahead = within_turn(frequency > 0.0 ? ahead : -ahead);
-    return TAU - ahead < REACHED ? 0.0 : ahead / fabs(frequency);
-}
-
-double time_to_switch_chirped(const FlightWindow *window, double chi, double frequency, double rate,
-                              bool lifted) {
-    if (rate == 0.0) {
-        return time_to_switch(window, chi, frequency, lifted);
-    }
-    double going = frequency != 0.0 ? frequency : rate;
-    /* At a frequency of 1 rad/s the time is the angle. */
-    double angle = time_to_switch(window, chi, copysign(1.0, going), lifted);
-    if (!(angle > 0.0 && angle < INFINITY)) {
-        return angle;
+    ahead = within_turn(going > 0.0 ? ahead : -ahead);
+    if (ahead == 0.0 || TAU - ahead < REACHED) {
+        return 0.0;
     }
     double speed = fabs(frequency), gain = going > 0.0 ? rate : -rate;
-    double square = speed * speed + 2.0 * gain * angle;
-    return square >= 0.0 ? 2.0 * angle / (speed + sqrt(square)) : INFINITY;
+    if (rate == 0.0) {
+        return ahead / speed;
+    }
+    double square = speed * speed + 2.0 * gain * ahead;
+    return square >= 0.0 ? 2.0 * ahead / (speed + sqrt(square)) : INFINITY;
 }
 
 int mode_by_velocity(const FlightWindow *window, const Plant *plant, double velocity, double psi) {

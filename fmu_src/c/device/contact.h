@@ -29,12 +29,9 @@ FlightWindow flight_window(const Plant *plant);
 bool is_lifted(const FlightWindow *window, double chi, double frequency);
 
 /* Time [s] until the contact lifts, or touches down when `lifted`; infinite if never. `frequency`
- * [rad/s] is that of the normal load and may be negative. */
-double time_to_switch(const FlightWindow *window, double chi, double frequency, bool lifted);
-
-/* The same under a frequency that grows by `rate` [rad/s^2], valid until it changes its sign. */
-double time_to_switch_chirped(const FlightWindow *window, double chi, double frequency, double rate,
-                              bool lifted);
+ * [rad/s] is that of the normal load and may be negative; it grows by `rate` [rad/s^2], and the time is valid until it
+ * changes its sign. */
+double time_to_switch(const FlightWindow *window, double chi, double frequency, double rate, bool lifted);
 
 /* Contact mode by load and velocity alone: lifted, or the direction of sliding; STICK at rest. */
 int mode_by_velocity(const FlightWindow *window, const Plant *plant, double velocity, double psi);

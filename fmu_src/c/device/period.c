@@ -54,26 +54,22 @@ double period_advance(PeriodMeans *means, const Segment *segment, double theta, 
     return end - TAU * ended;
 }
 
-double period_mean_velocity(const PeriodMeans *means, double velocity) {
+/* The `mean` of the last whole period; before one has ended that of `sum` since the start, and at the start `first`. */
+static double mean_of(const PeriodMeans *means, double mean, double sum, double first) {
     if (means->complete) {
-        return means->mean_velocity;
+        return mean;
     }
-    return means->elapsed > 0.0 ? means->travel / means->elapsed : velocity;
+    return means->elapsed > 0.0 ? sum / means->elapsed : first;
+}
+
+double period_mean_velocity(const PeriodMeans *means, double velocity) {
+    return mean_of(means, means->mean_velocity, means->travel, velocity);
 }
 
 double period_friction_power(const PeriodMeans *means, double power) {
-    if (means->complete) {
-        return means->friction_power;
-    }
-    return means->elapsed > 0.0 ? means->work / means->elapsed : power;
+    return mean_of(means, means->friction_power, means->work, power);
 }
 
 double period_stick_fraction(const PeriodMeans *means, bool sticks) {
-    if (means->complete) {
-        return means->stick_fraction;
-    }
-    if (means->elapsed > 0.0) {
-        return fmin(means->sticking / means->elapsed, 1.0);
-    }
-    return sticks ? 1.0 : 0.0;
+    return fmin(mean_of(means, means->stick_fraction, means->sticking, sticks ? 1.0 : 0.0), 1.0);
 }

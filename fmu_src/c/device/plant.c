@@ -15,14 +15,17 @@ static Oscillator slip_oscillator(const Device *device) {
     return oscillator_of(device->damping_ratio * wn / free_share, wn * wn / free_share);
 }
 
-bool steady_resonator(const Device *device, Complex *amplitude, Refusal *refusal) {
+bool steady_vibration(const Device *device, Complex *resonator, Complex *force, Refusal *refusal) {
     double w = device->drive_frequency;
     Oscillator oscillator = slip_oscillator(device);
     if (device->damping_ratio == 0.0 && fabs(oscillator.stiffness - w * w) <= AT_RESONANCE * w * w) {
         return refuse_unbounded_resonance(refusal, device->damping_ratio, w);
     }
     double push = device->base_amplitude * w * w - device->tangential_force / device->slider_mass;
-    *amplitude = complex_scale(push, transfer(&oscillator, w));
+    *resonator = complex_scale(push, transfer(&oscillator, w));
+    Complex swing = complex_of(resonator->re + device->base_amplitude, resonator->im);
+    *force = complex_scale(device->resonator_mass * (w * w), swing);
+    force->re += device->tangential_force;
     return true;
 }
 
@@ -39,24 +42,11 @@ double held_amplitude(const Device *device) {
     return hypot(force.re + device->tangential_force, force.im);
 }
 
-bool equivalent_force(const Device *device, Complex *force, Refusal *refusal) {
-    Complex swing = {0.0, 0.0};
-    if (!steady_resonator(device, &swing, refusal)) {
-        return false;
-    }
-    double w = device->drive_frequency;
-    swing.re += device->base_amplitude;
-    *force = complex_scale(device->resonator_mass * (w * w), swing);
-    force->re += device->tangential_force;
-    return true;
-}
-
 bool fast_vibration_prepare(FastVibration *fast, const Device *device, Refusal *refusal) {
     double w = device->drive_frequency, mass = device_total_mass(device);
     double shaken = device->resonator_mass * device->base_amplitude * w * w;
     Complex force;
-    if (!equivalent_force(device, &force, refusal) ||
-        !steady_resonator(device, &fast->resonator, refusal)) {
+    if (!steady_vibration(device, &fast->resonator, &force, refusal)) {
         return false;
     }
     fast->velocity = complex_abs(force) / (mass * w);
@@ -81,8 +71,7 @@ bool plant_prepare(Plant *plant, const Device *device, const Inputs *inputs, Ref
     double base_acceleration = device->base_amplitude * w * w;
     Complex force = complex_of(m * base_acceleration + device->tangential_force, 0.0);
     Complex resonator_amplitude = complex_of(0.0, 0.0);
-    if (!full && !(steady_resonator(device, &resonator_amplitude, refusal) &&
-                   equivalent_force(device, &force, refusal))) {
+    if (!full && !steady_vibration(device, &resonator_amplitude, &force, refusal)) {
         return false;
     }
     plant->slider_mass = full ? device->slider_mass : total;

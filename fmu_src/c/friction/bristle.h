@@ -18,6 +18,11 @@ static inline bool is_elastic(const Bristle *bristle) {
     return isfinite(bristle->stiffness);
 }
 
+/* sigma_0 z of a bristle bent by `deflection` [m]; 0 of a rigid one. */
+static inline double bristle_bent(const Bristle *bristle, double deflection) {
+    return is_elastic(bristle) ? bristle->stiffness * deflection : 0.0;
+}
+
 /* sigma_0 z after `travel` [m] in one direction (its sign), from `friction` on. */
 static inline double bristle_after(const Bristle *bristle, double friction, double travel) {
     double limit = travel >= 0.0 ? bristle->coefficient : -bristle->coefficient;

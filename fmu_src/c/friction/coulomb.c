@@ -14,11 +14,6 @@ static bool prepare(const Device *device, Bristle *bristle, Refusal *refusal) {
     return true;
 }
 
-static double first_bristle(const Law *law) {
-    (void)law;
-    return 0.0;
-}
-
 /* Friction force [N] that holds a slider at rest. */
 static double needed_force(const Plant *plant, const Moment *moment) {
     const State *state = &moment->state;
@@ -148,7 +143,6 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 
 const FrictionLaw COULOMB = {
     .prepare = prepare,
-    .first_bristle = first_bristle,
     .mode = mode,
     .force = force,
     .follow = follow,

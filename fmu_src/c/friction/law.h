@@ -31,9 +31,6 @@ typedef struct FrictionLaw {
     /* Prepare the bristle. Refuses a device for which the law is not defined. */
     bool (*prepare)(const Device *device, Bristle *bristle, Refusal *refusal);
 
-    /* Friction of the bristle at the start, per unit load. */
-    double (*first_bristle)(const Law *law);
-
     /* Contact mode under the held inputs. */
     int (*mode)(const Law *law, const Moment *moment);
 

@@ -9,11 +9,16 @@
 /* Tolerance of a series, in velocity scales: rounding. */
 #define SERIES_ROUNDING (2.0 * EPSILON)
 
+/* Set all of a leg but its motion; the direction of sliding is watched `from` a time [s] on. */
+static void set_leg(Leg *leg, LegKind kind, int mode, int direction, double from) {
+    leg->kind = kind;
+    leg->mode = mode;
+    leg->direction = direction;
+    leg->watched_from = from;
+}
+
 void leg_begin_rest(Leg *leg, const Held *held, const Moment *now) {
-    leg->kind = RESTS;
-    leg->mode = STICK;
-    leg->direction = 0;
-    leg->watched_from = 0.0;
+    set_leg(leg, RESTS, STICK, 0, 0.0);
     stick_begin(&leg->motion.stick, &held->plant, &now->state, now->theta,
                 now->psi + held->plant.phase);
 }
@@ -27,7 +32,6 @@ void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now) {
 /* Sliding or flight by series with a bristle that is fully bent, which gives full friction. */
 static void begin_bent(Leg *leg, const Plant *plant, const Moment *now, int sign) {
     const Bristle bent = {1.0, 0.0, 0.0};
-    leg->kind = FOLLOWS_SERIES;
     taylor_slide_begin(&leg->motion.series, plant, &bent, sign, &now->state, sign,
                        &leg->known.phasors, SERIES_ROUNDING, velocity_scale(plant, &now->state));
     leg->motion.series.direction = leg->direction; /* the velocity is watched in flight, too */
@@ -35,28 +39,16 @@ static void begin_bent(Leg *leg, const Plant *plant, const Moment *now, int sign
 
 void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int direction) {
     int sign = now->mode == LIFTED ? 0 : direction;
-    leg->mode = now->mode;
-    leg->direction = direction;
-    leg->watched_from = 0.0;
+    bool splits = held->splits && held->plant.normal_rate == 0.0;
+    set_leg(leg, splits ? SLIDES : FOLLOWS_SERIES, now->mode, direction, 0.0);
     leg_know_phasors(leg, &held->plant, now);
-    if (!held->splits || held->plant.normal_rate != 0.0) {
+    if (!splits) {
         begin_bent(leg, &held->plant, now, sign);
         return;
     }
-    leg->kind = SLIDES;
     split_slide_begin(&leg->motion.slide, &held->split, &held->plant, sign, &now->state, now->theta,
                       now->psi + held->plant.phase, &leg->known.phasors, direction);
     leg->motion.slide.works = leg->counts_work && sign != 0;
-}
-
-static void begin_series(Leg *leg, const Held *held, const Bristle *bristle, const Moment *now,
-                         int direction, double tolerance, double scale) {
-    leg->kind = FOLLOWS_SERIES;
-    leg->mode = now->mode;
-    leg->direction = direction;
-    leg->watched_from = 0.0;
-    taylor_slide_begin(&leg->motion.series, &held->plant, bristle, direction, &now->state,
-                       now->bristle, &leg->known.phasors, tolerance, scale);
 }
 
 void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const Bristle *bristle,
@@ -69,16 +61,15 @@ void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const 
                             tolerance * scale);
     switch (motion) {
     case BY_SERIES:
-        begin_series(leg, held, bristle, now, direction, tolerance, scale);
+        set_leg(leg, FOLLOWS_SERIES, now->mode, direction, 0.0);
+        taylor_slide_begin(&leg->motion.series, &held->plant, bristle, direction, &now->state,
+                           now->bristle, &leg->known.phasors, tolerance, scale);
         return;
     case AS_BENT:
         leg_begin_slide(leg, held, now, direction);
         return;
     case BY_PANEL:
-        leg->kind = BENDS_AND_SLIDES;
-        leg->mode = now->mode;
-        leg->direction = direction;
-        leg->watched_from = panel->length;
+        set_leg(leg, BENDS_AND_SLIDES, now->mode, direction, panel->length);
         if (leg->counts_work) {
             bending_panel_weigh(panel);
         }
@@ -106,7 +97,7 @@ static void follow_rest(Leg *leg, double turn) {
         leg->t = fmin(leg->t, turn);
     }
     for (int i = 0; i < count; i++) {
-        double zero = first_zero(&watches[i], leg->t, 0.0);
+        double zero = first_zero(&watches[i], leg->t, 0.0, NO_ZERO);
         if (zero >= 0.0) {
             leg->t = zero;
             leg->zero_of = i;
@@ -146,7 +137,7 @@ static double reach_of(const Leg *leg) {
 /* Ends sliding at a stop; sets `turns` if it moves in another direction than `before`. */
 static void follow_sliding(Leg *leg, double expected, int before) {
     Watch watch = watch_of(leg);
-    double zero = first_zero_near(&watch, leg->t, leg->watched_from, expected);
+    double zero = first_zero(&watch, leg->t, leg->watched_from, expected);
     if (zero >= 0.0) {
         leg->t = zero;
         leg->zero_of = 0;

@@ -20,10 +20,6 @@ static bool prepare(const Device *device, Bristle *bristle, Refusal *refusal) {
            refuse_lugre_without_friction(refusal, device->friction_coefficient);
 }
 
-static double first_bristle(const Law *law) {
-    return law->bristle.stiffness * law->device.initial_bristle_deflection;
-}
-
 static int mode(const Law *law, const Moment *moment) {
     const Held *held = &law->held;
     return mode_by_velocity(&held->window, &held->plant, moment->state.velocity, moment->psi);
@@ -83,7 +79,6 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 
 const FrictionLaw LUGRE = {
     .prepare = prepare,
-    .first_bristle = first_bristle,
     .mode = mode,
     .force = force,
     .follow = follow,

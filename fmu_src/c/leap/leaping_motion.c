@@ -2,8 +2,6 @@
  *
  * Resolved to the next section, over a whole number of periods in a leap, resolved again for the last periods: outputs,
  * events and state are those of resolved motion. Where leaping gains nothing or does not hold, motion stays resolved. */
-#include "leaping_motion.h"
-
 #include <stddef.h>
 
 #include "../base/clock.h"

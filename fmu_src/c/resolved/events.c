@@ -137,7 +137,7 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
             return false;
         }
         double switching =
-            time_to_switch_chirped(&held->window, now->psi + plant->phase, plant->normal_frequency,
+            time_to_switch(&held->window, now->psi + plant->phase, plant->normal_frequency,
                                    plant->normal_rate, now->mode == LIFTED);
         double turning = time_to_turn(plant);
         double longest = fmin(fmin(fmin(remaining, switching), held->arc), turning);

@@ -52,3 +52,5 @@ typedef struct Motion {
      * all of it. */
     double (*part)(const Device *device, const Ramp *ramp, double left);
 } Motion;
+
+extern const Motion RESOLVED_MOTION, AVERAGED_MOTION, LEAPING_MOTION;

@@ -29,7 +29,7 @@ Moment resolved_start(const Law *law) {
     first.state.displacement = device->initial_resonator_displacement;
     first.state.rate = device->initial_resonator_velocity;
     first.mode = law->friction->mode(law, &first);
-    first.bristle = law->friction->first_bristle(law);
+    first.bristle = bristle_bent(&law->bristle, device->initial_bristle_deflection);
     return first;
 }
 

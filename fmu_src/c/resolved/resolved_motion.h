@@ -4,8 +4,6 @@
 #include "../base/constants.h"
 #include "motion.h"
 
-extern const Motion RESOLVED_MOTION;
-
 Moment resolved_start(const Law *law);
 int resolved_mode(const Law *law, const Moment *moment);
 double resolved_force(const Law *law, const Moment *moment, int mode);

@@ -31,7 +31,7 @@ double first_zero_of_waves(double offset, double loose, const double *waves, int
                            double fastest, double limit, double expected, int *work) {
     Sum sum = {offset, loose, waves, count, 0};
     Watch watch = {sum_at, &sum, noise, fastest, INFINITY};
-    double zero = first_zero_near(&watch, limit, 0.0, expected);
+    double zero = first_zero(&watch, limit, 0.0, expected);
     *work = sum.evaluations;
     return zero;
 }
