@@ -295,7 +295,7 @@ BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, co
                                   const Phasors *start, double longest, double tolerance) {
     const Plant *plant = &held->plant;
     bool swings = held->splits && plant->slip.oscillatory && !is_ramped(plant);
-    if (!swings || !(bristle->stiffness > 0.0)) {
+    if (tables == NULL || !swings || !(bristle->stiffness > 0.0)) {
         return BY_SERIES;
     }
     Outlook outlook;

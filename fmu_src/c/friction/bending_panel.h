@@ -42,7 +42,7 @@ typedef struct {
 /* Begin motion in contact from `now` on in `direction`, that of its velocity or, from rest, of its
  * acceleration, for up to `longest` [s]. Return how to follow it; the panel is set up for BY_PANEL only.
  * The error of the velocity is about `tolerance` [m/s]. `tables` must outlive the panel, and serve one
- * panel at a time. */
+ * panel at a time; without any, series alone are used. */
 BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, const Held *held,
                                   const Bristle *bristle, int direction, const Moment *now,
                                   const Phasors *start, double longest, double tolerance);

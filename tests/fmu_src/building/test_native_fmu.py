@@ -155,7 +155,7 @@ X87_RUN = """
 int main(void) {
     Plant plant = {.preload_share = -1.0};
     FlightWindow window = flight_window(&plant);
-    printf("%d %g", is_lifted(&window, 0.0, 1.0), time_to_switch(&window, 0.0, 1.0, true));
+    printf("%d %g", is_lifted(&window, 0.0, 1.0), time_to_switch(&window, 0.0, 1.0, 0.0, true));
     return 0;
 }
 """

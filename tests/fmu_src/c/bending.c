@@ -116,7 +116,7 @@ int panel_errors(const double *values, double start, double tolerance, double sh
         return 0;
     }
     double chi = reversal.psi + plant->phase, unused;
-    double switching = time_to_switch(&law.held.window, chi, plant->normal_frequency, false);
+    double switching = time_to_switch(&law.held.window, chi, plant->normal_frequency, 0.0, false);
     Phasors phasors = phasors_of(plant, reversal.theta, chi);
     for (int direction = BACKWARD; direction <= FORWARD; direction += 2) {
         if (bending_panel_begin(&panel, &tables, &law.held, &law.bristle, direction, &reversal,
