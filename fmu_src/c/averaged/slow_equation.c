@@ -121,7 +121,8 @@ static bool rate_at(void *motion, double t, double velocity, SlowRate *rate) {
 
 /* Steps of averaged motion that a whole budget buys. */
 static int max_steps(const SlowFriction *friction) {
-    if (!slow_friction_is_expensive(friction)) {
+    bool costs_quadratures = is_elastic(&friction->bristle) && friction->table == NULL;
+    if (!costs_quadratures) {
         bool grows = friction->law->held.plant.load_rate != 0.0;
         return grows ? MAX_SLOW_STEPS / GROWING : MAX_SLOW_STEPS;
     }

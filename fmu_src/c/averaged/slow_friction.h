@@ -23,11 +23,6 @@ typedef struct {
     bool stands;                /* whether the load itself is slow, at a frequency ratio near 0 */
 } SlowFriction;
 
-/* Whether each value costs a quadrature. */
-static inline bool slow_friction_is_expensive(const SlowFriction *slow) {
-    return is_elastic(&slow->bristle) && slow->table == NULL;
-}
-
 /* The mean friction of all faces from drive phase `theta` and normal phase `psi` [rad] on. */
 SlowFriction slow_friction_of(const Law *law, double theta, double psi);
 

@@ -1,20 +1,9 @@
 #include "linear_system.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Smallest pivot that counts as different from 0, relative to the largest entry of the matrix. */
 #define SMALLEST_PIVOT 1e-13
-
-static double largest_entry(double matrix[UNKNOWNS][UNKNOWNS], int count) {
-    double largest = 0.0;
-    for (int i = 0; i < count; i++) {
-        for (int j = 0; j < count; j++) {
-            largest = fmax(largest, fabs(matrix[i][j]));
-        }
-    }
-    return largest;
-}
 
 static void swap(double *a, double *b) {
     double kept = *a;
@@ -23,18 +12,22 @@ static void swap(double *a, double *b) {
 }
 
 bool solve_linear(double matrix[UNKNOWNS][UNKNOWNS], double right[UNKNOWNS], int count) {
-    double rows[UNKNOWNS][UNKNOWNS];
-    memcpy(rows, matrix, sizeof rows);
-    double smallest = SMALLEST_PIVOT * largest_entry(rows, count);
+    double rows[UNKNOWNS][UNKNOWNS], largest = 0.0;
+    for (int i = 0; i < count; i++) {
+        for (int j = 0; j < count; j++) {
+            rows[i][j] = matrix[i][j];
+            largest = fmax(largest, fabs(rows[i][j]));
+        }
+    }
     for (int k = 0; k < count; k++) {
         int pivot = k;
         for (int i = k + 1; i < count; i++) {
             pivot = fabs(rows[i][k]) > fabs(rows[pivot][k]) ? i : pivot;
         }
-        if (!(fabs(rows[pivot][k]) > smallest)) {
+        if (!(fabs(rows[pivot][k]) > SMALLEST_PIVOT * largest)) {
             return false;
         }
-        for (int j = k; j < count && pivot != k; j++) {
+        for (int j = k; j < count; j++) {
             swap(&rows[k][j], &rows[pivot][j]);
         }
         swap(&right[k], &right[pivot]);

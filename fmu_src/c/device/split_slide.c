@@ -374,7 +374,7 @@ static double work_by(const SplitSlide *slide, const Turns *turns, State state, 
     return slide->sign * (plant->friction_preload * travelled + plant->friction_amplitude * swung);
 }
 
-State split_slide_end(const SplitSlide *slide, double t, Passage *passed, KnownPhasors *known) {
+Place split_slide_place(const SplitSlide *slide, double t) {
     const Plant *plant = slide->plant;
     Turns place;
     const Turns *turns = turns_at(slide, t, &place, &place);
@@ -388,8 +388,7 @@ State split_slide_end(const SplitSlide *slide, double t, Passage *passed, KnownP
         state.displacement += aq.re;
         state.rate -= plant->normal_frequency * aq.im;
     }
-    passed->travel = travel_by(slide, turns, free.displacement);
-    passed->work = work_by(slide, turns, state, passed->travel);
-    *known = (KnownPhasors){!is_soon(slide, t), turns->phasors};
-    return state;
+    double travel = travel_by(slide, turns, free.displacement);
+    Passage passed = {travel, work_by(slide, turns, state, travel)};
+    return (Place){state, passed, {!is_soon(slide, t), turns->phasors}};
 }

@@ -106,5 +106,11 @@ void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex norm
 /* The velocity in the direction to watch. */
 Watch split_slide_watch(SplitSlide *slide);
 
-/* State after `t` [s], the passage until then, and the phasors. */
-State split_slide_end(const SplitSlide *slide, double t, Passage *passed, KnownPhasors *known);
+/* Where a motion is after a time: its state, the passage until then, and the phasors if they are known. */
+typedef struct {
+    State state;
+    Passage passed;
+    KnownPhasors known;
+} Place;
+
+Place split_slide_place(const SplitSlide *slide, double t);

@@ -42,27 +42,23 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     return answer(own, done, &refusal);
 }
 
-/* Refuse a call that needs event mode if the host announced that it does not use it. */
-static bool event_mode_check(const Instance *instance, const char *call, Refusal *refusal) {
-    return instance->event_mode_used
-           || refuse(refusal, "%s refused: eventModeUsed = false; must be true at instantiation",
-                     call);
+/* Change to or from event mode; refused if the host announced that it does not use it. */
+static fmi3Status change_mode(Instance *instance, const char *call,
+                              bool (*change)(Component *component, Refusal *refusal)) {
+    if (instance != NULL && !instance->event_mode_used) {
+        Refusal refusal;
+        refuse(&refusal, "%s refused: eventModeUsed = false; must be true at instantiation", call);
+        return answer(instance, false, &refusal);
+    }
+    return (fmi3Status)lifecycle_call(instance, change);
 }
 
 fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
-    Instance *own = instance;
-    Refusal refusal;
-    bool done = own != NULL && event_mode_check(own, "fmi3EnterEventMode", &refusal)
-                && component_enter_event_mode(&own->component, &refusal);
-    return answer(own, done, &refusal);
+    return change_mode(instance, "fmi3EnterEventMode", component_enter_event_mode);
 }
 
 fmi3Status fmi3EnterStepMode(fmi3Instance instance) {
-    Instance *own = instance;
-    Refusal refusal;
-    bool done = own != NULL && event_mode_check(own, "fmi3EnterStepMode", &refusal)
-                && component_enter_step_mode(&own->component, &refusal);
-    return answer(own, done, &refusal);
+    return change_mode(instance, "fmi3EnterStepMode", component_enter_step_mode);
 }
 
 /* There is nothing to update at an event: the step that ended there has changed the contact mode. */

@@ -260,11 +260,8 @@ void bending_panel_weigh(BendingPanel *panel) {
         double friction = limit * (1.0 - bend * (1.0 - panel->lag * fading));
         panel->power[i] = friction * fading / panel->rate;
     }
-    Passage slid;
-    KnownPhasors there;
     panel->slide.works = true;
-    split_slide_end(&panel->slide, panel->length, &slid, &there);
-    panel->work = -slid.work;
+    panel->work = -split_slide_place(&panel->slide, panel->length).passed.work;
     for (int i = 0; i < GAUSS_NODES; i++) {
         panel->work += kernels->left_even[i][IMPULSE] * panel->power[i];
     }
@@ -354,15 +351,12 @@ Passage bending_panel_passage(const BendingPanel *panel, double t) {
         }
         return within;
     }
-    Passage passed;
-    KnownPhasors there;
-    bending_panel_end(panel, t, &passed, &there);
-    return passed;
+    return bending_panel_place(panel, t).passed;
 }
 
-State bending_panel_end(const BendingPanel *panel, double t, Passage *passed, KnownPhasors *known) {
-    State state = split_slide_end(&panel->slide, t, passed, known);
-    passed->travel += panel->offset;
-    passed->work += panel->work;
-    return state;
+Place bending_panel_place(const BendingPanel *panel, double t) {
+    Place place = split_slide_place(&panel->slide, t);
+    place.passed.travel += panel->offset;
+    place.passed.work += panel->work;
+    return place;
 }

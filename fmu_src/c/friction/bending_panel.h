@@ -53,5 +53,5 @@ void bending_panel_weigh(BendingPanel *panel);
 /* Displacement [m] of the slider and work of friction [J] after `t` [s]. */
 Passage bending_panel_passage(const BendingPanel *panel, double t);
 
-/* State after `t` [s], not before the end of the panel; passage and phasors as of a slide. */
-State bending_panel_end(const BendingPanel *panel, double t, Passage *passed, KnownPhasors *known);
+/* Where the motion is after `t` [s], not before the end of the panel. */
+Place bending_panel_place(const BendingPanel *panel, double t);

@@ -163,42 +163,38 @@ void leg_follow(Leg *leg, const Held *held, Moment *now, double longest) {
     }
 }
 
-/* The state at a time [s], the passage until then, and the phasors if they are `known`. */
-static State place_of(const Leg *leg, double t, Passage *passed, KnownPhasors *known) {
-    State state = {NAN, NAN, NAN};
-    known->known = false;
+/* Where the motion of a leg is after `t` [s]. */
+static Place place_of(const Leg *leg, double t) {
+    Place place = {.known = {.known = false}};
     switch (leg->kind) {
     case RESTS:
-        *passed = (Passage){0.0, 0.0};
-        return stick_state(&leg->motion.stick, t);
+        place.state = stick_state(&leg->motion.stick, t);
+        return place;
     case SLIDES:
-        return split_slide_end(&leg->motion.slide, t, passed, known);
+        return split_slide_place(&leg->motion.slide, t);
     case FOLLOWS_SERIES:
-        *passed = taylor_slide_passage(&leg->motion.series, t, leg->counts_work);
-        return taylor_slide_state(&leg->motion.series, t);
+        place.state = taylor_slide_state(&leg->motion.series, t);
+        place.passed = taylor_slide_passage(&leg->motion.series, t, leg->counts_work);
+        return place;
     case BENDS_AND_SLIDES:
-        return bending_panel_end(&leg->motion.panel, t, passed, known);
+        return bending_panel_place(&leg->motion.panel, t);
     }
-    return state;
+    return place;
 }
 
 static Passage passage_at(const void *motion, double t) {
     const Leg *leg = motion;
-    Passage passed;
-    KnownPhasors there;
-    if (leg->kind == BENDS_AND_SLIDES) {
-        return bending_panel_passage(&leg->motion.panel, t);
-    }
-    place_of(leg, t, &passed, &there);
-    return passed;
+    return leg->kind == BENDS_AND_SLIDES ? bending_panel_passage(&leg->motion.panel, t)
+                                         : place_of(leg, t).passed;
 }
 
 void leg_finish(Leg *leg, const Held *held, Moment *now) {
     const Plant *plant = &held->plant;
-    Passage passed;
-    now->state = place_of(leg, leg->t, &passed, &leg->known);
-    leg->travelled = passed.travel;
-    Segment segment = {leg->t, now->state.velocity, passed, leg->kind == RESTS, passage_at, leg};
+    Place end = place_of(leg, leg->t);
+    now->state = end.state;
+    leg->known = end.known;
+    leg->travelled = end.passed.travel;
+    Segment segment = {leg->t, end.state.velocity, end.passed, leg->kind == RESTS, passage_at, leg};
     now->theta = period_advance(&now->means, &segment, now->theta, plant->drive_frequency);
     now->psi = within_turn(now->psi + turned_by(plant, leg->t));
     now->position += leg->travelled;

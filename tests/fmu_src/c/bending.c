@@ -75,7 +75,6 @@ static bool compare(const Law *series, const BendingPanel *panel, const Moment *
                     double *velocity, double *travelled) {
     Moment after;
     Refusal refusal;
-    KnownPhasors known;
     double travel = bending_panel_passage(panel, t).travel;
     Budget budget = budget_of(t);
     if (!events_advance(series, now, t, NULL, NULL, &budget, &after, &refusal)) {
@@ -84,10 +83,9 @@ static bool compare(const Law *series, const BendingPanel *panel, const Moment *
     *travelled = fabs(travel - (after.position - now->position));
     *velocity = 0.0;
     if (t >= panel->length) {
-        Passage ended;
-        State state = bending_panel_end(panel, t, &ended, &known);
-        *velocity = fabs(state.velocity - after.state.velocity);
-        *travelled += fabs(travel - ended.travel);
+        Place ended = bending_panel_place(panel, t);
+        *velocity = fabs(ended.state.velocity - after.state.velocity);
+        *travelled += fabs(travel - ended.passed.travel);
     }
     return true;
 }
