@@ -57,9 +57,7 @@ def c_table(variables: Sequence[Variable], table: str) -> Mapping[str, str]:
     )
     rows = "\n".join(map(_row, variables))
     return {
-        "component/variables.h": c_header(
-            "The table of FMU variables.", table, header
-        ),
+        "component/variables.h": c_header("The table of FMU variables.", table, header),
         "component/variables.c": _SOURCE.format(origin=generated_from(table), rows=rows),
     }
 

@@ -79,7 +79,7 @@ class Point(NamedTuple):
 
     The slow `velocity` [m/s] and the fast states; their rates by period (`acceleration` that of V)
     and that of the position, `travel`; the `gain` d(acceleration)/dV; the estimated `error` of the
-    acceleration; the contact `modes` of the sequence and the moments that it `visits`.
+    acceleration; the contact `modes` of the sequence and the moments at the `sections`.
     """
 
     n: float
@@ -91,7 +91,7 @@ class Point(NamedTuple):
     gain: float
     error: float
     modes: list[int]
-    visits: list[Moment]
+    sections: list[Moment]
 
 
 def _differences(rows: list[list[float]]) -> list[list[float]]:
@@ -139,12 +139,12 @@ class SlowMotion:
         period_map, before = self.map, inf
         for _ in range(max_sequences):
             now = period_map.place(self.begin, velocity, fast, n)
-            visits, modes = period_map.visits(now, ORDER, self.budget)
+            sections, modes = period_map.sections(now, ORDER, self.budget)
             self.maps += ORDER
             differences = _differences(
                 [
                     [period_map.slow_velocity(v), v.position - now.position, *fast_of(v)]
-                    for v in visits
+                    for v in sections
                 ]
             )
             correction = period_map.resolvent(ORDER, [-d for d in differences[ORDER][2:]])
@@ -168,7 +168,8 @@ class SlowMotion:
         if error > period_map.share * self.allowed:
             raise NoMapError
         gain = (second - third) / first if first else 0.0
-        return Point(n, velocity, fast, acceleration, travel, fast_rate, gain, error, modes, visits)
+        rates = acceleration, travel, fast_rate, gain
+        return Point(n, velocity, fast, *rates, error, modes, sections)
 
     def rates(self, n: float, velocity: float) -> Rates:
         """The rates at `n` periods and V [m/s], with fast states guessed along a tangent.
@@ -296,12 +297,12 @@ def _leap(
         maps = slow.maps
     if n == 0.0:
         return begin, 0.0, max(MIN_PAUSE, PAUSE * maps)
-    visits = slow.here.visits
-    now, passed = visits[-1], n + ORDER
+    sections = slow.here.sections
+    now, passed = sections[-1], n + ORDER
     now.position += travel
     now.leap_error = error
-    now.reversals += round(n * (now.reversals - visits[-2].reversals))
-    now.sticks += round(n * (now.sticks - visits[-2].sticks))
+    now.reversals += round(n * (now.reversals - sections[-2].reversals))
+    now.sticks += round(n * (now.sticks - sections[-2].sticks))
     if now.event_age >= ORDER * period_map.period:
         now.event_age += n * period_map.period
     return now, passed, max(MIN_PAUSE, PAUSE * (maps - passed))

@@ -93,20 +93,20 @@ class PeriodMap:
         placed.sliding = STICK if placed.mode == LIFTED else placed.mode
         return placed
 
-    def visits(self, now: Moment, count: int, budget: Budget) -> tuple[list[Moment], list[int]]:
+    def sections(self, now: Moment, count: int, budget: Budget) -> tuple[list[Moment], list[int]]:
         """The moments at the section in `count` periods, `now` first, and all contact modes.
 
         Raises NoMapError where the motion leaves the range of floating point, and Refusal where the
         budget is spent.
         """
-        visits, modes = [now], [now.mode]
+        sections, modes = [now], [now.mode]
         for _ in range(count):
             now = advance(self.system, now, self.period, budget, modes)
             now.theta = self.section
-            visits.append(now)
+            sections.append(now)
         if not isfinite(self.slow_velocity(now) + now.position + sum(fast_of(now))):
             raise NoMapError
-        return visits, modes
+        return sections, modes
 
     def resolvent(self, times: int, change: Fast) -> Fast:
         """The change of the fast state that undoes their differences of the order `times`.

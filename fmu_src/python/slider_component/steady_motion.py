@@ -104,7 +104,7 @@ class PeriodicMotion:
         y, u, bristle = (*fast, 0.0)[:3]
         begin = Moment(0.0, 0.0, 0.0, 0.0, psi=self.psi)
         begin = period_map.place(begin, unknowns[0] * period_map.speed, (y, u, bristle))
-        (first, last), _ = period_map.visits(begin, 1, self.budget)
+        (first, last), _ = period_map.sections(begin, 1, self.budget)
         slow = period_map.slow_velocity(last) - period_map.slow_velocity(first)
         parts = zip(fast_of(last), fast_of(first), scale, strict=True)
         change = [slow / period_map.speed, *((b - a) / s for b, a, s in parts)][: 1 + len(fast)]

@@ -85,13 +85,13 @@ def test_the_error_follows_the_tolerance() -> None:
 
 def test_a_long_step_takes_few_maps(monkeypatch: pytest.MonkeyPatch) -> None:
     maps = []
-    visits = PeriodMap.visits
+    sections = PeriodMap.sections
 
     def counted(self: PeriodMap, now: Moment, count: int, budget: Any) -> Any:
         maps.append(count)
-        return visits(self, now, count, budget)
+        return sections(self, now, count, budget)
 
-    monkeypatch.setattr(PeriodMap, "visits", counted)
+    monkeypatch.setattr(PeriodMap, "sections", counted)
     motion = motion_of(SLOW, Inputs())
     motion.advance(motion.start(), 20_000 * PERIOD)
     assert sum(maps) <= 1500
