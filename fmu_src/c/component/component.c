@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "../base/refusal_texts.h"
-#include "../device/device.h"
 #include "../friction/law.h"
 #include "ramped_step.h"
 #include "values.h"

@@ -1,9 +1,6 @@
 #include "outputs.h"
 
-#include <stddef.h>
-
 #include "../base/elementary.h"
-#include "../device/device.h"
 #include "../device/plant.h"
 #include "../leap/prediction.h"
 #include "../resolved/motion.h"

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "../base/refusal_texts.h"
-#include "../device/device.h"
 #include "state_bytes.h"
 #include "values.h"
 

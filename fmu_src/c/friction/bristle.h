@@ -5,7 +5,6 @@
 #include <stdbool.h>
 
 #include "../base/elementary_functions.h"
-#include "../device/device.h"
 
 /* Coefficient mu [1], stiffness sigma_0 [1/m] and damping sigma_1 [s/m]. Coulomb friction is that of a rigid bristle, whose
  * stiffness is infinite. */

@@ -1,19 +1,11 @@
 #include "law.h"
 
-#include <stddef.h>
-
 /* The friction laws in the order of `friction_law`. */
 static const FrictionLaw *const FRICTION_LAWS[] = {&COULOMB, &LUGRE};
 
-enum { FRICTION_LAW_COUNT = sizeof FRICTION_LAWS / sizeof FRICTION_LAWS[0] };
-
 bool law_prepare(Law *law, const Device *device, const Inputs *inputs, Refusal *refusal) {
-    int number = device->friction_law;
-    if (number < 0 || number >= FRICTION_LAW_COUNT) {
-        return refuse(refusal, "friction_law = %d refused: no law has this number", number);
-    }
     *law = (Law){.device = *device, .inputs = *inputs, .middle_ratio = inputs->frequency_ratio};
-    law->friction = FRICTION_LAWS[number];
+    law->friction = FRICTION_LAWS[device->friction_law];
     return law->friction->prepare(device, &law->bristle, refusal) &&
            held_prepare(&law->held, device, inputs, refusal);
 }

@@ -1,7 +1,6 @@
 #include "leg.h"
 
 #include <math.h>
-#include <stddef.h>
 
 #include "../base/number.h"
 #include "../device/plant.h"

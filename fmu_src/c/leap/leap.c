@@ -1,7 +1,6 @@
 #include "leap.h"
 
 #include "../base/elementary.h"
-#include "../device/device.h"
 #include "slow_step.h"
 
 /* Share of the tolerance for errors of the fast states: on the manifold, and where a transient is left out. Such a transient

@@ -3,6 +3,7 @@
 
 #include <stddef.h>
 
+#include "../base/constants.h"
 #include "../base/elementary.h"
 #include "../base/refusal_texts.h"
 #include "../device/device.h"

@@ -1,7 +1,6 @@
 /* Resolved motion, and what motion that leaps over periods shares with it; see motion.h. */
 #pragma once
 
-#include "../base/constants.h"
 #include "motion.h"
 
 Moment resolved_start(const Law *law);
