@@ -33,7 +33,7 @@ SCRIPTS = (
 )
 """In this order they are one JavaScript module."""
 
-_FMI_SHELL = re.compile(r"(.*/)?(fmi2(?!_version)|instance\.|state_access\.)")
+_FMI_SHELL = re.compile(r"(.*/)?(fmi2(?!_version)|instance\.|(state|value)_access\.)")
 """Files that the kernel does not need: of FMI it needs the names alone."""
 
 _TARGET = "wasm32-wasi"

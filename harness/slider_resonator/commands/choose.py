@@ -15,7 +15,7 @@ from slider_resonator.commands.options import (
     default_fmu,
     fmu_option,
     json_option,
-    set_option,
+    scene_set_option,
     time_limit_option,
 )
 from slider_resonator.commands.results import print_json, print_table, print_text
@@ -31,7 +31,7 @@ from slider_resonator.scenes.scene_files import find_scene
 )
 @click.argument("scene")
 @fmu_option
-@set_option
+@scene_set_option
 @time_limit_option(TIME_LIMIT, "For the whole choice.")
 @json_option
 @click.pass_context

@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
-from slider_resonator.commands.options import json_option
+from slider_resonator.commands.options import json_option, target
 from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.values import with_unit
+from slider_resonator.output.atomic import write_text
 from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Table, numbers, texts
+from slider_resonator.output.targets import distinct
 from slider_resonator.scenes.device_file import (
     device_content,
     device_values,
     example_devices,
     find_device,
     possible_slips,
+    to_ssv,
+    without_drive,
 )
 from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
 
@@ -24,8 +30,15 @@ from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
 @click.command("device")
 @click.argument("device", metavar="[NAME|FILE]", required=False)
 @click.option("--example", metavar="NAME", help="Print an example, to start a file of your own.")
+@click.option(
+    "--ssv",
+    type=target([".ssv"]),
+    help="Write all parameters as a parameter set of SSP, for the FMU in a system simulator.",
+)
 @json_option
-def device_command(device: str | None, example: str | None, as_json: bool) -> None:
+def device_command(
+    device: str | None, example: str | None, ssv: Path | None, as_json: bool
+) -> None:
     """Say what a device file means, or list the devices to start from.
 
     A device file has a table [device]: parameters of the FMU in SI units, or as text with a unit,
@@ -37,6 +50,7 @@ def device_command(device: str | None, example: str | None, as_json: bool) -> No
       slider-resonator device
       slider-resonator device --example ultrasonic_slider > mine.toml
       slider-resonator device mine.toml
+      slider-resonator device mine.toml --ssv mine.ssv
       slider-resonator steady --device mine.toml --set phase="30 deg"
     """
     if device is not None and example is not None:
@@ -45,7 +59,9 @@ def device_command(device: str | None, example: str | None, as_json: bool) -> No
         text = find_device(example).read_text(encoding="utf-8", errors="replace")
         click.echo(escaped(text), nl=False)
     elif device is not None:
-        _explain(device, as_json)
+        _explain(device, ssv, as_json)
+    elif ssv is not None:
+        raise click.UsageError(f"--ssv {ssv}: must be with a device file or an example")
     else:
         _list(as_json)
 
@@ -59,11 +75,15 @@ def _list(as_json: bool) -> None:
     print_text("`slider-resonator device --example NAME > mine.toml` starts a file of your own")
 
 
-def _explain(name_or_file: str, as_json: bool) -> None:
+def _explain(name_or_file: str, ssv: Path | None, as_json: bool) -> None:
     content = device_content(find_device(name_or_file))
     values = device_values(content, name_or_file)
     device = Device.from_mapping(values)
     slips = possible_slips(content["device"])
+    title = str(content.get("title", name_or_file))
+    if ssv is not None:
+        distinct({"--ssv": ssv}, {"the device": find_device(name_or_file)})
+        write_text(ssv, to_ssv(device, title))
     rows = {
         name: {
             "value": value,
@@ -87,9 +107,10 @@ def _explain(name_or_file: str, as_json: bool) -> None:
         )
         for name, row in rows.items()
     ]
-    print_text(str(content.get("title", name_or_file)))
+    print_text(title)
     print_table(Table(columns, cells))
-    print_text("\n".join([*_derived(device), *(f"note: {slip}" for slip in slips)]))
+    notes = [f"note: {one}" for one in (*slips, *without_drive(values))]
+    print_text("\n".join([*_derived(device), *notes]))
 
 
 def _derived(device: Device) -> list[str]:

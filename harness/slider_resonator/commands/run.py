@@ -22,7 +22,7 @@ from slider_resonator.commands.options import (
     check_left_to_choose,
     json_option,
     native_fmu_argument,
-    set_option,
+    scene_set_option,
     target,
     time_limit_option,
 )
@@ -119,7 +119,7 @@ class RunSummary:
     "each step. An FMU without canInterpolateInputs holds them.  [default: as [run] of the scene "
     "says, which holds them unless it has interpolate]",
 )
-@set_option
+@scene_set_option
 @time_limit_option(TIME_LIMIT, "For each of the choice, the run and the run for the picture.")
 @json_option
 @click.pass_context

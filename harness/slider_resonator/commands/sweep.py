@@ -10,12 +10,14 @@ import click
 
 from slider_resonator.commands.options import (
     Parsed,
+    SettingsCommand,
     default_fmu,
     device_named,
     device_option,
     fmu_option,
     jobs_option,
     json_option,
+    settings_option,
     target,
     time_limit_option,
 )
@@ -45,7 +47,7 @@ def _axis(text: str) -> tuple[str, dict[str, float]]:
     return name, {"from": si_value(name, first), "to": si_value(name, last), "count": int(count)}
 
 
-@click.command("sweep")
+@click.command("sweep", cls=SettingsCommand)
 @click.argument("grid", type=click.Path(path_type=Path), required=False)
 @click.option(
     "--over",
@@ -66,6 +68,7 @@ def _axis(text: str) -> tuple[str, dict[str, float]]:
 @click.option("--plot", type=target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")
 @click.option("--html", type=target([".html"]), help="One page with plots to point at.")
 @device_option
+@settings_option
 @fmu_option
 @jobs_option
 @click.option("--dask", metavar="ADDRESS", help="Run on the cluster of this scheduler.")
@@ -83,6 +86,7 @@ def sweep_command(
     plot: Path | None,
     html: Path | None,
     device: str | None,
+    settings: dict[str, float],
     fmu: Path | None,
     jobs: int | None,
     dask: str | None,
@@ -115,6 +119,7 @@ def sweep_command(
     \b
     Examples:
       slider-resonator sweep --over "phase=-180 deg:180 deg:73" --out curve.csv --plot curve.png
+      slider-resonator sweep --over load=0:200mN:41 --set phase="30 deg" --out curve.csv
       slider-resonator sweep grid.toml --out table.parquet --plot map.png
       slider-resonator sweep grid.toml --out table.csv --device mine.toml --jobs 4
       slider-resonator sweep grid.toml --out table.csv --html sweep.html
@@ -126,10 +131,10 @@ def sweep_command(
     given = {name: path for name, path in sources.items() if path is not None}
     distinct({"--out": out, "--plot": plot, "--html": html}, given)
     if grid is not None:
-        sweep = read_grid(grid, device_named(device))
+        sweep = read_grid(grid, device_named(device), settings)
     else:
         content = {"grid": dict(axes), **({"measures": list(measures)} if measures else {})}
-        sweep = grid_from(content, "--over", device_named(device))
+        sweep = grid_from(content, "--over", device_named(device), settings)
     _check_drawable(sweep, plot, html)
     path = default_fmu(fmu)
     provenance = provenance_of(path)

@@ -14,7 +14,7 @@ from slider_resonator.commands.options import (
     default_fmus,
     json_option,
     out_folder_option,
-    set_option,
+    scene_set_option,
     target,
     time_limit_option,
 )
@@ -74,7 +74,7 @@ from slider_resonator.trading.summary import SUFFIXES, comparisons, standings, t
     help="Markdown or HTML file for the tables from need to model to cost, which go between the "
     "lines <!-- trade --> and <!-- end of trade --> if the file has them. Repeatable.",
 )
-@set_option
+@scene_set_option
 @time_limit_option(TIME_LIMIT, "For each run and search of an FMU.")
 @json_option
 def trade_command(
@@ -98,8 +98,9 @@ def trade_command(
     measured. The reference is always the scene's full device, at whatever fidelity the scene runs.
     Peers follow inputs that are straight lines, and so do FMUs with canInterpolateInputs; other
     FMUs hold them over each step. Scenes with constant inputs run for at least 1000 drive
-    periods. Needs heyoka (pip install 'slider-resonator[taylor]'). Exit code: 0, or 2 when it could
-    not run, an FMU crashed or exceeded the time limit; the tables of the scenes before are kept.
+    periods. One of the peers needs heyoka (pip install 'slider-resonator[taylor]') and is left
+    out without it. Exit code: 0, or 2 when it could not run, an FMU crashed or exceeded the time
+    limit; the tables of the scenes before are kept.
 
     \b
     Examples:

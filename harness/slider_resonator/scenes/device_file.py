@@ -7,6 +7,7 @@ from importlib import resources
 from math import pi
 from pathlib import Path
 from typing import Any
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import PARAMETERS, VARIABLES
@@ -71,6 +72,19 @@ def read_device(name_or_file: str) -> dict[str, float]:
     return device_values(device_content(path), str(path))
 
 
+def whole_device(values: Mapping[str, float]) -> dict[str, float]:
+    """Return the parameters of a device in a scene: what `values` leave out is that of table 1.
+
+    The state at the start remains that of the scene, and so do fidelity and tolerance.
+    """
+    starts = {
+        name: VARIABLES[name].start or 0.0
+        for name in PARAMETERS
+        if name not in ("fidelity", "tolerance") and not name.startswith("initial_")
+    }
+    return {**starts, **values}
+
+
 def device_content(path: Path) -> dict[str, Any]:
     """Return the parsed text of a device file; SceneError for a file of another kind."""
     content = read_toml(path)
@@ -126,6 +140,34 @@ def possible_slips(table: Mapping[str, Any]) -> list[str]:
                 f'if {value:g} Hz is meant, write {name} = "{value:g} Hz"'
             )
     return slips
+
+
+def without_drive(values: Mapping[str, float]) -> list[str]:
+    """Return the sentence about a device (SI units) that no tangential force drives, if it is one.
+
+    The base moves the slider by the resonator's inertia, which `resonator_mass` 0 has not.
+    """
+    device = Device.from_mapping(values)
+    if device.tangential_force != 0.0 or device.resonator_mass * device.base_amplitude != 0.0:
+        return []
+    return [
+        "nothing drives the slider: tangential_force = 0, base_amplitude = "
+        f"{device.base_amplitude:g} and resonator_mass = {device.resonator_mass:g}; for motion, "
+        "the first or both of the others must be above 0"
+    ]
+
+
+def to_ssv(device: Device, name: str) -> str:
+    """Return the parameter set of a device (SSP 1.0, `.ssv`), which system simulators import."""
+    space = "http://ssp-standard.org/SSP1/SystemStructureParameterValues"
+    root = Element("ssv:ParameterSet", {"xmlns:ssv": space, "version": "1.0", "name": name})
+    parameters = SubElement(root, "ssv:Parameters")
+    for key in PARAMETERS:
+        value = getattr(device, key)
+        parameter = SubElement(parameters, "ssv:Parameter", name=key)
+        SubElement(parameter, f"ssv:{VARIABLES[key].kind}", value=repr(value))
+    indent(root)
+    return tostring(root, encoding="unicode", xml_declaration=True) + "\n"
 
 
 def to_toml(device: Device, title: str = "") -> str:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from importlib import resources
 from pathlib import Path
 
+from slider_resonator.device.interface import PARAMETERS, VARIABLES
 from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.output.readable import number_of
 from slider_resonator.scenes.scene import Scene, only_scene, read_scenes
@@ -41,8 +42,13 @@ def find_scene(name_or_file: str, values: Mapping[str, float] | None = None) -> 
     scene = only_scene(_scenes_of(name_or_file), name_or_file)
     if not values:
         return scene
-    title = f"{scene.title}, {number_of(len(values), 'value')} replaced"
-    return replace(scene.with_values(values), title=title)
+    varied = scene.with_values(values)
+    changed = sum(
+        varied.parameters.get(name) != scene.parameters.get(name, VARIABLES[name].start)
+        for name in values.keys() & PARAMETERS
+    ) + len(values.keys() - PARAMETERS)
+    title = f"{scene.title}, {number_of(changed, 'value')} replaced"
+    return replace(varied, title=title)
 
 
 def find_scenes(names_or_files: Sequence[str]) -> list[Scene]:

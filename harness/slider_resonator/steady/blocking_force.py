@@ -47,9 +47,10 @@ def find_blocking(
     """
     facts = read_facts(instance, values)
     predicted = facts.blocking_force
+    said = (predicted, facts.prediction_valid)
     count = repeating_periods(facts, max_denominator)
     if isinstance(count, Obstacle):
-        return Blocking(count.status, count.reason, predicted)
+        return Blocking(count.status, count.reason, *said)
     period_map = FmuPeriodMap(instance, values, facts, count, progress)
     load = values.get("load", predicted if isfinite(predicted) else 0.0)
     warm = period_map.warm_up(0.0, load)
@@ -58,17 +59,17 @@ def find_blocking(
             "stuck",
             f"the slider sticks throughout at load = {load:.6g} N: every load that friction holds "
             "stops it, so that no single one is the blocking force",
-            predicted,
+            *said,
             **cost(period_map, None),
         )
     found = blocked_point(period_map, warm, load, max(facts.friction_limit, 1e-12))
     if isinstance(found, NoFixedPoint):
-        return Blocking(*failure(found, facts), predicted, **cost(period_map, found))
+        return Blocking(*failure(found, facts), *said, **cost(period_map, found))
     return Blocking(
         _status(found),
         f"at this load the mean velocity is zero; the largest multiplier is "
         f"{abs(found.multipliers[0]):.9g}",
-        predicted,
+        *said,
         **cost(period_map, found),
         blocking_force=found.load,
     )

@@ -39,11 +39,15 @@ class Obstacle:
 
 @dataclass(frozen=True)
 class Facts:
-    """Parameters and inputs in force, read back from the FMU, and its own two predictions."""
+    """Parameters and inputs in force, read back from the FMU, and its own two predictions.
+
+    `prediction_valid` is what the FMU says of these, None where it has no such output.
+    """
 
     values: Mapping[str, float]
     steady_velocity: float
     blocking_force: float
+    prediction_valid: bool | None
 
     def __getitem__(self, name: str) -> float:
         """Return a parameter or input by name."""
@@ -90,14 +94,17 @@ def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
         *("slider_mass", "resonator_mass", "resonator_frequency", "damping_ratio"),
         *("steady_velocity", "blocking_force"),
     )
+    flag = "prediction_valid"
+    has_flag = flag in instance.fmu.variables
     with instance.explained():
-        read = instance.read(names)
+        read = instance.read((*names, flag) if has_flag else names)
+    is_valid = read.pop(flag) == 1.0 if has_flag else None
     read["drive_frequency"] *= 1.0 + values.get("frequency_deviation", 0.0)
     try:
         check_value("drive_frequency", read["drive_frequency"])
     except ValueError as error:
         raise FmuError(f"{instance.fmu.path.name} reports {error}") from error
-    return Facts(read, read.pop("steady_velocity"), read.pop("blocking_force"))
+    return Facts(read, read.pop("steady_velocity"), read.pop("blocking_force"), is_valid)
 
 
 def repeating_periods(facts: Facts, max_denominator: int) -> int | Obstacle:

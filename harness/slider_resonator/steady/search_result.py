@@ -16,7 +16,8 @@ from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
 class SearchResult(Shown):
     """Status, reason and cost of a search.
 
-    `status` is for machines, `reason` for people; `predicted` is the FMU's own output.
+    `status` is for machines, `reason` for people; `predicted` is the FMU's own output and
+    `prediction_valid` what the FMU says of it, None where it has no such output.
     The common period has `common_period` drive periods; `periods` counts all simulated ones.
     `multipliers` are the Floquet multipliers, largest first, `residual` the largest change of the
     state over the common period in units of its scale.
@@ -25,6 +26,7 @@ class SearchResult(Shown):
     status: str
     reason: str
     predicted: float
+    prediction_valid: bool | None
     common_period: int | None = None
     periods: int = 0
     iterations: int = 0
@@ -41,10 +43,13 @@ class SearchResult(Shown):
         """Return the answer, why it is one, and what it cost."""
         what, value, unit = self.answer
         found = "none" if value is None else f"{readable(value, 10)} {unit}"
+        how = "read without a run"
+        if self.prediction_valid is False:
+            how += "; the FMU says that it does not hold here: prediction_valid = 0"
         lines = [
             f"{what:<17}{found}",
             f"status           {self.status}: {one_line(self.reason)}",
-            f"FMU's output     {readable(self.predicted, 10)} {unit} (read without a run)",
+            f"FMU's output     {readable(self.predicted, 10)} {unit} ({how})",
         ]
         if self.common_period is not None:
             lines.append(

@@ -55,26 +55,26 @@ def find_steady(
     FmuError and Refusal as `Instance.start` does.
     """
     facts = read_facts(instance, values)
-    predicted = facts.steady_velocity
+    said = (facts.steady_velocity, facts.prediction_valid)
     runaway = _runaway(facts)
     # Damped bristles can give more friction than full sliding: only the search can decide.
     certain = runaway if facts["friction_law"] == 0 else None
     count = certain or repeating_periods(facts, max_denominator)
     if isinstance(count, Obstacle):
-        return SteadyMotion(count.status, count.reason, predicted)
+        return SteadyMotion(count.status, count.reason, *said)
     period_map = FmuPeriodMap(instance, values, facts, count, progress)
-    guess = values.get("initial_velocity", predicted)
+    guess = values.get("initial_velocity", facts.steady_velocity)
     found = steady_point(period_map, guess if isfinite(guess) else 0.0, facts["load"])
     if isinstance(found, NoFixedPoint):
         status, reason = failure(found, facts)
         if runaway is not None:
             status, reason = runaway.status, runaway.reason
-        return SteadyMotion(status, reason, predicted, **cost(period_map, found))
+        return SteadyMotion(status, reason, *said, **cost(period_map, found))
     status, reason = _judge(found, period_map.stick_fraction)
     return SteadyMotion(
         status,
         with_undamped_hint(reason, facts) if status == "neutral" else reason,
-        predicted,
+        *said,
         **cost(period_map, found),
         steady_velocity=found.displacement / period_map.period,
         state=dict(zip(period_map.names, found.state.tolist(), strict=True)),

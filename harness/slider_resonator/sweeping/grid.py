@@ -199,10 +199,15 @@ class Sweep:
     logarithmic: frozenset[str] = frozenset()
 
 
-def read_grid(path: Path, device: Mapping[str, float] | None = None) -> Sweep:
+def read_grid(
+    path: Path,
+    device: Mapping[str, float] | None = None,
+    settings: Mapping[str, float] | None = None,
+) -> Sweep:
     """Read a grid file; raises HarnessError with file, key, value and requirement.
 
-    `device` has parameters that its own [device], [fixed] and what varies leave out.
+    `device` has parameters that its own [device], [fixed] and what varies leave out; `settings`
+    replace what is not varied, inputs too.
     """
     if not path.exists() and str(path) in built_in_scenes():
         raise HarnessError(
@@ -210,13 +215,19 @@ def read_grid(path: Path, device: Mapping[str, float] | None = None) -> Sweep:
         )
     content = read_toml(path)
     refuse_other_kinds(content, str(path), "grid")
-    return grid_from(content, str(path), device)
+    return grid_from(content, str(path), device, settings)
 
 
 def grid_from(
-    content: Mapping[str, Any], source: str, device: Mapping[str, float] | None = None
+    content: Mapping[str, Any],
+    source: str,
+    device: Mapping[str, float] | None = None,
+    settings: Mapping[str, float] | None = None,
 ) -> Sweep:
-    """Return the sweep of parsed TOML, or data of the same form; HarnessError with `source`."""
+    """Return the sweep of parsed TOML, or data of the same form, as `read_grid` does.
+
+    Raises HarnessError with `source`.
+    """
     content = with_si_values(content, source)
     try:
         table = GridTable.model_validate(content)
@@ -224,8 +235,15 @@ def grid_from(
         lines = explanations(source, error, content, GridTable)
         raise HarnessError("\n".join(lines)) from error
     points = table.points
+    settings = settings or {}
+    for name in table.names:
+        if name in settings:
+            raise HarnessError(
+                f"--set {name}={settings[name]:g}: {source} varies {name}; must be one of the two"
+            )
     own = {**(device or {}), **device_values(content, source)}
     fixed = {name: value for name, value in own.items() if name not in table.names} | table.fixed
+    fixed |= settings
     columns = dict(zip(table.names, map(set, zip(*points, strict=True)), strict=True))
     columns |= {name: {value} for name, value in table.fixed.items()}
     for name, values in columns.items():

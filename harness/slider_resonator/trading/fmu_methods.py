@@ -42,7 +42,7 @@ SHORTEST = 2e-3
 """Shortest CPU time (s) of a measurement; shorter runs are repeated up to MAX_RUNS times."""
 MAX_RUNS = 20
 
-_UNRESOLVED = {"event_times": "averaged motion has no events"}
+_UNRESOLVED = {"event_times": "averages and leaps locate no events"}
 
 
 class TaskRunner(Protocol):

@@ -1,9 +1,13 @@
 from __future__ import annotations
 
+import csv
 import json
 from pathlib import Path
 
+import fmpy
+import fmpy.ssp.ssd
 import pytest
+from lxml import etree
 
 import slider_resonator as sr
 from tests.harness.calling import call, refused
@@ -33,6 +37,53 @@ def test_a_possible_slip_is_noted(tmp_path: Path, native_fmu: Path) -> None:
     assert said["device"]["drive_frequency"]["shown"] == "3.1831 kHz"
     ran = call("steady", native_fmu, "--device", path)
     assert 'write drive_frequency = "20000 Hz"' in ran.stderr
+
+
+def test_a_device_without_a_drive_is_noted(tmp_path: Path, native_fmu: Path) -> None:
+    path = tmp_path / "part.toml"
+    path.write_text('[device]\nresonator_mass = 0\nbase_amplitude = "1 um"\n', encoding="utf-8")
+    why = "nothing drives the slider: tangential_force = 0, base_amplitude = 1e-06 and"
+    assert f"note: {why}" in call("device", path).stdout
+    assert f"note: {path}: {why}" in call("steady", native_fmu, "--device", path).stderr
+    path.write_text('[device]\nresonator_mass = 0\ntangential_force = "2 N"\n', encoding="utf-8")
+    assert "nothing drives" not in call("device", path).stdout
+
+
+def test_a_setting_that_may_be_in_hertz_is_noted(native_fmu: Path) -> None:
+    ran = call("steady", native_fmu, "--set", "drive_frequency=600")
+    assert "note: --set: drive_frequency = 600 is in rad/s, which is 95.493 Hz; if" in ran.stderr
+    assert "note" not in call("steady", native_fmu, "--set", "drive_frequency=600 Hz").stderr
+
+
+def test_a_device_is_written_as_a_parameter_set_of_ssp(tmp_path: Path) -> None:
+    """What the FMU gets from it is the device; the schema is that of the standard."""
+    path = tmp_path / "conveyor.ssv"
+    call("device", "conveyor", "--ssv", path)
+    schema = Path(fmpy.__file__).parent / "ssp" / "schema"
+    etree.XMLSchema(file=str(schema / "SystemStructureParameterValues.xsd")).assertValid(
+        etree.parse(path)
+    )
+    values = {one.name: one.value for one in fmpy.ssp.ssd.read_ssv(str(path)).parameters}
+    expected = vars(sr.read_device("conveyor"))
+    assert {name: float(value) for name, value in values.items()} == expected
+    assert "must be with a device" in refused("device", "--ssv", path)
+
+
+def test_a_device_takes_the_whole_place_of_a_scene_s(tmp_path: Path, native_fmu: Path) -> None:
+    """What the file leaves out is table 1's, whatever law and averages the scene has."""
+    path = tmp_path / "heavy.toml"
+    path.write_text("[device]\nslider_mass = 2.0\n", encoding="utf-8")
+    out = tmp_path / "run.csv"
+    ran = call("run", native_fmu, "lugre", "--device", path, "--set", "fidelity=0", "--out", out)
+    assert "replaced" in ran.stdout
+    with out.open(encoding="utf-8", newline="") as file:
+        *_, ending = csv.DictReader(file)
+    with sr.open_fmu(native_fmu, device=path) as fmu:
+        record = fmu.run("lugre", fidelity=0)
+    with sr.open_fmu(native_fmu) as fmu:
+        expected = fmu.run("lugre", **vars(sr.Device(slider_mass=2.0, fidelity=0)))
+    assert record.final("position") == expected.final("position")
+    assert float(ending["position"]) == record.final("position")
 
 
 def test_settings_replace_the_device(native_fmu: Path) -> None:

@@ -79,7 +79,16 @@ def test_every_command_has_the_common_options_that_make_sense_for_it() -> None:
     assert having("--scene") == {
         *("baseline accept", "baseline check", "baseline record", "mutants", "validate")
     }
-    assert having("--set") == {"blocking", "choose", "fit", "page", "run", "steady", "trade"}
+    assert having("--set") == {
+        "blocking",
+        "choose",
+        "fit",
+        "page",
+        "run",
+        "steady",
+        "sweep",
+        "trade",
+    }
     assert having("--device") == {*having("--set"), "stress", "sweep"}
     own = {"--python-fmu", "--fmi3-fmu"}  # further FMUs of `hosts`
     looks_alike = re.compile("fmu|job|worker|limit|timeout|json")

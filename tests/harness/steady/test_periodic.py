@@ -18,7 +18,7 @@ from slider_resonator.steady.periodic import (
 
 
 def facts(**values: float) -> Facts:
-    return Facts({**vars(Device()), **INPUT_STARTS, **values}, 0.0, 0.0)
+    return Facts({**vars(Device()), **INPUT_STARTS, **values}, 0.0, 0.0, None)
 
 
 @pytest.mark.parametrize("amplitude", [0.0, 0.5, 1.0, 1.5, 4.0])

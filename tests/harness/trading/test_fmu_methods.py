@@ -74,7 +74,7 @@ def test_averaged_motion_has_a_mean_velocity_and_no_events(instance: Instance) -
     found = followed(table_1, method)
     assert 1e-5 < found["mean_velocity"] < 2e-2, "averaging costs a share of the order of 1/3500"
     assert "event_times" not in found
-    assert method.missing["event_times"] == "averaged motion has no events"
+    assert method.missing["event_times"] == "averages and leaps locate no events"
     assert method.label.kind == AVERAGED
 
 
