@@ -214,11 +214,16 @@ static bool find_blocked(const PeriodMap *map, double psi, double *load) {
     return true;
 }
 
-/* The law of the full device under the same inputs. */
+/* The law of the full device under the same inputs. A resonator without mass moves nothing: one that settles within a period
+ * takes its place, so that the search need not wait for it. */
 static bool full_law(const Law *law, Law *full) {
     Device device = law->device;
     Refusal refusal;
     device.fidelity = 2;
+    if (device.resonator_mass == 0.0) {
+        device.resonator_frequency = device.drive_frequency;
+        device.damping_ratio = 1.0;
+    }
     if (!law_prepare(full, &device, &law->inputs, &refusal)) {
         return false;
     }

@@ -59,8 +59,8 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
     if turns == 0:
         return replace(first, valid=False)
     try:
-        system = System(replace(device, fidelity=2), inputs)
-        period_map = PeriodMap(system, vibration(device), turns)
+        full = full_device(device)
+        period_map = PeriodMap(System(full, inputs), vibration(full), turns)
         psi = (normal_lead + inputs.frequency_ratio * period_map.section) % tau
         steady = PeriodicMotion(period_map, psi, blocked=False, budget=Budget(period_map.period))
         blocked = PeriodicMotion(period_map, psi, blocked=True, budget=Budget(period_map.period))
@@ -71,6 +71,18 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
         )
     except (NoMapError, Refusal, ArithmeticError, ValueError):
         return replace(first, valid=False)
+
+
+def full_device(device: Device) -> Device:
+    """The device of whose motion predictions are.
+
+    A resonator without mass moves nothing: one that settles within a period takes its place, so
+    that the search need not wait for it.
+    """
+    if device.resonator_mass > 0.0:
+        return replace(device, fidelity=2)
+    w = device.drive_frequency
+    return replace(device, fidelity=2, resonator_frequency=w, damping_ratio=1.0)
 
 
 def turns_of_load(device: Device, ratio: float) -> int:
