@@ -3,33 +3,36 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import isfinite
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.interface import HELD, INPUTS, PARAMETERS, VARIABLES
+from slider_resonator.device.interface import ALL_OUTPUTS, HELD, INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.device.schedule import Schedule, in_order
 from slider_resonator.device.signal import steps
-from slider_resonator.device.values import si_value
+from slider_resonator.device.values import si_value, with_unit
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.scenes.csv_signal import check_cells, csv_number, csv_rows
+from slider_resonator.scenes.device_file import FREQUENCIES
 
 STEADY = ("steady_velocity", "blocking_force")
 """What can be measured without a run, by the outputs of the FMU."""
-_ALIASES = {
-    "frequency": "drive_frequency",
-    "amplitude": "base_amplitude",
+_ALIASES = {"frequency": "drive_frequency", "amplitude": "base_amplitude"}
+_STEADY_ALIASES = {
     "velocity": "steady_velocity",
     "mean_velocity": "steady_velocity",
     "force": "blocking_force",
 }
-"""Other names of the columns of a table; those of a run are the outputs themselves."""
-_HEADING = re.compile(r"\s*(?P<name>\w+?)(?P<std>_std)?\s*(?:[\[(](?P<unit>[^\])]*)[\])])?\s*")
+"""Other names of what a table measures; those of a run are the outputs themselves."""
+_HEADING = re.compile(
+    r"\s*(?P<name>\w[\w ]*?)(?P<std>[_ ]std)?\s*(?:[\[(](?P<unit>[^\])]*)[\])])?\s*", re.I
+)
 MAX_ROWS = 100_000
 TIME = "last_event_time"
 """A variable with the unit of a column `time`."""
@@ -39,31 +42,53 @@ TIME = "last_event_time"
 class Point:
     """A steady `quantity` measured under `values`; both in SI units.
 
-    `deviation` is the standard deviation of the measurement, None where it is not known.
+    `deviation` is the standard deviation of the measurement, None where it is not known. `source`
+    and `row` are those of the file.
     """
 
     values: Mapping[str, float]
     quantity: str
     measured: float
     deviation: float | None = None
+    source: str = "datasheet"
+    row: str = ""
 
 
 @dataclass(frozen=True)
 class Run:
-    """Outputs at the communication points of a schedule, each of shape (n,), NaN where unknown."""
+    """Outputs at the communication points of a schedule, each of shape (n,), NaN where unknown.
+
+    `rows` are the names of the points in the source, length n.
+    """
 
     source: str
     schedule: Schedule
     outputs: Mapping[str, Array]
     deviations: Mapping[str, Array] = field(default_factory=dict)
+    rows: Sequence[str] = ()
+
+
+class Place(NamedTuple):
+    """What a number is, and where it was read, such as velocity, data.csv, line 3."""
+
+    quantity: str
+    source: str
+    row: str
 
 
 @dataclass(frozen=True)
 class Measurements:
-    """All that is measured. Numbers come in the order of points, then runs, output by output."""
+    """All that is measured. Numbers come in the order of points, then runs, output by output.
+
+    `units` are those of headings, by name: text and factor to the SI unit. `plain_frequencies` are
+    source, name and value of those without a unit. `notes` say what was done in reading.
+    """
 
     points: tuple[Point, ...] = ()
     runs: tuple[Run, ...] = ()
+    units: Mapping[str, tuple[str, float]] = field(default_factory=dict)
+    plain_frequencies: tuple[tuple[str, str, float], ...] = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def measured(self) -> Array:
@@ -72,13 +97,28 @@ class Measurements:
         return np.concatenate([[point.measured for point in self.points], *runs])
 
     @property
-    def quantities(self) -> list[str]:
-        """The quantity of each number, length n."""
-        names = [point.quantity for point in self.points]
+    def places(self) -> list[Place]:
+        """The place of each number, length n."""
+        found = [Place(point.quantity, point.source, point.row) for point in self.points]
         for run in self.runs:
             for name, column in run.outputs.items():
-                names += [name] * int(np.isfinite(column).sum())
-        return names
+                rows = run.rows or [f"row {number}" for number in range(1, len(column) + 1)]
+                found += [
+                    Place(name, run.source, row)
+                    for row, value in zip(rows, column, strict=True)
+                    if isfinite(value)
+                ]
+        return found
+
+    @property
+    def quantities(self) -> list[str]:
+        """The quantity of each number, length n."""
+        return [place.quantity for place in self.places]
+
+    def shown(self, quantity: str, value: float) -> str:
+        """Return a value in the unit of the data, or else in its SI unit."""
+        unit, factor = self.units.get(quantity, (VARIABLES[quantity].unit, 1.0))
+        return f"{value / factor:.3g} {unit}"
 
     @property
     def deviations(self) -> Array:
@@ -124,20 +164,41 @@ class Measurements:
     def under(self, inputs: Mapping[str, float]) -> Measurements:
         """Return the same with inputs of the points that do not say them."""
         points = (replace(point, values={**inputs, **point.values}) for point in self.points)
-        return Measurements(tuple(points), self.runs)
+        return replace(self, points=tuple(points))
 
     def __add__(self, other: Measurements) -> Measurements:
         """Return both together."""
-        return Measurements(self.points + other.points, self.runs + other.runs)
+        return Measurements(
+            self.points + other.points,
+            self.runs + other.runs,
+            {**other.units, **self.units},
+            self.plain_frequencies + other.plain_frequencies,
+            self.notes + other.notes,
+        )
+
+
+@dataclass(frozen=True)
+class _Columns:
+    """Columns by name in SI units, (n,) each, with the names of their n rows.
+
+    `units` and `notes` are those of `Measurements`.
+    """
+
+    source: str
+    rows: Sequence[str]
+    values: Mapping[str, Array]
+    units: Mapping[str, tuple[str, float]]
+    notes: tuple[str, ...] = ()
 
 
 def read_measurements(path: Path) -> Measurements:
     """Read a CSV file: a run if it has a column `time`, else a table of steady measurements.
 
     A heading is a name, a name and a unit in brackets, such as `phase [deg]`, or a measured name
-    with `_std`, its standard deviation. Raises HarnessError with file, line, value and requirement.
+    with `_std`, its standard deviation. Columns of text with other headings are ignored, and noted.
+    Raises HarnessError with file, line, value and requirement.
     """
-    return _measurements(path, _columns(path))
+    return _measurements(_columns(path))
 
 
 def measurements_from(table: Mapping[str, Any]) -> Measurements:
@@ -146,135 +207,220 @@ def measurements_from(table: Mapping[str, Any]) -> Measurements:
     NaN is an empty cell. Raises HarnessError with heading and requirement.
     """
     try:
-        columns = [(heading, np.asarray(values, np.float64)) for heading, values in table.items()]
-        shapes = {values.shape for _, values in columns}
-        if len(shapes) != 1 or len(shapes.pop()) != 1:
+        columns = {heading: np.asarray(values, np.float64) for heading, values in table.items()}
+        shapes = {values.shape for values in columns.values()}
+        if len(shapes) != 1 or len(shape := shapes.pop()) != 1:
             raise ValueError("must be columns of one length")
-        named = _named(columns)
+        rows = [f"row {number}" for number in range(1, shape[0] + 1)]
+        return _measurements(_named("data", rows, list(columns.items())))
     except (ValueError, TypeError) as error:
         raise HarnessError(f"data: {error}") from error
-    return _measurements(Path("data"), named)
 
 
-def _measurements(source: Path, columns: Mapping[str, Array]) -> Measurements:
-    return _run(source, columns) if "time" in columns else _table(source, columns)
+def _measurements(columns: _Columns) -> Measurements:
+    found = _run(columns) if "time" in columns.values else _table(columns)
+    plain = [
+        (columns.source, name, value)
+        for name in FREQUENCIES
+        if name in columns.values and name not in columns.units
+        for value in dict.fromkeys(columns.values[name].tolist())
+    ]
+    notes = (*columns.notes, *found.notes)
+    return replace(found, units=columns.units, plain_frequencies=tuple(plain), notes=notes)
 
 
-def _columns(path: Path) -> dict[str, Array]:
-    """Return the columns by name in SI units, empty cells as NaN."""
+def _columns(path: Path) -> _Columns:
+    """Return the columns of a file, empty cells as NaN."""
     try:
         header, lines = csv_rows(path)
         check_cells(path, header, lines)
-        rows = [(line, row) for line, row in lines if any(cell.strip() for cell in row)]
-        if not 1 <= len(rows) <= MAX_ROWS:
-            raise ValueError(f"{path}: {len(rows)} rows below the header; must be 1 to {MAX_ROWS}")
-        cells = (
-            (heading, np.array([_cell(line, heading, row, index) for line, row in rows]))
+        filled = [(line, row) for line, row in lines if any(cell.strip() for cell in row)]
+        if not 1 <= len(filled) <= MAX_ROWS:
+            raise ValueError(f"{len(filled)} rows below the header; must be 1 to {MAX_ROWS}")
+        texts = [
+            (heading, [row[index].strip() if index < len(row) else "" for _, row in filled])
             for index, heading in enumerate(header)
-        )
-        return _named(list(cells))
+        ]
+        is_run = _is_run(header)
+        ignored = [
+            heading
+            for heading, cells in texts
+            if _parts(heading, is_run)["name"] not in _allowed(is_run)
+            and not any(_is_number(cell) for cell in cells)
+        ]
+        rows = [f"line {line}" for line, _ in filled]
+        cells = [
+            (heading, _numbers(heading, rows, cells))
+            for heading, cells in texts
+            if heading not in ignored
+        ]
+        found = _named(str(path), rows, cells)
     except ValueError as error:
         said = str(error)
         raise HarnessError(said if str(path) in said else f"{path}: {said}") from error
+    named = [repr(heading) for heading in ignored if heading]
+    note = f"{path}: ignored {', '.join(named)}: no numbers"
+    return replace(found, notes=(note,) if named else ())
 
 
-def _named(columns: Sequence[tuple[str, Array]]) -> dict[str, Array]:
+def _is_number(text: str) -> bool:
+    try:
+        return isfinite(float(text))
+    except ValueError:
+        return False
+
+
+def _is_run(headings: Iterable[str]) -> bool:
+    return any(_parts(heading, is_run=True)["name"] == "time" for heading in headings)
+
+
+def _named(source: str, rows: Sequence[str], columns: Sequence[tuple[str, Array]]) -> _Columns:
     """Return columns by name in SI units from those by heading; ValueError for a wrong heading."""
-    is_run = any(_heading(heading)["name"] == "time" for heading, _ in columns)
+    is_run = _is_run(heading for heading, _ in columns)
     named: dict[str, Array] = {}
+    units: dict[str, tuple[str, float]] = {}
     for heading, values in columns:
-        name, factor = _column(heading, is_run)
+        name, unit, factor = _column(heading, is_run)
         if name in named:
             raise ValueError(f"two columns {name}; must be one")
         named[name] = factor * values
-    return named
+        if unit:
+            units[name] = (unit, factor)
+    return _Columns(source, rows, named, units)
 
 
-def _heading(heading: str) -> Mapping[str, str]:
+def _parts(heading: str, is_run: bool) -> Mapping[str, str]:
     """Return name, std and unit of a heading; the last two are empty if it does not have them."""
     match = _HEADING.fullmatch(heading)
-    return match.groupdict("") if match else {"name": heading, "std": "", "unit": ""}
+    parts = match.groupdict("") if match else {"name": heading, "std": "", "unit": ""}
+    name = "_".join(parts["name"].lower().split())
+    aliases = _ALIASES if is_run else _ALIASES | _STEADY_ALIASES
+    return {**parts, "name": aliases.get(name, name)}
 
 
-def _column(heading: str, is_run: bool) -> tuple[str, float]:
-    """Return the name that a heading stands for, and the factor to SI units.
+def _outputs(is_run: bool) -> Sequence[str]:
+    """Return the names of what can be measured."""
+    return [*ALL_OUTPUTS] if is_run else STEADY
+
+
+def _allowed(is_run: bool) -> Sequence[str]:
+    """Return the names that a column can have."""
+    return [*INPUTS, *(HELD if is_run else PARAMETERS), *_outputs(is_run), "time"]
+
+
+def _column(heading: str, is_run: bool) -> tuple[str, str, float]:
+    """Return the name that a heading stands for, its unit if any, and the factor to SI units.
 
     Raises ValueError with the heading and what it must be.
     """
-    parts = _heading(heading)
-    outputs = [name for name, one in VARIABLES.items() if one.causality == "output"]
-    measured = outputs if is_run else [*STEADY]
-    allowed = [*INPUTS, *(HELD if is_run else PARAMETERS), *measured, "time"]
-    name = parts["name"] if is_run else _ALIASES.get(parts["name"], parts["name"])
-    if name not in allowed or (parts["std"] and name not in measured):
+    parts = _parts(heading, is_run)
+    name, unit, allowed = parts["name"], parts["unit"], _allowed(is_run)
+    if name not in allowed or (parts["std"] and name not in _outputs(is_run)):
         raise ValueError(unknown_name("column", name + parts["std"], allowed))
     try:
         of_unit = TIME if name == "time" else name
-        factor = si_value(of_unit, f"1 {parts['unit']}") if parts["unit"] else 1.0
+        factor = si_value(of_unit, f"1 {unit}") if unit else 1.0
     except ValueError as error:
         raise ValueError(f"heading {heading!r}: {error}") from error
-    return name + parts["std"], factor
+    return name + ("_std" if parts["std"] else ""), unit, factor
 
 
-def _cell(line: int, heading: str, row: Sequence[str], index: int) -> float:
-    """Return the number of a cell, NaN of an empty one; ValueError with line, heading and text."""
-    if index >= len(row) or not row[index].strip():
-        return float("nan")
-    try:
-        return csv_number(heading, row, index)
-    except ValueError as error:
-        raise ValueError(f"line {line}: {error}, or empty") from error
+def _numbers(heading: str, rows: Sequence[str], cells: Sequence[str]) -> Array:
+    """Return the numbers of cells, NaN of empty ones; ValueError with row, heading and text."""
+    found = np.full(len(cells), np.nan)
+    for index, (row, cell) in enumerate(zip(rows, cells, strict=True)):
+        if cell.lower() not in ("", "nan"):
+            try:
+                found[index] = csv_number(heading, cells, index)
+            except ValueError as error:
+                raise ValueError(f"{row}: {error}, or empty") from error
+    return found
 
 
-def _table(path: Path, columns: Mapping[str, Array]) -> Measurements:
-    measured = [name for name in STEADY if name in columns]
+def _table(columns: _Columns) -> Measurements:
+    source, values = columns.source, columns.values
+    measured = [name for name in STEADY if name in values]
     if not measured:
-        raise HarnessError(f"{path}: measures nothing; must have a column {' or '.join(STEADY)}")
-    given = [n for n in columns if n.removesuffix("_std") not in STEADY]
+        raise HarnessError(f"{source}: measures nothing; must have a column {' or '.join(STEADY)}")
+    given = [n for n in values if n.removesuffix("_std") not in STEADY]
+    there = np.isfinite([values[name] for name in measured])
+    for name in given:
+        _check_filled(columns, name, there.any(axis=0))
     points = []
-    for row in range(len(columns[measured[0]])):
-        values = {name: float(columns[name][row]) for name in given}
-        for name in [name for name, value in values.items() if not isfinite(value)]:
-            raise HarnessError(f"{path} row {row + 1}: {name} is empty; must be a number")
-        for name in measured:
-            value = float(columns[name][row])
-            if isfinite(value):
-                deviation = _deviation(path, columns, name, row)
-                points.append(Point(values, name, value, deviation))
-    return Measurements(points=tuple(points))
+    for index, row in enumerate(columns.rows):
+        own = {name: float(values[name][index]) for name in given}
+        for name in [name for name, known in zip(measured, there[:, index], strict=True) if known]:
+            deviation = _deviation(columns, name, index)
+            points.append(Point(own, name, float(values[name][index]), deviation, source, row))
+    skipped = np.count_nonzero(~there.any(axis=0))
+    note = f"{source}: {skipped} of {len(columns.rows)} rows skipped: nothing measured"
+    return Measurements(tuple(points), notes=(note,) if skipped else ())
 
 
-def _deviation(path: Path, columns: Mapping[str, Array], name: str, row: int) -> float | None:
-    if f"{name}_std" not in columns:
+def _check_filled(columns: _Columns, name: str, needed: NDArray[np.bool_]) -> None:
+    """Raise HarnessError for an empty cell of a column in a row that is `needed`, (n,)."""
+    empty = np.flatnonzero(needed & ~np.isfinite(columns.values[name]))
+    if empty.size:
+        row = columns.rows[empty[0]]
+        raise HarnessError(f"{columns.source} {row}: {name} is empty; must be a number")
+
+
+def _deviation(columns: _Columns, name: str, index: int) -> float | None:
+    """Return the standard deviation of a number, None where there are none."""
+    if f"{name}_std" not in columns.values:
         return None
-    deviation = float(columns[f"{name}_std"][row])
+    deviation = float(columns.values[f"{name}_std"][index])
     if not deviation > 0.0:
-        raise HarnessError(f"{path} row {row + 1}: {name}_std = {deviation:g}: must be above 0")
+        row = f"{columns.source} {columns.rows[index]}"
+        raise HarnessError(f"{row}: {name}_std = {deviation:g}: must be above 0")
     return deviation
 
 
-def _run(path: Path, columns: Mapping[str, Array]) -> Measurements:
-    times = columns["time"] - columns["time"][0]
-    if not np.all(np.diff(times) > 0.0):
-        raise HarnessError(f"{path}: time must be in every row, and increase strictly")
-    settable = (*INPUTS, *HELD)
-    signals = {}
-    for name in settable:
-        if name in columns:
-            if not np.all(np.isfinite(columns[name])):
-                raise HarnessError(f"{path}: {name} is empty in a row; must be a number")
-            signals[name] = steps(list(zip(times.tolist(), columns[name].tolist(), strict=True)))
+def _run(columns: _Columns) -> Measurements:
+    source, values, rows = columns.source, columns.values, columns.rows
+    times = values["time"]
+    settable = [name for name in (*INPUTS, *HELD) if name in values]
+    for name in ("time", *settable):
+        _check_filled(columns, name, np.ones(len(rows), np.bool_))
+    for index in np.flatnonzero(np.diff(times) <= 0.0) + 1:
+        raise HarnessError(
+            f"{source} {rows[index]}: time = {times[index]:.9g} s: must be above the "
+            f"{times[index - 1]:.9g} s of the row before"
+        )
+    if times[0] < 0.0:
+        raise HarnessError(
+            f"{source} {rows[0]}: time = {times[0]:.9g} s: must be at least 0, when drive and "
+            "device start; leave out the rows before the drive is switched on, or shift all times"
+        )
+    signals = {
+        name: steps(list(zip(times.tolist(), values[name].tolist(), strict=True)))
+        for name in settable
+    }
     inputs = {name: signal for name, signal in signals.items() if name in INPUTS}
     tuning = {name: signal for name, signal in signals.items() if name in HELD}
-    outputs = {n: c for n, c in columns.items() if n in VARIABLES and n not in settable}
+    outputs = {name: column for name, column in values.items() if name in ALL_OUTPUTS}
     if not outputs:
-        raise HarnessError(f"{path}: measures nothing; must have a column of an output")
-    deviations = {name: columns[f"{name}_std"] for name in outputs if f"{name}_std" in columns}
-    for name, column in deviations.items():
-        if not np.all(column[np.isfinite(outputs[name])] > 0.0):
-            raise HarnessError(f"{path}: {name}_std must be above 0 in every row")
+        raise HarnessError(f"{source}: measures nothing; must have a column of an output")
+    deviations = {name: values[f"{name}_std"] for name in outputs if f"{name}_std" in values}
+    for name in deviations:
+        for index in np.flatnonzero(np.isfinite(outputs[name])):
+            _deviation(columns, name, int(index))
+    notes = []
+    if times[0] > 0.0:
+        # A point at time 0 at which nothing is measured.
+        times, rows = np.concatenate([[0.0], times]), ["", *rows]
+        outputs, deviations = (
+            {name: np.concatenate([[np.nan], column]) for name, column in some.items()}
+            for some in (outputs, deviations)
+        )
+        notes.append(
+            f"{source}: begins at {with_unit(TIME, times[1])}; the device starts at time 0 in its "
+            "initial state, at drive phase 0, and moves until then under the inputs of the first row"
+        )
     schedule = Schedule(times, *in_order(inputs), tuning=tuning)
-    return Measurements(runs=(Run(str(path), schedule, outputs, deviations),))
+    return Measurements(
+        runs=(Run(source, schedule, outputs, deviations, rows),), notes=tuple(notes)
+    )
 
 
 def datasheet(
@@ -284,9 +430,12 @@ def datasheet(
 
     `loaded` are pairs of load (N) and velocity (m/s).
     """
-    points = [Point({"load": load}, STEADY[0], speed) for load, speed in loaded]
+    points = [
+        Point({"load": load}, STEADY[0], speed, row=f"load {with_unit('load', load)}")
+        for load, speed in loaded
+    ]
     if velocity is not None:
-        points.insert(0, Point({"load": 0.0}, STEADY[0], velocity))
+        points.insert(0, Point({"load": 0.0}, STEADY[0], velocity, row="no load"))
     if blocking is not None:
-        points.append(Point({}, STEADY[1], blocking))
+        points.append(Point({}, STEADY[1], blocking, row="no motion"))
     return Measurements(tuple(points))

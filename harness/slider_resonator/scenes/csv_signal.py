@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import codecs
 import csv
+import io
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from math import isfinite
@@ -12,25 +15,42 @@ from slider_resonator.device.signal import Signal, ramp, steps
 
 SEPARATORS = (";", "\t")
 """What programs write between two columns where numbers may have a decimal comma."""
+_SEPARATOR_LINE = re.compile(r'"?sep=(.)"?\s*', re.IGNORECASE)
+"""The first line by which a file tells spreadsheets its separator."""
+
+
+def _text(path: Path) -> str:
+    """Return the text of a file in UTF-8, UTF-16 with its mark, or else Windows-1252."""
+    content = path.read_bytes()
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return content.decode("utf-16")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return content.decode("cp1252")
 
 
 def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     """Return the header of a CSV file, and its other rows with their line numbers.
 
-    Columns are apart by commas, or by what the header has of `SEPARATORS`. Lines that begin with #
-    are left out. Raises ValueError naming the file and what is wrong.
+    Columns are apart by commas, by what the header has of `SEPARATORS`, or by what a line `sep=`
+    above it says. Lines that begin with # are left out. Raises ValueError naming the file and what is wrong.
     """
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            lines = [(n, line) for n, line in enumerate(file, 1) if not line.startswith("#")]
+        file = io.StringIO(_text(path), newline="")
+        lines = [(n, line) for n, line in enumerate(file, 1) if not line.startswith("#")]
         first = lines[0][1] if lines else ""
         separator = next((one for one in SEPARATORS if one in first), ",")
+        if said := _SEPARATOR_LINE.fullmatch(first):
+            lines, separator = lines[1:], said[1]
         reader = csv.reader((line for _, line in lines), delimiter=separator)
         rows = [(lines[reader.line_num - 1][0], row) for row in reader]
     except OSError as error:
         raise ValueError(f"csv {path} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
-        raise ValueError(f"csv {path}: {error}; must be UTF-8 text") from error
+        raise ValueError(
+            f"csv {path}: {error}; must be text in UTF-8, UTF-16 or Windows-1252"
+        ) from error
     except csv.Error as error:
         raise ValueError(f"csv {path}: {error}; must be lines of numbers") from error
     header = [name.strip() for name in rows[0][1]] if rows else []

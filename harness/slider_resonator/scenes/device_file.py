@@ -118,15 +118,21 @@ def device_values(content: Mapping[str, Any], source: str) -> dict[str, float]:
     return values
 
 
-def possible_slips(table: Mapping[str, Any]) -> list[str]:
+FREQUENCIES = ("drive_frequency", "resonator_frequency")
+
+
+def possible_slips(
+    table: Mapping[str, Any], beside: Mapping[str, float] | None = None, where: str = ""
+) -> list[str]:
     """Return a sentence for each plain number in rad/s of [device] that may be meant in Hz.
 
-    Meant are round numbers, and a frequency that is 2 pi times or a 2 pi-th of the other.
+    Meant are round numbers, and a frequency that is 2 pi times or a 2 pi-th of the other, which is
+    that of `beside` if the table does not have it. `where` says what to write, if not in [device].
     """
     slips = []
     given, values = {}, []
-    for name in ("drive_frequency", "resonator_frequency"):
-        value = table.get(name, VARIABLES[name].start)
+    for name in FREQUENCIES:
+        value = table.get(name, (beside or {}).get(name, VARIABLES[name].start))
         values.append(si_value(name, value) if isinstance(value, str) else float(value))
         if name in table and not isinstance(value, str | bool):
             given[name] = values[-1]
@@ -137,7 +143,7 @@ def possible_slips(table: Mapping[str, Any]) -> list[str]:
         if value > 0.0 and (is_round or apart):
             slips.append(
                 f"{name} = {value:g} is in rad/s, which is {with_unit(name, value)}; "
-                f'if {value:g} Hz is meant, write {name} = "{value:g} Hz"'
+                f"if {value:g} Hz is meant, write " + (where or f'{name} = "{value:g} Hz"')
             )
     return slips
 

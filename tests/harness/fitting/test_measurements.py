@@ -35,15 +35,66 @@ def test_a_table_has_units_other_names_and_gaps(tmp_path: Path) -> None:
         _ = data.knows_deviations
 
 
-def test_a_run_begins_at_zero_and_may_lack_values(tmp_path: Path) -> None:
-    text = "time [ms],load [mN],velocity,position [um]\n1000,0,0.1,1\n\n2000,50,,2\n4000,50,0.3,3\n"
+def test_a_run_keeps_its_times_and_may_lack_values(tmp_path: Path) -> None:
+    text = "Time [ms],load [mN],velocity,position [um]\n0,0,0.1,1\n\n2000,50,nan,2\n4000,50,0.3,3\n"
     data = read(tmp_path, text)
     (run,) = data.runs
-    assert run.schedule.times.tolist() == [0.0, 1.0, 3.0]
+    assert run.schedule.times.tolist() == [0.0, 2.0, 4.0]
     assert run.schedule.sampled[:, 1].tolist() == [0.0, 0.05, 0.05]
     assert data.measured == pytest.approx([0.1, 0.3, 1e-6, 2e-6, 3e-6])
     assert data.quantities == ["velocity"] * 2 + ["position"] * 3
+    assert [place.row for place in data.places[:2]] == ["line 2", "line 5"]
     assert np.isnan(run.outputs["velocity"][1])
+    assert not data.notes
+
+
+def test_a_recording_that_begins_later_is_run_from_time_0(tmp_path: Path) -> None:
+    data = read(tmp_path, "time [ms],load [mN],velocity,velocity_std\n3.2,5,0.1,1\n4,7,0.2,1\n")
+    (run,) = data.runs
+    assert run.schedule.times == pytest.approx([0.0, 3.2e-3, 4e-3])
+    assert run.schedule.sampled[:, 1] == pytest.approx([5e-3, 5e-3, 7e-3])
+    assert data.measured.tolist() == [0.1, 0.2]
+    assert data.deviations.tolist() == [1.0, 1.0]
+    (note,) = data.notes
+    assert "data.csv: begins at 3.2 ms; the device starts at time 0 in its initial state" in note
+
+
+PLAIN = "phase [deg],frequency [kHz],steady_velocity [mm/s]\n30,20,47\n60,20,50\n"
+
+
+@pytest.mark.parametrize(
+    ("content", "notes"),
+    [
+        (PLAIN.encode(), ()),
+        (b"sep=;\r\n" + PLAIN.replace(",", ";").encode(), ()),
+        (b"sep=|\n" + PLAIN.replace(",", "|").encode(), ()),
+        (PLAIN.encode("utf-16"), ()),
+        (PLAIN.replace("\n", ",\n").encode(), ()),
+        (b"Phase [deg],FREQUENCY [kHz],Steady Velocity (mm/s)\n30,20,47\n60,20,50\n", ()),
+        (
+            "phase [°],frequency [kHz],velocity [mm/s],Prüfer,when\n30,20,47,Jürg,10:02\n"
+            "45,20,NaN,,10:03\n,,,,\n50,20,,warm,\n60,20,50,,\n".encode("cp1252"),
+            ("ignored 'Prüfer', 'when': no numbers", "2 of 4 rows skipped: nothing measured"),
+        ),
+    ],
+)
+def test_what_other_programs_write_is_read(
+    tmp_path: Path, content: bytes, notes: tuple[str, ...]
+) -> None:
+    path = tmp_path / "data.csv"
+    path.write_bytes(content)
+    data = read_measurements(path)
+    assert [point.values["phase"] for point in data.points] == pytest.approx([pi / 6, pi / 3])
+    assert data.points[0].values["drive_frequency"] == pytest.approx(2 * pi * 20e3)
+    assert data.measured.tolist() == pytest.approx([0.047, 0.050])
+    assert data.shown("steady_velocity", 5e-4) == "0.5 mm/s"
+    assert data.notes == tuple(f"{path}: {note}" for note in notes)
+
+
+def test_a_run_has_the_names_of_a_table_for_the_drive(tmp_path: Path) -> None:
+    data = read(tmp_path, "time,frequency [kHz],velocity\n0,20,0\n1,21,0.1\n")
+    signal = data.runs[0].schedule.tuning["drive_frequency"]
+    assert signal.values == pytest.approx((2 * pi * 20e3, 2 * pi * 21e3))
 
 
 @pytest.mark.parametrize(
@@ -56,10 +107,19 @@ def test_a_run_begins_at_zero_and_may_lack_values(tmp_path: Path) -> None:
         ("phase\n0.1\n", "measures nothing; must have a column"),
         ("phse,velocity\n0,1\n", "unknown column 'phse'; did you mean 'phase'?"),
         ("phase [N],velocity\n0,1\n", "heading 'phase [N]': phase = '1 N': not in rad"),
-        ("phase,velocity\n,1\n", "row 1: phase is empty; must be a number"),
+        ("phase,velocity\n,1\n", "line 2: phase is empty; must be a number"),
         ("phase,velocity,velocity_std\n1,1,0\n", "steady_velocity_std = 0: must be above 0"),
         ("velocity,steady_velocity\n1,1\n", "two columns steady_velocity; must be one"),
-        ("time,velocity\n0,1\n0,2\n", "time must be in every row, and increase strictly"),
+        (
+            "time,velocity\n0,1\n0,2\n",
+            "line 3: time = 0 s: must be above the 0 s of the row before",
+        ),
+        ("time,velocity\n,1\n0,2\n", "line 2: time is empty; must be a number"),
+        ("time,velocity\n-1,1\n0,2\n", "line 2: time = -1 s: must be at least 0, when drive and"),
+        ("time,load,velocity\n0,1,1\n1,,2\n", "line 3: load is empty; must be a number"),
+        ("time,velocity,velocity_std\n0,1,1\n1,2,0\n", "line 3: velocity_std = 0: must be above 0"),
+        ("phase,velocity,number\n0,1,1\n1,2,2\n", "unknown column 'number'"),
+        ("phase,velocity\n0,inf\n", "line 2: velocity = 'inf': must be a finite number, or empty"),
         ("time,load\n0,1\n1,2\n", "must have a column of an output"),
     ],
 )

@@ -25,6 +25,7 @@ def test_a_run_written_by_the_harness_can_be_read_back_as_an_input(tmp_path: Pat
     [
         "time;load\n0;0,5\n1,5;-2e-3\n",
         "time\tload\n0\t0.5\n1.5\t-2e-3\n",
+        "sep=;\ntime;load\n0;0,5\n1,5;-2e-3\n",
         "\ufeff# measured\n# on a Monday\ntime,load\n0,0.5\n# a pause\n1.5,-2e-3\n",
         '\ufeff"time";"load"\n"0";"0,5"\n"1,5";"-0,002"\n',
     ],
