@@ -134,8 +134,8 @@ def fit_command(
     steady_velocity_std has standard deviations. Numbers of a datasheet are options. What is not
     free keeps the value of the device. What the data leave open is named, and gets no digits.
 
-    Exit code: 0 when all free parameters are determined, 1 when some are left open, 2 when the fit
-    could not run.
+    Exit code: 0 when all free parameters are determined, 1 when some are left open or the numbers
+    of a datasheet cannot be met, 2 when the fit could not run.
 
     \b
     Examples:
@@ -176,7 +176,7 @@ def fit_command(
         if written:
             lines.append(f"written: {one_line(', '.join(map(str, written)))}")
         print_text("\n".join(lines))
-    click.get_current_context().exit(1 if found.open_directions else 0)
+    click.get_current_context().exit(1 if found.open_directions or found.unmet else 0)
 
 
 def _document(found: Fit, written: Sequence[Path]) -> dict[str, Any]:
@@ -192,5 +192,7 @@ def _document(found: Fit, written: Sequence[Path]) -> dict[str, Any]:
         "starts": found.starts,
         "starts_agreeing": found.starts_agreeing,
         "evaluations": found.evaluations,
+        "unmet": found.unmet,
+        "notes": found.notes,
         "written": [str(path) for path in written],
     }

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cache, partial
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import brentq, least_squares
 
 from slider_resonator.arrays import Array
@@ -68,12 +69,16 @@ MAX_DISTANCE = 1e6
 
 @dataclass(frozen=True)
 class Free:
-    """A parameter to be estimated between two bounds, in SI units."""
+    """A parameter to be estimated between two bounds, in SI units.
+
+    Those of `search_bounds` only confine the search: an interval that reaches one is unbounded.
+    """
 
     name: str
     start: float
     low: float
     high: float
+    search_bounds: tuple[float, ...] = ()
 
     @property
     def is_relative(self) -> bool:
@@ -132,12 +137,16 @@ class Problem:
 
 @dataclass(frozen=True)
 class Minimum:
-    """The least squares from one start: internal parameters (p,), residuals (n,), slopes (n, p)."""
+    """The least squares from one start: internal parameters (p,), residuals (n,), slopes (n, p).
+
+    `at_bound` (p,) is -1 and 1 for a parameter at its lower and upper bound, else 0.
+    """
 
     internal: Array
     residuals: Array
     jacobian: Array
     evaluations: int
+    at_bound: NDArray[np.intp]
 
     @property
     def sum_of_squares(self) -> float:
@@ -166,7 +175,7 @@ def minimise(instance: Instance, problem: Problem, start: Array) -> Minimum:
         max_nfev=60,
     )
     evaluations = int(found.nfev) + 2 * len(found.x) * int(found.njev or 0)
-    return Minimum(found.x, found.fun, np.asarray(found.jac), evaluations)
+    return Minimum(found.x, found.fun, np.asarray(found.jac), evaluations, found.active_mask)
 
 
 def _slopes(residuals: Callable[[Array], Array], low: Array, high: Array, at: Array) -> Array:
@@ -180,12 +189,12 @@ def _slopes(residuals: Callable[[Array], Array], low: Array, high: Array, at: Ar
 
 def profile_end(
     instance: Instance, problem: Problem, best: Minimum, index: int, change: float, excess: float
-) -> float:
-    """Return the end of a profile interval of a parameter, in SI units.
+) -> float | None:
+    """Return the end of a profile interval of a parameter, in SI units, None if it is unbounded.
 
     It is where the least sum of squares over the other parameters is `excess` above that of `best`;
     `change` is the end that the linear approximation gives, as a change of the internal parameter.
-    At a bound the interval ends.
+    At a bound the interval ends, unless the bound only confines the search.
     """
     one = problem.free[index]
     covariance = np.linalg.pinv(best.jacobian.T @ best.jacobian)
@@ -211,8 +220,11 @@ def profile_end(
 
     outer = abs(change)
     while beyond(outer) < 0.0:
-        if value(outer) in (one.low, one.high) or outer > MAX_DISTANCE:
-            return value(outer)
+        end = value(outer)
+        if end in one.search_bounds or outer > MAX_DISTANCE:
+            return None
+        if end in (one.low, one.high):
+            return end
         outer *= 1.5
     return value(float(brentq(beyond, 0.0, outer, rtol=PROFILE_ACCURACY, xtol=1e-15)))
 

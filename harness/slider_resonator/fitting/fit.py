@@ -16,7 +16,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INTEGERS, PARAMETERS, VARIABLES
 from slider_resonator.device.values import check_value
-from slider_resonator.errors import HarnessError, unknown_name
+from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fitting.estimation import (
     Free,
     Minimum,
@@ -28,6 +28,7 @@ from slider_resonator.fitting.estimation import (
     profile_end,
 )
 from slider_resonator.fitting.measurements import Measurements
+from slider_resonator.fitting.notes import data_notes, misfit_notes
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, Task
 from slider_resonator.fmu.isolation.tasks import run_all_tasks
 from slider_resonator.output.progress import Progress, counted, no_progress
@@ -46,13 +47,16 @@ SAME = 1e-6
 """Relative difference of sums of squares up to which two starts have found the same minimum."""
 WIDE = 1e4
 """Factor beside the start to which a positive parameter without other bounds is confined."""
+MET = 1e-4
+"""Error, in root mean squares of the quantity, up to which as many parameters meet a number."""
 
 
 @dataclass(frozen=True)
 class FittedParameter:
     """An estimate in SI units with its standard deviation and 95 % profile interval.
 
-    They are None where the data have no numbers to spare for them, or leave the parameter open.
+    They are None where the data have no numbers to spare for them, or leave the parameter open. An
+    end alone is None where the interval is unbounded on that side.
     """
 
     name: str
@@ -63,6 +67,19 @@ class FittedParameter:
     low: float | None
     high: float | None
     is_open: bool
+    at_bound: bool = False
+
+    def interval(self, digits: int = 6) -> tuple[str, str]:
+        """Return both ends as text: "0.1" and "0.2", "above 0.1" and "", or two empty ones."""
+        if self.deviation is None:
+            return "", ""
+        if self.low is None and self.high is None:
+            return "unbounded", ""
+        if self.high is None:
+            return f"above {self.low:.{digits}g}", ""
+        if self.low is None:
+            return "", f"below {self.high:.{digits}g}"
+        return f"{self.low:.{digits}g}", f"{self.high:.{digits}g}"
 
 
 @dataclass(frozen=True, repr=False)
@@ -72,7 +89,8 @@ class Fit(Shown, Tabular, Drawable):
     `residuals` are predicted minus measured over the standard deviation, `scale` the standard
     deviation of these as the fit shows it, 1 if all is as stated, None with as many parameters as
     numbers. `correlation` is that of the estimates, (p, p). `starts_agreeing` of `starts` led to
-    the same minimum.
+    the same minimum. `unmet` are the indices of numbers that as many parameters do not reach,
+    `notes` what is odd about the data and their residuals.
     """
 
     parameters: tuple[FittedParameter, ...]
@@ -87,6 +105,19 @@ class Fit(Shown, Tabular, Drawable):
     starts_agreeing: int
     evaluations: int
     measurements: Measurements
+    unmet: tuple[int, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def unmet_numbers(self) -> list[str]:
+        """Return each number that is not reached, as asked and as reached."""
+        shown, places = self.measurements.shown, self.measurements.places
+        found = []
+        for index in self.unmet:
+            name, source, row = places[index]
+            asked, reached = shown(name, self.measured[index]), shown(name, self.predicted[index])
+            what = f"{name} ({source}, {row})"
+            found.append(f"not met: {what} must be {asked}, the nearest found is {reached}")
+        return found
 
     def table(self) -> dict[str, list[Any]]:
         """Return the estimates in columns, those that the data leave open as None."""
@@ -110,13 +141,16 @@ class Fit(Shown, Tabular, Drawable):
         lines = [f"{number_of(len(self.measured), 'measured number')}"]
         for one in self.parameters:
             found = "left open by the data" if one.is_open else f"{one.value:.6g} {one.unit}"
-            if one.low is not None and one.high is not None:
-                found += f", 95 % from {one.low:.6g} to {one.high:.6g}"
+            low, high = one.interval()
+            if low and high:
+                found += f", 95 % from {low} to {high}"
+            elif low or high:
+                found += f", 95 % {low}{high}"
             lines.append(f"{one.name:<23} {found}")
         if self.scale is not None:
             lines.append(f"residuals have {self.scale:.3g} standard deviations")
         lines.append(f"{self.starts_agreeing} of {self.starts} starts led to this minimum")
-        return lines
+        return [*lines, *self.unmet_numbers(), *self.notes]
 
 
 def free_parameters(
@@ -143,9 +177,13 @@ def free_parameters(
         start = float(parameters.get(name, variable.start or 0.0))
         low = -np.inf if variable.minimum is None else variable.minimum
         high = np.inf if variable.maximum is None else variable.maximum
-        if low >= 0.0 and start > 0.0:
+        search_bounds: tuple[float, ...] = ()
+        if name in bounds:
+            low, high = bounds[name]
+        elif low >= 0.0 and start > 0.0:
+            allowed = low, high
             low, high = max(low, start / WIDE), min(high, start * WIDE)
-        low, high = bounds.get(name, (low, high))
+            search_bounds = tuple({low, high} - {*allowed})
         for bound in (low, high):
             if isfinite(bound):
                 try:
@@ -154,7 +192,8 @@ def free_parameters(
                     raise HarnessError(f"bounds of {error}") from error
         if not low < high:
             raise HarnessError(f"bounds of {name} = {low:g} to {high:g}: must be ascending")
-        found.append(Free(name, min(max(start, low), high), float(low), float(high)))
+        start = min(max(start, low), high)
+        found.append(Free(name, start, float(low), float(high), search_bounds))
     return tuple(found)
 
 
@@ -180,7 +219,14 @@ def fit(
     fails.
     """
     free = free_parameters(names, parameters, bounds or {})
+    for source, name in measurements.given:
+        if name in names:
+            raise HarnessError(
+                f"{name} is free, and a column of {source}; must be one of them: leave it out of "
+                "the free parameters, or take the column out"
+            )
     measurements = measurements.under(inputs or {})
+    notes = data_notes(measurements, parameters)
     problem = Problem(parameters, free, measurements)
     count = len(measurements.measured)
     if count < len(free):
@@ -188,7 +234,10 @@ def fit(
             f"{count} measured numbers for {len(free)} free parameters; must be at least as many"
         )
     tasks = [partial(minimise, problem=problem, start=one) for one in _starts(free, starts)]
-    minima: list[Minimum] = run("searching", tasks)
+    try:
+        minima: list[Minimum] = run("searching", tasks)
+    except FmuError as error:
+        raise FmuError("; ".join([str(error), *notes])) from error
     best = min(minima, key=lambda one: one.sum_of_squares)
     bound = best.sum_of_squares * (1.0 + SAME) + 1e-16 * count
     agreeing = sum(one.sum_of_squares <= bound for one in minima)
@@ -217,12 +266,19 @@ def fit(
         unit_name = VARIABLES[one.name].unit
         is_open = one.name in left_open
         fitted.append(
-            FittedParameter(one.name, unit_name, one.start, value, deviation, low, high, is_open)
+            FittedParameter(
+                *(one.name, unit_name, one.start, value, deviation, low, high, is_open),
+                at_bound=bool(best.at_bound[index]),
+            )
         )
     values = {**parameters, **{one.name: one.value for one in fitted}}
     (predicted,) = run(
         "comparing", [partial(predict, parameters=values, measurements=measurements)]
     )
+    off = np.abs(predicted - measurements.measured)
+    missed = () if spare else np.flatnonzero(~(off <= MET * measurements.sizes)).tolist()
+    if spare:
+        notes += misfit_notes(measurements, predicted, len(free))
     return Fit(
         tuple(fitted),
         Device.from_mapping(values),
@@ -237,6 +293,8 @@ def fit(
         agreeing,
         sum(one.evaluations for one in minima),
         measurements,
+        tuple(missed),
+        tuple(notes),
     )
 
 

@@ -111,6 +111,13 @@ class Measurements:
         return found
 
     @property
+    def given(self) -> list[tuple[str, str]]:
+        """Source and name of what the measurements set."""
+        points = [(point.source, name) for point in self.points for name in point.values]
+        runs = [(run.source, name) for run in self.runs for name in run.schedule.tuning]
+        return list(dict.fromkeys([*points, *runs]))
+
+    @property
     def quantities(self) -> list[str]:
         """The quantity of each number, length n."""
         return [place.quantity for place in self.places]
@@ -344,15 +351,16 @@ def _table(columns: _Columns) -> Measurements:
         raise HarnessError(f"{source}: measures nothing; must have a column {' or '.join(STEADY)}")
     given = [n for n in values if n.removesuffix("_std") not in STEADY]
     there = np.isfinite([values[name] for name in measured])
+    is_needed = np.array(there.any(axis=0))
     for name in given:
-        _check_filled(columns, name, there.any(axis=0))
+        _check_filled(columns, name, is_needed)
     points = []
     for index, row in enumerate(columns.rows):
         own = {name: float(values[name][index]) for name in given}
         for name in [name for name, known in zip(measured, there[:, index], strict=True) if known]:
             deviation = _deviation(columns, name, index)
             points.append(Point(own, name, float(values[name][index]), deviation, source, row))
-    skipped = np.count_nonzero(~there.any(axis=0))
+    skipped = np.count_nonzero(~is_needed)
     note = f"{source}: {skipped} of {len(columns.rows)} rows skipped: nothing measured"
     return Measurements(tuple(points), notes=(note,) if skipped else ())
 
@@ -361,7 +369,7 @@ def _check_filled(columns: _Columns, name: str, needed: NDArray[np.bool_]) -> No
     """Raise HarnessError for an empty cell of a column in a row that is `needed`, (n,)."""
     empty = np.flatnonzero(needed & ~np.isfinite(columns.values[name]))
     if empty.size:
-        row = columns.rows[empty[0]]
+        row = columns.rows[int(empty[0])]
         raise HarnessError(f"{columns.source} {row}: {name} is empty; must be a number")
 
 
@@ -382,7 +390,7 @@ def _run(columns: _Columns) -> Measurements:
     settable = [name for name in (*INPUTS, *HELD) if name in values]
     for name in ("time", *settable):
         _check_filled(columns, name, np.ones(len(rows), np.bool_))
-    for index in np.flatnonzero(np.diff(times) <= 0.0) + 1:
+    for index in (np.flatnonzero(np.diff(times) <= 0.0) + 1).tolist():
         raise HarnessError(
             f"{source} {rows[index]}: time = {times[index]:.9g} s: must be above the "
             f"{times[index - 1]:.9g} s of the row before"
@@ -403,8 +411,8 @@ def _run(columns: _Columns) -> Measurements:
         raise HarnessError(f"{source}: measures nothing; must have a column of an output")
     deviations = {name: values[f"{name}_std"] for name in outputs if f"{name}_std" in values}
     for name in deviations:
-        for index in np.flatnonzero(np.isfinite(outputs[name])):
-            _deviation(columns, name, int(index))
+        for number in np.flatnonzero(np.isfinite(outputs[name])).tolist():
+            _deviation(columns, name, number)
     notes = []
     if times[0] > 0.0:
         # A point at time 0 at which nothing is measured.
@@ -415,7 +423,7 @@ def _run(columns: _Columns) -> Measurements:
         )
         notes.append(
             f"{source}: begins at {with_unit(TIME, times[1])}; the device starts at time 0 in its "
-            "initial state, at drive phase 0, and moves until then under the inputs of the first row"
+            "initial state, at drive phase 0, and has the inputs of the first row until then"
         )
     schedule = Schedule(times, *in_order(inputs), tuning=tuning)
     return Measurements(

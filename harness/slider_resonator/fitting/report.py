@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from html import escape
 from math import exp, isfinite
 from pathlib import Path
 
 import numpy as np
 
-from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fitting.fit import Fit, FittedParameter
 from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.fmu.provenance_text import provenance_html
@@ -32,10 +32,12 @@ def parameter_table(fit: Fit) -> Table:
 def _numbers(one: FittedParameter) -> tuple[str, str, str]:
     if one.is_open:
         return OPEN, "", ""
-    if one.low is None or one.high is None:
+    if one.deviation is None:
         return f"{one.value:.8g}", "", ""
+    if one.low is None or one.high is None:
+        return f"{one.value:.3g}", *one.interval(2)
     digits = max(2, 2 - round(np.log10(max((one.high - one.low) / abs(one.value or 1.0), 1e-9))))
-    return (f"{one.value:.{digits + 1}g}", f"{one.low:.{digits}g}", f"{one.high:.{digits}g}")
+    return f"{one.value:.{digits + 1}g}", *one.interval(digits)
 
 
 def sentences(fit: Fit) -> list[str]:
@@ -44,25 +46,28 @@ def sentences(fit: Fit) -> list[str]:
     lines = [f"{count} numbers, {free} free parameters"]
     lines.append(f"friction on {number_of(fit.device.friction_faces, 'face')} (friction_faces)")
     if fit.scale is None:
-        lines.append("as many parameters as numbers: solved, without intervals")
+        solved = "not solved" if fit.unmet else "solved, without intervals"
+        lines.append(f"as many parameters as numbers: {solved}")
     elif fit.measurements.knows_deviations:
         lines.append(
             f"residuals have {fit.scale:.3g} times the stated standard deviation"
             + (": the model or the stated deviations do not fit" if fit.scale > 2.0 else "")
         )
-    for quantity in dict.fromkeys(fit.measurements.quantities):
-        own = np.array(fit.measurements.quantities) == quantity
+    lines += fit.unmet_numbers()
+    quantities = np.array(fit.measurements.quantities)
+    for quantity in dict.fromkeys(quantities.tolist()):
+        own = quantities == quantity
         off = float(np.sqrt(np.nanmean((fit.predicted - fit.measured)[own] ** 2)))
-        lines.append(f"{quantity} is off by {off:.3g} {VARIABLES[quantity].unit} (rms)")
+        lines.append(f"{quantity} is off by {fit.measurements.shown(quantity, off)} (rms)")
     missing = int(np.count_nonzero(~np.isfinite(fit.predicted)))
     if missing:
         lines.append(f"at {missing} of the points the fitted device has no steady motion")
     lines += [_open(one.factors, one.spread) for one in fit.open_directions]
     lines.append(f"{fit.starts_agreeing} of {fit.starts} starts led to this minimum")
-    at_bound = [one.name for one in fit.parameters if one.value in (one.low, one.high)]
+    at_bound = [one.name for one in fit.parameters if one.at_bound]
     if at_bound:
         lines.append(f"at a bound: {', '.join(at_bound)}")
-    return lines
+    return [*lines, *(f"note: {note}" for note in fit.notes)]
 
 
 def _open(factors: Mapping[str, float], spread: float) -> str:
@@ -81,11 +86,12 @@ def write_report(fit: Fit, folder: Path, title: str, provenance: Provenance) -> 
     write_text(device, note + to_toml(fit.device, title))
     figure = fit.figure()
     save(figure, picture)
-    header = ("quantity", "measured", "predicted", "residual_over_deviation")
+    header = ("quantity", "measured", "predicted", "residual_over_deviation", "source", "row")
     numbers_of = (fit.measured, fit.predicted, fit.residuals)
+    quantities, *where = zip(*fit.measurements.places, strict=True)
     columns = (column.tolist() for column in numbers_of)
-    write_csv(table, header, zip(fit.measurements.quantities, *columns, strict=True))
-    said = "".join(f"<li>{line}</li>" for line in sentences(fit))
+    write_csv(table, header, zip(quantities, *columns, *where, strict=True))
+    said = "".join(f"<li>{escape(line)}</li>" for line in sentences(fit))
     parts = [
         rendered(parameter_table(fit)),
         f"<ul>{said}</ul>",

@@ -34,7 +34,8 @@ def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     """Return the header of a CSV file, and its other rows with their line numbers.
 
     Columns are apart by commas, by what the header has of `SEPARATORS`, or by what a line `sep=`
-    above it says. Lines that begin with # are left out. Raises ValueError naming the file and what is wrong.
+    above it says. Lines that begin with # are left out. Raises ValueError naming the file and
+    what is wrong.
     """
     try:
         file = io.StringIO(_text(path), newline="")

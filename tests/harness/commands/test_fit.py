@@ -52,3 +52,10 @@ def test_what_cannot_be_fitted_is_said(data: Path, native_fmu: Path) -> None:
     assert "LOAD=VELOCITY" in refused("fit", *fmu, "--free", "load", "--velocity-at", "3")
     assert "not in m/s" in refused("fit", *fmu, "--free", "slider_mass", "--velocity", "3 N")
     assert "NAME=LOW:HIGH" in refused("fit", data, "--free", "slider_mass", "--bounds", "3")
+
+
+def test_a_datasheet_that_no_device_has_is_exit_code_1(native_fmu: Path) -> None:
+    options = ("--velocity", "5 m/s", "--free", "friction_coefficient", "--starts", 1)
+    ran = call("fit", *options, "--fmu", native_fmu)
+    assert ran.exit_code == 1, ran.output
+    assert "must be 5 m/s, the nearest found is" in " ".join(ran.stdout.split())

@@ -3,17 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import HarnessError
 from slider_resonator.fitting.estimation import Problem, minimise, predict
 from slider_resonator.fitting.fit import Fit, fit, free_parameters
-from slider_resonator.fitting.measurements import Measurements, Point, Run, datasheet
+from slider_resonator.fitting.measurements import (
+    Measurements,
+    Point,
+    Run,
+    datasheet,
+    measurements_from,
+)
+from slider_resonator.fitting.notes import data_notes
+from slider_resonator.fitting.report import parameter_table, sentences
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import Task
 
@@ -155,6 +165,90 @@ def test_what_cannot_be_free_is_refused(
 def test_fewer_numbers_than_parameters_are_refused(instance: Instance) -> None:
     with pytest.raises(HarnessError, match="1 measured numbers for 2 free parameters"):
         fitted(instance, datasheet(0.1, None, []), ["slider_mass", "damping_ratio"])
+
+
+def test_an_end_at_a_bound_of_the_search_is_none(instance: Instance) -> None:
+    """A tiny friction coefficient and its normal load are hardly seen: nothing bounds it below."""
+    points = [Point({"phase": 0.3 * i}, "steady_velocity", 0.0) for i in range(8)]
+    true = {"damping_ratio": 1e-5, "resonator_frequency": 2.0 * VARIABLES["drive_frequency"].start}
+    data = measured(instance, true, points, 0.01)
+    found = fitted(instance, data, ["damping_ratio"], parameters=true, starts=1)
+    (one,) = found.parameters
+    assert one.low is None
+    assert one.high is not None
+    assert one.interval(2)[0] == ""
+    assert one.interval(2)[1].startswith("below ")
+    assert "95 % below " in str(found)
+    assert parameter_table(found).rows[0][3].startswith("below ")
+    given = {"damping_ratio": (1e-7, 1.0)}
+    (one,) = fitted(instance, data, [*given], parameters=true, starts=1, bounds=given).parameters
+    assert one.low == pytest.approx(1e-7), "a bound that was asked for is an end"
+
+
+def test_numbers_that_no_device_has_are_not_met(instance: Instance) -> None:
+    found = fitted(instance, datasheet(5.0, None, []), ["friction_coefficient"])
+    assert found.unmet == (0,)
+    said = "\n".join(sentences(found))
+    assert "as many parameters as numbers: not solved" in said
+    reached = found.measurements.shown("steady_velocity", float(found.predicted[0]))
+    assert (
+        f"steady_velocity (datasheet, no load) must be 5 m/s, the nearest found is {reached}"
+        in said
+    )
+    assert "not met: steady_velocity" in str(found)
+
+
+def test_an_outlier_is_named_and_honest_noise_is_not(instance: Instance) -> None:
+    data = measured(instance, TRUE, POINTS, 0.01, seed=3)
+    assert not fitted(instance, data, ["damping_ratio"], starts=1).notes
+    points = list(data.points)
+    points[6] = replace(points[6], measured=1.5 * points[6].measured, source="a.csv", row="line 8")
+    for index in (0, 1, 2, 3, 4, 5, 7, 8, 9):
+        points[index] = replace(points[index], source="a.csv")
+    found = fitted(instance, Measurements(tuple(points)), ["damping_ratio"], starts=1)
+    (note,) = found.notes
+    assert note.startswith(
+        "outliers, off by over 5 robust standard deviations: a.csv line 8: steady"
+    )
+
+
+def test_systematic_residuals_are_noted(instance: Instance) -> None:
+    """The velocities are those of another resonator; what is free cannot stand for it."""
+    points = [Point({"phase": 0.1 * i}, "steady_velocity", 0.0, row=f"line {i}") for i in range(30)]
+    data = measured(instance, {"damping_ratio": 0.3}, points, 0.002)
+    found = fitted(instance, data, ["slider_mass"], starts=1)
+    assert any("are systematic" in note and "from line " in note for note in found.notes)
+
+
+def test_a_frequency_in_hertz_is_noted(instance: Instance) -> None:
+    start = VARIABLES["drive_frequency"].start or 0.0
+    heading, hertz = "drive_frequency", round(start / (2.0 * np.pi))
+    columns = {"phase": [0.2, 0.4, 0.6], "frequency": [hertz] * 3, "velocity": [0.1, 0.11, 0.1]}
+    data = measurements_from(columns)
+    (note,) = data_notes(data, {})
+    assert note.startswith(f"data: {heading} = {hertz:g} is in rad/s")
+    assert note.endswith(f'write "{heading} [Hz]" as heading')
+    columns["frequency [Hz]"] = columns.pop("frequency")
+    assert not data_notes(measurements_from(columns), {})
+
+
+def test_a_column_that_is_free_is_refused(instance: Instance) -> None:
+    data = measurements_from({"damping_ratio": [0.1, 0.2], "velocity": [0.1, 0.1]})
+    with pytest.raises(HarnessError, match="damping_ratio is free, and a column of data; must be"):
+        fitted(instance, data, ["damping_ratio"])
+
+
+def test_a_recording_cut_out_of_a_run_gives_the_parameters(instance: Instance) -> None:
+    schedule = Schedule(np.linspace(0.0, 0.4, 81), phase=constant(0.4))
+    whole = Run("run.csv", schedule, {"velocity": np.zeros(81)})
+    true = {"friction_coefficient": 0.17, "slider_mass": 1.3}
+    velocity = predict(instance, true, Measurements(runs=(whole,)))[30:]
+    times = schedule.times[30:]
+    data = measurements_from({"time": times, "phase": np.full(51, 0.4), "velocity": velocity})
+    found = fitted(instance, data, list(true), starts=1)
+    assert [one.value for one in found.parameters] == pytest.approx(list(true.values()), rel=1e-6)
+    assert found.notes == data.notes
+    assert "begins at 150 ms" in found.notes[0]
 
 
 @pytest.mark.nightly

@@ -1,0 +1,113 @@
+"""What a report notes about measurements and their residuals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import pairwise
+
+import numpy as np
+from scipy.special import ndtr
+
+from slider_resonator.arrays import Array
+from slider_resonator.fitting.measurements import Measurements
+from slider_resonator.scenes.device_file import possible_slips
+
+OUTLIER = 5.0
+"""Residual, in robust standard deviations, from which a number counts as an outlier."""
+CHANCE = 0.01
+"""Probability of as few runs of one sign below which residuals count as systematic."""
+ROUNDING = 1e-6
+"""Residual, in root mean squares of the quantity, up to which it may be rounding of the data."""
+MAX_NAMED = 5
+"""Number of outliers that are named."""
+
+
+def data_notes(measurements: Measurements, parameters: Mapping[str, float]) -> list[str]:
+    """Return what was done in reading, and frequencies that may be meant in Hz.
+
+    `parameters` are those of the device.
+    """
+    slips: dict[tuple[str, str], str] = {}
+    for source, name, value in measurements.plain_frequencies:
+        where = f'"{name} [Hz]" as heading'
+        for slip in possible_slips({name: value}, parameters, where):
+            slips.setdefault((source, name), f"{source}: {slip}")
+    return [*measurements.notes, *slips.values()]
+
+
+def misfit_notes(measurements: Measurements, predicted: Array, free: int) -> list[str]:
+    """Return outliers and systematic residuals of a fit with a number of free parameters.
+
+    `predicted` has shape (n,).
+    """
+    measured = measurements.measured
+    weighted = (predicted - measured) / measurements.scales
+    is_seen = np.abs(predicted - measured) > ROUNDING * measurements.sizes
+    places = measurements.places
+    series: dict[tuple[str, str], list[int]] = {}
+    for index in np.flatnonzero(np.isfinite(weighted)):
+        series.setdefault(places[index][:2], []).append(int(index))
+    outliers: list[str] = []
+    systematic = []
+    for (quantity, source), rows in series.items():
+        own = weighted[rows]
+        far = np.abs(own) > OUTLIER * robust_deviation(own, free)
+        for index in np.array(rows)[far & is_seen[rows]].tolist():
+            values = (measurements.shown(quantity, one[index]) for one in (measured, predicted))
+            number, fit = values
+            outliers.append(f"{source} {places[index].row}: {quantity} {number}, fit {fit}")
+        rows = [index for index in rows if is_seen[index]]
+        count, expected, chance = runs_of_signs(weighted[rows])
+        if chance < CHANCE:
+            first, last = longest_run(weighted[rows])
+            systematic.append(
+                f"{source}: residuals of {quantity} are systematic: {count} runs of one sign, "
+                f"{expected:.0f} by chance (runs test, p = {chance:.1g}), the longest from "
+                f"{places[rows[first]].row} to {places[rows[last]].row}; the model misses "
+                "something, and the intervals are too narrow"
+            )
+    if outliers:
+        more = len(outliers) - MAX_NAMED
+        named = "; ".join([*outliers[:MAX_NAMED], *([f"and {more} more"] if more > 0 else [])])
+        systematic.insert(
+            0, f"outliers, off by over {OUTLIER:g} robust standard deviations: {named}"
+        )
+    return systematic
+
+
+def robust_deviation(residuals: Array, free: int) -> float:
+    """Return the standard deviation of residuals (n,) by their median, infinite if that is 0.
+
+    Rousseeuw and Leroy, Robust Regression and Outlier Detection (1987), 5.1: the factor corrects
+    for the `free` parameters that few residuals are fitted by.
+    """
+    correction = 1.0 + 5.0 / max(len(residuals) - free, 1)
+    return 1.4826 * correction * float(np.median(np.abs(residuals))) or float("inf")
+
+
+def runs_of_signs(residuals: Array) -> tuple[int, float, float]:
+    """Return the number of runs of one sign, that by chance, and the probability of as few.
+
+    It is the runs test of Wald and Wolfowitz (1940), in the normal approximation with its
+    correction for continuity; `residuals` (n,) are in the order of the rows.
+    """
+    positive = residuals > 0.0
+    above, below = int(positive.sum()), int((~positive).sum())
+    count = int(np.count_nonzero(np.diff(positive))) + 1
+    if not above or not below:
+        # All of one sign: the runs test has no case for it, the sign test has.
+        return count, len(residuals) / 2 + 1, 0.5 ** max(len(residuals) - 1, 0)
+    total = above + below
+    expected = 2.0 * above * below / total + 1.0
+    variance = (expected - 1.0) * (expected - 2.0) / max(total - 1.0, 1.0)
+    deviation = max(float(variance) ** 0.5, 1e-300)
+    return count, expected, float(ndtr((count + 0.5 - expected) / deviation))
+
+
+def longest_run(residuals: Array) -> tuple[int, int]:
+    """Return first and last index of the longest run of residuals (n,) of one sign."""
+    changes = np.flatnonzero(np.diff(residuals > 0.0)) + 1
+    first, after = max(
+        pairwise([0, *changes.tolist(), len(residuals)]), key=lambda ends: ends[1] - ends[0]
+    )
+    return first, after - 1
