@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import ndtr
 
 from slider_resonator.arrays import Array
@@ -15,7 +15,7 @@ from slider_resonator.scenes.device_file import possible_slips
 OUTLIER = 5.0
 """Residual, in robust standard deviations, from which a number counts as an outlier."""
 CHANCE = 0.01
-"""Probability of as few runs of one sign below which residuals count as systematic."""
+"""Probability of as few runs about the median below which residuals count as systematic."""
 ROUNDING = 1e-6
 """Residual, in root mean squares of the quantity, up to which it may be rounding of the data."""
 MAX_NAMED = 5
@@ -57,12 +57,15 @@ def misfit_notes(measurements: Measurements, predicted: Array, free: int) -> lis
             number, fit = values
             outliers.append(f"{source} {places[index].row}: {quantity} {number}, fit {fit}")
         rows = [index for index in rows if is_seen[index]]
-        count, expected, chance = runs_of_signs(weighted[rows])
+        lengths, expected, chance = runs_about_median(weighted[rows])
         if chance < CHANCE:
-            first, last = longest_run(weighted[rows])
+            longest = int(np.argmax(lengths))
+            first = int(lengths[:longest].sum())
+            last = first + int(lengths[longest]) - 1
             systematic.append(
-                f"{source}: residuals of {quantity} are systematic: {count} runs of one sign, "
-                f"{expected:.0f} by chance (runs test, p = {chance:.1g}), the longest from "
+                f"{source}: residuals of {quantity} are systematic: {len(lengths)} runs above or "
+                f"below their median, {expected:.0f} by chance (runs test, "
+                f"p = {chance:.1g}), the longest from "
                 f"{places[rows[first]].row} to {places[rows[last]].row}; the model misses "
                 "something, and the intervals are too narrow"
             )
@@ -85,29 +88,21 @@ def robust_deviation(residuals: Array, free: int) -> float:
     return 1.4826 * correction * float(np.median(np.abs(residuals))) or float("inf")
 
 
-def runs_of_signs(residuals: Array) -> tuple[int, float, float]:
-    """Return the number of runs of one sign, that by chance, and the probability of as few.
+def runs_about_median(residuals: Array) -> tuple[NDArray[np.intp], float, float]:
+    """Return lengths of runs above and below the median, their number by chance, and its chance.
 
-    It is the runs test of Wald and Wolfowitz (1940), in the normal approximation with its
-    correction for continuity; `residuals` (n,) are in the order of the rows.
+    The last is the probability of as few runs. It is the runs test of Wald and Wolfowitz (1940), in
+    the normal approximation with its correction for continuity; `residuals` (n,) are in the order
+    of the rows.
     """
-    positive = residuals > 0.0
-    above, below = int(positive.sum()), int((~positive).sum())
-    count = int(np.count_nonzero(np.diff(positive))) + 1
-    if not above or not below:
-        # All of one sign: the runs test has no case for it, the sign test has.
-        return count, len(residuals) / 2 + 1, 0.5 ** max(len(residuals) - 1, 0)
-    total = above + below
-    expected = 2.0 * above * below / total + 1.0
-    variance = (expected - 1.0) * (expected - 2.0) / max(total - 1.0, 1.0)
-    deviation = max(float(variance) ** 0.5, 1e-300)
-    return count, expected, float(ndtr((count + 0.5 - expected) / deviation))
-
-
-def longest_run(residuals: Array) -> tuple[int, int]:
-    """Return first and last index of the longest run of residuals (n,) of one sign."""
-    changes = np.flatnonzero(np.diff(residuals > 0.0)) + 1
-    first, after = max(
-        pairwise([0, *changes.tolist(), len(residuals)]), key=lambda ends: ends[1] - ends[0]
-    )
-    return first, after - 1
+    total = len(residuals)
+    if total < 2:
+        return np.array([total]), 1.0, 1.0
+    is_above = residuals > np.median(residuals)
+    ends = np.flatnonzero(np.diff(is_above)) + 1
+    lengths = np.diff([0, *ends.tolist(), total])
+    above = float(is_above.sum())
+    expected = 2.0 * above * (total - above) / total + 1.0
+    variance = (expected - 1.0) * (expected - 2.0) / (total - 1.0)
+    deviation = max(variance, 1e-300) ** 0.5
+    return lengths, expected, float(ndtr((len(lengths) + 0.5 - expected) / deviation))
