@@ -20,13 +20,13 @@ _SEPARATOR_LINE = re.compile(r'"?sep=(.)"?\s*', re.IGNORECASE)
 
 
 def _text(path: Path) -> str:
-    """Return the text of a file in UTF-8, UTF-16 with its mark, or else Windows-1252."""
+    """Return the text of a file in UTF-8, or else Windows-1252, but not with a mark of UTF-16."""
     content = path.read_bytes()
-    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        return content.decode("utf-16")
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError:
+        if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+            raise
         return content.decode("cp1252")
 
 
@@ -50,7 +50,7 @@ def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
         raise ValueError(f"csv {path} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise ValueError(
-            f"csv {path}: {error}; must be text in UTF-8, UTF-16 or Windows-1252"
+            f"csv {path}: {error}; must be text in UTF-8 or Windows-1252"
         ) from error
     except csv.Error as error:
         raise ValueError(f"csv {path}: {error}; must be lines of numbers") from error

@@ -68,7 +68,6 @@ PLAIN = "phase [deg],frequency [kHz],steady_velocity [mm/s]\n30,20,47\n60,20,50\
         (PLAIN.encode(), ()),
         (b"sep=;\r\n" + PLAIN.replace(",", ";").encode(), ()),
         (b"sep=|\n" + PLAIN.replace(",", "|").encode(), ()),
-        (PLAIN.encode("utf-16"), ()),
         (PLAIN.replace("\n", ",\n").encode(), ()),
         (b"Phase [deg],FREQUENCY [kHz],Steady Velocity (mm/s)\n30,20,47\n60,20,50\n", ()),
         (
