@@ -20,17 +20,6 @@ SIGNALS = (
 
 DURATION = 0.2
 MASS_FRACTION = 0.1 / 1.1
-STEADY_VELOCITIES = {
-    (1, 0.0): 0.6966,
-    (1, 1.5): 0.7719,
-    (3, 0.0): -0.2780,
-    (3, 1.5): 0.2036,
-    (5, 0.0): -0.1169,
-    (5, 1.5): -0.1795,
-    (7, 0.0): 0.1297,
-    (7, 1.5): -0.0600,
-}
-"""Of resolved table 1 by frequency ratio and phase [rad], by another program, in units of x0 w0."""
 
 
 @dataclass(frozen=True)

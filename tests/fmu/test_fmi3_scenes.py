@@ -1,4 +1,4 @@
-"""The FMU of FMI 3.0 in scenes: what a host may do, and motion whose parameters and drive change."""
+"""Scenes with the FMU of FMI 3.0: what a host may do, and a device whose values change."""
 
 from __future__ import annotations
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +16,6 @@ from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import build_python
 from fmu_src.sources import PACKAGE
 from tests.fmu.host import OUTPUTS, Instance, Instantiate, Unpacked, unpack
-from tests.fmu.test_after_refusals import maltreat
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
@@ -85,43 +83,11 @@ def test_a_state_of_another_build_is_refused(
         instance.restore(foreign)
 
 
-def test_two_instances_do_not_share_anything(instantiate: Instantiate) -> None:
-    values: tuple[dict[str, float], ...] = ({"phase": 0.4}, {"load": 0.06, "fidelity": 1})
-    together = [instantiate().initialize(**v) for v in values]
-    rows: list[list[tuple[float, ...]]] = [[], []]
-    for _ in range(20):
-        for instance, collected in zip(together, rows, strict=True):
-            collected += instance.run(1, STEP)
-    alone = [instantiate().initialize(**v).run(20, STEP) for v in values]
-    assert rows == alone, "two devices stepped in turn move as each does alone"
-
-
 def test_each_instance_logs_to_its_own_host(instantiate: Instantiate) -> None:
     first, second = instantiate().initialize(), instantiate().initialize()
     with first.refuses("load"):
         first.set(load=float("nan"))
     assert second.log == [], "a refusal is logged to the host of its own instance only"
-
-
-def _stepped(instance: Instance) -> None:
-    instance.initialize(slider_mass=3.0, phase=1.0, friction_faces=1).run(10, STEP)
-
-
-def _terminated(instance: Instance) -> None:
-    (*_, last) = instance.initialize(load=0.1).run(10, STEP)
-    instance.slave.terminate()
-    assert instance.get(*OUTPUTS) == last, "results can be read after the end"
-
-
-@pytest.mark.parametrize("use", [_stepped, _terminated, lambda i: maltreat(i.initialize())])
-def test_reset_gives_back_a_new_instance(
-    instantiate: Instantiate, use: Callable[[Instance], None]
-) -> None:
-    used, fresh = instantiate(), instantiate().initialize()
-    use(used)
-    used.slave.reset()
-    used.initialize()
-    assert used.run(10, STEP) == fresh.run(10, STEP), "parameters, inputs and motion are forgotten"
 
 
 @pytest.mark.parametrize("start_time", [-5.0, 1000.0, 1e12])

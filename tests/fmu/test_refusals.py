@@ -1,4 +1,4 @@
-"""Refused calls, call by call: the text names what is wrong, and nothing changes."""
+"""Refused calls: the text names what is wrong; values that together have no meaning."""
 
 from __future__ import annotations
 
@@ -11,71 +11,92 @@ import pytest
 from fmu_src.python.slider_component.variable import Variable
 from fmu_src.python.slider_component.variables import VARIABLES
 from tests.fmu.host import Instance, Instantiate
-from tests.fmu.lifecycle import REACH
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
 
-NAN, INF = math.nan, math.inf
+NAN = math.nan
 STEP = 1.7e-3
 
-SETTABLE = [v for v in VARIABLES if v.causality != "output"]
-FIXED = [v for v in SETTABLE if v.variability == "fixed"]
-ANYTIME = [v for v in SETTABLE if v.variability != "fixed"]
-OUTPUTS = [v for v in VARIABLES if v.causality == "output"]
+FIXED = [v for v in VARIABLES if v.variability == "fixed"]
 
 
-def by_name(variables: list[Variable]) -> pytest.MarkDecorator:
-    return pytest.mark.parametrize("variable", variables, ids=lambda v: v.name)
-
-
-def bad_values(variable: Variable) -> list[float]:
-    """Values that are not finite, and the nearest beyond the bounds of a variable."""
+def bad_value(variable: Variable) -> float:
+    """The nearest value beyond a bound of a variable, nan for one without bounds."""
     if variable.type == "Integer":
-        assert variable.minimum is not None
         assert variable.maximum is not None
-        return [int(variable.minimum) - 1, int(variable.maximum) + 1]
-    bounds = ((variable.minimum, -INF), (variable.maximum, INF))
-    return [NAN, INF, -INF] + [math.nextafter(x, to) for x, to in bounds if x is not None]
+        return int(variable.maximum) + 1
+    return NAN if variable.minimum is None else math.nextafter(variable.minimum, -math.inf)
 
 
-def assert_bad_values_are_refused(instance: Instance, variable: Variable) -> None:
-    for value in bad_values(variable):
+def test_text_says_what_the_value_of_a_variable_must_be(instantiate: Instantiate) -> None:
+    """The scene `interface` tries all bad values; it does not read what they must be."""
+    instance = instantiate().enter_initialization()
+    for variable in (v for v in VARIABLES if v.causality != "output"):
+        value = bad_value(variable)
         with instance.refuses(f"{variable.name} = {value!r} refused", variable.requirement):
             instance.set(**{variable.name: value})
 
 
-@by_name(SETTABLE)
-def test_bad_value_before_the_run(instantiate: Instantiate, variable: Variable) -> None:
-    assert_bad_values_are_refused(instantiate().enter_initialization(), variable)
+def test_text_says_that_a_parameter_is_fixed(instance: Instance) -> None:
+    for variable in FIXED:
+        with instance.refuses(f"{variable.name} = ", " refused", "it is fixed"):
+            instance.set(**{variable.name: 1.0})
 
 
-@by_name(ANYTIME)
-def test_bad_value_during_the_run(instance: Instance, variable: Variable) -> None:
+CALLS: dict[str, tuple[Callable[[Instance], object], tuple[str, ...]]] = {
+    "step size": (
+        lambda i: i.slave.doStep(i.time, -1e-3),
+        ("doStep", "communicationStepSize = -0.001 refused: must be a finite number above 0"),
+    ),
+    "time": (
+        lambda i: i.slave.doStep(i.time + 1e-6, STEP),
+        ("doStep", repr(STEP + 1e-6), f"must be the present time {STEP!r}"),
+    ),
+    "no time": (
+        lambda i: i.slave.doStep(NAN, STEP),
+        ("doStep", "nan refused", f"must be the present time {STEP!r}"),
+    ),
+    "stop": (lambda i: i.slave.doStep(i.time, 5.0), ("doStep", "5.0", "stopTime = 1.0")),
+    "output": (lambda i: i.set(position=0.5), ("position = 0.5 refused: it is an output",)),
+    "reference": (
+        lambda i: i.slave.getReal([2**31 - 1]),
+        (f"valueReference = {2**31 - 1} refused: must be from 0 to {len(VARIABLES) - 1}",),
+    ),
+    "type": (
+        lambda i: i.slave.getInteger([i.reference("load")]),
+        ("load (valueReference = ", "refused: its type is Real, not Integer"),
+    ),
+    "order": (
+        lambda i: i.slave.setupExperiment(startTime=0.0),
+        ("setupExperiment refused in state 'step complete'", "must be 'instantiated'"),
+    ),
+}
+"""Calls in a run that ends at 1 s, and what the text names."""
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_text_names_call_value_and_requirement(instantiate: Instantiate, call: str) -> None:
+    instance = instantiate()
+    instance.slave.setupExperiment(startTime=0.0, stopTime=1.0)
+    instance.slave.enterInitializationMode()
+    instance.slave.exitInitializationMode()
     instance.step(STEP)
-    assert_bad_values_are_refused(instance, variable)
+    attempt, fragments = CALLS[call]
+    with instance.refuses(*fragments):
+        attempt(instance)
 
 
-@by_name([v for v in SETTABLE if v.minimum is not None or v.maximum is not None])
-def test_the_bounds_themselves_are_accepted(instantiate: Instantiate, variable: Variable) -> None:
-    instance = instantiate().enter_initialization()
-    for value in (variable.minimum, variable.maximum):
-        if value is not None:
-            instance.set(**{variable.name: value})
-
-
-@by_name(FIXED)
-def test_fixed_parameter_after_initialization(instance: Instance, variable: Variable) -> None:
-    assert variable.start is not None
-    value = int(variable.start) if variable.type == "Integer" else variable.start
-    with instance.refuses(f"{variable.name} = {value!r} refused", "it is fixed"):
-        instance.set(**{variable.name: value})
-
-
-@by_name(OUTPUTS)
-def test_output_set_from_outside(instance: Instance, variable: Variable) -> None:
-    with instance.refuses(variable.name, "0.5", "output"):
-        instance.set(**{variable.name: 0.5})
+@pytest.mark.parametrize(
+    ("name", "value"), [("startTime", math.inf), ("stopTime", 4.0), ("tolerance", NAN)]
+)
+def test_text_names_what_is_wrong_in_an_experiment(
+    instantiate: Instantiate, name: str, value: float
+) -> None:
+    instance = instantiate()
+    experiment = {"startTime": 5.0} | {name: value}
+    with instance.refuses(f"{name} = {value!r} refused: must be"):
+        instance.slave.setupExperiment(**experiment)
 
 
 @pytest.mark.parametrize("fidelity", [0, 1])
@@ -84,7 +105,7 @@ def test_undamped_resonance_to_rounding(instantiate: Instantiate, fidelity: int,
     """Steady force and velocity would be numbers without a correct digit."""
     frequency = 3500.0 * math.sqrt(1.0 / 1.1)
     for _ in range(abs(ulps)):
-        frequency = math.nextafter(frequency, math.copysign(INF, ulps))
+        frequency = math.nextafter(frequency, math.copysign(math.inf, ulps))
     undamped = {"damping_ratio": 0.0, "resonator_frequency": frequency, "fidelity": fidelity}
     undamped["averaging_order"] = (
         1  # leaps need no steady vibration: there is none, so none is made
@@ -162,117 +183,6 @@ def test_output_that_leaves_the_range_of_numbers(instantiate: Callable[[], Insta
     with instance.refuses("friction_force = ", "the output leaves the range of floating point"):
         instance.get("position", "friction_force")
     assert instance.get("position", "normal_force") == (0.0, 1.0)
-
-
-@pytest.mark.parametrize("size", [0.0, -0.0, -1e-3, NAN, INF, -INF])
-def test_step_size(instance: Instance, size: float) -> None:
-    instance.step(STEP)
-    expected = f"communicationStepSize = {size!r} refused: must be a finite number above 0"
-    with instance.refuses("doStep", expected):
-        instance.slave.doStep(instance.time, size)
-
-
-@pytest.mark.parametrize("jump", [-STEP, -1e-6, 1e-6, STEP, 1e9, NAN, INF, -INF])
-def test_step_that_does_not_continue_from_the_present(instance: Instance, jump: float) -> None:
-    instance.step(STEP)
-    with instance.refuses("doStep", repr(instance.time + jump), repr(instance.time)):
-        instance.slave.doStep(instance.time + jump, STEP)
-
-
-@pytest.mark.parametrize(
-    ("name", "value"),
-    [
-        *(("startTime", value) for value in (NAN, INF, -INF)),
-        *(("stopTime", value) for value in (NAN, -INF, 4.0)),
-        ("tolerance", NAN),
-    ],
-)
-def test_experiment(instantiate: Instantiate, name: str, value: float) -> None:
-    instance = instantiate()
-    experiment = {"startTime": 5.0} | {name: value}
-    with instance.refuses(f"{name} = {value!r} refused: must be"):
-        instance.slave.setupExperiment(**experiment)
-
-
-def test_step_beyond_the_stop_time(instantiate: Instantiate) -> None:
-    instance = instantiate()
-    instance.slave.setupExperiment(startTime=0.0, stopTime=0.1)
-    instance.slave.enterInitializationMode()
-    instance.slave.exitInitializationMode()
-    instance.step(0.06)
-    with instance.refuses("doStep", "0.05", "stopTime = 0.1"):
-        instance.slave.doStep(instance.time, 0.05)
-    instance.step(0.04)
-
-
-UNKNOWN = [len(VARIABLES), 10**6, 2**31 - 1, 2**31, 2**32 - 1]
-
-
-@pytest.mark.parametrize("reference", UNKNOWN)
-@pytest.mark.parametrize("kind", ["Real", "Integer", "Boolean", "String"])
-def test_unknown_value_reference(instance: Instance, reference: int, kind: str) -> None:
-    value = {"Real": 0.5, "Integer": 1, "Boolean": True, "String": "x"}[kind]
-    with instance.refuses("refused"):
-        getattr(instance.slave, f"set{kind}")([reference], [value])
-    with instance.refuses("refused"):
-        getattr(instance.slave, f"get{kind}")([reference])
-
-
-@pytest.mark.parametrize(
-    ("name", "kind", "value"),
-    [
-        ("load", "Integer", 1),
-        ("load", "Boolean", True),
-        ("load", "String", "1"),
-        ("friction_faces", "Real", 1.0),
-        ("fidelity", "Boolean", True),
-    ],
-)
-def test_type_of_another_variable(
-    instantiate: Instantiate, name: str, kind: str, value: object
-) -> None:
-    instance = instantiate().enter_initialization()
-    reference = [instance.reference(name)]
-    with instance.refuses(name, kind):
-        getattr(instance.slave, f"set{kind}")(reference, [value])
-    with instance.refuses(name, kind):
-        getattr(instance.slave, f"get{kind}")(reference)
-
-
-def test_one_bad_value_among_good_ones_sets_none_of_them(instance: Instance) -> None:
-    references = [instance.reference(n) for n in ("phase", "load", "frequency_ratio")]
-    with instance.refuses("load = nan refused"):
-        instance.slave.setReal(references, [1.0, NAN, 2.0])
-    assert tuple(instance.slave.getReal(references)) == (0.0, 0.0, 1.0)
-
-
-CALLS: dict[str, Callable[[Instance], object]] = {
-    "setupExperiment": lambda i: i.slave.setupExperiment(startTime=0.0),
-    "enterInitializationMode": lambda i: i.slave.enterInitializationMode(),
-    "exitInitializationMode": lambda i: i.slave.exitInitializationMode(),
-    "doStep": lambda i: i.slave.doStep(0.0, STEP),
-    "terminate": lambda i: i.slave.terminate(),
-    "setting load": lambda i: i.set(load=0.1),
-}
-
-
-OUT_OF_ORDER: dict[str, tuple[str, ...]] = {
-    "instantiated": ("exitInitializationMode", "doStep"),
-    "experiment set up": ("exitInitializationMode", "doStep"),
-    "initializing": ("setupExperiment", "enterInitializationMode", "doStep"),
-    "stepping": ("setupExperiment", "enterInitializationMode", "exitInitializationMode"),
-    "terminated": tuple(CALLS),
-}
-
-
-@pytest.mark.parametrize(
-    ("reached", "call"), [(state, call) for state, calls in OUT_OF_ORDER.items() for call in calls]
-)
-def test_call_out_of_order(instantiate: Instantiate, reached: str, call: str) -> None:
-    instance = instantiate()
-    REACH[reached](instance)
-    with instance.refuses(call, "refused", "the state must be"):
-        CALLS[call](instance)
 
 
 def test_status_inquiries_do_not_speak_of_an_end(instance: Instance) -> None:
