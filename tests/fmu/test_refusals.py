@@ -60,8 +60,8 @@ CALLS: dict[str, tuple[Callable[[Instance], object], tuple[str, ...]]] = {
     "stop": (lambda i: i.slave.doStep(i.time, 5.0), ("doStep", "5.0", "stopTime = 1.0")),
     "output": (lambda i: i.set(position=0.5), ("position = 0.5 refused: it is an output",)),
     "reference": (
-        lambda i: i.slave.getReal([2**31 - 1]),
-        (f"valueReference = {2**31 - 1} refused: must be from 0 to {len(VARIABLES) - 1}",),
+        lambda i: i.slave.getReal([len(VARIABLES)]),
+        (f"valueReference = {len(VARIABLES)} refused: must be from 0 to {len(VARIABLES) - 1}",),
     ),
     "type": (
         lambda i: i.slave.getInteger([i.reference("load")]),

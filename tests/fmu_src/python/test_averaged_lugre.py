@@ -1,9 +1,8 @@
-"""The uniform average: figures measured elsewhere, and both limits of the bristle stiffness."""
+"""Quadratures of mean LuGre friction: nodes, many waves, flight; scenes judge the averages."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -16,49 +15,7 @@ from fmu_src.python.slider_component.mean_friction import (
     MeanFriction,
     _gauss_legendre,
 )
-from fmu_src.python.slider_component.parameters import Inputs
-from fmu_src.python.slider_component.prediction import first_order
 from fmu_src.python.slider_component.vibrating_load import VibratingLoad
-
-UNIT = Device(
-    slider_mass=1.0,
-    resonator_mass=0.0,
-    base_amplitude=0.0,
-    friction_faces=1,
-    friction_coefficient=0.4,
-    friction_law=1,
-    bristle_damping=1.0,
-)
-"""Model 2 with x0 = 1 m and w0 = 1 rad/s, so that its parameters are the dimensionless ones."""
-
-
-def steady(stiffness: float, omega: float) -> float:
-    device = replace(
-        UNIT, bristle_stiffness=stiffness, drive_frequency=omega, tangential_force=omega
-    )
-    return first_order(device, Inputs(phase=math.pi / 2), 0.0).steady_velocity
-
-
-@pytest.mark.parametrize(
-    ("stiffness", "omega", "velocity"),
-    [(0.1, 1e3, 0.50827), (10.0, 1e3, 0.50828), (100.0, 1e3, 0.50936), (1e3, 1e3, 0.55625),
-     (1e4, 1e3, 0.65274), (100.0, 100.0, 0.55625), (100.0, 10.0, 0.65274)],
-)  # fmt: skip
-def test_uniform_average(stiffness: float, omega: float, velocity: float) -> None:
-    """The softest bristles are the slow manifold, 0.50827 by eq. (17)."""
-    assert steady(stiffness, omega) == pytest.approx(velocity, abs=6e-6)
-
-
-def test_hard_bristles_are_coulomb_friction() -> None:
-    """The time that bending takes falls with stiffness^(-1/2), and so does the difference."""
-    coulomb = first_order(Device(), Inputs(), 0.0)
-    gaps = []
-    for stiffness in (1e6, 1e8, 1e10):
-        hard = Device(friction_law=1, bristle_stiffness=stiffness, bristle_damping=0.0)
-        lugre = first_order(hard, Inputs(), 0.0)
-        gaps.append(abs(lugre.steady_velocity - coulomb.steady_velocity))
-    assert gaps[1] / gaps[2] == pytest.approx(10.0, rel=0.05)
-    assert gaps[2] < 5e-4 * coulomb.steady_velocity
 
 
 def test_quadrature_rule() -> None:
