@@ -8,8 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tests.fmu.host import OUTPUTS, Instance, Instantiate, Unpacked
-from tests.fmu.host_3 import Instance3
+from tests.fmu.host import OUTPUTS, Instance, Instantiate
 from tests.fmus import both_fmus, native_fmu_only
 
 DEVICE = {"tangential_force": 20.0, "phase": 0.4, "load": 0.02}
@@ -113,21 +112,6 @@ def test_ramped_inputs_of_a_drive_that_deviates(instantiate: Instantiate) -> Non
             instance.ramp(phase=2.0, load=0.3, frequency_ratio=0.1)
             instance.step(0.011)
         assert deviates.get(*OUTPUTS) == is_tuned.get(*OUTPUTS)
-
-
-@pytest.mark.parametrize("motion", MOTIONS, ids=str)
-def test_fmi_3_deviates_alike(unpacked_3: Unpacked, motion: Mapping[str, float]) -> None:
-    deviates, is_tuned = Instance3(unpacked_3), Instance3(unpacked_3)
-    for instance in (deviates, is_tuned):
-        instance.initialize(**DEVICE, **motion)
-    for count, one in enumerate(BURST, start=1):
-        deviates.set(**deviating(*one))
-        is_tuned.set(**tuned(*one))
-        for instance in (deviates, is_tuned):
-            instance.step_to(0.0137 * count)
-        assert deviates.get(*OUTPUTS) == is_tuned.get(*OUTPUTS)
-    for instance in (deviates, is_tuned):
-        instance.slave.freeInstance()
 
 
 @both_fmus

@@ -154,60 +154,12 @@ def test_more_references_than_variables_are_refused(instance: Instance3) -> None
     assert refused in instance.log[-1][2]
 
 
-@pytest.mark.parametrize("variable", VARIABLES, ids=lambda v: v.name)
-def test_values_are_those_of_the_table(unpacked_3: Unpacked, variable: Any) -> None:
-    with instance_3(unpacked_3) as instance:
-        reference = instance.reference(variable.name)
-        if variable.causality == "output":
-            with instance.refuses(f"reading {variable.name} refused in state 'instantiated'"):
-                instance.slave.getFloat64([reference])
-            return
-        read = "getInt32" if variable.type == "Integer" else "getFloat64"
-        assert getattr(instance.slave, read)([reference]) == [variable.start]
-        other = "getFloat64" if variable.type == "Integer" else "getInt32"
-        with instance.refuses(f"{variable.name} (valueReference = {reference}) refused: its type"):
-            getattr(instance.slave, other)([reference])
-
-
 @pytest.mark.parametrize("type_name", OTHER_TYPES)
 def test_there_are_no_variables_of_other_types(instance: Instance3, type_name: str) -> None:
     with instance.refuses(f"its type is Float64, not {type_name}"):
         getattr(instance.slave, f"get{type_name}")([instance.reference("load")])
     assert call(instance, f"fmi3Get{type_name}", None, 0, None, 0) == fmi3OK
     assert call(instance, f"fmi3Set{type_name}", None, 0, None, 0) == fmi3OK
-
-
-@pytest.mark.parametrize(
-    ("values", "text"),
-    [
-        ({"load": math.nan}, "load = nan refused: must be a finite number"),
-        ({"phase": math.inf}, "phase = inf refused: must be a finite number"),
-        ({"normal_preload": -1.0}, "normal_preload = -1.0 refused: must be a finite number of at"),
-        ({"slider_mass": 2.0}, "slider_mass = 2.0 refused: it is fixed"),
-        ({"friction_faces": 3}, "friction_faces = 3 refused: it is fixed"),
-        ({"position": 0.0}, "position = 0.0 refused: it is an output"),
-    ],
-)
-def test_values_outside_the_table_are_refused(
-    instance: Instance3, values: dict[str, float], text: str
-) -> None:
-    with instance.refuses(text):
-        instance.set(**values)
-
-
-@pytest.mark.parametrize(
-    ("time", "size", "text"),
-    [
-        (0.0, 0.0, "communicationStepSize = 0.0 refused"),
-        (0.0, -1.0, "communicationStepSize = -1.0 refused"),
-        (0.0, math.nan, "communicationStepSize = nan refused"),
-        (1.0, STEP, "currentCommunicationPoint = 1.0 refused: must be the present time 0.0"),
-        (0.0, 1e9, "communicationStepSize = 1000000000.0 refused"),
-    ],
-)
-def test_bad_steps_are_refused(instance: Instance3, time: float, size: float, text: str) -> None:
-    with instance.refuses(text):
-        instance.slave.doStep(time, size)
 
 
 def test_null_pointers_are_refused(instance: Instance3) -> None:
@@ -226,13 +178,9 @@ def test_null_pointers_are_refused(instance: Instance3) -> None:
     assert "nValues = 2 refused: must be 1" in instance.log[-1][2]
 
 
-def test_calls_out_of_order_are_refused(unpacked_3: Unpacked) -> None:
+def test_calls_that_event_mode_excludes_are_refused(unpacked_3: Unpacked) -> None:
     with instance_3(unpacked_3) as instance:
-        with instance.refuses("doStep refused in state 'instantiated'", "'step mode'"):
-            instance.slave.doStep(0.0, STEP)
         instance.slave.enterInitializationMode()
-        with instance.refuses("enterInitializationMode refused in state 'initialization mode'"):
-            instance.slave.enterInitializationMode()
         instance.slave.exitInitializationMode()
         with instance.refuses("doStep refused in state 'event mode'"):
             instance.slave.doStep(0.0, STEP)
@@ -241,12 +189,6 @@ def test_calls_out_of_order_are_refused(unpacked_3: Unpacked) -> None:
         instance.handle_event(enter=False)
         with instance.refuses("updateDiscreteStates refused in state 'step mode'"):
             instance.slave.updateDiscreteStates()
-        instance.slave.enterEventMode()
-        instance.slave.terminate()
-        with instance.refuses("setting load refused in state 'terminated'"):
-            instance.set(load=0.1)
-        instance.slave.reset()
-        instance.initialize().step_to(STEP)
 
 
 def test_event_mode_needs_the_announcement_of_the_host(unpacked_3: Unpacked) -> None:
@@ -255,26 +197,6 @@ def test_event_mode_needs_the_announcement_of_the_host(unpacked_3: Unpacked) -> 
         with instance.refuses("fmi3EnterEventMode refused: eventModeUsed = false"):
             instance.slave.enterEventMode()
         instance.step_to(STEP)
-
-
-def test_the_experiment_is_checked(unpacked_3: Unpacked) -> None:
-    with instance_3(unpacked_3) as instance:
-        with instance.refuses("stopTime = -1.0 refused"):
-            instance.slave.enterInitializationMode(stopTime=-1.0)
-        instance.slave.enterInitializationMode(startTime=2.0, stopTime=2.5)
-        instance.slave.exitInitializationMode()
-        instance.handle_event(enter=False)
-        assert instance.get("time") == (2.0,)
-        with instance.refuses("the step must end by stopTime = 2.5"):
-            instance.slave.doStep(2.0, 1.0)
-
-
-def test_reset_gives_a_new_instance(instance: Instance3) -> None:
-    first = instance.step_to(3 * STEP), instance.state()
-    instance.slave.reset()
-    instance.time = 0.0
-    instance.initialize()
-    assert (instance.step_to(3 * STEP), instance.state()) == first
 
 
 def test_debug_logging_selects_categories(instance: Instance3) -> None:

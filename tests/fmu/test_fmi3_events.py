@@ -78,23 +78,6 @@ def test_every_reversal_ends_a_step(unpacked_3: Unpacked, device: str) -> None:
     assert deviation(stopping, passing) <= 1e-12
 
 
-def test_table_1_has_one_release_and_only_reversals(unpacked_3: Unpacked) -> None:
-    found = run(unpacked_3, TABLE_1, PERIODS, PERIOD)
-    reversals = dict(zip(OUTPUTS, found.rows[-1], strict=True))["reversals"]
-    assert len(found.events) == 1 + reversals > 1.9 * PERIODS
-    assert {event.outputs["velocity"] for event in found.events} == {0.0}
-    for event in found.events:
-        assert event.outputs["last_event_time"] == event.time
-
-
-def test_stick_slip_alternates_between_stick_and_release(unpacked_3: Unpacked) -> None:
-    events = run(unpacked_3, STICK_SLIP, PERIODS, PERIOD).events
-    modes = [event.outputs["contact_mode"] for event in events]
-    assert modes == [-1.0, 0.0] * (len(modes) // 2) + [-1.0] * (len(modes) % 2)
-    assert len(modes) >= 2 * PERIODS - 1
-    assert {event.outputs["velocity"] for event in events} == {0.0}
-
-
 def test_release_and_stop_of_a_driven_block_are_those_of_the_closed_form(
     unpacked_3: Unpacked,
 ) -> None:
@@ -130,15 +113,6 @@ def test_lift_off_and_touchdown_are_those_of_the_normal_load(unpacked_3: Unpacke
 
 def test_averaged_motion_has_no_events(unpacked_3: Unpacked) -> None:
     assert run(unpacked_3, {"fidelity": 0, "averaging_order": 1}, 10, 1e-3).events == []
-
-
-@pytest.mark.parametrize("options", [{"event_mode": False}, {"early_return": False}])
-def test_without_both_consents_a_step_runs_through(
-    unpacked_3: Unpacked, options: dict[str, bool]
-) -> None:
-    with instance_3(unpacked_3, **options) as instance:
-        found = instance.initialize().run(10, 1e-3)
-    assert found == run(unpacked_3, TABLE_1, 10, 1e-3, events=False)
 
 
 @pytest.mark.parametrize("device", ["table 1", "table 1, LuGre", "stick-slip", "flight"])
