@@ -115,27 +115,6 @@ def test_ramped_inputs_of_a_drive_that_deviates(instantiate: Instantiate) -> Non
 
 
 @both_fmus
-@pytest.mark.parametrize("law", LAWS, ids=str)
-@pytest.mark.parametrize("motion", MOTIONS, ids=str)
-def test_a_drive_that_is_switched_off_lets_friction_stop_the_slider(
-    instantiate: Instantiate, motion: Mapping[str, float], law: Mapping[str, float]
-) -> None:
-    instance = instantiate().initialize(initial_velocity=0.02, **motion, **law)
-    instance.step(0.02)
-    before = instance.get("position", "velocity")
-    instance.set(amplitude_deviation=-1.0)
-    assert instance.get("position", "velocity") == before, "nothing jumps"
-    assert instance.get("steady_velocity", "blocking_force", "prediction_valid") == (0.0, 0.0, 0.0)
-    instance.step(2.0)
-    (velocity,) = instance.get("mean_velocity")
-    assert abs(velocity) < 1e-8, "the slider stands, to the tolerance of bristles"
-    instance.set(amplitude_deviation=0.0)
-    instance.step(1.0)
-    assert instance.get("mean_velocity")[0] > 0.05, "and moves on"
-    assert instance.get("prediction_valid") == (1.0,)
-
-
-@both_fmus
 def test_deviations_out_of_bounds_are_refused(instantiate: Instantiate) -> None:
     instance = instantiate().initialize(drive_frequency=2e-6)
     with instance.refuses("amplitude_deviation = -1.5 refused", "at least -1"):

@@ -169,15 +169,6 @@ def test_averages_and_leaps_heat_as_resolved_motion(instantiate: Instantiate, la
     assert averaged == pytest.approx(resolved, rel=0.03)
 
 
-def test_nothing_heats_at_rest_or_in_flight(instantiate: Instantiate) -> None:
-    instance = instantiate().initialize(base_amplitude=0.0)
-    instance.step(3 * TURN)
-    assert instance.get("friction_power") == (0.0,)
-    instance = instantiate().initialize(normal_preload=0.0, normal_amplitude=0.0)
-    instance.step(3 * TURN)
-    assert instance.get("friction_power") == (0.0,)
-
-
 def test_averaged_power_is_bounded_work_at_any_ratio(instantiate: Instantiate) -> None:
     """What a rapid normal load adds falls with the square of the ratio."""
     powers = []

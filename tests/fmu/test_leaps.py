@@ -179,18 +179,6 @@ def test_steady_motion_whose_rates_are_rounding_is_leapt_over(
     assert means[15:] == pytest.approx(means[-1:] * 10, abs=1e-11 * FAST)
 
 
-@pytest.mark.parametrize("law", [0, 1])
-def test_steps_cut_in_two_are_as_exact(instantiate: Instantiate, law: int) -> None:
-    values = {"friction_law": law, "tolerance": 1e-6, "phase": 0.4}
-    ends = []
-    for steps in (1, 2, 3):
-        instance = instantiate().initialize(**values, fidelity=0)
-        for _ in range(steps):
-            instance.step(1800.0 * PERIOD / steps)
-        ends.append(instance.get("mean_velocity")[0])
-    assert ends[1:] == pytest.approx(ends[:1] * 2, abs=6e-6 * FAST)
-
-
 def test_a_ratio_that_grows_and_falls_within_steps(instantiate: Instantiate) -> None:
     """What has grown before a leap counts in it: the phase of the load shows."""
     leaping, full = (
@@ -235,26 +223,3 @@ def test_replay_is_equal_bit_by_bit(instantiate: Instantiate, law: int) -> None:
         instance.restore(data)
         instance.time = time
         assert last_outputs(instance, 300.0 * PERIOD) == expected
-
-
-def test_short_steps_are_resolved(instantiate: Instantiate) -> None:
-    rows = [
-        instantiate().initialize(fidelity=fidelity).run(60, 7.3 * PERIOD) for fidelity in (0, 2)
-    ]
-    predictions = {"steady_velocity", "blocking_force", "prediction_valid"}
-    for index, name in enumerate(OUTPUTS):
-        if name not in predictions:
-            one, other = ([row[index] for row in run] for run in rows)
-            assert one == pytest.approx(other, rel=1e-10, abs=1e-15), name
-
-
-def test_counts_and_the_last_event_are_those_of_resolved_motion(instantiate: Instantiate) -> None:
-    """Also once the slider runs away, and no event comes any more."""
-    for values in ({}, {"load": -1.2, "friction_coefficient": 0.5, "initial_velocity": 0.1}):
-        rows = []
-        for fidelity in (0, 2):
-            instance = instantiate().initialize(fidelity=fidelity, tolerance=1e-6, **values)
-            for _ in range(4):
-                instance.step(300.5 * PERIOD)
-            rows.append(instance.get("reversals", "last_event_time"))
-        assert rows[0] == pytest.approx(rows[1], abs=1e-5 * PERIOD)

@@ -66,10 +66,3 @@ def test_the_first_reversal_is_located(
     velocity, reversals = instance.get("velocity", "reversals")
     assert velocity == pytest.approx(reference.velocity[-1], rel=1e-12)
     assert reversals == reference.reversals
-
-
-def test_a_ramp_gives_the_velocity_of_an_independent_program(instantiate: Instantiate) -> None:
-    instance = instantiate().initialize(**RELEASED_BY_A_RAMP)
-    instance.ramp(load=1.9e6)
-    instance.step(1.75e-3)
-    assert instance.get("velocity")[0] == pytest.approx(-10.383106274540, rel=1e-12)

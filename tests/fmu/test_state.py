@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from tests.fmu.host import Instance, Instantiate
-from tests.fmu.lifecycle import REACH
 from tests.fmus import both_fmus
 from tests.processes import run_python
 
@@ -35,6 +35,16 @@ def test_replay_in_a_new_process(fmu: Path, instance: Instance, tmp_path: Path) 
     replayed = json.loads(run_python(REPLAY, fmu, tmp_path, STEP, instance.time.hex()))
     expected = [[x.hex() for x in row] for row in instance.run(30, STEP)]
     assert replayed == expected, "a new process replays the same bits"
+
+
+REACH: dict[str, Callable[[Instance], object]] = {
+    "instantiated": lambda i: None,
+    "experiment set up": lambda i: i.slave.setupExperiment(startTime=0.0, stopTime=1.0),
+    "initializing": lambda i: i.enter_initialization(slider_mass=2.0, phase=0.3),
+    "stepping": lambda i: i.initialize().step(1e-3),
+    "terminated": lambda i: i.initialize().slave.terminate(),
+}
+"""How an instance gets into each state of its life."""
 
 
 @pytest.mark.parametrize("reached", REACH)

@@ -1,4 +1,4 @@
-"""The search of either build: the first zero is found, none is passed over, touches are no zeros."""
+"""The search of either build: it finds the first zero, passes none over, and takes no touch."""
 
 from __future__ import annotations
 

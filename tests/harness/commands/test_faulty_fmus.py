@@ -19,23 +19,6 @@ from tests.processes import heed_interrupts
 pytestmark = pytest.mark.isolated
 
 
-@pytest.mark.parametrize(
-    ("command", "define", "cause"),
-    [
-        ("blocking", "IN_STEP=CRASH", "the FMU crashed in fmi2DoStep"),
-        ("steady", "IN_STEP=LEAVE", "the FMU crashed: its process ended with exit code 0"),
-        ("steady", "IN_STEP=LOOP", "no answer within the time limit of 1 s in fmi2DoStep"),
-        ("run", "IN_INSTANTIATE=CRASH", "the FMU crashed in fmi2Instantiate"),
-    ],
-)
-def test_a_crash_a_hang_and_an_exit_end_with_2(
-    native_fmu: Path, tmp_path: Path, command: str, define: str, cause: str
-) -> None:
-    fmu = faulty_fmus.compiled(native_fmu, tmp_path / "faulty.fmu", define, "VALUE=1.0")
-    arguments = ["table_1"] if command == "run" else []
-    assert cause in refused(command, fmu, *arguments, "--time-limit", "1")
-
-
 def test_a_crash_after_the_run_ends_with_2(native_fmu: Path, tmp_path: Path) -> None:
     fmu = faulty_fmus.compiled(native_fmu, tmp_path / "faulty.fmu", "IN_FREE=CRASH")
     assert "crashed in fmi2Terminate or fmi2FreeInstance" in refused("run", fmu, "table_1")

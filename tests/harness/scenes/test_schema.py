@@ -63,23 +63,11 @@ def test_a_csv_that_a_run_goes_beyond_is_refused(tmp_path: Path, text: str) -> N
     ("text", "parts"),
     [
         ("[device]\nslider_mass = true\n", ["device.slider_mass", "True", "must be a number"]),
-        ("[device]\nfriction_faces = 1.5\n", ["friction_faces", "1.5", "integer"]),
-        ('[inputs]\nphase = "1"\n', ["inputs.phase", "'1'", "must be a number"]),
-        (
-            "[inputs]\nphase = { steps = [[0, 1, 2]] }\n",
-            ["inputs.phase.steps[1]", "a pair [time (s), value]"],
-        ),
         ("[inputs]\nphase = { step = [[0, 0]] }\n", ["inputs.phase.step", "'steps'"]),
         ("[inputs]\nphase = {}\n", ["inputs.phase", "exactly one"]),
         ("[run]\nstop_time = 1.0\n", ["run", "step_size or steps_per_period"]),
-        ("[run]\nstop_time = -1.0\nstep_size = 0.1\n", ["run.stop_time", "-1.0", "above 0"]),
         ('[sweep]\nvariable = "load"\nvalues = []\n', ["sweep.values", "at least one"]),
         ('[sweep]\nvariable = "fidelity"\nvalues = [1.5]\n', ["sweep", "1.5", "an integer"]),
-        (
-            "[device]\ndrive_frequency = 0\n",
-            ["device", "drive_frequency = 0.0", "of at least 1e-06 rad/s"],
-        ),
-        ("[run]\nstop_time = 1e9\nstep_size = 1e-4\n", ["run", "1e+09", "1e+13", "3000000"]),
         ("[run]\nstop_time = 1\nsteps_per_period = 1e308\n", ["run", "communication steps"]),
         ("device = 3\n", ["device = 3", "a table"]),
         ("[run]\nstop_time = 1\nstep_sizes = []\n", ["run.step_sizes", "at least 1 number"]),
@@ -92,14 +80,6 @@ def test_a_csv_that_a_run_goes_beyond_is_refused(tmp_path: Path, text: str) -> N
         (RUN + "read_twice = 1\n", ["run.read_twice = 1", "must be true or false"]),
         (RUN + "[tuning]\nnormal_prelod = 1\n", ["tuning", "did you mean 'normal_preload'?"]),
         (RUN + "[tuning]\nnormal_preload = {}\n", ["tuning.normal_preload", "exactly one"]),
-        (
-            RUN + "[tuning]\nnormal_preload = { steps = [[1, 0], [0, 1]] }\n",
-            ["tuning.normal_preload", "increase"],
-        ),
-        (
-            RUN + "[tuning]\ndrive_frequency = { steps = [[0, 1], [1, 0]] }\n",
-            ["drive_frequency = 0.0", "of at least 1e-06 rad/s"],
-        ),
         ("[tuning]\nnormal_preload = 1\n", ["tuning.normal_preload", "[run] is missing"]),
         ("[beside.device]\nslider_mas = 1\n", ["beside.device", "'slider_mass'"]),
         ("[beside.inputs]\nphse = 1\n", ["beside.inputs.phse", "'phase'"]),
