@@ -98,19 +98,6 @@ def test_release_and_stop_of_a_driven_block_are_those_of_the_closed_form(
     assert [e.outputs["contact_mode"] for e in events[:2]] == [1.0, -1.0]
 
 
-def test_lift_off_and_touchdown_are_those_of_the_normal_load(unpacked_3: Unpacked) -> None:
-    preload, amplitude, w = 1.0, 1.8, 3500.0
-    dip = math.asin(preload / amplitude)
-    values = {"normal_amplitude": amplitude, "load": 0.0}
-    events = run(unpacked_3, values, 1, PERIOD).events
-    modes = [e.outputs["contact_mode"] for e in events]
-    times = [e.time for e in events]
-    lift = modes.index(LIFTED)
-    assert times[lift] == pytest.approx((math.pi + dip) / w, rel=1e-14)
-    assert times[lift + 1] == pytest.approx((math.tau - dip) / w, rel=1e-14)
-    assert modes[lift + 1] != LIFTED
-
-
 def test_averaged_motion_has_no_events(unpacked_3: Unpacked) -> None:
     assert run(unpacked_3, {"fidelity": 0, "averaging_order": 1}, 10, 1e-3).events == []
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
 import shutil
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from fmu_src.building import native_fmu
@@ -15,7 +13,7 @@ from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import build_python
 from fmu_src.sources import PACKAGE
-from tests.fmu.host import OUTPUTS, Instance, Instantiate, Unpacked, unpack
+from tests.fmu.host import Instance, Instantiate, Unpacked, unpack
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
@@ -88,23 +86,6 @@ def test_each_instance_logs_to_its_own_host(instantiate: Instantiate) -> None:
     with first.refuses("load"):
         first.set(load=float("nan"))
     assert second.log == [], "a refusal is logged to the host of its own instance only"
-
-
-@pytest.mark.parametrize("start_time", [-5.0, 1000.0, 1e12])
-def test_the_start_time_does_not_matter(
-    instance: Instance, instantiate: Instantiate, start_time: float
-) -> None:
-    later = instantiate().initialize(start_time=start_time)
-    assert later.get("last_event_time") == (start_time,)
-    signals = np.array([i.run(10, 2.0**-8) for i in (instance, later)])
-    event = OUTPUTS.index("last_event_time")
-    np.testing.assert_array_equal(*np.delete(signals, event, axis=2))
-    np.testing.assert_allclose(
-        signals[1, :, event] - start_time,
-        signals[0, :, event],
-        rtol=0.0,
-        atol=2.0 * math.ulp(start_time) + 1e-15,
-    )
 
 
 def test_the_folder_of_an_earlier_instance_may_be_gone(fmu: Path, tmp_path: Path) -> None:

@@ -20,14 +20,6 @@ WITHOUT = (
 )
 
 
-def test_an_input_that_grows_adds_to_the_slope_of_the_normal_force(instance: Instance) -> None:
-    instance.ramp(phase=900.0, load=50.0)
-    instance.step(1.3e-3)
-    (slope,) = instance.derivatives("normal_force")
-    frequency = 3500.0 + 900.0
-    assert slope == pytest.approx(frequency * math.cos(frequency * 1.3e-3), rel=1e-9)
-
-
 def test_a_slider_at_rest_on_bristles_accelerates_at_once(instantiate: Instantiate) -> None:
     instance = instantiate().initialize(friction_law=1, load=0.05)
     (acceleration,) = instance.derivatives("velocity")

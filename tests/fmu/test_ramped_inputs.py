@@ -34,18 +34,6 @@ def test_a_ratio_that_changes_its_sign(instantiate: Instantiate) -> None:
         assert ramped.get(*MOVING) == pytest.approx(extrapolated, rel=1e-6), f"phase {phase} rad"
 
 
-def test_the_step_size_does_not_move_a_release(instantiate: Instantiate) -> None:
-    events = []
-    for count in (1, 13):
-        instance = instantiate().initialize(base_amplitude=5e-8)
-        for k in range(count):
-            instance.set(load=0.5 * k * 0.03 / count)
-            instance.ramp(load=0.5)
-            instance.step(0.03 / count)
-        events.append(instance.get("last_event_time", "reversals", "position"))
-    assert events[1] == pytest.approx(events[0], rel=1e-10), "13 steps release where one does"
-
-
 def test_a_resonator_of_any_kind_follows_a_growing_load(instantiate: Instantiate) -> None:
     """Y'' + 2 d Y' + K Y = L t / M while the pair slides freely, without friction and drive."""
     rate, stop = 3.0, 0.02

@@ -12,34 +12,10 @@ from pathlib import Path
 import pytest
 
 from slider_resonator import cli
-from studies import COMMANDS as STUDIES
 from tests.harness import faulty_fmus
 from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 from tests.processes import heed_interrupts
-
-COMMANDS = (
-    *("validate", "baseline", "mutants", "choose", "run", "steady", "blocking"),
-    *("scenes", "sweep", "extremes", "trade", "closed-loop", "bench", "hosts", "paper", "build"),
-    *("campaign", "device", "fit", "page", "stress"),
-)
-
-
-@pytest.mark.parametrize(
-    "command", [*COMMANDS, "baseline record", "baseline check", "baseline accept"]
-)
-def test_help_shows_examples(command: str) -> None:
-    result = call(*command.split(), "--help")
-    assert result.exit_code == 0
-    program = "python -m harness" if command in STUDIES else "slider-resonator"
-    assert f"{program} {command}" in result.stdout
-
-
-def test_every_command_is_listed() -> None:
-    result = call("--help")
-    assert result.exit_code == 0
-    listed = result.stdout.partition("\nCommands:\n")[2].splitlines()
-    assert sorted(line.split()[0] for line in listed) == sorted(COMMANDS)
 
 
 @pytest.mark.parametrize(

@@ -51,17 +51,6 @@ def test_a_failure_is_worse_than_any_pass() -> None:
     assert not worst.passed
 
 
-@pytest.mark.parametrize(
-    "scene", ["blocking_force_table_1", "stuck", "overload", "changing_inputs", "lift_off"]
-)
-def test_a_scene_of_each_kind_passes(python_fmu: Path, scene: str) -> None:
-    (result,) = validate([python_fmu], [find_scene(scene)])
-    failed = [
-        (check.quantity, check.fmu, check.reference) for check in result.checks if not check.passed
-    ]
-    assert not failed
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("build", ["native_fmu", "python_fmu"])
 def test_repeated_validations_of_a_correct_fmu_give_equal_checks(

@@ -11,6 +11,7 @@ from pathlib import Path
 import click
 import pytest
 
+from studies import COMMANDS as STUDIES
 from studies.cli import main
 from tests.harness.calling import call, refused
 
@@ -52,6 +53,14 @@ def test_no_help_is_wider_than_the_terminal(width: int) -> None:
         lines = command.get_help(context).splitlines()
         assert not [line for line in lines if len(line) > width], name
         assert not [line for line in lines if re.search(r"\w-$", line)], name
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_help_shows_examples(name: str) -> None:
+    result = call(*name.split(), "--help")
+    assert result.exit_code == 0
+    program = "python -m harness" if name in STUDIES else "slider-resonator"
+    assert f"{program} {name}" in result.stdout
 
 
 @pytest.mark.parametrize("name", EVERY)
