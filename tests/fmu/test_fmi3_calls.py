@@ -178,9 +178,11 @@ def test_null_pointers_are_refused(instance: Instance3) -> None:
     assert "nValues = 2 refused: must be 1" in instance.log[-1][2]
 
 
-def test_calls_that_event_mode_excludes_are_refused(unpacked_3: Unpacked) -> None:
+def test_calls_out_of_order_are_refused(unpacked_3: Unpacked) -> None:
     with instance_3(unpacked_3) as instance:
         instance.slave.enterInitializationMode()
+        with instance.refuses("enterInitializationMode refused in state 'initialization mode'"):
+            instance.slave.enterInitializationMode()
         instance.slave.exitInitializationMode()
         with instance.refuses("doStep refused in state 'event mode'"):
             instance.slave.doStep(0.0, STEP)
