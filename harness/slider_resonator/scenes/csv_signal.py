@@ -49,9 +49,7 @@ def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     except OSError as error:
         raise ValueError(f"csv {path} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
-        raise ValueError(
-            f"csv {path}: {error}; must be text in UTF-8 or Windows-1252"
-        ) from error
+        raise ValueError(f"csv {path}: {error}; must be text in UTF-8 or Windows-1252") from error
     except csv.Error as error:
         raise ValueError(f"csv {path}: {error}; must be lines of numbers") from error
     header = [name.strip() for name in rows[0][1]] if rows else []
