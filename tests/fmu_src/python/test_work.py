@@ -63,12 +63,12 @@ def test_stiffness_costs_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_long_step_takes_few_maps(monkeypatch: pytest.MonkeyPatch) -> None:
     maps = []
-    visits = PeriodMap.visits
+    sections = PeriodMap.sections
 
     def counted(self: PeriodMap, now: Moment, count: int, budget: Any) -> Any:
         maps.append(count)
-        return visits(self, now, count, budget)
+        return sections(self, now, count, budget)
 
-    monkeypatch.setattr(PeriodMap, "visits", counted)
+    monkeypatch.setattr(PeriodMap, "sections", counted)
     after(20_000, replace(TABLE_1, fidelity=0))
     assert sum(maps) <= 1500
