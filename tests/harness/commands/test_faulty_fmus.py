@@ -19,6 +19,14 @@ from tests.processes import heed_interrupts
 pytestmark = pytest.mark.isolated
 
 
+@pytest.mark.parametrize("command", ["steady", "run"])
+def test_a_hang_ends_at_the_time_limit(native_fmu: Path, tmp_path: Path, command: str) -> None:
+    fmu = faulty_fmus.compiled(native_fmu, tmp_path / "faulty.fmu", "IN_STEP=LOOP", "VALUE=1.0")
+    arguments = ["table_1"] if command == "run" else []
+    reported = refused(command, fmu, *arguments, "--time-limit", "1")
+    assert "no answer within the time limit of 1 s in fmi2DoStep" in reported
+
+
 def test_a_crash_after_the_run_ends_with_2(native_fmu: Path, tmp_path: Path) -> None:
     fmu = faulty_fmus.compiled(native_fmu, tmp_path / "faulty.fmu", "IN_FREE=CRASH")
     assert "crashed in fmi2Terminate or fmi2FreeInstance" in refused("run", fmu, "table_1")
