@@ -113,6 +113,13 @@ def test_twin_zeros_are_located_however_loose_the_bound(
     assert work <= MAX_EVALUATIONS
 
 
+@pytest.mark.parametrize("loose", [1e6, 1e8, 1e10])
+def test_short_steps_pass_no_dip_that_is_longer_than_they_are(loose: float) -> None:
+    """Steps are lengthened no further than to the length that counts as short."""
+    zero, _ = python(Sum(0.96, (COSINE,), loose), Search(10.0))
+    assert zero == pytest.approx(math.acos(-0.96), abs=1e-14)
+
+
 @pytest.mark.parametrize("before", [1e-3, 1e-5, 1e-7])
 def test_a_zero_just_before_the_limit_is_found_however_loose_the_bound(before: float) -> None:
     """A short step that is lengthened does not end beyond the limit."""

@@ -37,8 +37,8 @@ SHORTEST = 1e-7
 that enclose a dip within rounding, and count as a touch."""
 
 SHORT = 0.01
-"""Steps [rad] below this count as short. After `PATIENCE` of them the shortest step doubles, which
-bounds the work on signals that stay within rounding of zero."""
+"""Steps [rad] below this count as short. After `PATIENCE` of them the shortest step doubles, up to
+this, which bounds the work on signals that stay within rounding of zero."""
 
 PATIENCE = 20
 
@@ -86,7 +86,7 @@ def first_zero(watch: Watch, limit: float) -> float | None:
         if step * fastest < SHORT:
             short_steps += 1
             if short_steps % PATIENCE == 0:
-                shortest *= 2.0
+                shortest = min(2.0 * shortest, SHORT / fastest)
         before = t
         t += max(step, shortest)
     return None
