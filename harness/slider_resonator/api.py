@@ -46,7 +46,7 @@ from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run as run_schedule
 from slider_resonator.output.progress import no_progress
-from slider_resonator.scenes.device_file import device_values, to_toml, whole_device
+from slider_resonator.scenes.device_file import device_values, to_toml
 from slider_resonator.scenes.device_file import read_device as read_device_file
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes
@@ -144,11 +144,10 @@ class OpenFmu:
     def run(self, scene: SceneLike, **values: Value) -> SceneRecord:
         """Run a scene and return inputs and outputs at all its communication points.
 
-        The device that the FMU was opened with takes the place of the scene's, whose state at the
-        start, fidelity and tolerance stay.
+        The device that the FMU was opened with takes the place of the scene's, as in
+        `Scene.with_device`.
         """
-        device = whole_device(self._device) if self._device else {}
-        read = read_scene(scene, **{**device, **values})
+        read = read_scene(scene).with_device(self._device).with_values(_checked(values))
         task = partial(run_schedule, parameters=read.parameters, schedule=read.schedule())
         record: Record = self._isolated.run(task)
         return SceneRecord(**vars(record), scene=read)

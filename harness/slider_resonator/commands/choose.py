@@ -13,9 +13,11 @@ from slider_resonator.commands.options import (
     SettingsCommand,
     check_left_to_choose,
     default_fmu,
+    device_named,
+    device_option,
     fmu_option,
     json_option,
-    scene_set_option,
+    settings_option,
     time_limit_option,
 )
 from slider_resonator.commands.results import print_json, print_table, print_text
@@ -31,7 +33,8 @@ from slider_resonator.scenes.scene_files import find_scene
 )
 @click.argument("scene")
 @fmu_option
-@scene_set_option
+@device_option
+@settings_option
 @time_limit_option(TIME_LIMIT, "For the whole choice.")
 @json_option
 @click.pass_context
@@ -39,6 +42,7 @@ def choose_command(
     context: click.Context,
     scene: str,
     fmu: Path | None,
+    device: str | None,
     settings: dict[str, float],
     time_limit: float,
     as_json: bool,
@@ -63,8 +67,9 @@ def choose_command(
       slider-resonator choose scenes/mine.toml --json
       slider-resonator choose feed_forward --set friction_law=1 bristle_stiffness=1e6
     """
-    check_left_to_choose(settings)
-    read = find_scene(scene, settings)
+    own = device_named(device)
+    check_left_to_choose({**own, **settings})
+    read = find_scene(scene, settings, own)
     path = default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:

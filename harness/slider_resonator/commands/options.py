@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 import click
 
 from slider_resonator.device.interface import SETTABLE
-from slider_resonator.device.values import check_value, si_value
+from slider_resonator.device.values import check_value, is_number, si_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fmu import finished
 from slider_resonator.output.readable import escaped
@@ -23,7 +23,6 @@ from slider_resonator.scenes.device_file import (
     find_device,
     possible_slips,
     refuse_other_kinds,
-    whole_device,
     without_drive,
 )
 from slider_resonator.scenes.toml_file import read_toml
@@ -73,23 +72,14 @@ def setting(text: str) -> tuple[str, float]:
         raise ValueError(unknown_name("parameter or input", name, SETTABLE))
     value = si_value(name, number)
     check_value(name, value)
-    if _is_plain(number):
-        _note("--set", possible_slips({name: value}))
+    if is_number(number):
+        _note(possible_slips({name: value}))
     return name, value
 
 
-def _is_plain(number: str) -> bool:
-    """Whether a text is a number without a unit."""
-    try:
-        float(number)
-    except ValueError:
-        return False
-    return True
-
-
-def _note(source: str, sentences: Sequence[str]) -> None:
+def _note(sentences: Sequence[str]) -> None:
     for sentence in sentences:
-        click.echo(escaped(f"note: {source}: {sentence}"), err=True)
+        click.echo(escaped(f"note: {sentence}"), err=True)
 
 
 class SettingsCommand(click.Command):
@@ -287,7 +277,8 @@ def device_named(name_or_file: str | None) -> dict[str, float]:
         return {}
     content = device_content(find_device(name_or_file))
     values = device_values(content, name_or_file)
-    _note(name_or_file, [*possible_slips(content["device"]), *without_drive(values)])
+    notes = (*possible_slips(content["device"]), *without_drive(values))
+    _note([f"{name_or_file}: {note}" for note in notes])
     return values
 
 
@@ -304,22 +295,6 @@ def set_option(command: Callable[..., Any]) -> Callable[..., Any]:
     @wraps(command)
     def with_device(device: str | None, settings: dict[str, float], **others: Any) -> Any:
         return command(settings={**device_named(device), **settings}, **others)
-
-    return device_option(settings_option(with_device))
-
-
-def scene_set_option(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add --device and --set to a command that runs scenes; `settings` as in `set_option`.
-
-    The device of the file is a whole one: what the file leaves out is that of table 1, whatever
-    the device of the scene. The state at the start is the scene's, and so are fidelity and
-    tolerance.
-    """
-
-    @wraps(command)
-    def with_device(device: str | None, settings: dict[str, float], **others: Any) -> Any:
-        whole = {} if device is None else whole_device(device_named(device))
-        return command(settings={**whole, **settings}, **others)
 
     return device_option(settings_option(with_device))
 

@@ -20,9 +20,11 @@ from slider_resonator.commands.options import (
     Parsed,
     SettingsCommand,
     check_left_to_choose,
+    device_named,
+    device_option,
     json_option,
     native_fmu_argument,
-    scene_set_option,
+    settings_option,
     target,
     time_limit_option,
 )
@@ -119,7 +121,8 @@ class RunSummary:
     "each step. An FMU without canInterpolateInputs holds them.  [default: as [run] of the scene "
     "says, which holds them unless it has interpolate]",
 )
-@scene_set_option
+@device_option
+@settings_option
 @time_limit_option(TIME_LIMIT, "For each of the choice, the run and the run for the picture.")
 @json_option
 @click.pass_context
@@ -134,6 +137,7 @@ def run_command(
     overlays: tuple[tuple[str, float] | Path, ...],
     auto: bool,
     interpolate: bool | None,
+    device: str | None,
     settings: dict[str, float],
     time_limit: float,
     as_json: bool,
@@ -155,7 +159,8 @@ def run_command(
       slider-resonator run my.fmu table_1 --plot a.png --window 0.1:0.11 --overlay fidelity=1
       slider-resonator run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
-    read = find_scene(scene, settings)
+    own = device_named(device)
+    read = find_scene(scene, settings, own)
     if interpolate is not None:
         read = read.interpolating(interpolate)
     files = {f"the scene's file {file}": file for file in read.files}
@@ -166,7 +171,7 @@ def run_command(
     if plot is None and not drawing.is_default:
         raise click.UsageError("--signals, --window and --overlay need --plot")
     if auto:
-        check_left_to_choose(settings)
+        check_left_to_choose({**own, **settings})
     choice, provenance = None, provenance_of(fmu, *others.values())
     if not drawing.is_default:
         check_drawing(read, drawing)

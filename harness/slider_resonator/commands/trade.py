@@ -12,9 +12,11 @@ from slider_resonator.commands.options import (
     FMU_FILE,
     SettingsCommand,
     default_fmus,
+    device_named,
+    device_option,
     json_option,
     out_folder_option,
-    scene_set_option,
+    settings_option,
     target,
     time_limit_option,
 )
@@ -74,11 +76,13 @@ from slider_resonator.trading.summary import SUFFIXES, comparisons, standings, t
     help="Markdown or HTML file for the tables from need to model to cost, which go between the "
     "lines <!-- trade --> and <!-- end of trade --> if the file has them. Repeatable.",
 )
-@scene_set_option
+@device_option
+@settings_option
 @time_limit_option(TIME_LIMIT, "For each run and search of an FMU.")
 @json_option
 def trade_command(
     scenes: Sequence[str],
+    device: str | None,
     settings: dict[str, float],
     out: Path,
     fmus: Sequence[Path],
@@ -109,7 +113,8 @@ def trade_command(
       slider-resonator trade table_1 --device mine.toml --out trade
       slider-resonator trade my.toml --out trade --fmu my.fmu --json
     """
-    read = [find_scene(name, settings) for name in scenes or ("table_1",)]
+    own = device_named(device)
+    read = [find_scene(name, settings, own) for name in scenes or ("table_1",)]
     points = [point for scene in read for point in scene.points()]
     problems = [problem_of(point.scene, point.at, periods) for point in points]
     paths = fmus or default_fmus()

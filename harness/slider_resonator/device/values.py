@@ -73,6 +73,14 @@ def _registry() -> pint.UnitRegistry[Any]:
     return registry
 
 
+def is_number(text: str) -> bool:
+    """Whether a text is a finite number, without a unit."""
+    try:
+        return isfinite(float(text))
+    except ValueError:
+        return False
+
+
 def si_value(name: str, text: str) -> float:
     """Return the value of a parameter or input in its SI unit, as `si_number` does."""
     return si_number(name, text, VARIABLES[name].unit)

@@ -16,7 +16,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import ALL_OUTPUTS, HELD, INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.device.schedule import Schedule, in_order
 from slider_resonator.device.signal import steps
-from slider_resonator.device.values import si_value, with_unit
+from slider_resonator.device.values import is_number, si_value, with_unit
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.scenes.csv_signal import check_cells, csv_number, csv_rows
 from slider_resonator.scenes.device_file import FREQUENCIES
@@ -253,7 +253,7 @@ def _columns(path: Path) -> _Columns:
             heading
             for heading, cells in texts
             if _parts(heading, is_run)["name"] not in _allowed(is_run)
-            and not any(_is_number(cell) for cell in cells)
+            and not any(is_number(cell) for cell in cells)
         ]
         rows = [f"line {line}" for line, _ in filled]
         cells = [
@@ -268,13 +268,6 @@ def _columns(path: Path) -> _Columns:
     named = [repr(heading) for heading in ignored if heading]
     note = f"{path}: ignored {', '.join(named)}: no numbers"
     return replace(found, notes=(note,) if named else ())
-
-
-def _is_number(text: str) -> bool:
-    try:
-        return isfinite(float(text))
-    except ValueError:
-        return False
 
 
 def _is_run(headings: Iterable[str]) -> bool:

@@ -72,19 +72,6 @@ def read_device(name_or_file: str) -> dict[str, float]:
     return device_values(device_content(path), str(path))
 
 
-def whole_device(values: Mapping[str, float]) -> dict[str, float]:
-    """Return the parameters of a device in a scene: what `values` leave out is that of table 1.
-
-    The state at the start remains that of the scene, and so do fidelity and tolerance.
-    """
-    starts = {
-        name: VARIABLES[name].start or 0.0
-        for name in PARAMETERS
-        if name not in ("fidelity", "tolerance") and not name.startswith("initial_")
-    }
-    return {**starts, **values}
-
-
 def device_content(path: Path) -> dict[str, Any]:
     """Return the parsed text of a device file; SceneError for a file of another kind."""
     content = read_toml(path)

@@ -185,6 +185,21 @@ class Scene(Shown):
             tuning=tuning,
         )
 
+    def with_device(self, device: Mapping[str, float]) -> Scene:
+        """Return the scene with another device, or as it is if `device` states nothing.
+
+        What `device` leaves out is that of table 1, but the state at the start, fidelity, tolerance
+        and what is tuned in the run stay those of the scene.
+        """
+        if not device:
+            return self
+        kept = {
+            name: value
+            for name, value in self.parameters.items()
+            if name in ("fidelity", "tolerance") or name.startswith("initial_")
+        }
+        return replace(self.with_values(device), parameters={**kept, **device})
+
     def with_step(self, step_size: float) -> Scene:
         """Return the scene, which must have a run, with communication steps of a size in s."""
         assert self.run is not None

@@ -8,7 +8,7 @@ from dataclasses import replace
 from importlib import resources
 from pathlib import Path
 
-from slider_resonator.device.interface import PARAMETERS, VARIABLES
+from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.output.readable import number_of
 from slider_resonator.scenes.scene import Scene, only_scene, read_scenes
@@ -33,22 +33,24 @@ def is_core(scene: Scene) -> bool:
     return scene.files[0].parent.name == "core"
 
 
-def find_scene(name_or_file: str, values: Mapping[str, float] | None = None) -> Scene:
+def find_scene(
+    name_or_file: str,
+    values: Mapping[str, float] | None = None,
+    device: Mapping[str, float] | None = None,
+) -> Scene:
     """Return the built-in scene of a name, or that of a file, as `FILE#NAME` one of several.
 
-    `values` replace those of the scene, as in `Scene.with_values`, and the title says so. Raises
-    SceneError with the nearest name, and as `read_scenes` does.
+    `device` takes the place of the scene's as in `Scene.with_device`, `values` replace those of
+    both, and the title says so. Raises SceneError with the nearest name, and as `read_scenes` does.
     """
     scene = only_scene(_scenes_of(name_or_file), name_or_file)
-    if not values:
+    if not values and not device:
         return scene
-    varied = scene.with_values(values)
-    changed = sum(
-        varied.parameters.get(name) != scene.parameters.get(name, VARIABLES[name].start)
-        for name in values.keys() & PARAMETERS
-    ) + len(values.keys() - PARAMETERS)
-    title = f"{scene.title}, {number_of(changed, 'value')} replaced"
-    return replace(varied, title=title)
+    varied = scene.with_device(device or {}).with_values(values or {})
+    before, after = vars(scene.device), vars(varied.device)
+    changed = sum(before[name] != after[name] for name in before)
+    changed += len((values or {}).keys() - PARAMETERS)
+    return replace(varied, title=f"{scene.title}, {number_of(changed, 'value')} replaced")
 
 
 def find_scenes(names_or_files: Sequence[str]) -> list[Scene]:

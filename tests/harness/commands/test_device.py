@@ -51,7 +51,7 @@ def test_a_device_without_a_drive_is_noted(tmp_path: Path, native_fmu: Path) -> 
 
 def test_a_setting_that_may_be_in_hertz_is_noted(native_fmu: Path) -> None:
     ran = call("steady", native_fmu, "--set", "drive_frequency=600")
-    assert "note: --set: drive_frequency = 600 is in rad/s, which is 95.493 Hz; if" in ran.stderr
+    assert "note: drive_frequency = 600 is in rad/s, which is 95.493 Hz; if" in ran.stderr
     assert "note" not in call("steady", native_fmu, "--set", "drive_frequency=600 Hz").stderr
 
 
@@ -83,6 +83,9 @@ def test_a_device_takes_the_whole_place_of_a_scene_s(tmp_path: Path, native_fmu:
     with sr.open_fmu(native_fmu) as fmu:
         expected = fmu.run("lugre", **vars(sr.Device(slider_mass=2.0, fidelity=0)))
     assert record.final("position") == expected.final("position")
+    tuned = sr.read_scene("tuned_fidelity_1_lugre")
+    assert tuned.tuning
+    assert tuned.with_device({"slider_mass": 2.0}).tuning == tuned.tuning, "the scene's situation"
     assert float(ending["position"]) == record.final("position")
 
 
