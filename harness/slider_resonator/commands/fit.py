@@ -26,7 +26,8 @@ from slider_resonator.commands.results import print_json, print_table, print_tex
 from slider_resonator.device.interface import PARAMETERS, VARIABLES
 from slider_resonator.device.values import si_value
 from slider_resonator.errors import unknown_name
-from slider_resonator.fitting.measurements import datasheet, read_measurements
+from slider_resonator.fitting.measurements import datasheet
+from slider_resonator.fitting.reading import read_measurements
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.provenance import provenance_of

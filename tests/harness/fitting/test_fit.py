@@ -20,9 +20,9 @@ from slider_resonator.fitting.measurements import (
     Point,
     Run,
     datasheet,
-    measurements_from,
 )
 from slider_resonator.fitting.notes import data_notes
+from slider_resonator.fitting.reading import measurements_from
 from slider_resonator.fitting.report import parameter_table, sentences
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import Task

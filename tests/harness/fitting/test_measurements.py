@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.fitting.measurements import Measurements, read_measurements
+from slider_resonator.fitting.measurements import Measurements
+from slider_resonator.fitting.reading import read_measurements
 
 
 def read(folder: Path, text: str) -> Measurements:

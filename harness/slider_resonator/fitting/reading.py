@@ -1,0 +1,274 @@
+"""Read measurements from columns with headings: of CSV files, or of arrays."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from slider_resonator.arrays import Array
+from slider_resonator.device.interface import ALL_OUTPUTS, HELD, INPUTS, PARAMETERS
+from slider_resonator.device.schedule import Schedule, in_order
+from slider_resonator.device.signal import steps
+from slider_resonator.device.values import is_number, si_value, with_unit
+from slider_resonator.errors import HarnessError, unknown_name
+from slider_resonator.fitting.measurements import STEADY, TIME, Measurements, Point, Run
+from slider_resonator.scenes.csv_signal import check_cells, csv_number, csv_rows
+from slider_resonator.scenes.device_file import FREQUENCIES
+
+_ALIASES = {"frequency": "drive_frequency", "amplitude": "base_amplitude"}
+_STEADY_ALIASES = {
+    "velocity": "steady_velocity",
+    "mean_velocity": "steady_velocity",
+    "force": "blocking_force",
+}
+"""Other names of what a table measures; those of a run are the outputs themselves."""
+_HEADING = re.compile(
+    r"\s*(?P<name>\w[\w ]*?)(?P<std>[_ ]std)?\s*(?:[\[(](?P<unit>[^\])]*)[\])])?\s*", re.I
+)
+MAX_ROWS = 100_000
+
+
+@dataclass(frozen=True)
+class _Columns:
+    """Columns by name in SI units, (n,) each, with the names of their n rows.
+
+    `units` and `notes` are those of `Measurements`.
+    """
+
+    source: str
+    rows: Sequence[str]
+    values: Mapping[str, Array]
+    units: Mapping[str, tuple[str, float]]
+    notes: tuple[str, ...] = ()
+
+
+def read_measurements(path: Path) -> Measurements:
+    """Read a CSV file: a run if it has a column `time`, else a table of steady measurements.
+
+    A heading is a name, a name and a unit in brackets, such as `phase [deg]`, or a measured name
+    with `_std`, its standard deviation. Columns of text with other headings are ignored, and noted.
+    Raises HarnessError with file, line, value and requirement.
+    """
+    return _measurements(_columns(path))
+
+
+def measurements_from(table: Mapping[str, Any]) -> Measurements:
+    """Return measurements from columns of numbers by heading, as `read_measurements` has them.
+
+    NaN is an empty cell. Raises HarnessError with heading and requirement.
+    """
+    try:
+        columns = {heading: np.asarray(values, np.float64) for heading, values in table.items()}
+        shapes = {values.shape for values in columns.values()}
+        if len(shapes) != 1 or len(shape := shapes.pop()) != 1:
+            raise ValueError("must be columns of one length")
+        rows = [f"row {number}" for number in range(1, shape[0] + 1)]
+        return _measurements(_named("data", rows, list(columns.items())))
+    except (ValueError, TypeError) as error:
+        raise HarnessError(f"data: {error}") from error
+
+
+def _measurements(columns: _Columns) -> Measurements:
+    found = _run(columns) if "time" in columns.values else _table(columns)
+    plain = [
+        (columns.source, name, value)
+        for name in FREQUENCIES
+        if name in columns.values and name not in columns.units
+        for value in dict.fromkeys(columns.values[name].tolist())
+    ]
+    notes = (*columns.notes, *found.notes)
+    return replace(found, units=columns.units, plain_frequencies=tuple(plain), notes=notes)
+
+
+def _columns(path: Path) -> _Columns:
+    """Return the columns of a file, empty cells as NaN."""
+    try:
+        header, lines = csv_rows(path)
+        check_cells(path, header, lines)
+        filled = [(line, row) for line, row in lines if any(cell.strip() for cell in row)]
+        if not 1 <= len(filled) <= MAX_ROWS:
+            raise ValueError(f"{len(filled)} rows below the header; must be 1 to {MAX_ROWS}")
+        texts = [
+            (heading, [row[index].strip() if index < len(row) else "" for _, row in filled])
+            for index, heading in enumerate(header)
+        ]
+        is_run = _is_run(header)
+        ignored = [
+            heading
+            for heading, cells in texts
+            if _parts(heading, is_run)["name"] not in _allowed(is_run)
+            and not any(is_number(cell) for cell in cells)
+        ]
+        rows = [f"line {line}" for line, _ in filled]
+        cells = [
+            (heading, _numbers(heading, rows, cells))
+            for heading, cells in texts
+            if heading not in ignored
+        ]
+        found = _named(str(path), rows, cells)
+    except ValueError as error:
+        said = str(error)
+        raise HarnessError(said if str(path) in said else f"{path}: {said}") from error
+    named = [repr(heading) for heading in ignored if heading]
+    note = f"{path}: ignored {', '.join(named)}: no numbers"
+    return replace(found, notes=(note,) if named else ())
+
+
+def _is_run(headings: Iterable[str]) -> bool:
+    return any(_parts(heading, is_run=True)["name"] == "time" for heading in headings)
+
+
+def _named(source: str, rows: Sequence[str], columns: Sequence[tuple[str, Array]]) -> _Columns:
+    """Return columns by name in SI units from those by heading; ValueError for a wrong heading."""
+    is_run = _is_run(heading for heading, _ in columns)
+    named: dict[str, Array] = {}
+    units: dict[str, tuple[str, float]] = {}
+    for heading, values in columns:
+        name, unit, factor = _column(heading, is_run)
+        if name in named:
+            raise ValueError(f"two columns {name}; must be one")
+        named[name] = factor * values
+        if unit:
+            units[name] = (unit, factor)
+    return _Columns(source, rows, named, units)
+
+
+def _parts(heading: str, is_run: bool) -> Mapping[str, str]:
+    """Return name, std and unit of a heading; the last two are empty if it does not have them."""
+    match = _HEADING.fullmatch(heading)
+    parts = match.groupdict("") if match else {"name": heading, "std": "", "unit": ""}
+    name = "_".join(parts["name"].lower().split())
+    aliases = _ALIASES if is_run else _ALIASES | _STEADY_ALIASES
+    return {**parts, "name": aliases.get(name, name)}
+
+
+def _outputs(is_run: bool) -> Sequence[str]:
+    """Return the names of what can be measured."""
+    return [*ALL_OUTPUTS] if is_run else STEADY
+
+
+def _allowed(is_run: bool) -> Sequence[str]:
+    """Return the names that a column can have."""
+    return [*INPUTS, *(HELD if is_run else PARAMETERS), *_outputs(is_run), "time"]
+
+
+def _column(heading: str, is_run: bool) -> tuple[str, str, float]:
+    """Return the name that a heading stands for, its unit if any, and the factor to SI units.
+
+    Raises ValueError with the heading and what it must be.
+    """
+    parts = _parts(heading, is_run)
+    name, unit, allowed = parts["name"], parts["unit"], _allowed(is_run)
+    if name not in allowed or (parts["std"] and name not in _outputs(is_run)):
+        raise ValueError(unknown_name("column", name + parts["std"], allowed))
+    try:
+        of_unit = TIME if name == "time" else name
+        factor = si_value(of_unit, f"1 {unit}") if unit else 1.0
+    except ValueError as error:
+        raise ValueError(f"heading {heading!r}: {error}") from error
+    return name + ("_std" if parts["std"] else ""), unit, factor
+
+
+def _numbers(heading: str, rows: Sequence[str], cells: Sequence[str]) -> Array:
+    """Return the numbers of cells, NaN of empty ones; ValueError with row, heading and text."""
+    found = np.full(len(cells), np.nan)
+    for index, (row, cell) in enumerate(zip(rows, cells, strict=True)):
+        if cell.lower() not in ("", "nan"):
+            try:
+                found[index] = csv_number(heading, cells, index)
+            except ValueError as error:
+                raise ValueError(f"{row}: {error}, or empty") from error
+    return found
+
+
+def _table(columns: _Columns) -> Measurements:
+    source, values = columns.source, columns.values
+    measured = [name for name in STEADY if name in values]
+    if not measured:
+        raise HarnessError(f"{source}: measures nothing; must have a column {' or '.join(STEADY)}")
+    given = [n for n in values if n.removesuffix("_std") not in STEADY]
+    there = np.isfinite([values[name] for name in measured])
+    is_needed = np.array(there.any(axis=0))
+    for name in given:
+        _check_filled(columns, name, is_needed)
+    points = []
+    for index, row in enumerate(columns.rows):
+        own = {name: float(values[name][index]) for name in given}
+        for name in [name for name, known in zip(measured, there[:, index], strict=True) if known]:
+            deviation = _deviation(columns, name, index)
+            points.append(Point(own, name, float(values[name][index]), deviation, source, row))
+    skipped = np.count_nonzero(~is_needed)
+    note = f"{source}: {skipped} of {len(columns.rows)} rows skipped: nothing measured"
+    return Measurements(tuple(points), notes=(note,) if skipped else ())
+
+
+def _check_filled(columns: _Columns, name: str, needed: NDArray[np.bool_]) -> None:
+    """Raise HarnessError for an empty cell of a column in a row that is `needed`, (n,)."""
+    empty = np.flatnonzero(needed & ~np.isfinite(columns.values[name]))
+    if empty.size:
+        row = columns.rows[int(empty[0])]
+        raise HarnessError(f"{columns.source} {row}: {name} is empty; must be a number")
+
+
+def _deviation(columns: _Columns, name: str, index: int) -> float | None:
+    """Return the standard deviation of a number, None where there are none."""
+    if f"{name}_std" not in columns.values:
+        return None
+    deviation = float(columns.values[f"{name}_std"][index])
+    if not deviation > 0.0:
+        row = f"{columns.source} {columns.rows[index]}"
+        raise HarnessError(f"{row}: {name}_std = {deviation:g}: must be above 0")
+    return deviation
+
+
+def _run(columns: _Columns) -> Measurements:
+    source, values, rows = columns.source, columns.values, columns.rows
+    times = values["time"]
+    settable = [name for name in (*INPUTS, *HELD) if name in values]
+    for name in ("time", *settable):
+        _check_filled(columns, name, np.ones(len(rows), np.bool_))
+    for index in (np.flatnonzero(np.diff(times) <= 0.0) + 1).tolist():
+        raise HarnessError(
+            f"{source} {rows[index]}: time = {times[index]:.9g} s: must be above the "
+            f"{times[index - 1]:.9g} s of the row before"
+        )
+    if times[0] < 0.0:
+        raise HarnessError(
+            f"{source} {rows[0]}: time = {times[0]:.9g} s: must be at least 0, when drive and "
+            "device start; leave out the rows before the drive is switched on, or shift all times"
+        )
+    signals = {
+        name: steps(list(zip(times.tolist(), values[name].tolist(), strict=True)))
+        for name in settable
+    }
+    inputs = {name: signal for name, signal in signals.items() if name in INPUTS}
+    tuning = {name: signal for name, signal in signals.items() if name in HELD}
+    outputs = {name: column for name, column in values.items() if name in ALL_OUTPUTS}
+    if not outputs:
+        raise HarnessError(f"{source}: measures nothing; must have a column of an output")
+    deviations = {name: values[f"{name}_std"] for name in outputs if f"{name}_std" in values}
+    for name in deviations:
+        for number in np.flatnonzero(np.isfinite(outputs[name])).tolist():
+            _deviation(columns, name, number)
+    notes = []
+    if times[0] > 0.0:
+        # A point at time 0 at which nothing is measured.
+        times, rows = np.concatenate([[0.0], times]), ["", *rows]
+        outputs, deviations = (
+            {name: np.concatenate([[np.nan], column]) for name, column in some.items()}
+            for some in (outputs, deviations)
+        )
+        notes.append(
+            f"{source}: begins at {with_unit(TIME, times[1])}; the device starts at time 0 in its "
+            "initial state, at drive phase 0, and has the inputs of the first row until then"
+        )
+    schedule = Schedule(times, *in_order(inputs), tuning=tuning)
+    return Measurements(
+        runs=(Run(source, schedule, outputs, deviations, rows),), notes=tuple(notes)
+    )
