@@ -33,7 +33,7 @@ FMI_HEADERS: dict[FmiVersion, tuple[str, ...]] = {
 }
 _FMI_FOLDER = "fmi/"
 
-_SHELLS: dict[FmiVersion, str] = {"2.0": "fmi2_*", "3.0": "fmi3_*"}
+_SHELLS: dict[FmiVersion, str] = {"2.0": "fmi2*", "3.0": "fmi3*"}
 """The C files of one version of FMI only."""
 
 SHARED = (

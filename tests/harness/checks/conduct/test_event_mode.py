@@ -11,44 +11,46 @@ from studies.mutants.bench import Judging
 from studies.mutants.changes import Change
 from studies.mutants.runs import run_changes
 
-STEPS, VALUES, FUNCTIONS = "fmi/fmi3_steps.c", "fmi/fmi3_values.c", "fmi/fmi3_functions.c"
+CALLS, VALUES = "fmi/fmi3.c", "fmi/value_access.c"
 FOUND = "if (now->event_age == 0.0 && found_at(search, &clock)) {"
-TIME = "is_time(references[i], type) ? own->component.now.time : *next++;"
+TIME = "is_time(references[i]) ? instance->component.now.time : *next++;"
+GIVEN = """value_count != count ? refuse_value_count(instance, call, count, value_count)
+                                : (fmi3Status)values_get"""
 EXPERIMENT = "stopTimeDefined, stopTime, toleranceDefined"
 
 FAULTS = {
     "the step is said to reach its end": (
-        STEPS,
+        CALLS,
         "*lastSuccessfulTime = component->now.time;",
         "*lastSuccessfulTime = end;",
     ),
     "an event at the end of a step is an early return": (
-        STEPS,
+        CALLS,
         "*earlyReturn = event && component->now.time < end;",
         "*earlyReturn = event;",
     ),
     "no event needs handling": (
-        STEPS,
+        CALLS,
         "*eventHandlingNeeded = event;",
         "*eventHandlingNeeded = fmi3False;",
     ),
     "an event ends the simulation": (
-        STEPS,
+        CALLS,
         "    *terminateSimulation = fmi3False;\n    *earlyReturn",
         "    *terminateSimulation = event;\n    *earlyReturn",
     ),
     "a step returns early though it must not": (
-        STEPS,
+        CALLS,
         "if (own->event_mode_used && own->early_return_allowed) {",
         "if (own->event_mode_used) {",
     ),
     "event mode is entered though it is not used": (
-        STEPS,
-        "return instance->event_mode_used\n",
-        "return true\n",
+        CALLS,
+        "if (instance != NULL && !instance->event_mode_used) {",
+        "if (false) {",
     ),
     "an event at 0 s is announced for ever": (
-        STEPS,
+        CALLS,
         "        *nextEventTimeDefined = fmi3False;",
         "        *nextEventTimeDefined = fmi3True;",
     ),
@@ -56,17 +58,17 @@ FAULTS = {
     "values after time are off by one": (VALUES, TIME, TIME.replace("*next++", "found[i]")),
     "time can be set": (VALUES, "if (done && place_count < count) {", "if (false) {"),
     "too many values are accepted": (
-        VALUES,
-        "    if (value_count != count) {",
-        "    if (value_count < count) {",
+        CALLS,
+        GIVEN,
+        GIVEN.replace("!=", "<"),
     ),
     "initialization does not end in event mode": (
-        FUNCTIONS,
+        CALLS,
         "if (done && own->event_mode_used) {",
         "if (false) {",
     ),
     "the stop time is ignored": (
-        FUNCTIONS,
+        CALLS,
         EXPERIMENT,
         EXPERIMENT.replace("stopTimeDefined", "fmi3False"),
     ),

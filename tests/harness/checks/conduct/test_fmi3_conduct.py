@@ -14,7 +14,7 @@ from studies.mutants.runs import run_changes
 FAULTS = {
     "a bad experiment is accepted": (
         "refusal_faults",
-        "fmi/fmi3_functions.c",
+        "fmi/fmi3.c",
         "component_setup_experiment(&own->component, &experiment, &refusal)",
         "(component_setup_experiment(&own->component, &experiment, &refusal) || true)",
     ),

@@ -1,0 +1,216 @@
+/* FMI 2.0 for co-simulation. In this order: the names of the version, an instance and its life cycle, values (all of a call
+ * or none), steps and their status, the complete state.
+ *
+ * A refused call returns fmi2Error and leaves the instance as it was, ready for the next call. It
+ * never returns fmi2Discard, which hosts take for a request to end the run early. */
+#include "../component/fmi_version.h"
+#include "fmi2_api.h"
+#include "state_access.h"
+#include "value_access.h"
+
+const FmiVersion FMI = {
+    .min_reference = 0,
+    .reference_offset = 0,
+    .states = TERMINATED + 1,
+    .state_names = {"instantiated", "initialization mode", "step complete", "terminated"},
+    .type_names = {"Real", "Integer", "Boolean", "String"},
+    .count_name = "nvr",
+    .token = "fmuGUID",
+};
+
+const char *fmi2GetTypesPlatform(void) {
+    return fmi2TypesPlatform;
+}
+
+const char *fmi2GetVersion(void) {
+    return fmi2Version;
+}
+
+/* The logger takes a format, in which % and # have a meaning unless they are doubled. */
+static void double_specials(const char *text, char *format, size_t size) {
+    size_t length = 0;
+    for (; *text != '\0' && length + 2 < size; text++) {
+        format[length++] = *text;
+        if (*text == '%' || *text == '#') {
+            format[length++] = *text;
+        }
+    }
+    format[length] = '\0';
+}
+
+static void log_message(const Host *host, const char *instance_name, Status status, const char *category,
+              const char *text) {
+    char format[2 * REFUSAL_SIZE];
+    double_specials(text, format, sizeof format);
+    fmi2CallbackLogger logger = (fmi2CallbackLogger)host->logger;
+    logger(host->environment, instance_name, (fmi2Status)status, category, format);
+}
+
+fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2String fmuGUID,
+                              fmi2String fmuResourceLocation,
+                              const fmi2CallbackFunctions *functions, fmi2Boolean visible,
+                              fmi2Boolean loggingOn) {
+    (void)fmuResourceLocation;
+    (void)visible;
+    if (functions == NULL) {
+        return NULL;
+    }
+    const Host host = {
+        .environment = functions->componentEnvironment,
+        .allocate = functions->allocateMemory,
+        .release = functions->freeMemory,
+        .logger = (void (*)(void))functions->logger,
+        .log = log_message,
+    };
+    if (fmuType != fmi2CoSimulation) {
+        Refusal refusal;
+        refuse(&refusal, "fmi2Instantiate: fmuType = %d refused: must be %d, fmi2CoSimulation",
+               (int)fmuType, (int)fmi2CoSimulation);
+        return refuse_instance(&host, instanceName, &refusal);
+    }
+    return instance_create(&host, "fmi2Instantiate", instanceName, fmuGUID,
+                           loggingOn != fmi2False);
+}
+
+void fmi2FreeInstance(fmi2Component c) {
+    instance_free(c);
+}
+
+fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nCategories,
+                               const fmi2String categories[]) {
+    return (fmi2Status)set_debug_logging(c, "fmi2SetDebugLogging", loggingOn != fmi2False, nCategories,
+                                         categories);
+}
+
+fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fmi2Real tolerance,
+                               fmi2Real startTime, fmi2Boolean stopTimeDefined,
+                               fmi2Real stopTime) {
+    Instance *instance = c;
+    Refusal refusal;
+    Experiment experiment = {startTime, stopTimeDefined != fmi2False, stopTime,
+                             toleranceDefined != fmi2False, tolerance};
+    bool done = instance != NULL
+                && component_setup_experiment(&instance->component, &experiment, &refusal);
+    return answer(instance, done, &refusal);
+}
+
+fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
+    return (fmi2Status)lifecycle_call(c, component_enter_initialization);
+}
+
+fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
+    return (fmi2Status)lifecycle_call(c, component_exit_initialization);
+}
+
+fmi2Status fmi2Terminate(fmi2Component c) {
+    return (fmi2Status)lifecycle_call(c, component_terminate);
+}
+
+fmi2Status fmi2Reset(fmi2Component c) {
+    return (fmi2Status)instance_reset(c);
+}
+
+#define GET_AND_SET(NAME, TYPE) \
+    fmi2Status fmi2Get##NAME(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, \
+                             fmi2##NAME value[]) { \
+        return (fmi2Status)values_get(c, "fmi2Get" #NAME, vr, nvr, (void *)value, TYPE); \
+    } \
+    fmi2Status fmi2Set##NAME(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, \
+                             const fmi2##NAME value[]) { \
+        return (fmi2Status)values_set(c, "fmi2Set" #NAME, vr, nvr, (const void *)value, TYPE); \
+    }
+
+GET_AND_SET(Real, REAL_TYPE)
+GET_AND_SET(Integer, INTEGER_TYPE)
+GET_AND_SET(Boolean, BOOLEAN_TYPE)
+GET_AND_SET(String, STRING_TYPE)
+
+fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint,
+                      fmi2Real communicationStepSize,
+                      fmi2Boolean noSetFMUStatePriorToCurrentPoint) {
+    (void)noSetFMUStatePriorToCurrentPoint;
+    Instance *instance = c;
+    Refusal refusal;
+    if (instance == NULL) {
+        return fmi2Error;
+    }
+    bool done = component_step(&instance->component, currentCommunicationPoint,
+                               communicationStepSize, &refusal);
+    fmi2Status status = answer(instance, done, &refusal);
+    instance->last_step = (int)status;
+    return status;
+}
+
+/* Refuse a null pointer, and with fmi2Discard any status that is not `known`: FMI 2.0 demands fmi2Discard,
+ * and it ends no run. */
+static fmi2Status status_check(fmi2Component c, const void *value, bool known, const char *text) {
+    if (c == NULL || value == NULL) {
+        return report(c, fmi2Error,
+                      "status refused: value is a null pointer; must point to memory");
+    }
+    return known ? fmi2OK : report(c, fmi2Discard, text);
+}
+
+fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *value) {
+    fmi2Status checked = status_check(c, value, s == fmi2DoStepStatus,
+                                      "fmi2GetStatus: the kind must be fmi2DoStepStatus");
+    if (checked == fmi2OK) {
+        *value = (fmi2Status)((const Instance *)c)->last_step;
+    }
+    return checked;
+}
+
+fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *value) {
+    fmi2Status checked = status_check(c, value, s == fmi2LastSuccessfulTime,
+                                      "fmi2GetRealStatus: the kind must be fmi2LastSuccessfulTime");
+    if (checked == fmi2OK) {
+        *value = ((const Instance *)c)->component.now.time;
+    }
+    return checked;
+}
+
+fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind s, fmi2Integer *value) {
+    (void)s;
+    return status_check(c, value, false, "fmi2GetIntegerStatus: there is no such status");
+}
+
+fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boolean *value) {
+    fmi2Status checked = status_check(c, value, s == fmi2Terminated,
+                                      "fmi2GetBooleanStatus: the kind must be fmi2Terminated");
+    if (checked == fmi2OK) {
+        *value = fmi2False;
+    }
+    return checked;
+}
+
+fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2String *value) {
+    (void)s;
+    return status_check(c, value, false,
+                        "fmi2GetStringStatus: there is no such status, no step is ever pending");
+}
+
+fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
+    return (fmi2Status)state_get(c, "fmi2GetFMUstate", FMUstate);
+}
+
+fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate FMUstate) {
+    return (fmi2Status)state_set(c, "fmi2SetFMUstate", FMUstate);
+}
+
+fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
+    return (fmi2Status)state_free(c, FMUstate);
+}
+
+fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, size_t *size) {
+    return (fmi2Status)state_size(c, "fmi2SerializedFMUstateSize", FMUstate, size);
+}
+
+fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate,
+                                 fmi2Byte serializedState[], size_t size) {
+    return (fmi2Status)state_write(c, "fmi2SerializeFMUstate", FMUstate, serializedState, size);
+}
+
+fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte serializedState[], size_t size,
+                                   fmi2FMUstate *FMUstate) {
+    return (fmi2Status)state_read(c, "fmi2DeSerializeFMUstate", serializedState, size, FMUstate);
+}
