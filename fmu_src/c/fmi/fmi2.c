@@ -1,22 +1,11 @@
-/* FMI 2.0 for co-simulation. In this order: the names of the version, an instance and its life cycle, values (all of a call
+/* FMI 2.0 for co-simulation. In this order: an instance and its life cycle, values (all of a call
  * or none), steps and their status, the complete state.
  *
  * A refused call returns fmi2Error and leaves the instance as it was, ready for the next call. It
  * never returns fmi2Discard, which hosts take for a request to end the run early. */
-#include "../component/fmi_version.h"
 #include "fmi2_api.h"
 #include "state_access.h"
 #include "value_access.h"
-
-const FmiVersion FMI = {
-    .min_reference = 0,
-    .reference_offset = 0,
-    .states = TERMINATED + 1,
-    .state_names = {"instantiated", "initialization mode", "step complete", "terminated"},
-    .type_names = {"Real", "Integer", "Boolean", "String"},
-    .count_name = "nvr",
-    .token = "fmuGUID",
-};
 
 const char *fmi2GetTypesPlatform(void) {
     return fmi2TypesPlatform;

@@ -1,4 +1,4 @@
-/* FMI 3.0 for co-simulation. In this order: the names of the version, an instance and its life cycle, values (all of a call
+/* FMI 3.0 for co-simulation. In this order: an instance and its life cycle, values (all of a call
  * or none), steps and the event mode between them, the complete state.
  *
  * A refused call returns fmi3Error and leaves the instance as it was, ready for the next call.
@@ -7,24 +7,10 @@
  * release, lift-off or touchdown, located to rounding. Otherwise it passes over them. */
 #include <stddef.h>
 
-#include "../component/fmi_version.h"
 #include "../component/lifecycle.h"
 #include "fmi3_api.h"
 #include "state_access.h"
 #include "value_access.h"
-
-/* Reference 1 is the time; the variables of the table follow. */
-const FmiVersion FMI = {
-    .min_reference = 1,
-    .reference_offset = 2,
-    .states = EVENT_MODE + 1,
-    .state_names = {"instantiated", "initialization mode", "step mode", "terminated",
-                    "event mode"},
-    .type_names = {"Float64", "Int32", "Boolean", "String", "Float32", "Int8", "UInt8", "Int16",
-                   "UInt16", "UInt32", "Int64", "UInt64", "Binary", "Clock"},
-    .count_name = "nValueReferences",
-    .token = "instantiationToken",
-};
 
 static void log_message(const Host *host, const char *instance_name, Status status,
                         const char *category, const char *text) {

@@ -1,0 +1,12 @@
+/* The names of FMI 2.0. */
+#include "../component/fmi_version.h"
+
+const FmiVersion FMI = {
+    .min_reference = 0,
+    .reference_offset = 0,
+    .states = TERMINATED + 1,
+    .state_names = {"instantiated", "initialization mode", "step complete", "terminated"},
+    .type_names = {"Real", "Integer", "Boolean", "String"},
+    .count_name = "nvr",
+    .token = "fmuGUID",
+};
