@@ -13,7 +13,6 @@ from typing import Any, Protocol
 import numpy as np
 
 from slider_resonator.device.model import LUGRE, Model
-from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
@@ -106,11 +105,6 @@ class FmuMethods:
         """Whether the FMU takes derivatives of inputs."""
         return bool(self.fmu.run(attrgetter("fmu.interpolates")))
 
-    def _schedule(self, periods: int, step: float) -> Schedule:
-        """Return the inputs in steps (s): straight lines as derivatives where it takes them."""
-        inputs = self.problem.interpolated if self.interpolates else self.problem.schedule
-        return inputs(periods, step)
-
     def _values(self, model: Model, tolerance: float) -> dict[str, float]:
         return {**self.problem.parameters, **model.parameters, "tolerance": tolerance}
 
@@ -121,11 +115,10 @@ class FmuMethods:
         name = family
         if step is not None:
             name += f", steps of {step:g} period{'s' if step != 1.0 else ''}"
-        has_tolerance = model.friction_law == LUGRE or model.leaps
-        if has_tolerance and tolerance != USUAL_TOLERANCE:
-            name += f", tol {tolerance:.0e}"
+        used = tolerance if model.friction_law == LUGRE or model.leaps else None
+        if used not in (None, USUAL_TOLERANCE):
+            name += f", tol {used:.0e}"
         kind = RESOLVED if model.fidelity else AVERAGED
-        used = tolerance if has_tolerance else None
         about = (model.friction_law, model.fidelity, step, used, model.averaging_order)
         return Label(kind, family, name, *about)
 
@@ -133,11 +126,8 @@ class FmuMethods:
         values = self._values(model, tolerance)
         size = step * self.problem.period
 
-        def follow(periods: int) -> Solution:
-            return self._follow(values, periods, size, resolved=model.fidelity > 0)
-
         def seconds(periods: int) -> float:
-            schedule = self._schedule(periods, size)
+            schedule = self.problem.schedule(periods, size, interpolates=self.interpolates)
             taken: list[float] = []
             while not taken or (sum(taken) < SHORTEST and len(taken) < MAX_RUNS):
                 taken.append(self._run(run, values, schedule, outputs=OUTPUTS).step_cpu)
@@ -145,7 +135,7 @@ class FmuMethods:
 
         return Method(
             self._label(model, tolerance, step),
-            follow,
+            partial(self._follow, values, size, resolved=model.fidelity > 0),
             seconds,
             min_periods=ceil(step),
             missing={} if model.fidelity else _UNRESOLVED,
@@ -153,14 +143,13 @@ class FmuMethods:
         )
 
     def _follow(
-        self, values: Mapping[str, float], periods: int, size: float, *, resolved: bool
+        self, values: Mapping[str, float], size: float, periods: int, *, resolved: bool
     ) -> Solution:
-        own = self._schedule(periods, size)
+        own = self.problem.schedule(periods, size, interpolates=self.interpolates)
         readings = self.problem.readings(periods)
         closest = 1e-9 * min(size, self.problem.period)
         outputs = (*OUTPUTS, "last_event_time", "reversals")
-        schedule = own.read_at(readings, closest)
-        record: Record = self._run(run, values, schedule, outputs=outputs)
+        record: Record = self._run(run, values, own.read_at(readings, closest), outputs=outputs)
         at = np.searchsorted(record.times, own.times)
         return Solution(
             times=record.times,

@@ -9,6 +9,7 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -24,38 +25,17 @@ from slider_resonator.trading.reference import Reference, find_reference
 from slider_resonator.trading.result import Omission, Row, Trade
 from slider_resonator.trading.solution import QUANTITIES, Solution, errors
 
-
-@dataclass(frozen=True)
-class Timed:
-    """Work to be timed `repeats` times: `seconds` does it once and returns the time taken."""
-
-    name: str
-    seconds: Callable[[], float]
-    repeats: int
-
-
-def in_turn(everything: Sequence[Timed], progress: Progress = no_progress) -> list[list[float]]:
-    """Return the seconds of each; in every round, each with repeats left is timed once.
-
-    `progress` receives the name of the work and the share of the repeats that is done.
-    """
-    seconds: list[list[float]] = [[] for _ in everything]
-    total = sum(work.repeats for work in everything)
-    done = 0
-    for turn in range(max((work.repeats for work in everything), default=0)):
-        for work, taken in zip(everything, seconds, strict=True):
-            if turn < work.repeats:
-                progress(counted(work.name, done, total), done / total)
-                taken.append(work.seconds())
-                done += 1
-    return seconds
-
-
 BUDGET = 1.0
 """CPU time (s) for the longest run or search of a method, and as much again for repeats."""
 REPEATS = 5
+TIME_LIMIT = 600.0
+"""Default time limit of a run or a search of an FMU, s."""
+STEADY = ("steady_velocity", "blocking_force")
 
 _FAILURES = (ValueError, RuntimeError, ArithmeticError, ModuleNotFoundError, FmuError)
+
+_Notes = dict[tuple[str, str], str]
+"""Method and quantity to the reason why there is no such row or error; the first reason stays."""
 
 
 @dataclass(frozen=True)
@@ -69,16 +49,6 @@ class _Candidate:
     seconds: Callable[[], float]
     per: float
     estimate: float
-
-    def timed(self, seconds: Sequence[float]) -> Row:
-        """Return the row with its times."""
-        return replace(
-            self.row, cpu=tuple(second / self.per for second in seconds or [self.estimate])
-        )
-
-
-TIME_LIMIT = 600.0
-"""Default time limit of a run or a search of an FMU, s."""
 
 
 @contextmanager
@@ -121,41 +91,39 @@ def measure_trade(
     `budget` (s of CPU time) of a method allows. Raises HarnessError where the reference fails, and
     FmuDied for an FMU that crashes or exceeds its time limit.
     """
-    with warnings.catch_warnings():
-        # The error of a result covers what scipy warns of on the way to it.
-        warnings.simplefilter("ignore", RuntimeWarning)
-        return _measured(problem, instances, progress, repeats, budget)
 
+    def report(name: str, index: int, count: int, begin: float, share: float) -> None:
+        label = f"{problem.name}: {counted(name, index, count)}"
+        progress(label, begin + share * index / count)
 
-def _measured(
-    problem: Problem,
-    instances: Mapping[str, TaskRunner],
-    progress: Progress,
-    repeats: int,
-    budget: float,
-) -> Trade:
-    progress(f"{problem.name}: reference", 0.0)
-    reference = find_reference(problem)
-    fmus = [FmuMethods(problem, build, instance) for build, instance in instances.items()]
-    methods = [method for fmu in fmus for method in fmu.methods()] + list(peer_methods(problem))
-    answers = [answer for fmu in fmus for answer in fmu.answers()] + list(peer_answers(problem))
-    notes = _Notes(problem.name)
+    notes: _Notes = {}
     candidates: list[_Candidate] = []
-    for index, method in enumerate(methods):
-        label = counted(method.label.name, index, len(methods))
-        progress(f"{problem.name}: {label}", 0.4 * index / len(methods))
-        candidates += _follow(problem, reference, method, budget, notes)
-    for index, answer in enumerate(answers):
-        label = counted(answer.label.name, index, len(answers))
-        progress(f"{problem.name}: {label}", 0.4 + 0.2 * index / len(answers))
-        candidates += _answer(problem, reference, answer, budget, notes)
-    notes.answers_of(methods)
-    works = [
-        Timed(c.row.method, c.seconds, min(repeats, int(budget / max(c.estimate, 1e-9))))
-        for c in candidates
-    ]
-    seconds = in_turn(
-        works, lambda name, share: progress(f"{problem.name}: {name}", 0.6 + 0.4 * share)
+    # The error of a result covers what scipy warns of on the way to it.
+    with warnings.catch_warnings(action="ignore", category=RuntimeWarning):
+        progress(f"{problem.name}: reference", 0.0)
+        reference = find_reference(problem)
+        fmus = [FmuMethods(problem, build, instance) for build, instance in instances.items()]
+        methods = [method for fmu in fmus for method in fmu.methods()] + list(peer_methods(problem))
+        answers = [answer for fmu in fmus for answer in fmu.answers()] + list(peer_answers(problem))
+        for index, method in enumerate(methods):
+            report(method.label.name, index, len(methods), 0.0, 0.4)
+            candidates += _follow(problem, reference, method, budget, notes)
+        for index, answer in enumerate(answers):
+            report(answer.label.name, index, len(answers), 0.4, 0.2)
+            candidates += _answer(problem, reference, answer, budget, notes)
+        for method in methods:
+            for quantity in STEADY:
+                if quantity in method.missing:
+                    notes.setdefault((method.label.name, quantity), method.missing[quantity])
+        turns = in_turn([min(repeats, int(budget / max(c.estimate, 1e-9))) for c in candidates])
+        taken: list[list[float]] = [[] for _ in candidates]
+        for done, index in enumerate(turns):
+            candidate = candidates[index]
+            report(candidate.row.method, done, len(turns), 0.6, 0.4)
+            taken[index].append(candidate.seconds() / candidate.per)
+    rows = (
+        replace(one.row, cpu=tuple(cpu or [one.estimate / one.per]))
+        for one, cpu in zip(candidates, taken, strict=True)
     )
     return Trade(
         scene=problem.name,
@@ -163,133 +131,95 @@ def _measured(
         friction_law=problem.device.friction_law,
         periods=problem.periods,
         simulated=problem.duration(problem.periods),
-        rows=tuple(c.timed(taken) for c, taken in zip(candidates, seconds, strict=True)),
-        omissions=tuple(notes.omissions),
+        rows=tuple(rows),
+        omissions=tuple(Omission(problem.name, *key, reason) for key, reason in notes.items()),
     )
 
 
-class _Notes:
-    """The omissions so far."""
-
-    def __init__(self, scene: str) -> None:
-        self.scene = scene
-        self.omissions: list[Omission] = []
-
-    def add(self, label: Label, quantity: str, reason: str) -> None:
-        """Note that a method is missing, or a quantity of it."""
-        omission = Omission(self.scene, label.name, quantity, reason)
-        if omission not in self.omissions:
-            self.omissions.append(omission)
-
-    def answers_of(self, methods: Sequence[Method]) -> None:
-        """Note which methods give no steady velocity and blocking force at all."""
-        for method in methods:
-            for quantity in ("steady_velocity", "blocking_force"):
-                if quantity in method.missing:
-                    self.add(method.label, quantity, method.missing[quantity])
+def in_turn(repeats: Sequence[int]) -> list[int]:
+    """Return the indices of works in rounds: in each of them every work with repeats left."""
+    turns = sorted((turn, index) for index, count in enumerate(repeats) for turn in range(count))
+    return [index for _, index in turns]
 
 
 def _follow(
     problem: Problem, reference: Reference, method: Method, budget: float, notes: _Notes
 ) -> list[_Candidate]:
     """Run a method as far as its budget (s of CPU time) takes it; empty where it has no run."""
-    label = method.label
+
+    def note(quantity: str, reason: str) -> None:
+        notes.setdefault((method.label.name, quantity), reason)
+
+    def run(periods: int) -> tuple[float, Solution]:
+        return timed(lambda: method.run(periods), method.clock)
+
     if method.min_periods > problem.periods:
-        reason = f"a step is longer than the run of {problem.periods} drive periods"
-        notes.add(label, "all", reason)
+        note("all", f"a step is longer than the run of {problem.periods} drive periods")
         return []
     if method.cannot_stick and reference.sticks:
-        notes.add(label, "all", "the slider sticks, which it does not cover")
+        note("all", "the slider sticks, which it does not cover")
         return []
     horizons = [periods for periods in problem.lengths if periods >= method.min_periods]
     try:
-        _timed_run(method, method.min_periods + 1)  # compiles, fills caches
-        begun = _timed_run(method, method.min_periods)[0]
-        taken = _timed_run(method, method.min_periods + 1)[0]
+        run(method.min_periods + 1)  # compiles, fills caches
+        begun = run(method.min_periods)[0]
+        taken = run(method.min_periods + 1)[0]
         first = taken + (horizons[0] - method.min_periods - 1) * max(0.0, taken - begun)
         if first > 2.0 * budget:
-            reason = (
+            note(
+                "all",
                 f"the shortest run, {horizons[0]} of {problem.periods} drive periods, would take "
-                f"{first:.1f} s of CPU time, more than its budget of {budget:g} s"
+                f"{first:.1f} s of CPU time, more than its budget of {budget:g} s",
             )
-            notes.add(label, "all", reason)
             return []
-        for here, further in zip(horizons, [*horizons[1:], 0], strict=True):
-            periods = here
-            taken, solution = _timed_run(method, periods)
-            if further / here * taken > budget:
+        for periods, further in zip(horizons, [*horizons[1:], 0], strict=True):
+            taken, solution = run(periods)
+            if further / periods * taken > budget:
                 break
         found = errors(problem, solution, reference.windows, periods)
     except FmuDied:
         raise
     except _FAILURES as error:
-        notes.add(label, "all", str(error))
+        note("all", str(error))
         return []
     if periods < problem.periods:
-        reason = (
+        note(
+            "length",
             f"followed over {periods} of {problem.periods} drive periods: the next longer run "
-            f"would exceed its budget of {budget:g} s of CPU time"
+            f"would exceed its budget of {budget:g} s of CPU time",
         )
-        notes.add(label, "length", reason)
-    for quantity in _expected(problem, reference):
-        if quantity not in found:
-            reason = method.missing.get(quantity, "its own steps are too long or its run too short")
-            notes.add(label, quantity, reason)
-    return [
-        _Candidate(
-            _row(problem, label, "run", periods, found, solution),
-            seconds=lambda: method.seconds(periods),
-            per=problem.duration(periods),
-            estimate=taken,
-        )
-    ]
-
-
-def _expected(problem: Problem, reference: Reference) -> list[str]:
-    """Return the quantities that a solution of the problem should have."""
     optional = {"beat_frequency": problem.beat, "event_times": reference.windows.last_event}
-    never = ("steady_velocity", "blocking_force")
-    return [
-        name
-        for name in QUANTITIES
-        if name not in never and (name not in optional or optional[name] is not None)
-    ]
-
-
-def _timed_run(method: Method, periods: int) -> tuple[float, Solution]:
-    return timed(lambda: method.run(periods), method.clock)
+    for quantity in QUANTITIES:
+        if quantity not in (*STEADY, *found) and optional.get(quantity, ()) is not None:
+            reason = "its own steps are too long or its run too short"
+            note(quantity, method.missing.get(quantity, reason))
+    row = _row(problem, method.label, "run", periods, found, solution)
+    return [_Candidate(row, lambda: method.seconds(periods), problem.duration(periods), taken)]
 
 
 def _answer(
-    problem: Problem,
-    reference: Reference,
-    answer: SteadyMethod,
-    budget: float,
-    notes: _Notes,
+    problem: Problem, reference: Reference, answer: SteadyMethod, budget: float, notes: _Notes
 ) -> list[_Candidate]:
     """Find an answer once; empty where there is none."""
+    key = answer.label.name, answer.quantity
     expected: float | None = getattr(reference, answer.quantity)
     if not expected:
-        reason = "the device has none under these inputs, or it is zero"
-        notes.add(answer.label, answer.quantity, reason)
+        notes.setdefault(key, "the device has none under these inputs, or it is zero")
         return []
     try:
         taken, found = timed(lambda: answer.find(budget), answer.clock)
     except FmuDied:
         raise
     except _FAILURES as error:
-        notes.add(answer.label, answer.quantity, str(error))
+        notes.setdefault(key, str(error))
         return []
     if found.value is None:
-        notes.add(answer.label, answer.quantity, found.reason)
+        notes.setdefault(key, found.reason)
         return []
-    errors_found = {answer.quantity: abs(found.value - expected) / abs(expected)}
-    row = _row(problem, answer.label, answer.quantity, found.periods, errors_found)
-
-    def seconds() -> float:
-        return timed(lambda: answer.find(inf), answer.clock)[0]
-
-    return [_Candidate(row, seconds, 1.0, taken)]
+    wrong = {answer.quantity: abs(found.value - expected) / abs(expected)}
+    row = _row(problem, answer.label, answer.quantity, found.periods, wrong)
+    again = partial(answer.find, inf)
+    return [_Candidate(row, lambda: timed(again, answer.clock)[0], 1.0, taken)]
 
 
 def _row(

@@ -22,7 +22,6 @@ from slider_resonator.trading.result import (
     Row,
     Trade,
     cost_label,
-    curve,
     drawn_error,
     families,
     front,
@@ -40,7 +39,7 @@ def work_precision_plot(trade: Trade, quantity: str) -> HoverPlot:
         own = [row for row in drawn if row.family == family]
         if own:
             colour, marker, dash = look(index)
-            joined = curve(own, quantity)
+            joined = front(own, quantity)
             others = [row for row in own if row not in joined]
             series.append(_series(family, joined, quantity, colour, marker, 1.3, dash))
             if others:
@@ -98,38 +97,33 @@ _COLUMNS = (
 )
 
 
+EXPLANATION = (
+    "<p>Errors are largest deviations from the reference, Taylor integration with located events, "
+    "over all points of windows of a drive period that end with the run, half of it, a quarter and "
+    "so on; those of steady velocity and blocking force are from shooting by the reference. Times "
+    "are CPU times, medians of repeats taken in turn, of following the motion: not of the start of "
+    "an FMU, nor of the first drive period, which located Taylor steps take for heyoka in one "
+    "call, since it cannot start at rest. A method that would exceed its budget is followed over "
+    "fewer drive periods, as listed. Inputs that ramp do so for all methods; an FMU that takes no "
+    "derivatives of inputs holds them over its steps. Peers cost what they cost a user of Python: "
+    "heyoka compiles its equations, scipy calls them in Python, and Moreau-Jean is a loop in "
+    "Python. Steps are an FMU's communication steps or an integrator's own; events are those that "
+    "were located, else reversals.</p>"
+)
+
+
 def write_trades(path: Path, trades: Sequence[Trade], provenance: Provenance) -> None:
     """Write the page; HarnessError when that is impossible."""
-    parts = [part for trade in trades for part in _ratios(trade)]
-    parts.append(_explanation())
+    parts = []
+    for trade in trades:
+        parts.append(f"<h2>{escaped(title(trade))}</h2>")
+        for target, sentences in comparisons(trade):
+            items = "".join(f"<li>{escaped(words)}</li>" for words in sentences)
+            parts.append(f"<p><strong>{escaped(target)}</strong></p><ul>{items}</ul>")
+    parts.append(EXPLANATION)
     parts += [part for trade in trades for part in _scene(trade)]
     parts.append(provenance_html(provenance))
     write_plot_page(path, "What accuracy costs", parts)
-
-
-def _ratios(trade: Trade) -> list[str]:
-    parts = [f"<h2>{escaped(title(trade))}</h2>"]
-    for target, sentences in comparisons(trade):
-        items = "".join(f"<li>{escaped(words)}</li>" for words in sentences)
-        parts.append(f"<p><strong>{escaped(target)}</strong></p><ul>{items}</ul>")
-    return parts
-
-
-def _explanation() -> str:
-    return (
-        "<p>Errors are largest deviations from the reference, Taylor integration with located "
-        "events, over all points of windows of a drive period that end with the run, half of it, a "
-        "quarter and so on; those of steady velocity and blocking force are from shooting by the "
-        "reference. Times are CPU times, medians of repeats taken in turn, of following the "
-        "motion: not of the start of an FMU, nor of the first drive period, which located Taylor "
-        "steps take for heyoka in one call, since it cannot start at rest. A method that would "
-        "exceed its budget is followed over fewer drive periods, as listed. Inputs that "
-        "ramp do so for all methods; an FMU that takes no derivatives of inputs holds them over "
-        "its steps. Peers cost "
-        "what they cost a user of Python: heyoka compiles its equations, scipy calls them "
-        "in Python, and Moreau-Jean is a loop in Python. Steps are an FMU's communication steps "
-        "or an integrator's own; events are those that were located, else reversals.</p>"
-    )
 
 
 def _scene(trade: Trade) -> list[str]:

@@ -112,17 +112,17 @@ class Problem:
         """Return how long drive periods take from the start on, s."""
         return float(self.drive.instants(np.array(periods)))
 
-    def schedule(self, periods: int, step: float) -> Schedule:
-        """Return the inputs sampled at steps (s) and held; all their jumps are points."""
-        return schedule(self.duration(periods), step, self.tuning, **self.signals)
+    def schedule(self, periods: int, step: float, *, interpolates: bool = False) -> Schedule:
+        """Return the inputs sampled at steps (s) and held; all their jumps are points.
 
-    def interpolated(self, periods: int, step: float) -> Schedule:
-        """Return the inputs with straight lines passed on; all their corners are points."""
-        return schedule(self.duration(periods), step, self.tuning, True, **self.signals)
+        One that `interpolates` passes straight lines on; all their corners are points.
+        """
+        stop = self.duration(periods)
+        return schedule(stop, step, self.tuning, interpolates, **self.signals)
 
     def lines(self, periods: int) -> list[HeldInputs]:
         """Return the inputs of reference and peers: straight lines from corner to corner."""
-        return self.interpolated(periods, self.duration(periods)).held()
+        return self.schedule(periods, self.duration(periods), interpolates=True).held()
 
 
 def problem_of(scene: Scene, varied: Mapping[str, float], max_periods: int | None) -> Problem:

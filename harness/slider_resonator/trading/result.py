@@ -14,7 +14,7 @@ from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.trading.solution import QUANTITIES
 
 AVERAGED, RESOLVED, PEER = "averaged", "resolved", "peer"
-"""Kinds of method: our averaged motion, our resolved one, and all others."""
+"""Kinds of method: our averages and leaps, our resolved motion, and all others."""
 
 
 @dataclass(frozen=True)
@@ -134,15 +134,6 @@ def cost_label(rows: Sequence[Row]) -> str:
     return f"CPU time per {'answer' if answers else 'simulated second'} [s]"
 
 
-def curve(own: Sequence[Row], quantity: str) -> list[Row]:
-    """Return the rows of a family that a line joins, by cost: its Pareto front, or all of them.
-
-    Where only the communication step of ours varies, that is one line, however exact.
-    """
-    precise = own[0].kind == PEER or len({row.tolerance for row in own}) > 1
-    return front(own, quantity) if precise else sorted(own, key=lambda row: row.cost)
-
-
 def cheapest(rows: Iterable[Row], quantity: str, error: float) -> Row | None:
     """Return the cheapest row with an error of a quantity of at most `error`, None without any."""
     good = [row for row in rows if row.errors.get(quantity, float("inf")) <= error]
@@ -178,11 +169,7 @@ def write_rows(path: Path, trades: Sequence[Trade]) -> None:
 
 def write_omissions(path: Path, trades: Sequence[Trade]) -> None:
     """Write the omissions with their reasons; HarnessError when that is impossible."""
-    lines = [
-        (omission.scene, omission.method, omission.quantity, omission.reason)
-        for trade in trades
-        for omission in trade.omissions
-    ]
+    lines = (vars(omission).values() for trade in trades for omission in trade.omissions)
     write_csv(path, ("scene", "method", "quantity", "reason"), lines)
 
 

@@ -25,7 +25,7 @@ TARGETS = (("mean_velocity", 1e-2), ("position", 1e-9))
 """Quantity, and the error at which costs are compared."""
 ROUNDS_UP = 0.9995
 """Share of a unit that three digits round to the whole unit."""
-CLASSES = {AVERAGED: "averaged", RESOLVED: "resolved", PEER: "peers"}
+CLASSES = {AVERAGED: "averages and leaps", RESOLVED: "resolved", PEER: "peers"}
 
 
 @dataclass(frozen=True)

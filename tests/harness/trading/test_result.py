@@ -91,7 +91,7 @@ def test_classes_are_compared_where_they_reach_the_error() -> None:
     reported = {(s.quantity, s.kind): s for s in found}
     assert reported["mean_velocity", AVERAGED].ratio == pytest.approx((1 / 30,) * 3)
     assert reported["mean_velocity", PEER].ratio == pytest.approx((20.0,) * 3)
-    assert sentence(reported["position", AVERAGED]) == "averaged: not reached"
+    assert sentence(reported["position", AVERAGED]) == "averages and leaps: not reached"
     assert sentence(reported["position", PEER]) == "peers: not reached"
     assert sentence(reported["position", RESOLVED]).startswith(
         "resolved: 300 us a simulated second"
