@@ -11,8 +11,8 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.steady.periodic import FmuPeriodMap, Obstacle, read_facts, repeating_periods
 from slider_resonator.steady.search import blocked_point
-from slider_resonator.steady.search_result import SearchResult, cost, failure
-from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
+from slider_resonator.steady.search_result import SearchResult, cost, with_undamped_hint
+from slider_resonator.steady.shooting import NoFixedPoint
 
 
 @dataclass(frozen=True, repr=False)
@@ -64,16 +64,13 @@ def find_blocking(
         )
     found = blocked_point(period_map, warm, load, max(facts.friction_limit, 1e-12))
     if isinstance(found, NoFixedPoint):
-        return Blocking(*failure(found, facts), *said, **cost(period_map, found))
+        reason = with_undamped_hint(found.reason, facts)
+        return Blocking(found.status, reason, *said, **cost(period_map, found))
     return Blocking(
-        _status(found),
+        "blocked" if found.stability == "stable" else found.stability,
         f"at this load the mean velocity is zero; the largest multiplier is "
         f"{abs(found.multipliers[0]):.9g}",
         *said,
         **cost(period_map, found),
         blocking_force=found.load,
     )
-
-
-def _status(found: FixedPoint) -> str:
-    return "blocked" if found.stability == "stable" else found.stability

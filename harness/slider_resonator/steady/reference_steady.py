@@ -46,9 +46,10 @@ def reference_steady_velocity(
     integrator, `tolerance` that of the state in units of its
     scale.
     """
-    period_map = _period_map(device, phase, ratio, simulate)
-    if period_map is None:
+    count = common_period(ratio)
+    if count is None:
         return None
+    period_map = _ReferencePeriodMap(device, phase, ratio, count, simulate)
     found = steady_point(period_map, guess, load, tolerance=tolerance)
     return found.displacement / period_map.period if isinstance(found, FixedPoint) else None
 
@@ -66,23 +67,14 @@ def reference_blocking_force(
 
     The arguments are those of `reference_steady_velocity`.
     """
-    period_map = _period_map(device, phase, ratio, simulate)
-    if period_map is None:
+    count = common_period(ratio)
+    if count is None:
         return None
+    period_map = _ReferencePeriodMap(device, phase, ratio, count, simulate)
     # Without preload the load varies alone and friction is of the order of its amplitude.
     warm = period_map.warm_up(0.0, guess)
     found = blocked_point(period_map, warm, guess, device.max_friction, tolerance=tolerance)
     return found.load if isinstance(found, FixedPoint) else None
-
-
-def _period_map(
-    device: Device, phase: float, ratio: float, simulate: Simulate
-) -> _ReferencePeriodMap | None:
-    """Return the map of the period after which drive and normal load repeat, None without one."""
-    count = common_period(ratio)
-    if count is None:
-        return None
-    return _ReferencePeriodMap(device, phase, ratio, count, simulate)
 
 
 class _ReferencePeriodMap:

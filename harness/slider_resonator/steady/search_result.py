@@ -77,11 +77,6 @@ def cost(period_map: FmuPeriodMap, found: FixedPoint | NoFixedPoint | None) -> d
     return fields
 
 
-def failure(found: NoFixedPoint, facts: Facts) -> tuple[str, str]:
-    """Return status and reason of a failed search."""
-    return found.status, with_undamped_hint(found.reason, facts)
-
-
 def with_undamped_hint(reason: str, facts: Facts) -> str:
     """Add to a reason that the resonator is undamped, if it is."""
     if facts["damping_ratio"] > 0.0:

@@ -51,7 +51,6 @@ class FixedPoint:
     displacement: float
     load: float
     iterations: int
-    evaluations: int
     residual: float
     multipliers: NDArray[np.complex128]
 
@@ -71,7 +70,6 @@ class NoFixedPoint:
     status: Literal["no_fixed_point", "not_unique", "not_converged"]
     reason: str
     iterations: int
-    evaluations: int
     residual: float
 
 
@@ -88,35 +86,24 @@ def fixed_point(
     `scale` (n,) is the typical size of each entry of the state and `tolerance` is in units
     of it. `load` is only recorded.
     """
-    displacements: list[float] = []
 
     def change(state: Vector) -> Vector:
-        end, displacement = period_map(state)
-        displacements.append(displacement)
-        return end - state
+        return period_map(state)[0] - state
 
     root = solve(change, guess, scale, tolerance=tolerance)
     if root.status != "converged":
-        return _failure(root, len(displacements))
+        return _failure(root)
     jacobian = _fresh_jacobian(change, root, scale)
     multipliers = _multipliers(jacobian)
     sides = one_sided_multipliers(change, root.x, jacobian, scale)
     if sides is not None:
         error = max(NEUTRAL, tolerance / DISTANCE)
         if min(abs(side - 1.0) for side in sides) <= error:
-            return _family(root, len(displacements))
+            return _family(root)
         if abs(sides[0] - sides[1]) > KINK * abs(1.0 - multipliers[0]):
             multipliers[0] = max(sides, key=abs)
-    change(root.x)
-    return FixedPoint(
-        state=root.x,
-        displacement=displacements[-1],
-        load=load,
-        iterations=root.iterations,
-        evaluations=len(displacements),
-        residual=root.residual,
-        multipliers=multipliers,
-    )
+    _, displacement = period_map(root.x)
+    return FixedPoint(root.x, displacement, load, root.iterations, root.residual, multipliers)
 
 
 def blocking_point(
@@ -133,31 +120,21 @@ def blocking_point(
 
     One more unknown and one more equation than `fixed_point`: the load (N) and displacement = 0.
     """
-    evaluations = 0
     bordered_scale = np.append(scale, load_scale)
 
     def change(unknowns: Vector) -> Vector:
-        nonlocal evaluations
-        evaluations += 1
         state, load = unknowns[:-1], float(unknowns[-1])
         end, displacement = period_map(state, load)
         return np.append(end - state, displacement * load_scale / displacement_scale)
 
     root = solve(change, np.append(guess, load_guess), bordered_scale, tolerance=tolerance)
     if root.status != "converged":
-        return _failure(root, evaluations)
+        return _failure(root)
     jacobian = _fresh_jacobian(change, root, bordered_scale)
     state, load = root.x[:-1], float(root.x[-1])
     _, displacement = period_map(state, load)
-    return FixedPoint(
-        state=state,
-        displacement=displacement,
-        load=load,
-        iterations=root.iterations,
-        evaluations=evaluations + 1,
-        residual=root.residual,
-        multipliers=_multipliers(jacobian[:-1, :-1]),
-    )
+    multipliers = _multipliers(jacobian[:-1, :-1])
+    return FixedPoint(state, displacement, load, root.iterations, root.residual, multipliers)
 
 
 def _fresh_jacobian(function: Callable[[Vector], Vector], root: Root, scale: Vector) -> Matrix:
@@ -174,34 +151,34 @@ def _multipliers(change_jacobian: Matrix) -> NDArray[np.complex128]:
     return values[np.argsort(-np.abs(values))]
 
 
-def _family(root: Root, evaluations: int) -> NoFixedPoint:
+def _family(root: Root) -> NoFixedPoint:
     """Explain a motion with neighbours that repeat, too."""
     return NoFixedPoint(
         "not_unique",
         "a whole family of motions repeats: friction does not choose among them, each start "
         "keeps its own velocity",
         root.iterations,
-        evaluations,
         root.residual,
     )
 
 
-def _failure(root: Root, evaluations: int) -> NoFixedPoint:
+def _failure(root: Root) -> NoFixedPoint:
     """Explain a failed iteration."""
-    numbers = (root.iterations, evaluations, root.residual)
     if root.status == "singular" and root.residual <= FAMILY:
-        return _family(root, evaluations)
+        return _family(root)
     if root.status == "singular":
         return NoFixedPoint(
             "no_fixed_point",
             "the state drifts by the same amount in every period, whatever its start "
             f"({root.residual:.3g} of its scale): no motion repeats",
-            *numbers,
+            root.iterations,
+            root.residual,
         )
     why = {"stalled": "no step brings it closer", "limit": "out of iterations"}[root.status]
     return NoFixedPoint(
         "not_converged",
         f"did not converge ({why}): after {root.iterations} iterations the next correction is "
         f"{root.correction:.3g} of the scale, the change over a period {root.residual:.3g}",
-        *numbers,
+        root.iterations,
+        root.residual,
     )

@@ -18,7 +18,7 @@ from slider_resonator.steady.periodic import (
     repeating_periods,
 )
 from slider_resonator.steady.search import steady_point
-from slider_resonator.steady.search_result import SearchResult, cost, failure, with_undamped_hint
+from slider_resonator.steady.search_result import SearchResult, cost, with_undamped_hint
 from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
 
 
@@ -66,10 +66,8 @@ def find_steady(
     guess = values.get("initial_velocity", facts.steady_velocity)
     found = steady_point(period_map, guess if isfinite(guess) else 0.0, facts["load"])
     if isinstance(found, NoFixedPoint):
-        status, reason = failure(found, facts)
-        if runaway is not None:
-            status, reason = runaway.status, runaway.reason
-        return SteadyMotion(status, reason, *said, **cost(period_map, found))
+        why = runaway or Obstacle(found.status, with_undamped_hint(found.reason, facts))
+        return SteadyMotion(why.status, why.reason, *said, **cost(period_map, found))
     status, reason = _judge(found, period_map.stick_fraction)
     return SteadyMotion(
         status,
