@@ -59,27 +59,20 @@ def measure_golden(fmu: FmuSide) -> Golden:
             continue
         if not measured.applicable:
             continue
-        found[name] = _decimated(measured) if name in SIGNALS else measured
+        if name in SIGNALS:
+            assert measured.times is not None
+            last = len(measured.times) - 1
+            kept = np.unique(np.rint(np.linspace(0, last, min(last + 1, MAX_POINTS))).astype(int))
+            measured = replace(measured, value=measured.value[kept], times=measured.times[kept])
+        found[name] = measured
     if "ripple_amplitude" not in found:  # too few points to see a ripple
         found.pop("ripple_frequency", None)
     return found
 
 
-def _decimated(measured: Measurement) -> Measurement:
-    assert measured.times is not None
-    count = len(measured.times)
-    kept = np.unique(np.rint(np.linspace(0, count - 1, min(count, MAX_POINTS))).astype(int))
-    return replace(measured, value=measured.value[kept], times=measured.times[kept])
-
-
 def order(name: str) -> int:
     """Return the place of a quantity in files and tables."""
     return (*NUMBERS_AND_WORDS, *SIGNALS).index(name)
-
-
-def unit(name: str) -> str:
-    """Return the unit of a quantity."""
-    return QUANTITIES[name].unit
 
 
 TOLERANCE = 1e-8
@@ -104,20 +97,16 @@ def compare_golden(
                 f"{point.scene.source}: the run of {point.scene.name} has other points than when "
                 "it was recorded; record it again with --replace"
             )
-        check = compare(_comparison(name, tolerance), measured, recorded.value, point)
+        quantity, allowed = QUANTITIES[name], Tolerance(relative=tolerance)
+        if quantity.exact:
+            allowed = Tolerance()
+        elif quantity.in_periods:
+            allowed = Tolerance(tube=tolerance)
+        comparison = Comparison(name, AGAINST, allowed, "the recorded result")
+        check = compare(comparison, measured, recorded.value, point)
         if measured.value is None and recorded.value is None:
             check = replace(check, passed=True)
         yield check, curves_of(check, measured, recorded.value)
-
-
-def _comparison(name: str, share: float) -> Comparison:
-    quantity = QUANTITIES[name]
-    tolerance = Tolerance(relative=share)
-    if quantity.exact:
-        tolerance = Tolerance()
-    elif quantity.in_periods:
-        tolerance = Tolerance(tube=share)
-    return Comparison(name, AGAINST, tolerance, "the recorded result")
 
 
 def _same_points(one: Measurement, other: Measurement) -> bool:

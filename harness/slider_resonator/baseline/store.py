@@ -25,7 +25,6 @@ from slider_resonator.baseline.judge import (
     SIGNALS,
     Golden,
     order,
-    unit,
 )
 from slider_resonator.checks.compare import Value
 from slider_resonator.checks.measuring import Measurement
@@ -190,7 +189,7 @@ def _number_rows(recorded: Recorded) -> Iterable[Sequence[str]]:
     for at, golden in recorded.points.items():
         for name in sorted(golden, key=order):
             if name not in SIGNALS:
-                yield _place(at), name, unit(name), _text(golden[name].value)
+                yield _place(at), name, QUANTITIES[name].unit, _text(golden[name].value)
 
 
 def _signal_rows(recorded: Recorded) -> Iterable[Sequence[str]]:

@@ -62,21 +62,10 @@ def choose(
 def choose_with(instance: Instance, scene: Scene, progress: Progress = no_progress) -> Choice:
     """Choose as `choose` does, in an existing instance, which is created anew for each run."""
     progress("resolved run", 0.0)
-    return _Choosing(instance, scene).answer(progress)
+    return Choosing(instance, scene).answer(progress)
 
 
-def candidates(instance: Instance, scene: Scene) -> list[Candidate]:
-    """Return all that `choose_with` chooses from; SceneError for a scene without needs."""
-    choosing = _Choosing(instance, scene)
-    return [
-        Candidate(model, tolerance, step)
-        for model in choosing.models()
-        for tolerance in tolerances(model)
-        for step in choosing.steps(model)
-    ]
-
-
-class _Choosing:
+class Choosing:
     """The choice for one scene; SceneError where it has no needs."""
 
     def __init__(self, instance: Instance, scene: Scene) -> None:
@@ -164,15 +153,15 @@ class _Choosing:
 
         self._check_cost(model, best)
         tight, own = choices[-1], self._own_step(steps) if self.probe.varying else 0
-        at = coarsest(lambda i: excess(tight, steps[i]), len(steps), 2.0, fine=own)
+        at = coarsest(lambda i: excess(tight, steps[i]), len(steps), own)
         if at is None:
             raise _RuledOutError(self._why_not(model, refused))
-        # Errors that change sign may vanish at a larger step.
-        step = next(steps[i] for i in range(at + 1) if excess(tight, steps[i]) <= 1.0)
-        first = choices.index(FIRST_TOLERANCE) if FIRST_TOLERANCE in choices else 0
-        index = coarsest(lambda i: excess(choices[i], step), len(choices), 10.0, first)
-        if index is None:
-            raise _RuledOutError(self._why_not(model, refused))
+        step = steps[at]
+        index = choices.index(FIRST_TOLERANCE) if FIRST_TOLERANCE in choices else 0
+        while excess(choices[index], step) > 1.0:  # the tightest serves
+            index += 1
+        while index > 0 and excess(choices[index - 1], step) <= 1.0:
+            index -= 1
         found = [self._evaluate(Candidate(model, choices[index], step))]
         for tolerance in choices[index + 1 : index + 1 + TIGHTER[model.fidelity]]:
             if excess(tolerance, step) >= found[-1].excess:
@@ -202,8 +191,7 @@ class _Choosing:
     def _why_not(self, model: Model, refused: str) -> str:
         if all(candidate.model != model for candidate in self._evaluations):
             return refused
-        why = self._nearest(model).why
-        return "; ".join(filter(None, (why, self.probe.scales.error_of(model, self.law))))
+        return self._nearest(model).why
 
     def _nearest(self, model: Model | None = None) -> Evaluation:
         """Return the evaluation nearest to the needs, of all or a model; the finest of equals."""

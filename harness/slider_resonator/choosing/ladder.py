@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from itertools import pairwise
-from math import ceil, floor, inf, isfinite, log, log2
+from math import ceil, floor, inf, isfinite, log2
 
-from slider_resonator.choosing.reference import MAX_PERIODS, vary
+from slider_resonator.choosing.reference import MAX_PERIODS
 from slider_resonator.choosing.scales import Scales
 from slider_resonator.device import schedule
 from slider_resonator.scenes.scene import Scene
@@ -22,18 +21,17 @@ FINEST = 64
 
 
 def step_ladder(
-    scene: Scene, scales: Scales, needs: Collection[str], max_steps: int
+    scene: Scene, scales: Scales, needs: Collection[str], max_steps: int, *, varying: bool
 ) -> tuple[float, ...]:
     """Return the steps (s) to choose from, descending.
 
     Signals are needed at every step of the scene, which is then the longest; a beat needs some
     steps each, and how many is tried; a number at the end needs one step, or as many as the FMU
-    takes. Where inputs that vary are held, or a beat is read, steps are the scene's own times
+    takes. Where something `varying` is held, or a beat is read, steps are the scene's own times
     powers of two, and at most `max_steps`. Input jumps are communication points in any case.
     """
     duration = scene.stop_time or 0.0
     own = scene.step_size or duration
-    varying = vary(scene)
     if SIGNAL_NEEDS & set(needs):
         longest = min(duration, own)
     elif varying or "beat" in needs:
@@ -58,45 +56,22 @@ def step_ladder(
 STALLED = 0.7
 """A refinement that leaves more than this share of the error does not converge."""
 PATIENCE = 2
-"""Refinements that must stall: the coarsest can be outside the range of convergence."""
+"""Refinements in turn that must stall: coarse ones can be outside the range of convergence."""
 
 
-def coarsest(
-    excess: Callable[[int], float], count: int, gain: float, first: int = 0, fine: int = 0
-) -> int | None:
+def coarsest(excess: Callable[[int], float], count: int, fine: int = 0) -> int | None:
     """Return the smallest index below `count` with `excess(index)` <= 1, None where none has.
 
-    `excess` is error over allowed error, expected to fall by `gain` from each index to the next:
-    that predicts the next index, and the value there decides. Starts at `first`; gives up where
-    the error does not fall, but not above index `fine`: coarser ones may miss what happens.
+    `excess` is error over allowed error. Gives up where the error does not fall, but not above
+    index `fine`: coarser ones may miss what happens.
     """
-    known: dict[int, float] = {}
-    index = first
-    while True:
-        known[index] = excess(index)
-        good = min((i for i, value in known.items() if value <= 1.0), default=count)
-        bad = max((i for i, value in known.items() if value > 1.0 and i < good), default=-1)
-        if good == bad + 1:
-            return good if good < count else None
-        if good == count and _stalled(known):
-            if max(known) >= fine:
-                return None
-            index = fine
-            continue
-        shift = _shift(known[index], gain, count)
-        index = min(max(index + shift, bad + 1), good - 1)
-
-
-def _shift(excess: float, gain: float, count: int) -> int:
-    if not isfinite(excess):
-        return max(1, count // 3)
-    if excess <= 1.0:
-        return -max(1, floor(-log(max(excess, 1e-300)) / log(gain)))
-    return max(1, ceil(log(excess) / log(gain)))
-
-
-def _stalled(known: dict[int, float]) -> bool:
-    """Whether the error no longer falls at the finest indices evaluated."""
-    last = [known[index] for index in sorted(known)[-PATIENCE - 1 :]]
-    falls = [isfinite(fine) and fine > STALLED * coarse for coarse, fine in pairwise(last)]
-    return len(falls) == PATIENCE and all(falls)
+    stalled, before = 0, inf
+    for index in range(count):
+        found = excess(index)
+        if found <= 1.0:
+            return index
+        stalled = stalled + 1 if isfinite(found) and found > STALLED * before else 0
+        if stalled >= PATIENCE and index >= fine:
+            return None
+        before = found
+    return None

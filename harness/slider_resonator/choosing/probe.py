@@ -18,7 +18,7 @@ from slider_resonator.choosing.errors import (
     unseen_beat,
 )
 from slider_resonator.choosing.ladder import SIGNAL_NEEDS, step_ladder
-from slider_resonator.choosing.reference import Reference, vary
+from slider_resonator.choosing.reference import Reference, must_hold
 from slider_resonator.choosing.scales import scales_of
 from slider_resonator.choosing.steady_need import timed_run
 from slider_resonator.device.model import Model
@@ -64,14 +64,17 @@ class Probe:
         self.run_needs = [name for name in RUN_NEEDS if name in needs]
         self.steady_needs = [name for name in STEADY_NEEDS if name in needs]
         self.duration = scene.stop_time or 0.0
-        self.varying = vary(scene)
+        passes_on = scene.run is not None and scene.run.interpolate
+        self.varying = must_hold(scene, interpolates=passes_on)
         self.reference_model = Model(2, scene.device.friction_law)
         self.averaging_orders = (1, 2) if instance.fmu.has_orders else (None,)
         self.ladder: tuple[float | None, ...] = (None,)
         self._finest = self.duration
         if self.run_needs:
             most = MAX_FOLLOWED_STEPS if can_interpolate else MAX_STEPS
-            self.ladder = ladder = step_ladder(scene, self.scales, self.run_needs, most)
+            self.ladder = ladder = step_ladder(
+                scene, self.scales, self.run_needs, most, varying=self.varying
+            )
             self._finest = ladder[-1]
         self._periods = 0.0
 
@@ -102,7 +105,7 @@ class Probe:
         if joined > step:
             seconds = self.cost(candidate) * self._stop / self.duration
         reference, grid = self._reference.record(step), self._grid(step)
-        seen = replace(self._readings, grid=grid).errors(record, reference)
+        seen = replace(self._reference.readings, grid=grid).errors(record, reference)
         if "beat" in seen and (why := self.no_beat or unseen_beat(seen["beat"], self.scales)):
             seen["beat"] = ErrorEstimate(inf, 0.0, why)
         grown = seen if self._stop == self.duration else self._grown(candidate.model, seen)
@@ -146,32 +149,19 @@ class Probe:
         """The reason why a run shows no beat; empty where it shows one or none is needed."""
         return lacking_beat(self.scene, self.scales) if "beat" in self.run_needs else ""
 
-    @cached_property
+    @property
     def _stop(self) -> float:
-        """End (s) of what is compared: that of the scene, where it can be run as a whole."""
-        if self._whole.seconds <= LONGEST or self._whole.leaps:
-            return self.duration
-        return self.duration * LONGEST / self._whole.seconds
-
-    @cached_property
-    def _whole(self) -> Reference:
-        return self._referenced(self.scene)
+        """End (s) of what is compared."""
+        return self._reference.stop
 
     @cached_property
     def _reference(self) -> Reference:
-        whole = self._stop == self.duration
-        return self._whole if whole else self._referenced(self._compared)
-
-    @cached_property
-    def _compared(self) -> Scene:
-        return _cut(self.scene, self._stop)
-
-    @cached_property
-    def _readings(self) -> Readings:
-        return self._read(self._compared)
-
-    def _referenced(self, scene: Scene) -> Reference:
-        return Reference(self.instance, scene, self._read(scene))
+        """The reference, of the beginning where the scene cannot be run as a whole."""
+        whole = Reference(self.instance, self.scene, self._read(self.scene))
+        if whole.seconds <= LONGEST or whole.leaps:
+            return whole
+        cut = _cut(self.scene, self.duration * LONGEST / whole.seconds)
+        return Reference(self.instance, cut, self._read(cut))
 
     def _read(self, scene: Scene) -> Readings:
         """Return when a scene is read: at each of its own steps, or at its end only."""

@@ -13,7 +13,6 @@ from slider_resonator.arrays import Array
 from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.errors import Readings
 from slider_resonator.choosing.steady_need import timed_run
-from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.model import Model
 from slider_resonator.device.schedule import Schedule, communication_points, in_order
 from slider_resonator.device.signal import Signal
@@ -23,19 +22,11 @@ from slider_resonator.fmu.record import Record
 from slider_resonator.scenes.scene import Scene
 
 
-def vary(scene: Scene) -> bool:
+def must_hold(scene: Scene, *, interpolates: bool) -> bool:
     """Whether an input or parameter varies other than by jumps, so that holding it is an error.
 
-    Straight lines of inputs are none in a scene that passes them on.
+    Straight lines of inputs are none for who `interpolates`.
     """
-    passed_on = INPUTS if scene.run is not None and scene.run.interpolate else ()
-    signals = {**scene.signals, **scene.tuning}
-    duration = scene.stop_time or 0.0
-    return any(is_line(s, duration) for name, s in signals.items() if name not in passed_on)
-
-
-def must_hold(scene: Scene, *, interpolates: bool) -> bool:
-    """Whether something varies that an FMU cannot follow, even if it `interpolates` inputs."""
     signals = scene.tuning if interpolates else {**scene.signals, **scene.tuning}
     return any(is_line(signal, scene.stop_time or 0.0) for signal in signals.values())
 
@@ -90,15 +81,15 @@ least two in a step."""
 class Reference:
     """The reference runs of a scene; FmuError or Refusal where the FMU cannot make them.
 
-    `drive_periods` counts what was resolved.
+    `stop` (s) is their end, `drive_periods` counts what was resolved.
     """
 
     def __init__(self, instance: Instance, scene: Scene, readings: Readings) -> None:
         self.drive_periods = 0.0
         self._instance = instance
         self._scene = scene
-        self._readings = readings
-        self._stop = scene.stop_time or 0.0
+        self.readings = readings
+        self.stop = scene.stop_time or 0.0
         self._model = Model(2, scene.device.friction_law)
         self._leaps = Model(0, self._model.friction_law, 2) if instance.fmu.has_orders else None
         self._records: dict[float, Record] = {}
@@ -106,25 +97,25 @@ class Reference:
     @cached_property
     def seconds(self) -> float:
         """CPU time (s) of the resolved run, by that of its beginning."""
-        head = min(self._stop, HEAD_PERIODS * self._scene.drive_period)
-        return self._run(self._model, FINEST_TOLERANCE, head, head)[1] * self._stop / head
+        head = min(self.stop, HEAD_PERIODS * self._scene.drive_period)
+        return self._run(self._model, FINEST_TOLERANCE, head, head)[1] * self.stop / head
 
     @cached_property
     def leaps(self) -> bool:
         """Whether leaps are cheaper by far than the resolved run, and accurate enough."""
-        if self._leaps is None or "event_times" in self._readings.needs or self.seconds <= SHORT:
+        if self._leaps is None or "event_times" in self.readings.needs or self.seconds <= SHORT:
             return False
         try:
-            coarse, seconds = self._run(self._leaps, LEAP_TOLERANCES[0], self._stop, self._stop)
+            coarse, seconds = self._run(self._leaps, LEAP_TOLERANCES[0], self.stop, self.stop)
             if GAIN * seconds > self.seconds:
                 return False
-            fine, _ = self._run(self._leaps, LEAP_TOLERANCES[1], self._stop, self._stop)
+            fine, _ = self._run(self._leaps, LEAP_TOLERANCES[1], self.stop, self.stop)
         except FmuError:
             return False
-        errors = self._readings.errors(coarse, fine)
+        errors = self.readings.errors(coarse, fine)
         return all(
             errors[name].error <= TRUSTED * need.at(errors[name].magnitude)
-            for name, need in self._readings.needs.items()
+            for name, need in self.readings.needs.items()
         )
 
     def record(self, step: float) -> Record:
@@ -133,14 +124,14 @@ class Reference:
         if key not in self._records:
             leaps = self._leaps if self.leaps else None
             tolerance = LEAP_TOLERANCES[-1] if leaps else FINEST_TOLERANCE
-            self._records[key] = self._run(leaps or self._model, tolerance, self._stop, step)[0]
+            self._records[key] = self._run(leaps or self._model, tolerance, self.stop, step)[0]
         return self._records[key]
 
     def _run(
         self, model: Model, tolerance: float, stop: float, step: float
     ) -> tuple[Record, float]:
         """Run a model up to `stop` (s), with inputs as for candidates with this step (s)."""
-        points = np.union1d(self._readings.points, self._readings.grid)
+        points = np.union1d(self.readings.points, self.readings.grid)
         points = np.concatenate([[0.0], points[(points > 0.0) & (points < stop)], [stop]])
         if model.fidelity > 0:
             self.drive_periods += stop / self._scene.drive_period

@@ -7,14 +7,11 @@ from itertools import pairwise
 from math import inf, pi
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.model import Model
 from slider_resonator.device.signal import Signal
 from slider_resonator.errors import SceneError
 from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.scenes.scene import Scene
 
-LONG_MEMORY = 100.0
-"""Drive periods beyond which memory does not indicate the distance from resonance."""
 NEAR_AN_INTEGER = 0.1
 """Distance of the frequency ratio from an integer within which the phase turns slowly."""
 
@@ -44,38 +41,6 @@ class Scales:
     beat: float
     saturation: float
     input_rate: float
-
-    @property
-    def bristle_share(self) -> float:
-        """Share of the time in which LuGre friction is not Coulomb's, of the order of kappa^(-1/2).
-
-        After a reversal the bristle bends over the path mu/bristle_stiffness, which takes a time as
-        the root of it.
-        """
-        return min(1.0, self.kappa**-0.5) if self.kappa else 1.0
-
-    @property
-    def averaging_error(self) -> float | None:
-        """Error (m/s) to expect of the averaged slow velocity: friction over drive, and over the
-        resonator that it disturbs, by as much as that is in resonance.
-        """
-        if self.slowness is None or self.fast_velocity is None:
-            return None
-        disturbed = 1.0 + self.mass_ratio * pi * min(self.memory, LONG_MEMORY)
-        return self.slowness * self.fast_velocity * disturbed
-
-    def error_of(self, model: Model, law: int) -> str:
-        """Return what theory says of the error of a model, for people; `law` is the device's."""
-        if model.friction_law != law and self.kappa:
-            return f"the bristle bends for a share of about {self.bristle_share:.1g} of the time"
-        if model.fidelity == 1:
-            return (
-                f"the resonator starts from rest and remembers {self.memory:.2g} drive periods, "
-                f"r_m is {self.mass_ratio:.2g}"
-            )
-        if model.averages and self.averaging_error is not None:
-            return f"averaging errs by the order of {self.averaging_error:.1g} m/s"
-        return ""
 
 
 MAX_MAGNITUDE = 1e50
@@ -107,6 +72,8 @@ def scales_of(scene: Scene) -> Scales:
     fast = _fast_velocity(device)
     damping = device.damping_ratio * device.resonator_frequency / (1.0 - device.mass_ratio)
     load = max(map(abs, scene.signals["load"].values))
+    sizes = {"phase": 1.0, "load": friction or 1.0, "frequency_ratio": 1.0}
+    rates = [_steepest(scene.signals[name]) * period / size for name, size in sizes.items()]
     slowness = kappa = None
     relaxation = inf
     if fast:
@@ -125,7 +92,7 @@ def scales_of(scene: Scene) -> Scales:
         detuning=detuning,
         beat=detuning / period if detuning < NEAR_AN_INTEGER else 0.0,
         saturation=load / friction if friction > 0.0 else inf if load else 0.0,
-        input_rate=_input_rate(scene, period, friction),
+        input_rate=max(rates),
     )
 
 
@@ -134,11 +101,6 @@ def _fast_velocity(device: Device) -> float | None:
         return equivalent_force(device).velocity_amplitude or None
     except ValueError:  # no friction, or an undamped resonator at resonance
         return None
-
-
-def _input_rate(scene: Scene, period: float, friction: float) -> float:
-    sizes = {"phase": 1.0, "load": friction or 1.0, "frequency_ratio": 1.0}
-    return max(_steepest(scene.signals[name]) * period / size for name, size in sizes.items())
 
 
 def _steepest(signal: Signal) -> float:

@@ -13,9 +13,9 @@ from math import inf
 import numpy as np
 
 from slider_resonator.checks.measures import NoOscillation, dominant_frequency
-from slider_resonator.choosing.candidate import Candidate
+from slider_resonator.choosing.candidate import Candidate, tolerances
 from slider_resonator.choosing.choice import Choice
-from slider_resonator.choosing.choosing import candidates
+from slider_resonator.choosing.choosing import Choosing
 from slider_resonator.choosing.reference import exact_schedule
 from slider_resonator.choosing.steady_need import timed_run
 from slider_resonator.device.schedule import nearest
@@ -156,6 +156,17 @@ class Judge:
         else:
             found = find_blocking(self.instance, values | {"load": 0.0}).blocking_force
         return found, time.process_time() - began
+
+
+def candidates(instance: Instance, scene: Scene) -> list[Candidate]:
+    """Return all that `choose_with` chooses from."""
+    choosing = Choosing(instance, scene)
+    return [
+        Candidate(model, tolerance, step)
+        for model in choosing.models()
+        for tolerance in tolerances(model)
+        for step in choosing.steps(model)
+    ]
 
 
 def judge(instance: Instance, scene: Scene, choice: Choice) -> Verdict:

@@ -9,12 +9,13 @@ import pytest
 from slider_resonator.choosing import choose
 from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.choice import Evaluation, cheapest
-from slider_resonator.choosing.choosing import candidates, choose_with
+from slider_resonator.choosing.choosing import choose_with
 from slider_resonator.choosing.probe import Probe
 from slider_resonator.device.model import Model
 from slider_resonator.errors import Refusal, SceneError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene import Scene
+from tests.harness.choosing.judging import candidates
 from tests.harness.scene_text import scene_of, table_1
 
 pytestmark = pytest.mark.usefixtures("stated_costs")

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from slider_resonator.choosing.reference import exact_schedule, vary
+from slider_resonator.choosing.reference import exact_schedule, must_hold
 from slider_resonator.scenes.scene import Scene
 from tests.harness.scene_text import scene_of
 
@@ -48,7 +48,7 @@ def test_tuned_parameters_are_held_at_their_means() -> None:
     lengths = np.diff(schedule.times)
     assert lengths @ tuned["friction_coefficient"][:-1] == pytest.approx(0.1 * 0.2, rel=1e-12)
     assert tuned["base_amplitude"][np.searchsorted(schedule.times, 0.033)] == 2e-4
-    assert vary(scene)
+    assert must_hold(scene, interpolates=False)
 
 
 @pytest.mark.parametrize(
@@ -63,5 +63,5 @@ def test_tuned_parameters_are_held_at_their_means() -> None:
 )
 def test_only_inputs_that_change_other_than_by_jumps_vary(text: str, varies: bool) -> None:
     scene = scene_of(f"[inputs]\n{text}\n[run]\nstop_time = 0.1\nstep_size = 0.01\n")
-    assert vary(scene) is varies
-    assert not vary(scene.interpolating(True)), "a line that is passed on is not held"
+    assert must_hold(scene, interpolates=False) is varies
+    assert not must_hold(scene, interpolates=True), "a line that is passed on is not held"

@@ -43,5 +43,5 @@ def test_inputs() -> None:
 def test_without_vibration_or_friction_there_is_nothing_to_average(device: str) -> None:
     scales = scales_of(scene_of(f"[device]\n{device}\n"))
     assert scales.fast_velocity is None
-    assert scales.averaging_error is None
+    assert scales.slowness is None
     assert scales.relaxation == inf
