@@ -24,7 +24,7 @@ INNER_TOLERANCE = 1e-13
 """Remaining change of the fast states over a period, in units of their scale."""
 
 
-class _NoBracket(Exception):
+class _NoBracketError(Exception):
     """The map does not have the sign change or the contraction that this method needs."""
 
 
@@ -33,61 +33,41 @@ def bracketed_state(period_map: PeriodMap, guess: Vector, scale: Vector) -> Vect
 
     `guess` (n,) starts the fast entries, `scale` (n,) is the typical size of each entry.
     """
-    try:
-        return _Elimination(period_map, guess, scale).root()
-    except _NoBracket:
-        return None
+    state, inverse = guess.copy(), np.empty((0, 0))
 
+    def inverse_jacobian() -> Matrix:
+        """Return the inverse of the Jacobian of the fast states' change, at the present state."""
+        if len(state) == 1:
+            return inverse
 
-class _Elimination:
-    """The change of the slow state over a period in which the fast states repeat."""
+        def fast_change(fast: Vector) -> Vector:
+            return period_map(np.append(state[0], fast))[0][1:] - fast
 
-    def __init__(self, period_map: PeriodMap, guess: Vector, scale: Vector) -> None:
-        self.period_map = period_map
-        self.scale = scale
-        self.state = guess.copy()
-        self.inverse = self._inverse()
+        jacobian = central_jacobian(fast_change, state[1:], DIFFERENCE * scale[1:])
+        return np.asarray(np.linalg.inv(jacobian), dtype=np.float64)
 
-    def root(self) -> Vector:
-        bound = float(self.scale[0])
-        for _ in range(DOUBLINGS):
-            if self.slow_change(-bound) > 0.0 > self.slow_change(bound):
-                break
-            bound *= 2.0
-        else:
-            raise _NoBracket
-        slow = scipy.optimize.brentq(self.slow_change, -bound, bound, xtol=1e-14 * bound)
-        self.slow_change(slow)
-        return self.state
-
-    def slow_change(self, slow: float) -> float:
+    def slow_change(slow: float) -> float:
         """Return the change of entry 0; leaves in `state` the state that it belongs to."""
-        self.state[0] = slow
-        before = np.inf
+        nonlocal inverse
+        state[0], before = slow, np.inf
         for _ in range(INNER_ITERATIONS):
-            end, _ = self.period_map(self.state)
-            change = end - self.state
-            size = float(np.abs(change[1:] / self.scale[1:]).max(initial=0.0))
+            change = period_map(state)[0] - state
+            size = float(np.abs(change[1:] / scale[1:]).max(initial=0.0))
             if size <= INNER_TOLERANCE:
                 return float(change[0])
             if size > SLOW * before:
-                self.inverse = self._inverse()
+                inverse = inverse_jacobian()
             before = size
-            self.state[1:] -= self.inverse @ change[1:]
-        raise _NoBracket
+            state[1:] -= inverse @ change[1:]
+        raise _NoBracketError
 
-    def _inverse(self) -> Matrix:
-        """Return the inverse of the Jacobian of the fast states' change, at the present state."""
-        slow, fast = self.state[0], self.state[1:]
-        if not fast.size:
-            return np.empty((0, 0))
-
-        def fast_change(fast: Vector) -> Vector:
-            end, _ = self.period_map(np.append(slow, fast))
-            return end[1:] - fast
-
-        jacobian = central_jacobian(fast_change, fast, DIFFERENCE * self.scale[1:])
-        try:
-            return np.asarray(np.linalg.inv(jacobian), dtype=np.float64)
-        except np.linalg.LinAlgError as error:
-            raise _NoBracket from error
+    try:
+        inverse = inverse_jacobian()
+        for doubling in range(DOUBLINGS):
+            bound = float(scale[0]) * 2.0**doubling
+            if slow_change(-bound) > 0.0 > slow_change(bound):
+                slow_change(scipy.optimize.brentq(slow_change, -bound, bound, xtol=1e-14 * bound))
+                return state
+    except (_NoBracketError, np.linalg.LinAlgError):
+        pass
+    return None

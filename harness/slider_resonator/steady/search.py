@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Protocol
 
 from slider_resonator.steady.bracketing import bracketed_state
@@ -48,42 +49,27 @@ class PeriodicRun(Protocol):
 
 
 def steady_point(
-    run: PeriodicRun, velocity: float, load: float, *, tolerance: float = TOLERANCE
+    run: PeriodicRun, velocity: float, load: float, tolerance: float = TOLERANCE
 ) -> FixedPoint | NoFixedPoint:
     """Find the repeating motion under a load (N), near a mean velocity (m/s) if there is one."""
-
-    def loaded(state: Vector) -> tuple[Vector, float]:
-        return run(state, load)
-
+    loaded = partial(run, load=load)
     warm = run.warm_up(velocity, load)
     guess, scale = warm.shifted(velocity), warm.scale
     found = fixed_point(loaded, guess, scale, load=load, tolerance=tolerance)
-    if isinstance(found, FixedPoint):
-        return found
-    between = bracketed_state(loaded, guess, scale)
-    if between is None:
-        return found
-    return fixed_point(loaded, between, scale, load=load, tolerance=tolerance)
+    if isinstance(found, NoFixedPoint):
+        between = bracketed_state(loaded, guess, scale)
+        if between is not None:
+            return fixed_point(loaded, between, scale, load=load, tolerance=tolerance)
+    return found
 
 
 def blocked_point(
-    run: PeriodicRun,
-    warm: WarmedUp,
-    load: float,
-    load_scale: float,
-    *,
-    tolerance: float = TOLERANCE,
+    run: PeriodicRun, warm: WarmedUp, load: float, load_scale: float, tolerance: float = TOLERANCE
 ) -> FixedPoint | NoFixedPoint:
     """Find the load of the repeating motion without displacement, near `load` (N).
 
     `warm` comes from a warm-up under that load, `load_scale` (N) is a typical load.
     """
-    return blocking_point(
-        run,
-        warm.shifted(0.0),
-        load,
-        warm.scale,
-        load_scale=load_scale,
-        displacement_scale=float(warm.scale[0]) * run.period,
-        tolerance=tolerance,
-    )
+    displacement = float(warm.scale[0]) * run.period
+    scales = (warm.scale, load_scale, displacement)
+    return blocking_point(run, warm.shifted(0.0), load, *scales, tolerance=tolerance)

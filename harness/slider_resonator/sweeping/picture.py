@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -43,6 +43,7 @@ def sweep_figure(sweep: Sweep, columns: Columns) -> Figure:
         figure = Picture(figsize=(6.4, 3.9 * count), layout="constrained")
         if sweep.title:
             figure.suptitle(sweep.title)
+        names: Sequence[str]
         for index, measure in enumerate(sweep.task.measures):
             axes = figure.add_subplot(count, 1, index + 1)
             result = drawn_measure(columns, measure)
@@ -54,10 +55,12 @@ def sweep_figure(sweep: Sweep, columns: Columns) -> Figure:
                 axes.set(xlabel=x.label, ylabel=result.label)
                 if len(groups) > 1:
                     axes.legend()
-                _scale(axes, sweep, abscissa, None)
+                names = (abscissa,)
             else:
                 _map(axes, sweep, variables, result)
-                _scale(axes, sweep, *variables)
+                names = list(variables)
+            for name, set_scale in zip(names, (axes.set_xscale, axes.set_yscale), strict=False):
+                set_scale("log" if name in sweep.logarithmic else "linear")
     return figure
 
 
@@ -77,7 +80,11 @@ def _map(axes: Axes, sweep: Sweep, variables: Mapping[str, Drawn], result: Drawn
         axes.grid(False)
     else:
         colours = axes.scatter(across.values, up.values, c=result.values, s=12)
-    _unanswered(axes, across.values, up.values, result.values)
+    missing = np.isnan(result.values)
+    if missing.any():
+        x, y = across.values[missing], up.values[missing]
+        axes.plot(x, y, "x", color="0.5", markersize=4, label=NO_ANSWER)
+        axes.legend()
     axes.set(xlabel=across.label, ylabel=up.label)
     axes.figure.colorbar(colours, ax=axes, label=result.label)
 
@@ -91,14 +98,6 @@ def scale_of(result: Array) -> tuple[Normalize, str]:
     if low < 0.0 < high:
         return Normalize(-max(-low, high), max(-low, high)), "RdBu_r"
     return Normalize(low, high), "viridis"
-
-
-def _scale(axes: Axes, sweep: Sweep, x: str, y: str | None) -> None:
-    """Make the axes of variables with logarithmic spacing logarithmic."""
-    if x in sweep.logarithmic:
-        axes.set_xscale("log")
-    if y in sweep.logarithmic:
-        axes.set_yscale("log")
 
 
 def _line(axes: Axes, x: Array, y: Array, label: str | None) -> None:
@@ -116,14 +115,6 @@ def _line(axes: Axes, x: Array, y: Array, label: str | None) -> None:
             transform=axes.get_xaxis_transform(),  # on the axis, whatever the results are
             clip_on=False,
         )
-        axes.legend()
-
-
-def _unanswered(axes: Axes, x: Array, y: Array, result: Array) -> None:
-    """Mark the points without a result."""
-    missing = np.isnan(result)
-    if missing.any():
-        axes.plot(x[missing], y[missing], "x", color="0.5", markersize=4, label=NO_ANSWER)
         axes.legend()
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import asdict, dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -122,7 +122,10 @@ def run_sweep(
     with open_fmu(fmu):
         pass  # the file is checked once, not at every point
     fmu_digest = hashlib.sha256(fmu.read_bytes()).hexdigest()
-    with open_journal(out, _digest(sweep, fmu_digest), restart=restart) as journal:
+    # All that the rows of a journal depend on.
+    content = json.dumps([__version__, fmu_digest, asdict(sweep.task), sweep.points])
+    digest = hashlib.sha256(content.encode()).hexdigest()
+    with open_journal(out, digest, restart=restart) as journal:
         rows = rows_of(journal)
         found = len(rows)
         left = [(n, point) for n, point in enumerate(sweep.points) if n not in rows]
@@ -139,11 +142,13 @@ def run_sweep(
 
         keep([])
         if left:
-            count = min(workers, len(left))
-            with (
-                noting_on_interrupt(note),
-                _workers(fmu_digest, fmu, count, dask, time_limit) as at_work,
-            ):
+            here = Workers(fmu.resolve(), time_limit, min(workers, len(left)))
+            there: AbstractContextManager[Workers] = nullcontext(here)
+            if dask is not None:
+                from slider_resonator.sweeping.cluster import dask_workers
+
+                there = dask_workers(fmu_digest, fmu, dask, time_limit)
+            with noting_on_interrupt(note), there as at_work:
                 run_points(at_work, sweep.task, left, keep)
         columns = table_columns(sweep.task, sweep.points, rows)
         write_table(out, sweep.task, columns)
@@ -153,37 +158,14 @@ def run_sweep(
         points=len(sweep.points),
         found=found,
         failed=len(errors),
-        unanswered=_unanswered(sweep, columns),
+        unanswered=sum(
+            error is None and None in values
+            for error, *values in zip(
+                columns["error"], *(columns[name] for name in sweep.task.measures), strict=True
+            )
+        ),
         damaged=journal.damaged,
         first_error=errors[0] if errors else None,
         columns=columns,
         sweep=sweep,
     )
-
-
-def _unanswered(sweep: Sweep, columns: Columns) -> int:
-    """Return how many points have no error, but lack a measure."""
-    measures = zip(*(columns[name] for name in sweep.task.measures), strict=True)
-    return sum(
-        error is None and None in values
-        for error, values in zip(columns["error"], measures, strict=True)
-    )
-
-
-@contextmanager
-def _workers(
-    digest: str, fmu: Path, count: int, dask: str | None, time_limit: float
-) -> Iterator[Workers]:
-    if dask is None:
-        yield Workers(fmu.resolve(), time_limit, count)
-        return
-    from slider_resonator.sweeping.cluster import dask_workers
-
-    with dask_workers(digest, fmu, dask, time_limit) as elsewhere:
-        yield elsewhere
-
-
-def _digest(sweep: Sweep, fmu_digest: str) -> str:
-    """Return a digest of all that the rows of a journal depend on."""
-    content = [__version__, fmu_digest, asdict(sweep.task), sweep.points]
-    return hashlib.sha256(json.dumps(content).encode()).hexdigest()

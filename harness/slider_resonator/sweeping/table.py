@@ -53,7 +53,7 @@ def check_replaceable(path: Path, task: Task, points: Sequence[tuple[float, ...]
         return
     remedy = "must be a new file, or --overwrite to replace it"
     try:
-        columns = _read_csv(path) if path.suffix.lower() == ".csv" else _read_parquet(path)
+        columns = _read(path)
         found = [[float(value) for value in columns[name]] for name in ("point", *task.names)]
     except (OSError, ValueError, KeyError, csv.Error):
         found = []
@@ -68,16 +68,14 @@ def check_replaceable(path: Path, task: Task, points: Sequence[tuple[float, ...]
         )
 
 
-def _read_csv(path: Path) -> Columns:
+def _read(path: Path) -> Columns:
+    if path.suffix.lower() != ".csv":
+        from pyarrow import parquet
+
+        return dict(parquet.read_table(path).to_pydict())
     with path.open(encoding="utf-8", newline="") as file:
         names, *rows = csv.reader(file, strict=True)
     return {name: [row[index] for row in rows] for index, name in enumerate(names)}
-
-
-def _read_parquet(path: Path) -> Columns:
-    from pyarrow import parquet
-
-    return dict(parquet.read_table(path).to_pydict())
 
 
 def write_table(path: Path, task: Task, columns: Columns) -> None:
@@ -85,17 +83,13 @@ def write_table(path: Path, task: Task, columns: Columns) -> None:
     if path.suffix.lower() == ".csv":
         write_csv(path, columns, zip(*columns.values(), strict=True))
         return
-    with replacing(path) as temporary:
-        _write_parquet(temporary, task, columns)
-
-
-def _write_parquet(path: Path, task: Task, columns: Columns) -> None:
     import pyarrow as pa
     from pyarrow import parquet
 
     types = {int: pa.int64(), float: pa.float64(), str: pa.string()}
     schema = pa.schema([(name, types[kind]) for name, kind in task.columns])
-    parquet.write_table(pa.table(dict(columns), schema=schema), path)
+    with replacing(path) as temporary:
+        parquet.write_table(pa.table(dict(columns), schema=schema), temporary)
 
 
 def journal_path(table: Path) -> Path:
