@@ -35,7 +35,6 @@ from slider_resonator.stressing.listing import (
     Files,
     as_plain,
     in_folder,
-    sentences,
     values_of,
     write_files,
 )
@@ -192,7 +191,7 @@ def stress(
             part = part_of(progress, index, len(chosen))
             workers = jobs or available_cores()
             keep(run_cases(fmu, cases, part, time_limit, jobs=workers, keep=keep))
-    lines = [sentences(result) for result in results]
+    lines = [line for result in results for line in result.sentences()]
     lines += [values_of(case) for case in cases if len(cases) == 1]
     lines += [f"written {one_line(name)}" for name in files.names]
     print_result(as_plain(results), "\n".join(lines), as_json=as_json, provenance=provenance)

@@ -30,22 +30,19 @@ def finite(seen: Observation) -> BoundCheck:
 
 def invariants(case: Case, seen: Observation) -> Iterator[BoundCheck]:
     """Yield the checks of everything that must hold by the equations (26)-(27) alone."""
-    theta, psi = _angles(case)
+    # Drive angle and that of the load (rad) after each step, in extended precision, from 0.
+    w = np.longdouble(case.device.drive_frequency)
+    turns = w * np.concatenate([[0.0], case.sizes]).astype(np.longdouble)
+    ratios = np.concatenate([[0.0], case.inputs[:, 2]]).astype(np.longdouble)
+    theta, psi = np.cumsum(turns), np.cumsum(ratios * turns)
     yield _phase(case, seen, psi)
     yield _friction_bound(case, seen)
     if case.device.friction_law == 0 or case.device.friction_coefficient == 0.0:
         yield _momentum(case, seen, theta)
-    if _undriven(case):
+    driven = case.device.base_amplitude or case.device.tangential_force
+    if case.device.fidelity == 2 and not driven and not any(hold.load for hold in case.holds):
         yield _energy(case, seen)
     yield _share(seen)
-
-
-def _angles(case: Case) -> tuple[Exact, Exact]:
-    """Return theta and psi (rad) after each step, in extended precision, from 0."""
-    w = np.longdouble(case.device.drive_frequency)
-    turns = w * np.concatenate([[0.0], case.sizes]).astype(np.longdouble)
-    ratios = np.concatenate([[0.0], case.inputs[:, 2]]).astype(np.longdouble)
-    return np.cumsum(turns), np.cumsum(ratios * turns)
 
 
 def _phase(case: Case, seen: Observation, psi: Exact) -> BoundCheck:
@@ -113,12 +110,6 @@ def _momentum(case: Case, seen: Observation, theta: Exact) -> BoundCheck:
     sizes = abs(drive) + (np.abs(body) + np.abs(resonator)).max() + np.abs(load) + friction
     rounding = (BOUND + 4.0 * ROUNDING * theta.astype(float)) * sizes
     return _largest("momentum", np.maximum(0.0, change - friction - slack), rounding)
-
-
-def _undriven(case: Case) -> bool:
-    device = case.device
-    forced = device.base_amplitude or device.tangential_force or device.fidelity != 2
-    return not forced and not any(hold.load for hold in case.holds)
 
 
 def _energy(case: Case, seen: Observation) -> BoundCheck:

@@ -11,12 +11,10 @@ from slider_resonator.device.interface import INPUTS
 from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.output.atomic import write_text
 from slider_resonator.output.json_output import to_json
-from slider_resonator.output.readable import one_line
 from slider_resonator.output.targets import make_folder
 from slider_resonator.stressing.case import Case
 from slider_resonator.stressing.page import write_stress_page
 from slider_resonator.stressing.run import StressResult
-from slider_resonator.stressing.verdict import FAILED, NO_REFERENCE, PASSED
 
 
 @dataclass(frozen=True)
@@ -71,26 +69,6 @@ def as_plain(results: Sequence[StressResult]) -> dict[str, object]:
             for result in results
         ],
     }
-
-
-def sentences(result: StressResult) -> str:
-    """Return what was found, in lines: the cases nearest to a bound, and those that did not pass.
-
-    A failed one comes with the command that runs it again.
-    """
-    lines = [f"{one_line(result.fmu)}: {result.summary}"]
-    for model, case in result.nearest.items():
-        if check := case.nearest:
-            lines.append(
-                f"  nearest to a bound, {model}: {check.found:.2g} of it in {check.name}, "
-                f"{case.axis}: {case.value}"
-            )
-    for case in result.verdicts:
-        if case.verdict not in (PASSED, NO_REFERENCE):
-            lines.append(f"  {case.verdict}: {case.name}: {one_line(case.reason)}")
-        if case.verdict == FAILED:
-            lines.append(f"    {one_line(case.command(result.fmu))}")
-    return "\n".join(lines)
 
 
 def values_of(case: Case) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from statistics import median
 
 import numpy as np
@@ -52,70 +52,53 @@ def observe(instance: Instance, case: Case) -> Observation:
     try:
         if case.is_random:
             names = MEAN if case.model.averages else SIGNALS
-            return Observation(_Run(instance, case, names).outputs)
-        return _observe(instance, case)
+            return Observation(_run(instance, case, names)[0])
+        first, first_costs = _run(instance, case)
+        second, second_costs = _run(instance, case)
+        from_zero = _run(instance, replace(case, start_time=0.0))[0] if case.from_zero else None
+        other, _ = _run(instance, replace(case, holds=case.other_holds))
+        size = min(case.period, case.duration)
+        baseline = (Hold(size, BASELINE_STEPS, *case.holds[0].inputs, tuned=case.holds[0].tuned),)
+        _, periods = _run(instance, replace(case, holds=baseline, start_time=0.0))
     except Refusal as refusal:
         return Observation(refusal=str(refusal))
-
-
-def _observe(instance: Instance, case: Case) -> Observation:
-    first, second = _Run(instance, case), _Run(instance, case)
-    replayed = all(
-        np.array_equal(first.outputs[name], second.outputs[name], equal_nan=True)
-        for name in OUTPUTS
-    )
-    from_zero = _Run(instance, case, start_time=0.0).last if case.from_zero else None
-    other = _Run(instance, case, holds=case.other_holds).last
-    size = min(case.period, case.duration)
-    baseline = (Hold(size, BASELINE_STEPS, *case.holds[0].inputs),)
-    periods = _Run(instance, case, holds=baseline, start_time=0.0).costs
-    steps = zip(case.sizes, first.costs, second.costs, strict=True)
+    steps = zip(case.sizes, first_costs, second_costs, strict=True)
     return Observation(
-        outputs=first.outputs,
-        other=other,
-        from_zero=from_zero,
-        replayed=replayed,
+        outputs=first,
+        other=_last(other),
+        from_zero=None if from_zero is None else _last(from_zero),
+        replayed=all(np.array_equal(first[n], second[n], equal_nan=True) for n in OUTPUTS),
         worst_step=max(min(costs) / max(1.0, one / case.period) for one, *costs in steps),
         period_cost=median(periods) * case.period / size,
     )
 
 
-class _Run:
-    """A run of a case, or of other holds or from another time (s): outputs and costs of steps, s.
+def _last(outputs: Mapping[str, Array]) -> dict[str, float]:
+    return {name: float(values[-1]) for name, values in outputs.items()}
+
+
+def _run(
+    instance: Instance, case: Case, names: Sequence[str] = tuple(OUTPUTS)
+) -> tuple[dict[str, Array], list[float]]:
+    """Run a case; return the outputs and the costs of its steps, s.
 
     Raises Refusal when the FMU does not take the parameters or a step.
     """
-
-    def __init__(
-        self,
-        instance: Instance,
-        case: Case,
-        names: Sequence[str] = tuple(OUTPUTS),
-        *,
-        holds: Sequence[Hold] | None = None,
-        start_time: float | None = None,
-    ) -> None:
-        _begin(instance, case, case.start_time if start_time is None else start_time)
-        block, clock = instance.block(names), time.thread_time
-        self.costs: list[float] = []
-        tuned = case.holds[0].tuned
-        with instance.explained():
-            rows = [block.read()]
-            for hold in holds or case.holds:
-                instance.set_inputs(hold.inputs)
-                if hold.tuned != tuned:
-                    tuned = hold.tuned
-                    instance.set(dict(tuned))
-                for _ in range(hold.count):
-                    began = clock()
-                    instance.step_by(hold.size)
-                    self.costs.append(clock() - began)
-                    rows.append(block.read())
-        self.outputs = dict(zip(names, np.array(rows).T, strict=True))
-        self.last = dict(zip(names, rows[-1], strict=True))
-
-
-def _begin(instance: Instance, case: Case, start_time: float) -> None:
+    tuned = case.holds[0].tuned
     first = dict(zip(INPUTS, case.holds[0].inputs, strict=True))
-    settings = case.settings | dict(case.holds[0].tuned)
-    instance.start({**settings, **first}, start_time=start_time)
+    instance.start({**case.settings, **dict(tuned), **first}, start_time=case.start_time)
+    block, clock = instance.block(names), time.thread_time
+    costs: list[float] = []
+    with instance.explained():
+        rows = [block.read()]
+        for hold in case.holds:
+            instance.set_inputs(hold.inputs)
+            if hold.tuned != tuned:
+                tuned = hold.tuned
+                instance.set(dict(tuned))
+            for _ in range(hold.count):
+                began = clock()
+                instance.step_by(hold.size)
+                costs.append(clock() - began)
+                rows.append(block.read())
+    return dict(zip(names, np.array(rows).T, strict=True)), costs

@@ -25,8 +25,8 @@ from slider_resonator.stressing.verdict import FAILED, MEANINGS, PASSED, SENSITI
 
 FAR, NEAR = -8.0, 0.0
 """Decimal logarithm of a deviation over its bound, at the ends of the scale."""
-SHADES = ((227, 239, 230), (156, 198, 177), (47, 127, 121))
-"""Colours of the scale in RGB: far from the bound, half-way, at it."""
+SHADE = "rgb(47, 127, 121, {:.2f})"
+"""Colour of the scale, with its opacity: 0.1 far from the bound, 1 at it."""
 REFUSED_COLOUR, FAILED_COLOUR = "#edc46b", "#c8553d"
 MAX_SHOWN = 1e6
 """Deviation over its bound above which a point is drawn at this value."""
@@ -34,44 +34,31 @@ MAX_SHOWN = 1e6
 
 def write_stress_page(path: Path, results: Sequence[StressResult], provenance: Provenance) -> None:
     """Write the page; HarnessError when that is impossible."""
-    parts = [_overview(results), _legend(results), _scale()]
-    parts += [part for result in results for part in _of_one_fmu(result)]
-    parts.append(provenance_html(provenance))
-    write_plot_page(path, "Stress test", parts)
-
-
-def _overview(results: Sequence[StressResult]) -> str:
-    rows: list[Row] = [
+    overview: list[Row] = [
         (
             Path(one.fmu).name,
             verdict_so_far(one.failed, one.not_run),
-            str(len(one.verdicts)),
-            str(one.skipped),
-            str(one.not_run),
+            *map(str, (len(one.verdicts), one.skipped, one.not_run)),
             f"{one.wall_time:.0f}",
         )
         for one in results
     ]
     counts = numbers("cases", "skipped", "not run", "wall time [s]")
-    return rendered(Table((*texts("FMU", "verdict"), *counts), rows))
-
-
-def _legend(results: Sequence[StressResult]) -> str:
-    rows: list[Row] = []
+    legend: list[Row] = []
     for name, meaning in MEANINGS.items():
         count = sum(one.counts.get(name, 0) for one in results)
-        rows.append((_coloured(name) if count else name, str(count), meaning))
-    return rendered(Table((*texts("verdict"), *numbers("cases"), *texts("meaning")), rows))
-
-
-def _scale() -> str:
-    shades = ", ".join(f"rgb{shade}" for shade in SHADES)
-    return (
+        legend.append((_coloured(name) if count else name, str(count), meaning))
+    parts = [
+        rendered(Table((*texts("FMU", "verdict"), *counts), overview)),
+        rendered(Table((*texts("verdict"), *numbers("cases"), *texts("meaning")), legend)),
         "<p>A cell in a grid, or a point in the plot, says its checks. It is shaded by its largest "
         "deviation over the allowed one; r is refused by name, F failed.</p>"
-        f'<p class="scale">{10.0**FAR:g} '
-        f'<i style="background: linear-gradient(to right, {shades})"></i> {10.0**NEAR:g}</p>'
-    )
+        f'<p class="scale">{10.0**FAR:g} <i style="background: linear-gradient(to right, '
+        f'{SHADE.format(0.1)}, {SHADE.format(1.0)})"></i> {10.0**NEAR:g}</p>',
+        *(part for result in results for part in _of_one_fmu(result)),
+        provenance_html(provenance),
+    ]
+    write_plot_page(path, "Stress test", parts)
 
 
 def _of_one_fmu(result: StressResult) -> list[str]:
@@ -86,25 +73,22 @@ def _of_one_fmu(result: StressResult) -> list[str]:
                 (one.name, _coloured(one.verdict), one.reason, one.command(result.fmu))
                 for one in chosen
             ]
-            columns = texts("case", "verdict", "reason", "run it again")
-            table = rendered(Table(columns, others))
+            table = rendered(Table(texts("case", "verdict", "reason", "run it again"), others))
             parts.append(section(anchor, heading, count, table, unfolded=name == FAILED))
-    parts += [plot_html(_plot(result)), rendered(_nearest(result))]
-    return parts + [_grid(axis, ones) for axis, ones in result.by_axis().items() if axis != RANDOM]
-
-
-def _coloured(verdict: str) -> Cell:
-    return Cell(verdict, Style.FAIL if verdict == FAILED else Style.PLAIN)
-
-
-def _nearest(result: StressResult) -> Table:
-    rows: list[Row] = [
+    nearest: list[Row] = [
         (model, f"{check.found:.2g}", check.name, case.name)
         for model, case in result.nearest.items()
         if (check := case.nearest)
     ]
     columns = (*texts("model"), *numbers("nearest to its bound"), *texts("in", "case"))
-    return Table(columns, rows)
+    parts += [plot_html(_plot(result)), rendered(Table(columns, nearest))]
+    for axis in dict.fromkeys(one.axis for one in result.verdicts if one.axis != RANDOM):
+        parts.append(_grid(axis, [one for one in result.verdicts if one.axis == axis]))
+    return parts
+
+
+def _coloured(verdict: str) -> Cell:
+    return Cell(verdict, Style.FAIL if verdict == FAILED else Style.PLAIN)
 
 
 def _plot(result: StressResult) -> HoverPlot:
@@ -121,8 +105,8 @@ def _plot(result: StressResult) -> HoverPlot:
                 if one.model == name and (one.verdict == PASSED) == passed
             ]
             if group:
-                places, notes = [place for place, _ in group], [_note(one) for _, one in group]
-                heights = [_height(one) for _, one in group]
+                places, cases = zip(*group, strict=True)
+                heights, notes = [*map(_height, cases)], [*map(_note, cases)]
                 series.append(Series(label, places, heights, shown, sign, notes=notes))
     y = Axis("largest deviation over its bound [1]", log=True)
     return HoverPlot("Each case over its bound", Axis("case"), y, series)
@@ -157,25 +141,25 @@ def _grid(axis: str, cases: Sequence[Verdict]) -> str:
     )
     title = '<th scope="col">value</th>'
     table = f'<table class="matrix"><thead><tr>{title}{head}</tr></thead><tbody>\n{rows}</tbody>'
-    words = escaped(_checked(cases))
-    return f'<h3>{escaped(axis)}</h3><p>{words}</p><div class="wide">{table}</table></div>'
-
-
-def _checked(cases: Sequence[Verdict]) -> str:
-    """Return by what an axis is checked, and which check is nearest to its bound."""
     checks = [check for one in cases for check in one.checks]
     names = ", ".join(dict.fromkeys(check.name for check in checks))
-    nearest = max(checks, key=lambda check: check.found, default=None)
-    words = f"; nearest to its bound: {nearest.name}, {nearest.found:.2g} of it" if nearest else ""
-    return f"{number_of(len(cases), 'case')} checked by {names}{words}"
+    words = f"{number_of(len(cases), 'case')} checked by {names}"
+    if checks:
+        nearest = max(checks, key=lambda check: check.found)
+        words += f"; nearest to its bound: {nearest.name}, {nearest.found:.2g} of it"
+    wide = f'<div class="wide">{table}</table></div>'
+    return f"<h3>{escaped(axis)}</h3><p>{escaped(words)}</p>{wide}"
 
 
 def _cell(one: Verdict | None) -> str:
+    """Return a case: shaded by its margin where it passed."""
     if one is None:
         return "<td></td>"
+    sign, colour = "", SHADE.format(0.1 + 0.9 * (_margin(one) - FAR) / (NEAR - FAR))
+    if one.verdict != PASSED:
+        sign, colour = ("F", FAILED_COLOUR) if one.verdict == FAILED else ("r", REFUSED_COLOUR)
     note = escaped(f"{one.model}\n{_note(one)}")
-    sign = "" if one.verdict == PASSED else "F" if one.verdict == FAILED else "r"
-    return f'<td style="background: {_colour(one)}" title="{note}">{sign}</td>'
+    return f'<td style="background: {colour}" title="{note}">{sign}</td>'
 
 
 def _margin(one: Verdict) -> float:
@@ -185,13 +169,3 @@ def _margin(one: Verdict) -> float:
     """
     found = one.nearest.found if one.nearest else 0.0
     return min(max(log10(found), FAR), NEAR) if found > 0.0 else FAR
-
-
-def _colour(one: Verdict) -> str:
-    """Return the colour of a case: shaded by its margin where it passed."""
-    if one.verdict != PASSED:
-        return FAILED_COLOUR if one.verdict == FAILED else REFUSED_COLOUR
-    place = 2.0 * (_margin(one) - FAR) / (NEAR - FAR)
-    low = min(int(place), 1)
-    pairs = zip(SHADES[low], SHADES[low + 1], strict=True)
-    return f"rgb{tuple(round(a + (place - low) * (b - a)) for a, b in pairs)}"

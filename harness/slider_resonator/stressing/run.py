@@ -16,7 +16,7 @@ from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import run_all_tasks
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.progress import Progress, counted
-from slider_resonator.output.readable import number_of
+from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.stressing.case import RANDOM, Case
 from slider_resonator.stressing.comparisons import (
@@ -58,33 +58,27 @@ def judge(case: Case, seen: Observation) -> Verdict:
     if checks[0].passed:
         checks += [] if case.is_random else [*invariants(case, seen), *equalities(case, seen)]
         checks += [compare_with_reference(case, seen)] if has_reference(case) else []
-    checks += [] if case.is_random else [_cost(seen)]
+    last = checks[-1]
+    if not case.is_random:
+        ratio = seen.worst_step / seen.period_cost if seen.period_cost > 0.0 else 0.0
+        words = (
+            f"the most expensive step costs {ratio:.3g} drive periods of the device, "
+            f"allowed {MAX_RELATIVE_COST:g}"
+        )
+        share = ratio / MAX_RELATIVE_COST
+        checks.append(BoundCheck("cost of a step", share, words, is_deviation=False))
     reason = "; ".join(f"{check.name}: {check.words}" for check in checks if not check.passed)
+    verdict = FAILED if reason else PASSED
+    if case.is_random and last.name == NO_REFERENCE:
+        verdict, reason = NO_REFERENCE, last.words
+    elif case.is_random and last.name == REFERENCE and not last.passed:
+        verdict = SENSITIVE if is_sensitive(case, last.found) else FAILED
     return replace(
-        verdict_on(case, FAILED if reason else PASSED, reason),
-        **(_of_reference(case, checks[-1]) if case.is_random else {}),
+        verdict_on(case, verdict, reason),
         checks=tuple(checks),
         worst_step=seen.worst_step,
         period_cost=seen.period_cost,
     )
-
-
-def _of_reference(case: Case, check: BoundCheck) -> dict[str, str]:
-    """Return verdict and reason where the reference of a random case says nothing about it."""
-    if check.name == NO_REFERENCE:
-        return {"verdict": NO_REFERENCE, "reason": check.words}
-    if check.name == REFERENCE and not check.passed and is_sensitive(case, check.found):
-        return {"verdict": SENSITIVE}
-    return {}
-
-
-def _cost(seen: Observation) -> BoundCheck:
-    ratio = seen.worst_step / seen.period_cost if seen.period_cost > 0.0 else 0.0
-    words = (
-        f"the most expensive step costs {ratio:.3g} drive periods of the device, "
-        f"allowed {MAX_RELATIVE_COST:g}"
-    )
-    return BoundCheck("cost of a step", ratio / MAX_RELATIVE_COST, words, is_deviation=False)
 
 
 TIME_LIMIT = 300.0
@@ -113,20 +107,24 @@ class StressResult(Shown, Tabular):
         return {name: [getattr(one, name) for one in self.verdicts] for name in names}
 
     def describe(self) -> list[str]:
-        """Return the counts, and a line for each failed case."""
-        failed = [one for one in self.verdicts if one.verdict == FAILED]
-        return [
-            f"{'passed' if self.passed else 'FAILED'}: {self.fmu}",
-            *self.summary.splitlines(),
-            *(f"{FAILED}: {one.name}: {one.reason}" for one in failed),
-        ]
+        """Return the counts, the cases nearest to a bound, and those that did not pass."""
+        return ["passed" if self.passed else "FAILED", *self.sentences()]
 
-    def by_axis(self) -> dict[str, list[Verdict]]:
-        """Return axis to verdicts, in order."""
-        groups: dict[str, list[Verdict]] = {}
-        for one in self.verdicts:
-            groups.setdefault(one.axis, []).append(one)
-        return groups
+    def sentences(self) -> list[str]:
+        """Return what was found, in lines; a failed case has the command that runs it again."""
+        lines = f"{one_line(self.fmu)}: {self.summary}".splitlines()
+        for model, case in self.nearest.items():
+            if check := case.nearest:
+                lines.append(
+                    f"  nearest to a bound, {model}: {check.found:.2g} of it in {check.name}, "
+                    f"{case.axis}: {case.value}"
+                )
+        for case in self.verdicts:
+            if case.verdict not in (PASSED, NO_REFERENCE):
+                lines.append(f"  {case.verdict}: {case.name}: {one_line(case.reason)}")
+            if case.verdict == FAILED:
+                lines.append(f"    {one_line(case.command(self.fmu))}")
+        return lines
 
     @property
     def counts(self) -> dict[str, int]:
@@ -149,7 +147,7 @@ class StressResult(Shown, Tabular):
     @property
     def failed(self) -> bool:
         """Whether a case failed, or too many random devices were refused."""
-        drawn = self.by_axis().get(RANDOM, [])
+        drawn = [one for one in self.verdicts if one.axis == RANDOM]
         refused = sum(one.verdict == REFUSED for one in drawn)
         return self.counts[FAILED] > 0 or refused > max(1.0, MAX_REFUSED * len(drawn))
 
@@ -233,20 +231,13 @@ def run_cases(
         return StressResult(str(fmu), tuple(verdicts), seconds, left, skipped)
 
     tasks = [(case, partial(observe, case=case)) for case in chosen]
+    died = (FmuDied,)
+    runs = run_all_tasks(fmu, tasks, time_limit, meanwhile=report, outcomes=died, jobs=jobs)
     try:
-        finished = run_all_tasks(
-            fmu,
-            tasks,
-            time_limit,
-            meanwhile=report,
-            outcomes=(FmuDied,),
-            jobs=jobs,
-        )
-        with closing(finished):
+        with closing(runs) as finished:
             for case, seen, error in finished:
-                verdicts.append(
-                    judge(case, seen) if error is None else verdict_on(case, FAILED, str(error))
-                )
+                failed = error and verdict_on(case, FAILED, str(error))
+                verdicts.append(failed or judge(case, seen))
     except BaseException:
         if verdicts:
             keep(result())

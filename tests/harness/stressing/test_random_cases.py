@@ -9,7 +9,6 @@ import pytest
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.opening import Fmu
 from slider_resonator.stressing import comparisons
-from slider_resonator.stressing.listing import sentences
 from slider_resonator.stressing.observe import Observation, observe
 from slider_resonator.stressing.random_cases import IN_TURN, random_case
 from slider_resonator.stressing.run import judge, run_cases
@@ -22,7 +21,7 @@ def test_the_first_cases_pass(fmu: Fmu) -> None:
     reported: list[tuple[str, float]] = []
     cases = [random_case(7, number) for number in range(2 * len(IN_TURN))]
     result = run_cases(fmu.path, cases, lambda label, share: reported.append((label, share)))
-    assert result.passed, sentences(result)
+    assert result.passed, "\n".join(result.sentences())
     assert [share for _, share in reported] == sorted(share for _, share in reported)
     assert len(reported) == len(cases)
     assert reported[-1][0].startswith(f"{len(cases)} of {len(cases)}: ")

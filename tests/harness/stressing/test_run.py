@@ -9,7 +9,6 @@ from slider_resonator.device.model import Model
 from slider_resonator.errors import FmuError
 from slider_resonator.output.progress import no_progress
 from slider_resonator.stressing.case import RANDOM, Case, Hold
-from slider_resonator.stressing.listing import sentences
 from slider_resonator.stressing.run import StressResult, applicable, run_cases
 from slider_resonator.stressing.verdict import FAILED, PASSED, REFUSED, Verdict
 from tests.harness.faulty_fmus import compiled, without_later_variables
@@ -28,7 +27,9 @@ def test_a_hang_costs_one_case(native_fmu: Path) -> None:
     assert "no answer within the time limit of 2 s" in result.verdicts[0].reason
     assert shares == [0.0, 0.5], "progress is shown by cases"
     assert "2 cases: 1 passed, 0 refused by name, 1 failed, none skipped" in result.summary
-    assert f"--case '{ENDLESS.name}'" in sentences(result), "the command that runs it again"
+    assert f"--case '{ENDLESS.name}'" in "\n".join(result.sentences()), (
+        "the command that runs it again"
+    )
 
 
 @pytest.mark.isolated
