@@ -146,7 +146,7 @@ def fit_command(
     """
     # Imported here: fitting and drawing take longer to load than other commands to run.
     from slider_resonator.fitting.fit import fit, isolated
-    from slider_resonator.fitting.report import parameter_table, sentences, write_report
+    from slider_resonator.fitting.report import parameter_table, write_report
 
     measurements = sum(
         (read_measurements(path) for path in data), datasheet(velocity, blocking, loaded)
@@ -173,7 +173,7 @@ def fit_command(
         print_json(_document(found, written), provenance)
     else:
         print_table(parameter_table(found))
-        lines = sentences(found)
+        lines = found.sentences()
         if written:
             lines.append(f"written: {one_line(', '.join(map(str, written)))}")
         print_text("\n".join(lines))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from math import isfinite
+from math import exp, isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -108,17 +108,6 @@ class Fit(Shown, Tabular, Drawable):
     unmet: tuple[int, ...] = ()
     notes: tuple[str, ...] = ()
 
-    def unmet_numbers(self) -> list[str]:
-        """Return each number that is not reached, as asked and as reached."""
-        shown, places = self.measurements.shown, self.measurements.places
-        found = []
-        for index in self.unmet:
-            name, source, row = places[index]
-            asked, reached = shown(name, self.measured[index]), shown(name, self.predicted[index])
-            what = f"{name} ({source}, {row})"
-            found.append(f"not met: {what} must be {asked}, the nearest found is {reached}")
-        return found
-
     def table(self) -> dict[str, list[Any]]:
         """Return the estimates in columns, those that the data leave open as None."""
         columns: dict[str, list[Any]] = {
@@ -137,8 +126,8 @@ class Fit(Shown, Tabular, Drawable):
         return fit_figure(self.measurements, numbers)
 
     def describe(self) -> list[str]:
-        """Return the estimates with their intervals."""
-        lines = [f"{number_of(len(self.measured), 'measured number')}"]
+        """Return the estimates with their intervals, and what there is to say of them."""
+        lines = []
         for one in self.parameters:
             found = "left open by the data" if one.is_open else f"{one.value:.6g} {one.unit}"
             low, high = one.interval()
@@ -147,10 +136,49 @@ class Fit(Shown, Tabular, Drawable):
             elif low or high:
                 found += f", 95 % {low}{high}"
             lines.append(f"{one.name:<23} {found}")
-        if self.scale is not None:
-            lines.append(f"residuals have {self.scale:.3g} standard deviations")
+        return [*lines, *self.sentences()]
+
+    def sentences(self) -> list[str]:
+        """Return what there is to say beside the estimates."""
+        lines = [
+            f"{len(self.measured)} numbers, {len(self.parameters)} free parameters",
+            f"friction on {number_of(self.device.friction_faces, 'face')} (friction_faces)",
+        ]
+        if self.scale is None:
+            solved = "not solved" if self.unmet else "solved, without intervals"
+            lines.append(f"as many parameters as numbers: {solved}")
+        elif self.measurements.knows_deviations:
+            lines.append(
+                f"residuals have {self.scale:.3g} times the stated standard deviation"
+                + (": the model or the stated deviations do not fit" if self.scale > 2.0 else "")
+            )
+        shown = self.measurements.shown
+        for index in self.unmet:
+            name, source, row = self.measurements.places[index]
+            asked, reached = shown(name, self.measured[index]), shown(name, self.predicted[index])
+            what = f"{name} ({source}, {row})"
+            lines.append(f"not met: {what} must be {asked}, the nearest found is {reached}")
+        quantities = np.array(self.measurements.quantities)
+        for quantity in dict.fromkeys(quantities.tolist()):
+            off = (self.predicted - self.measured)[quantities == quantity]
+            rms = float(np.sqrt(np.nanmean(off**2)))
+            lines.append(f"{quantity} is off by {shown(quantity, rms)} (rms)")
+        missing = int(np.count_nonzero(~np.isfinite(self.predicted)))
+        if missing:
+            lines.append(f"at {missing} of the points the fitted device has no steady motion")
+        for one in self.open_directions:
+            names = one.factors
+            parts = ", ".join(f"{name} x {exp(0.1 * part):.3g}" for name, part in names.items())
+            reach = "too little" if isfinite(one.spread) else "nothing"
+            alone = "is" if len(names) == 1 else "together are"
+            lines.append(
+                f"the data say {reach} of {' and '.join(names)}: {parts} {alone} hardly seen"
+            )
         lines.append(f"{self.starts_agreeing} of {self.starts} starts led to this minimum")
-        return [*lines, *self.unmet_numbers(), *self.notes]
+        at_bound = [one.name for one in self.parameters if one.at_bound]
+        if at_bound:
+            lines.append(f"at a bound: {', '.join(at_bound)}")
+        return [*lines, *(f"note: {note}" for note in self.notes)]
 
 
 def free_parameters(

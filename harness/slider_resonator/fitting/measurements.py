@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from math import isfinite
+from functools import cached_property
+from math import isfinite, nan
 from typing import NamedTuple
 
 import numpy as np
@@ -73,25 +74,36 @@ class Measurements:
     plain_frequencies: tuple[tuple[str, str, float], ...] = ()
     notes: tuple[str, ...] = ()
 
+    @cached_property
+    def _numbers(self) -> list[tuple[Place, float, float]]:
+        """Place, value and standard deviation of each number, without what a run leaves out."""
+        found = [
+            (
+                Place(p.quantity, p.source, p.row),
+                p.measured,
+                nan if p.deviation is None else p.deviation,
+            )
+            for p in self.points
+        ]
+        for run in self.runs:
+            for name, column in run.outputs.items():
+                rows = run.rows or [f"row {number}" for number in range(1, len(column) + 1)]
+                deviations = run.deviations.get(name, np.full(len(column), nan))
+                numbers = zip(rows, column.tolist(), deviations.tolist(), strict=True)
+                found += [
+                    (Place(name, run.source, n[0]), *n[1:]) for n in numbers if isfinite(n[1])
+                ]
+        return found
+
     @property
     def measured(self) -> Array:
-        """What was measured, shape (n,), without what a run leaves out."""
-        runs = [column[np.isfinite(column)] for run in self.runs for column in run.outputs.values()]
-        return np.concatenate([[point.measured for point in self.points], *runs])
+        """What was measured, shape (n,)."""
+        return np.array([value for _, value, _ in self._numbers])
 
     @property
     def places(self) -> list[Place]:
         """The place of each number, length n."""
-        found = [Place(point.quantity, point.source, point.row) for point in self.points]
-        for run in self.runs:
-            for name, column in run.outputs.items():
-                rows = run.rows or [f"row {number}" for number in range(1, len(column) + 1)]
-                found += [
-                    Place(name, run.source, row)
-                    for row, value in zip(rows, column, strict=True)
-                    if isfinite(value)
-                ]
-        return found
+        return [place for place, _, _ in self._numbers]
 
     @property
     def given(self) -> list[tuple[str, str]]:
@@ -113,13 +125,7 @@ class Measurements:
     @property
     def deviations(self) -> Array:
         """Standard deviations, shape (n,), NaN where they are not known."""
-        points = [np.nan if p.deviation is None else p.deviation for p in self.points]
-        runs = [
-            run.deviations.get(name, np.full(len(column), np.nan))[np.isfinite(column)]
-            for run in self.runs
-            for name, column in run.outputs.items()
-        ]
-        return np.concatenate([points, *runs])
+        return np.array([deviation for _, _, deviation in self._numbers])
 
     @property
     def knows_deviations(self) -> bool:

@@ -28,9 +28,7 @@ _STEADY_ALIASES = {
     "force": "blocking_force",
 }
 """Other names of what a table measures; those of a run are the outputs themselves."""
-_HEADING = re.compile(
-    r"\s*(?P<name>\w[\w ]*?)(?P<std>[_ ]std)?\s*(?:[\[(](?P<unit>[^\])]*)[\])])?\s*", re.I
-)
+_HEADING = re.compile(r"\s*(\w[\w ]*?)([_ ]std)?\s*(?:[\[(]([^\])]*)[\])])?\s*", re.I)
 MAX_ROWS = 100_000
 
 
@@ -94,85 +92,67 @@ def _columns(path: Path) -> _Columns:
         filled = [(line, row) for line, row in lines if any(cell.strip() for cell in row)]
         if not 1 <= len(filled) <= MAX_ROWS:
             raise ValueError(f"{len(filled)} rows below the header; must be 1 to {MAX_ROWS}")
-        texts = [
-            (heading, [row[index].strip() if index < len(row) else "" for _, row in filled])
-            for index, heading in enumerate(header)
-        ]
-        is_run = _is_run(header)
-        ignored = [
-            heading
-            for heading, cells in texts
-            if _parts(heading, is_run)["name"] not in _allowed(is_run)
-            and not any(is_number(cell) for cell in cells)
-        ]
         rows = [f"line {line}" for line, _ in filled]
-        cells = [
-            (heading, _numbers(heading, rows, cells))
-            for heading, cells in texts
-            if heading not in ignored
-        ]
-        found = _named(str(path), rows, cells)
+        allowed, columns, ignored = _Allowed.by(header), [], []
+        for index, heading in enumerate(header):
+            cells = [row[index].strip() if index < len(row) else "" for _, row in filled]
+            is_known = allowed.parts(heading)[0] in allowed.names
+            if is_known or any(is_number(cell) for cell in cells):
+                columns.append((heading, _numbers(heading, rows, cells)))
+            elif heading:
+                ignored.append(repr(heading))
+        found = _named(str(path), rows, columns)
     except ValueError as error:
         said = str(error)
         raise HarnessError(said if str(path) in said else f"{path}: {said}") from error
-    named = [repr(heading) for heading in ignored if heading]
-    note = f"{path}: ignored {', '.join(named)}: no numbers"
-    return replace(found, notes=(note,) if named else ())
+    note = f"{path}: ignored {', '.join(ignored)}: no numbers"
+    return replace(found, notes=(note,) if ignored else ())
 
 
-def _is_run(headings: Iterable[str]) -> bool:
-    return any(_parts(heading, is_run=True)["name"] == "time" for heading in headings)
+@dataclass(frozen=True)
+class _Allowed:
+    """Names that columns can have, those of them that can be measured, and other words for them."""
+
+    names: Sequence[str]
+    outputs: Sequence[str]
+    aliases: Mapping[str, str]
+
+    @classmethod
+    def by(cls, headings: Iterable[str]) -> _Allowed:
+        """Return those of a run where a heading says `time`, else those of a table."""
+        run = cls([*INPUTS, *HELD, *ALL_OUTPUTS, "time"], [*ALL_OUTPUTS], _ALIASES)
+        if any(run.parts(heading)[0] == "time" for heading in headings):
+            return run
+        return cls([*INPUTS, *PARAMETERS, *STEADY, "time"], STEADY, _ALIASES | _STEADY_ALIASES)
+
+    def parts(self, heading: str) -> tuple[str, str, str]:
+        """Return name, std and unit of a heading; the last two are empty if it lacks them."""
+        match = _HEADING.fullmatch(heading)
+        name, std, unit = match.groups("") if match else (heading, "", "")
+        name = "_".join(name.lower().split())
+        return self.aliases.get(name, name), std, unit
 
 
 def _named(source: str, rows: Sequence[str], columns: Sequence[tuple[str, Array]]) -> _Columns:
     """Return columns by name in SI units from those by heading; ValueError for a wrong heading."""
-    is_run = _is_run(heading for heading, _ in columns)
+    allowed = _Allowed.by(heading for heading, _ in columns)
     named: dict[str, Array] = {}
     units: dict[str, tuple[str, float]] = {}
     for heading, values in columns:
-        name, unit, factor = _column(heading, is_run)
+        name, std, unit = allowed.parts(heading)
+        if name not in allowed.names or (std and name not in allowed.outputs):
+            raise ValueError(unknown_name("column", name + std, allowed.names))
+        try:
+            factor = si_value(TIME if name == "time" else name, f"1 {unit}") if unit else 1.0
+        except ValueError as error:
+            raise ValueError(f"heading {heading!r}: {error}") from error
+        name += "_std" if std else ""
         if name in named:
             raise ValueError(f"two columns {name}; must be one")
         named[name] = factor * values
         if unit:
             units[name] = (unit, factor)
     return _Columns(source, rows, named, units)
-
-
-def _parts(heading: str, is_run: bool) -> Mapping[str, str]:
-    """Return name, std and unit of a heading; the last two are empty if it does not have them."""
-    match = _HEADING.fullmatch(heading)
-    parts = match.groupdict("") if match else {"name": heading, "std": "", "unit": ""}
-    name = "_".join(parts["name"].lower().split())
-    aliases = _ALIASES if is_run else _ALIASES | _STEADY_ALIASES
-    return {**parts, "name": aliases.get(name, name)}
-
-
-def _outputs(is_run: bool) -> Sequence[str]:
-    """Return the names of what can be measured."""
-    return [*ALL_OUTPUTS] if is_run else STEADY
-
-
-def _allowed(is_run: bool) -> Sequence[str]:
-    """Return the names that a column can have."""
-    return [*INPUTS, *(HELD if is_run else PARAMETERS), *_outputs(is_run), "time"]
-
-
-def _column(heading: str, is_run: bool) -> tuple[str, str, float]:
-    """Return the name that a heading stands for, its unit if any, and the factor to SI units.
-
-    Raises ValueError with the heading and what it must be.
-    """
-    parts = _parts(heading, is_run)
-    name, unit, allowed = parts["name"], parts["unit"], _allowed(is_run)
-    if name not in allowed or (parts["std"] and name not in _outputs(is_run)):
-        raise ValueError(unknown_name("column", name + parts["std"], allowed))
-    try:
-        of_unit = TIME if name == "time" else name
-        factor = si_value(of_unit, f"1 {unit}") if unit else 1.0
-    except ValueError as error:
-        raise ValueError(f"heading {heading!r}: {error}") from error
-    return name + ("_std" if parts["std"] else ""), unit, factor
 
 
 def _numbers(heading: str, rows: Sequence[str], cells: Sequence[str]) -> Array:

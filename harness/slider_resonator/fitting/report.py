@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from html import escape
-from math import exp, isfinite
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +13,6 @@ from slider_resonator.fmu.provenance_text import provenance_html
 from slider_resonator.output.atomic import write_csv, write_text
 from slider_resonator.output.html_page import rendered, write_page
 from slider_resonator.output.plot_style import png_data_uri, save
-from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.device_file import to_toml
 
@@ -40,43 +37,6 @@ def _numbers(one: FittedParameter) -> tuple[str, str, str]:
     return f"{one.value:.{digits + 1}g}", *one.interval(digits)
 
 
-def sentences(fit: Fit) -> list[str]:
-    """Return what there is to say beside the table."""
-    count, free = len(fit.measured), len(fit.parameters)
-    lines = [f"{count} numbers, {free} free parameters"]
-    lines.append(f"friction on {number_of(fit.device.friction_faces, 'face')} (friction_faces)")
-    if fit.scale is None:
-        solved = "not solved" if fit.unmet else "solved, without intervals"
-        lines.append(f"as many parameters as numbers: {solved}")
-    elif fit.measurements.knows_deviations:
-        lines.append(
-            f"residuals have {fit.scale:.3g} times the stated standard deviation"
-            + (": the model or the stated deviations do not fit" if fit.scale > 2.0 else "")
-        )
-    lines += fit.unmet_numbers()
-    quantities = np.array(fit.measurements.quantities)
-    for quantity in dict.fromkeys(quantities.tolist()):
-        own = quantities == quantity
-        off = float(np.sqrt(np.nanmean((fit.predicted - fit.measured)[own] ** 2)))
-        lines.append(f"{quantity} is off by {fit.measurements.shown(quantity, off)} (rms)")
-    missing = int(np.count_nonzero(~np.isfinite(fit.predicted)))
-    if missing:
-        lines.append(f"at {missing} of the points the fitted device has no steady motion")
-    lines += [_open(one.factors, one.spread) for one in fit.open_directions]
-    lines.append(f"{fit.starts_agreeing} of {fit.starts} starts led to this minimum")
-    at_bound = [one.name for one in fit.parameters if one.at_bound]
-    if at_bound:
-        lines.append(f"at a bound: {', '.join(at_bound)}")
-    return [*lines, *(f"note: {note}" for note in fit.notes)]
-
-
-def _open(factors: Mapping[str, float], spread: float) -> str:
-    parts = ", ".join(f"{name} x {exp(0.1 * part):.3g}" for name, part in factors.items())
-    reach = "nothing" if not isfinite(spread) else "too little"
-    alone = "is" if len(factors) == 1 else "together are"
-    return f"the data say {reach} of {' and '.join(factors)}: {parts} {alone} hardly seen"
-
-
 def write_report(fit: Fit, folder: Path, title: str, provenance: Provenance) -> list[Path]:
     """Write device.toml, fit.png, residuals.csv and fit.html into a folder; return their paths."""
     paths = [folder / name for name in ("device.toml", "fit.png", "residuals.csv", "fit.html")]
@@ -91,7 +51,7 @@ def write_report(fit: Fit, folder: Path, title: str, provenance: Provenance) -> 
     quantities, *where = zip(*fit.measurements.places, strict=True)
     columns = (column.tolist() for column in numbers_of)
     write_csv(table, header, zip(quantities, *columns, *where, strict=True))
-    said = "".join(f"<li>{escape(line)}</li>" for line in sentences(fit))
+    said = "".join(f"<li>{escape(line)}</li>" for line in fit.sentences())
     parts = [
         rendered(parameter_table(fit)),
         f"<ul>{said}</ul>",

@@ -23,7 +23,7 @@ from slider_resonator.fitting.measurements import (
 )
 from slider_resonator.fitting.notes import data_notes
 from slider_resonator.fitting.reading import measurements_from
-from slider_resonator.fitting.report import parameter_table, sentences
+from slider_resonator.fitting.report import parameter_table
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import Task
 
@@ -188,7 +188,7 @@ def test_an_end_at_a_bound_of_the_search_is_none(instance: Instance) -> None:
 def test_numbers_that_no_device_has_are_not_met(instance: Instance) -> None:
     found = fitted(instance, datasheet(5.0, None, []), ["friction_coefficient"])
     assert found.unmet == (0,)
-    said = "\n".join(sentences(found))
+    said = "\n".join(found.sentences())
     assert "as many parameters as numbers: not solved" in said
     reached = found.measurements.shown("steady_velocity", float(found.predicted[0]))
     assert (
