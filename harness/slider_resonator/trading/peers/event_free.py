@@ -9,8 +9,8 @@ creeps. The bristle of LuGre friction is a fifth state.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -55,14 +55,16 @@ def simulate(
     event times. Raises ValueError for inputs with gaps and times outside them, RuntimeError where a
     step fails or the right hand side is evaluated more than ``max_evaluations`` times.
     """
-    return _Integration(device, times, method, rtol, atol, width, max_evaluations).run(held)
+    limits = (rtol, atol, width, max_evaluations)
+    follow = partial(_integrate, method=method, limits=limits)
+    return RunWithoutEvents(device, times).run(held, follow)
 
 
-class RunWithoutEvents(ABC):
+class RunWithoutEvents:
     """A device followed through held inputs; ``theta`` and ``psi`` (rad) are those at their start.
 
     ``state`` holds position, velocity, resonator displacement and velocity, and with LuGre friction
-    the deflection of the bristle, shape (4,) or (5,).
+    the deflection of the bristle, shape (4,) or (5,); ``friction`` (N) is for time stepping.
     """
 
     def __init__(self, device: Device, times: Array) -> None:
@@ -72,23 +74,25 @@ class RunWithoutEvents(ABC):
         self.state: Array = np.array(initial_state(device))
         self.theta = 0.0
         self.psi = 0.0
+        self.friction = 0.0
 
-    def run(self, held: Sequence[HeldInputs]) -> Trajectory:
-        """Return the motion through the held inputs, or ones with rates."""
+    def run(
+        self, held: Sequence[HeldInputs], follow: Callable[[RunWithoutEvents, HeldInputs], None]
+    ) -> Trajectory:
+        """Return the motion through the held inputs, or ones with rates.
+
+        `follow` advances `state` through some, keeping samples and counts.
+        """
         check_contiguous(held, rates=RATES)
         check_times(self.recorder.times, held)
         for inputs in with_steady_phase(held, self.device):
             self.equations = equations_of(inputs.tuned_device(self.device))
             rate, span = self.equations.drive_frequency, inputs.stop - inputs.start
-            self.follow(inputs)
+            follow(self, inputs)
             self.theta += rate * span
             self.psi += inputs.turned(span, rate)
         bends = self.device.friction_law == 1
         return self.recorder.lugre_trajectory() if bends else self.recorder.trajectory()
-
-    @abstractmethod
-    def follow(self, inputs: HeldInputs) -> None:
-        """Advance ``state`` through held inputs, keeping samples and counts."""
 
     def angles(self, inputs: HeldInputs, local: Number) -> Number:
         """Return psi + phase in rad at times in s since the start of the inputs."""
@@ -109,70 +113,55 @@ class RunWithoutEvents(ABC):
         )
 
 
-class _Integration(RunWithoutEvents):
-    def __init__(
-        self,
-        device: Device,
-        times: Array,
-        method: Callable[..., Any],
-        rtol: float,
-        atol: float,
-        width: float,
-        max_evaluations: int,
-    ) -> None:
-        super().__init__(device, times)
-        self._method = method
-        self._rtol = rtol
-        self._atol = atol
-        self._width = width
-        self._max_evaluations = max_evaluations
-
-    def follow(self, inputs: HeldInputs) -> None:
-        equations, recorder = self.equations, self.recorder
-        span = inputs.stop - inputs.start
-        scales, longest = equations.state_scales(inputs.load), np.inf
-        if equations.path_rate:
-            scales = np.append(scales, 1.0 / equations.path_rate)
-            ratio = max(inputs.frequency_ratio, inputs.later(span).frequency_ratio, key=abs)
-            longest = 2.0 * np.pi / equations.fastest_rate(ratio) / STEPS_PER_FASTEST_PERIOD
-        slopes = equations.slopes(
-            *(None, inputs.load, self.theta, self.psi + inputs.phase, inputs.frequency_ratio),
-            self._width,
-            load_rate=inputs.load_rate,
-            ratio_rate=inputs.ratio_rate,
-        )
-        tolerances = {"rtol": self._rtol, "atol": self._atol * scales}
-        solver = self._method(slopes, 0.0, self.state, span, max_step=longest, **tolerances)
-        while solver.status == "running":
-            take_step(solver, inputs.start, "use a greater atol")
-            evaluations = recorder.evaluations + solver.nfev
-            if evaluations > self._max_evaluations:
-                raise RuntimeError(
-                    f"{type(solver).__name__} has used {evaluations} evaluations up to "
-                    f"t = {inputs.start + float(solver.t)!r} s, "
-                    f"max_evaluations = {self._max_evaluations}: it chatters in a stick; use a "
-                    "greater atol, or located events"
-                )
-            recorder.steps += 1
-            load = equations.normal_amplitude * np.sin(self.angles(inputs, float(solver.t)))
-            if equations.normal_preload + load > 0.0:
-                recorder.contact.slide(int(np.sign(solver.y[1])))
-            reached = inputs.start + solver.t if solver.status == "running" else inputs.stop
-            local = recorder.pending(reached) - inputs.start
-            if local.size:
-                states = solver.dense_output()(local).T
-                self.keep(inputs, local, states, self._friction(inputs, local, states))
-        recorder.evaluations += solver.nfev
-        self.state = solver.y
-
-    def _friction(self, inputs: HeldInputs, local: Array, states: Array) -> Array:
-        angles, velocity = self.angles(inputs, local), states[:, 1]
-        if self.equations.path_rate:
-            _, friction = self.equations.contact_forces(SLIP_FORWARD, 0.0, angles, angles, states)
-            return friction
-        limit = np.maximum(0.0, self.equations.friction_limit(angles))
-        share = np.tanh(velocity / self._width) if self._width else np.sign(velocity)
-        return np.asarray(share * limit)
+def _integrate(
+    run: RunWithoutEvents,
+    inputs: HeldInputs,
+    *,
+    method: Callable[..., Any],
+    limits: tuple[float, float, float, int],
+) -> None:
+    """Advance a run; `limits` are rtol, atol, width and max_evaluations of `simulate`."""
+    rtol, atol, width, max_evaluations = limits
+    equations, recorder = run.equations, run.recorder
+    span = inputs.stop - inputs.start
+    scales, longest = equations.state_scales(inputs.load), np.inf
+    if equations.path_rate:
+        scales = np.append(scales, 1.0 / equations.path_rate)
+        ratio = max(inputs.frequency_ratio, inputs.later(span).frequency_ratio, key=abs)
+        longest = 2.0 * np.pi / equations.fastest_rate(ratio) / STEPS_PER_FASTEST_PERIOD
+    slopes = equations.slopes(
+        *(None, inputs.load, run.theta, run.psi + inputs.phase, inputs.frequency_ratio),
+        width,
+        load_rate=inputs.load_rate,
+        ratio_rate=inputs.ratio_rate,
+    )
+    solver = method(slopes, 0.0, run.state, span, max_step=longest, rtol=rtol, atol=atol * scales)
+    while solver.status == "running":
+        take_step(solver, inputs.start, "use a greater atol")
+        evaluations = recorder.evaluations + solver.nfev
+        if evaluations > max_evaluations:
+            raise RuntimeError(
+                f"{type(solver).__name__} has used {evaluations} evaluations up to "
+                f"t = {inputs.start + float(solver.t)!r} s, max_evaluations = {max_evaluations}: "
+                "it chatters in a stick; use a greater atol, or located events"
+            )
+        recorder.steps += 1
+        load = equations.normal_amplitude * np.sin(run.angles(inputs, float(solver.t)))
+        if equations.normal_preload + load > 0.0:
+            recorder.contact.slide(int(np.sign(solver.y[1])))
+        reached = inputs.start + solver.t if solver.status == "running" else inputs.stop
+        local = recorder.pending(reached) - inputs.start
+        if local.size:
+            states, angles = solver.dense_output()(local).T, run.angles(inputs, local)
+            if equations.path_rate:
+                _, friction = equations.contact_forces(SLIP_FORWARD, 0.0, angles, angles, states)
+            else:
+                velocity = states[:, 1]
+                share = np.tanh(velocity / width) if width else np.sign(velocity)
+                friction = share * np.maximum(0.0, equations.friction_limit(angles))
+            run.keep(inputs, local, states, friction)
+    recorder.evaluations += solver.nfev
+    run.state = solver.y
 
 
 def take_step(solver: Any, time: float, advice: str) -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Sequence
+from functools import partial
 from math import ceil, pi, sin
 
 import numpy as np
@@ -36,59 +37,53 @@ def simulate(
     stick, 2 where the contact is open), ``reversals`` counts its changes between steps, and
     ``event_times`` is empty. Raises ValueError as the other does.
     """
-    return _Run(device, times, steps_per_period).run(held)
+    follow = partial(_follow, steps_per_period=steps_per_period)
+    return RunWithoutEvents(device, times).run(held, follow)
 
 
-class _Run(RunWithoutEvents):
-    """Time stepping; the friction of the last step goes on to the next."""
-
-    def __init__(self, device: Device, times: Array, steps_per_period: int) -> None:
-        super().__init__(device, times)
-        self._steps_per_period = steps_per_period
-        self._friction = 0.0
-
-    def follow(self, inputs: HeldInputs) -> None:
-        equations, contact = self.equations, self.recorder.contact
-        rate = equations.drive_frequency
-        angle_rate, half = inputs.frequency_ratio * rate, 0.5 * inputs.ratio_rate * rate
-        load, load_rate = inputs.load, inputs.load_rate
-        span = inputs.stop - inputs.start
-        count = ceil(span * rate / (2.0 * pi) * self._steps_per_period * (1.0 - _SAME_INSTANT))
-        step = span / count
-        smooth = _SmoothStep(equations, step)
-        theta, angle = self.theta, self.psi + inputs.phase
-        limit_mean, limit_amplitude = equations.friction_mean, equations.friction_amplitude
-        x, v, y, u = self.state.tolist()
-        path = array("d", (x, v, y, u, self._friction))
-        sticking = False
-        for index in range(count):
-            middle = (index + 0.5) * step
-            pulled = load + load_rate * middle
-            free_v, free_u = smooth.free(v, y, u, theta + rate * middle, pulled)
-            normal = angle + (angle_rate + half * middle) * middle
-            limit = step * max(0.0, limit_mean + limit_amplitude * sin(normal))
-            impulse = min(limit, max(-limit, free_v / smooth.mobility))
-            # Where the impulse stops the slider, it does so exactly: -0.0 and rounding are no slip.
-            stopped = abs(impulse) < limit
-            next_v = 0.0 if stopped else free_v - smooth.mobility * impulse
-            next_u = free_u - smooth.resonator_mobility * impulse
-            x += 0.5 * step * (v + next_v)
-            y += 0.5 * step * (u + next_u)
-            v, u = next_v, next_u
-            path.extend((x, v, y, u, impulse / step))
-            contact.slide((v > 0.0) - (v < 0.0))
-            if stopped:
-                contact.sticks += not sticking
-                contact.stick_time += step
-            sticking = stopped
-        self.recorder.steps += count
-        self.recorder.evaluations += count
-        rows = np.array(path).reshape(-1, 5)
-        self.state, self._friction = rows[-1, :4], float(rows[-1, 4])
-        local = self.recorder.pending(inputs.stop) - inputs.start
-        ends = step * np.arange(count + 1)
-        samples = np.column_stack([np.interp(local, ends, column) for column in rows.T])
-        self.keep(inputs, local, samples[:, :4], samples[:, 4])
+def _follow(run: RunWithoutEvents, inputs: HeldInputs, *, steps_per_period: int) -> None:
+    """Step through held inputs; the friction of the last step goes on to the next."""
+    equations, contact = run.equations, run.recorder.contact
+    rate = equations.drive_frequency
+    angle_rate, half = inputs.frequency_ratio * rate, 0.5 * inputs.ratio_rate * rate
+    load, load_rate = inputs.load, inputs.load_rate
+    span = inputs.stop - inputs.start
+    count = ceil(span * rate / (2.0 * pi) * steps_per_period * (1.0 - _SAME_INSTANT))
+    step = span / count
+    smooth = _SmoothStep(equations, step)
+    theta, angle = run.theta, run.psi + inputs.phase
+    limit_mean, limit_amplitude = equations.friction_mean, equations.friction_amplitude
+    x, v, y, u = run.state.tolist()
+    path = array("d", (x, v, y, u, run.friction))
+    sticking = False
+    for index in range(count):
+        middle = (index + 0.5) * step
+        pulled = load + load_rate * middle
+        free_v, free_u = smooth.free(v, y, u, theta + rate * middle, pulled)
+        normal = angle + (angle_rate + half * middle) * middle
+        limit = step * max(0.0, limit_mean + limit_amplitude * sin(normal))
+        impulse = min(limit, max(-limit, free_v / smooth.mobility))
+        # Where the impulse stops the slider, it does so exactly: -0.0 and rounding are no slip.
+        stopped = abs(impulse) < limit
+        next_v = 0.0 if stopped else free_v - smooth.mobility * impulse
+        next_u = free_u - smooth.resonator_mobility * impulse
+        x += 0.5 * step * (v + next_v)
+        y += 0.5 * step * (u + next_u)
+        v, u = next_v, next_u
+        path.extend((x, v, y, u, impulse / step))
+        contact.slide((v > 0.0) - (v < 0.0))
+        if stopped:
+            contact.sticks += not sticking
+            contact.stick_time += step
+        sticking = stopped
+    run.recorder.steps += count
+    run.recorder.evaluations += count
+    rows = np.array(path).reshape(-1, 5)
+    run.state, run.friction = rows[-1, :4], float(rows[-1, 4])
+    local = run.recorder.pending(inputs.stop) - inputs.start
+    ends = step * np.arange(count + 1)
+    samples = np.column_stack([np.interp(local, ends, column) for column in rows.T])
+    run.keep(inputs, local, samples[:, :4], samples[:, 4])
 
 
 class _SmoothStep:
@@ -106,7 +101,6 @@ class _SmoothStep:
         swing = 0.5 * h * (e.damping_rate + 0.5 * h * e.stiffness_rate)
         # v1 - pull u1 = a and v1 + (1 + swing) u1 = b, the second with v' moved to the left.
         self._pull, self._inverse = pull, 1.0 / (1.0 + swing + pull)
-        self._swing = swing
         self.mobility = (1.0 + swing) * self._inverse / e.inertia
         self.resonator_mobility = -self._inverse / e.inertia
 

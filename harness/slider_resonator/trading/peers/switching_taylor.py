@@ -1,9 +1,9 @@
 """heyoka at its fastest on a slider that never sticks: a motion under constant inputs in one call.
 
-One compiled system per friction law; the direction of sliding is a runtime parameter that an event
-callback reverses where the velocity is zero. With LuGre friction the bristle deflection follows
-from the path since the last reversal. It covers neither sticking nor flight: `simulate_sliding`
-refuses devices that lift, and a start at rest.
+The system is compiled for a device and its inputs; the direction of sliding is a parameter that an
+event callback reverses where the velocity is zero. With LuGre friction the bristle deflection
+follows from the path since the last reversal. It covers neither sticking nor flight:
+`simulate_sliding` refuses devices that lift, and a start at rest.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import importlib
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import lru_cache
 from time import process_time
 from typing import Any
 
@@ -26,14 +26,10 @@ from slider_resonator.references.resolved.trajectory import LugreTrajectory, Tra
 from slider_resonator.trading.peers.peer import NOT_SHOT, Peer, solution_of
 from slider_resonator.trading.solution import Solution
 
-_PARAMETERS = (
-    *("mass", "mass_base", "damping", "stiffness", "base", "direct", "frequency"),
-    *("normal_frequency", "phase", "load", "preload", "amplitude", "direction"),
-    *("bristle_rate", "drag", "reversed_at", "stretch"),
-)
-_PLACE = {name: index for index, name in enumerate(_PARAMETERS)}
-_LAST = ("direction", "stretch")
-"""The last parameter in use, by friction law."""
+_STATE = ("position", "velocity", "resonator_displacement", "resonator_velocity")
+_AT_REST: dict[str, Any] = {f"initial_{name}": 0.0 for name in (*_STATE, "bristle_deflection")}
+DIRECTION, REVERSED_AT, STRETCH = range(3)
+"""Parameters that change in a run; only the first with Coulomb friction."""
 
 
 def heyoka_in_one_call(family: str, tolerance: float) -> Peer:
@@ -76,8 +72,7 @@ def heyoka_in_one_call(family: str, tolerance: float) -> Peer:
 
 def device_at(device: Device, run: Trajectory, index: int) -> Device:
     """Return the device that starts in the state of a trajectory at one of its samples."""
-    names = ("position", "velocity", "resonator_displacement", "resonator_velocity")
-    state: dict[str, Any] = {f"initial_{name}": float(getattr(run, name)[index]) for name in names}
+    state: dict[str, Any] = {f"initial_{name}": float(getattr(run, name)[index]) for name in _STATE}
     bent = run.bristle_deflection[index] if isinstance(run, LugreTrajectory) else 0.0
     return replace(device, **state, initial_bristle_deflection=float(bent))
 
@@ -105,26 +100,28 @@ def simulate_sliding(
     """Follow a moving slider to the stop of `inputs` (s), theta = psi = 0 at their start.
 
     The initial state is that at `start` (s), by default the start of the inputs. `times` (s, shape
-    (n,)) ascend from there. `tolerance` is the relative one of a Taylor step. The first call with a
-    `tolerance` compiles. Raises ValueError for what is not covered; RuntimeError when heyoka fails;
+    (n,)) ascend from there. `tolerance` is the relative one of a Taylor step. The first call for a
+    device compiles. Raises ValueError for what is not covered; RuntimeError when heyoka fails;
     ModuleNotFoundError without heyoka.
     """
     if device.normal_amplitude > device.normal_preload:
         raise ValueError("normal_amplitude above normal_preload: the contact lifts")
     if device.initial_velocity == 0.0 or device.fidelity != 2 or device.resonator_mass == 0.0:
         raise ValueError("only full devices with initial_velocity not 0 are covered")
-    integrator, counter = _compiled(device.friction_law, tolerance)
-    _set(integrator, device, inputs)
+    now = (inputs.phase, inputs.load, inputs.frequency_ratio)
+    integrator, counter = _compiled(replace(device, **_AT_REST), now, tolerance)
     counter.reversals = 0
     integrator.time = 0.0 if start is None else start - inputs.start
     integrator.reset_cooldowns()
-    state = [0.0, device.initial_velocity]
-    state += [device.initial_resonator_displacement, device.initial_resonator_velocity]
-    stretch = device.bristle_stiffness * device.initial_bristle_deflection
-    stretch /= device.friction_coefficient
+    integrator.pars[DIRECTION] = math.copysign(1.0, device.initial_velocity)
     if device.friction_law == 1:
-        integrator.pars[_PLACE["stretch"]] = stretch
-    integrator.state[:] = state
+        bent = device.bristle_stiffness * device.initial_bristle_deflection
+        integrator.pars[REVERSED_AT] = 0.0
+        integrator.pars[STRETCH] = bent / device.friction_coefficient
+    integrator.state[:] = [
+        *(0.0, device.initial_velocity),
+        *(device.initial_resonator_displacement, device.initial_resonator_velocity),
+    ]
     grid = np.union1d(times - inputs.start, [integrator.time, inputs.stop - inputs.start])
     outcome, *_, steps, _, states = integrator.propagate_grid(grid.tolist())
     if "time_limit" not in str(outcome):
@@ -138,8 +135,11 @@ class _Counter:
     reversals = 0
 
 
-@cache
-def _compiled(friction_law: int, tolerance: float) -> tuple[Any, _Counter]:
+@lru_cache(maxsize=16)
+def _compiled(
+    device: Device, inputs: tuple[float, float, float], tolerance: float
+) -> tuple[Any, _Counter]:
+    """Compile a device at rest under phase (rad), load (N) and frequency ratio."""
     try:
         hy = importlib.import_module("heyoka")
     except ModuleNotFoundError as error:
@@ -147,80 +147,42 @@ def _compiled(friction_law: int, tolerance: float) -> tuple[Any, _Counter]:
             "this peer needs heyoka: pip install 'slider-resonator[taylor]'"
         ) from error
     x, v, y, u = hy.make_vars("x", "v", "y", "u")
-    par = {name: hy.par[index] for name, index in _PLACE.items()}
-    angle = par["frequency"] * hy.time
-    normal = par["preload"] + par["amplitude"] * hy.sin(
-        par["normal_frequency"] * hy.time + par["phase"]
-    )
-    rate = par["bristle_rate"]
-    share = par["direction"]
-    if friction_law == 1:
-        fade = hy.exp(-rate * par["direction"] * (x - par["reversed_at"]))
-        stretch = par["direction"] - (par["direction"] - par["stretch"]) * fade
+    phase, load, ratio = inputs
+    w, wn, mass = device.drive_frequency, device.resonator_frequency, device.resonator_mass
+    limit = device.friction_faces * device.friction_coefficient
+    rate = device.bristle_stiffness / device.friction_coefficient
+    drag = device.bristle_damping / device.friction_coefficient
+    drive = hy.sin(w * hy.time)
+    varying = device.normal_amplitude * hy.sin(ratio * w * hy.time + phase)
+    spring = 2.0 * device.damping_ratio * mass * wn * u + mass * wn * wn * y
+    direction = share = hy.par[DIRECTION]
+    if device.friction_law == 1:
+        fade = hy.exp(-rate * direction * (x - hy.par[REVERSED_AT]))
+        stretch = direction - (direction - hy.par[STRETCH]) * fade
         # sigma_1 z' / mu, with z the stretch s0 z / mu: sigma_1 v (1 - direction z) / mu.
-        share = stretch + par["drag"] * v * (1.0 - par["direction"] * stretch)
-    acceleration = (
-        par["damping"] * u
-        + par["stiffness"] * y
-        + par["direct"] * hy.sin(angle)
-        - par["load"]
-        - normal * share
-    ) / par["mass"]
-    swing = (
-        par["base"] * hy.sin(angle)
-        - (par["damping"] * u + par["stiffness"] * y) / par["mass_base"]
-        - acceleration
-    )
-    system = [(x, v), (v, acceleration), (y, u), (u, swing)]
+        share = stretch + drag * v * (1.0 - direction * stretch)
+    friction = limit * (device.normal_preload + varying) * share
+    force = spring + device.tangential_force * drive - load - friction
+    acceleration = force / device.slider_mass
+    swing = device.base_amplitude * w * w * drive - spring / mass - acceleration
     counter = _Counter()
 
     def reverse(integrator: Any, sign: int) -> bool:
         pars = integrator.pars
-        direction, position = pars[_PLACE["direction"]], integrator.state[0]
-        if friction_law == 1:
-            moved = position - pars[_PLACE["reversed_at"]]
-            lacking = direction - pars[_PLACE["stretch"]]
-            fade = math.exp(-pars[_PLACE["bristle_rate"]] * direction * moved)
-            pars[_PLACE["stretch"]] = direction - lacking * fade
-            pars[_PLACE["reversed_at"]] = position
-        pars[_PLACE["direction"]] = -direction
+        turned, position = pars[DIRECTION], integrator.state[0]
+        if device.friction_law == 1:
+            fade = math.exp(-rate * turned * (position - pars[REVERSED_AT]))
+            pars[STRETCH] = turned - (turned - pars[STRETCH]) * fade
+            pars[REVERSED_AT] = position
+        pars[DIRECTION] = -turned
         counter.reversals += 1
         return True
 
+    system = [(x, v), (v, acceleration), (y, u), (u, swing)]
+    parameters = [0.0] * (3 if device.friction_law == 1 else 1)
     event = hy.t_event(v, callback=reverse)
     integrator = hy.taylor_adaptive(
-        system,
-        [0.0] * len(system),
-        pars=[0.0] * (_PLACE[_LAST[friction_law]] + 1),
-        tol=tolerance,
-        t_events=[event],
+        system, [0.0] * len(system), pars=parameters, tol=tolerance, t_events=[event]
     )
     # A copy made by heyoka would keep its own callback, so the counter is found by the original.
     return integrator, counter
-
-
-def _set(integrator: Any, device: Device, inputs: HeldInputs) -> None:
-    faces = device.friction_faces * device.friction_coefficient
-    mass, wn = device.resonator_mass, device.resonator_frequency
-    w = device.drive_frequency
-    values = {
-        "mass": device.slider_mass,
-        "mass_base": mass,
-        "damping": 2.0 * device.damping_ratio * mass * wn,
-        "stiffness": mass * wn * wn,
-        "base": device.base_amplitude * w * w,
-        "direct": device.tangential_force,
-        "frequency": w,
-        "normal_frequency": inputs.frequency_ratio * w,
-        "phase": inputs.phase,
-        "load": inputs.load,
-        "preload": faces * device.normal_preload,
-        "amplitude": faces * device.normal_amplitude,
-        "bristle_rate": device.bristle_stiffness / device.friction_coefficient,
-        "drag": device.bristle_damping / device.friction_coefficient,
-        "direction": math.copysign(1.0, device.initial_velocity),
-        "reversed_at": 0.0,
-    }
-    for name, value in values.items():
-        if _PLACE[name] < len(integrator.pars):
-            integrator.pars[_PLACE[name]] = value
