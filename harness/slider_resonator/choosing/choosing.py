@@ -99,10 +99,11 @@ class Choosing:
         every = self.models()
         for index, model in enumerate(every):
             progress(counted(model.name, index, len(every)), index / len(every))
-            try:
-                good += self._suitable(model, min((one.cost for one in good), default=inf))
-            except _RuledOutError as error:
-                ruled_out[model] = str(error)
+            found = self._suitable(model, min((one.cost for one in good), default=inf))
+            if isinstance(found, str):
+                ruled_out[model] = found
+            else:
+                good += found
         if not good:
             return self._choice(None, ruled_out)
         good = self._timed_again(good)
@@ -133,13 +134,19 @@ class Choosing:
         fit = [step for step in self.probe.ladder if step is None or step <= longest]
         return tuple(fit) if model.fidelity > 0 else self.probe.ladder
 
-    def _suitable(self, model: Model, best: float) -> list[Evaluation]:
+    def _suitable(self, model: Model, best: float) -> list[Evaluation] | str:
         """Return the candidates of a model that serve: few tolerances at the largest step.
 
-        Raises _RuledOutError where none does, or where they cost much more than `best` (s).
+        The reason where none does, or where they cost much more than `best` (s).
         """
         if model.fidelity == 0 and "event_times" in self.needs:
-            raise _RuledOutError("averaged motion has no events")
+            return "averaged motion has no events"
+        if (
+            model.fidelity > 0
+            and best < inf
+            and (cost := self._cost_of(model)) > MAX_COST_RATIO * best
+        ):
+            return f"costs about {cost:.3g} s, another one {best:.3g} s"
         choices, steps = tolerances(model), self.steps(model)
         refused = ""
 
@@ -151,11 +158,14 @@ class Choosing:
                 refused = str(error)
                 return inf
 
-        self._check_cost(model, best)
-        tight, own = choices[-1], self._own_step(steps) if self.probe.varying else 0
-        at = coarsest(lambda i: excess(tight, steps[i]), len(steps), own)
+        fine = 0
+        if self.probe.varying:  # the scene's own step, which shows all that happens
+            longest = (self.scene.step_size or 0.0) * (1.0 + ROUNDING)
+            fine = next((i for i, step in enumerate(steps) if step and step <= longest), 0)
+        at = coarsest(lambda i: excess(choices[-1], steps[i]), len(steps), fine)
         if at is None:
-            raise _RuledOutError(self._why_not(model, refused))
+            ran = any(candidate.model == model for candidate in self._evaluations)
+            return self._nearest(model).why if ran else refused
         step = steps[at]
         index = choices.index(FIRST_TOLERANCE) if FIRST_TOLERANCE in choices else 0
         while excess(choices[index], step) > 1.0:  # the tightest serves
@@ -169,29 +179,16 @@ class Choosing:
             found.append(self._evaluate(Candidate(model, tolerance, step)))
         return found
 
-    def _check_cost(self, model: Model, best: float) -> None:
-        """Raise _RuledOutError for resolved motion that costs much more than `best` (s)."""
-        if model.fidelity == 0 or best == inf:
-            return
+    def _cost_of(self, model: Model) -> float:
+        """Return about what resolved motion costs (s), 0 where the FMU cannot run it."""
         cost = sum(self._find(name, self.finest).seconds for name in self.probe.steady_needs)
         if self.probe.run_needs:
             start = Candidate(model, tolerances(model)[0], self.steps(model)[0])
             try:
                 cost += self.probe.cost(start, HEAD_PERIODS * self.probe.scales.period)
             except FmuError:
-                return
-        if cost > MAX_COST_RATIO * best:
-            raise _RuledOutError(f"costs about {cost:.3g} s, another one {best:.3g} s")
-
-    def _own_step(self, steps: Sequence[float | None]) -> int:
-        """Return the index of the scene's own step, 0 without one."""
-        own = (self.scene.step_size or 0.0) * (1.0 + ROUNDING)
-        return next((i for i, step in enumerate(steps) if step and step <= own), 0)
-
-    def _why_not(self, model: Model, refused: str) -> str:
-        if all(candidate.model != model for candidate in self._evaluations):
-            return refused
-        return self._nearest(model).why
+                return 0.0
+        return cost
 
     def _nearest(self, model: Model | None = None) -> Evaluation:
         """Return the evaluation nearest to the needs, of all or a model; the finest of equals."""
@@ -231,15 +228,11 @@ class Choosing:
             if len(near) == 1 or time.process_time() - began > ENOUGH:
                 break
             for candidate in near:
-                costs[candidate] = min(self._cost(candidate), costs[candidate])
+                cost = self.probe.cost(candidate) if self.probe.run_needs else 0.0
+                for name in self.probe.steady_needs:
+                    cost += find(self.instance, self.scene.values, name, candidate).seconds
+                costs[candidate] = min(cost, costs[candidate])
         return [replace(one, cost=costs[one.candidate]) for one in good]
-
-    def _cost(self, candidate: Candidate) -> float:
-        """Measure the cost (s) of a candidate anew."""
-        names, values = self.probe.steady_needs, self.scene.values
-        found = [find(self.instance, values, name, candidate) for name in names]
-        run = self.probe.cost(candidate) if self.probe.run_needs else 0.0
-        return run + sum(one.seconds for one in found)
 
     def _choice(self, best: Evaluation | None, ruled_out: Mapping[Model, str]) -> Choice:
         evaluation = best or self._nearest()
@@ -266,7 +259,3 @@ class Choosing:
             scales=self.probe.scales,
             inputs=self.probe.inputs,
         )
-
-
-class _RuledOutError(Exception):
-    """Why a model is not the answer."""

@@ -14,7 +14,6 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from slider_resonator.steady.neighbours import DISTANCE, one_sided_multipliers
 from slider_resonator.steady.newton import DIFFERENCE, Matrix, Root, Vector, central_jacobian, solve
 
 PeriodMap = Callable[[Vector], tuple[Vector, float]]
@@ -31,6 +30,11 @@ FRESH = 1e-6
 KINK = 0.1
 """Difference of the one-sided multipliers, in units of 1 minus the two-sided one, from which on the
 larger of them counts."""
+
+DISTANCE = 1e-3
+"""Distance of the neighbours, in units of the scale."""
+CORRECTIONS = 2
+"""Newton steps that make a neighbour periodic in the fast directions."""
 
 FAMILY = 1e-9
 """Residual, in units of the scale, below which a singular map has a family of fixed points."""
@@ -95,7 +99,7 @@ def fixed_point(
         return _failure(root)
     jacobian = _fresh_jacobian(change, root, scale)
     multipliers = _multipliers(jacobian)
-    sides = one_sided_multipliers(change, root.x, jacobian, scale)
+    sides = _one_sided_multipliers(change, root.x, jacobian, scale)
     if sides is not None:
         error = max(NEUTRAL, tolerance / DISTANCE)
         if min(abs(side - 1.0) for side in sides) <= error:
@@ -149,6 +153,48 @@ def _multipliers(change_jacobian: Matrix) -> NDArray[np.complex128]:
     size = len(change_jacobian)
     values = np.linalg.eigvals(change_jacobian + np.eye(size)).astype(np.complex128)
     return values[np.argsort(-np.abs(values))]
+
+
+def _one_sided_multipliers(
+    change: Callable[[Vector], Vector], x: Vector, jacobian: Matrix, scale: Vector
+) -> tuple[float, float] | None:
+    """Return the slowest multiplier below and above the zero `x` (n,) of `change`.
+
+    Where sliding reverses in flight, neighbouring motions may have the same friction and repeat,
+    too. Such a family ends in a kink of the period map, across which a central difference is
+    meaningless. So one neighbour is followed on each side: at a given distance in the slowest
+    direction, and periodic in all others.
+
+    `jacobian` (n, n) is that of `change` at `x`. None where the slowest departure oscillates, or
+    two directions are equally slow.
+    """
+    scaled = jacobian * scale[None, :] / scale[:, None]
+    values, right = np.linalg.eig(scaled)
+    slowest = int(np.argmax(np.abs(values + 1.0)))
+    if values[slowest].imag != 0.0:
+        return None
+    try:
+        left = np.linalg.inv(right)[slowest].real
+        direction = right[:, slowest].real / float(left @ right[:, slowest].real)
+        border = np.block([[scaled, direction[:, None]], [left[None, :], np.zeros((1, 1))]])
+        below, above = (
+            _multiplier(change, x, scale, border, side * DISTANCE) for side in (-1.0, 1.0)
+        )
+    except np.linalg.LinAlgError:
+        return None
+    return below, above
+
+
+def _multiplier(
+    change: Callable[[Vector], Vector], x: Vector, scale: Vector, border: Matrix, distance: float
+) -> float:
+    """Return the distance after a period over `distance`."""
+    direction, left = border[:-1, -1], border[-1, :-1]
+    y = distance * direction
+    for _ in range(CORRECTIONS):
+        value = change(x + scale * y) / scale
+        y = y + np.linalg.solve(border, np.append(-value, distance - left @ y))[:-1]
+    return 1.0 + float(left @ (change(x + scale * y) / scale)) / distance
 
 
 def _family(root: Root) -> NoFixedPoint:
