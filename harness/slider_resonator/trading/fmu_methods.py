@@ -19,7 +19,7 @@ from slider_resonator.fmu.run import run
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.search_result import SearchResult
 from slider_resonator.steady.steady_velocity import find_steady
-from slider_resonator.trading.method import Label, Method, SteadyAnswer, SteadyMethod, timed
+from slider_resonator.trading.method import Label, Method, SteadyAnswer, SteadyMethod
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import AVERAGED, RESOLVED
 from slider_resonator.trading.solution import Solution
@@ -58,22 +58,15 @@ class FmuMethods:
         self.problem = problem
         self.build = build
         self.fmu = fmu
-        self._cpu = 0.0
 
     @cached_property
     def orders(self) -> tuple[int | None, ...]:
         """The orders of averages from which the FMU has a choice, highest first; else None."""
         return AVERAGING_ORDERS if self.fmu.run(attrgetter("fmu.has_orders")) else (None,)
 
-    def _clock(self) -> float:
-        """Return the CPU time (s) that the FMU has taken so far, in its own process."""
-        return self._cpu
-
     def _run(self, task: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
-        """Run `task(instance, ...)` and add its CPU time."""
-        taken, result = self.fmu.run(partial(_timed, partial(task, **options), arguments))
-        self._cpu += taken
-        return result
+        """Return the CPU time (s) of `task(instance, ...)` in the FMU's process, and its result."""
+        return self.fmu.run(partial(_timed, partial(task, **options), arguments))
 
     def methods(self) -> Iterator[Method]:
         """Yield every setting; the other friction law as a model of the same device."""
@@ -130,7 +123,8 @@ class FmuMethods:
             schedule = self.problem.schedule(periods, size, interpolates=self.interpolates)
             taken: list[float] = []
             while not taken or (sum(taken) < SHORTEST and len(taken) < MAX_RUNS):
-                taken.append(self._run(run, values, schedule, outputs=OUTPUTS).step_cpu)
+                _, record = self._run(run, values, schedule, outputs=OUTPUTS)
+                taken.append(record.step_cpu)
             return sum(taken) / len(taken)
 
         return Method(
@@ -139,19 +133,20 @@ class FmuMethods:
             seconds,
             min_periods=ceil(step),
             missing={} if model.fidelity else _UNRESOLVED,
-            clock=self._clock,
         )
 
     def _follow(
         self, values: Mapping[str, float], size: float, periods: int, *, resolved: bool
-    ) -> Solution:
+    ) -> tuple[float, Solution]:
         own = self.problem.schedule(periods, size, interpolates=self.interpolates)
         readings = self.problem.readings(periods)
         closest = 1e-9 * min(size, self.problem.period)
         outputs = (*OUTPUTS, "last_event_time", "reversals")
-        record: Record = self._run(run, values, own.read_at(readings, closest), outputs=outputs)
+        record: Record
+        schedule = own.read_at(readings, closest)
+        taken, record = self._run(run, values, schedule, outputs=outputs)
         at = np.searchsorted(record.times, own.times)
-        return Solution(
+        return taken, Solution(
             times=record.times,
             position=record["position"],
             velocity=record["velocity"],
@@ -166,17 +161,17 @@ class FmuMethods:
     def _search(self, quantity: str, model: Model) -> SteadyMethod:
         values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
 
-        def find(_: float) -> SteadyAnswer:
+        def find(_: float) -> tuple[float, SteadyAnswer]:
             search: SearchResult
             if quantity == "steady_velocity":
-                search = self._run(find_steady, values)
+                taken, search = self._run(find_steady, values)
             else:
                 free = {name: value for name, value in values.items() if name != "load"}
-                search = self._run(find_blocking, free)
-            return SteadyAnswer(getattr(search, quantity), search.reason, search.periods)
+                taken, search = self._run(find_blocking, free)
+            found = SteadyAnswer(getattr(search, quantity), search.reason, search.periods)
+            return taken, found
 
-        label = self._label(model, USUAL_TOLERANCE, None)
-        return SteadyMethod(label, quantity, find, self._clock)
+        return SteadyMethod(self._label(model, USUAL_TOLERANCE, None), quantity, find)
 
     def _prediction(self, quantity: str, order: int | None) -> SteadyMethod:
         """Return the value of an output that predicts, at the start of a run at fidelity 2."""
@@ -185,18 +180,21 @@ class FmuMethods:
         values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
         family = f"{self.build} FMU, output {quantity}" + (f", order {order}" if order else "")
 
-        def find(_: float) -> SteadyAnswer:
-            return SteadyAnswer(self._run(_value_at_start, values, quantity), "", 0)
+        def find(_: float) -> tuple[float, SteadyAnswer]:
+            taken, value = self._run(_value_at_start, values, quantity)
+            return taken, SteadyAnswer(value, "", 0)
 
         label = Label(AVERAGED, family, family, law, averaging_order=order)
-        return SteadyMethod(label, quantity, find, self._clock)
+        return SteadyMethod(label, quantity, find)
 
 
 def _timed(
     task: Callable[..., Any], arguments: Sequence[Any], instance: Instance
 ) -> tuple[float, Any]:
     """Return the CPU time (s) of a task and its result, in the process of the FMU."""
-    return timed(lambda: task(instance, *arguments), process_time)
+    began = process_time()
+    result = task(instance, *arguments)
+    return process_time() - began, result
 
 
 def _value_at_start(instance: Instance, values: Mapping[str, float], output: str) -> float:

@@ -9,7 +9,6 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass, replace
-from functools import partial
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -18,7 +17,7 @@ from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from slider_resonator.output.progress import Progress, counted, no_progress, part_of
 from slider_resonator.trading.fmu_methods import FmuMethods, TaskRunner
-from slider_resonator.trading.method import Label, Method, SteadyMethod, timed
+from slider_resonator.trading.method import Label, Method, SteadyMethod
 from slider_resonator.trading.peer_methods import peer_answers, peer_methods
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.reference import Reference, find_reference
@@ -150,9 +149,6 @@ def _follow(
     def note(quantity: str, reason: str) -> None:
         notes.setdefault((method.label.name, quantity), reason)
 
-    def run(periods: int) -> tuple[float, Solution]:
-        return timed(lambda: method.run(periods), method.clock)
-
     if method.min_periods > problem.periods:
         note("all", f"a step is longer than the run of {problem.periods} drive periods")
         return []
@@ -161,9 +157,9 @@ def _follow(
         return []
     horizons = [periods for periods in problem.lengths if periods >= method.min_periods]
     try:
-        run(method.min_periods + 1)  # compiles, fills caches
-        begun = run(method.min_periods)[0]
-        taken = run(method.min_periods + 1)[0]
+        method.run(method.min_periods + 1)  # compiles, fills caches
+        begun = method.run(method.min_periods)[0]
+        taken = method.run(method.min_periods + 1)[0]
         first = taken + (horizons[0] - method.min_periods - 1) * max(0.0, taken - begun)
         if first > 2.0 * budget:
             note(
@@ -173,7 +169,7 @@ def _follow(
             )
             return []
         for periods, further in zip(horizons, [*horizons[1:], 0], strict=True):
-            taken, solution = run(periods)
+            taken, solution = method.run(periods)
             if further / periods * taken > budget:
                 break
         found = errors(problem, solution, reference.windows, periods)
@@ -207,7 +203,7 @@ def _answer(
         notes.setdefault(key, "the device has none under these inputs, or it is zero")
         return []
     try:
-        taken, found = timed(lambda: answer.find(budget), answer.clock)
+        taken, found = answer.find(budget)
     except FmuDied:
         raise
     except _FAILURES as error:
@@ -218,8 +214,7 @@ def _answer(
         return []
     wrong = {answer.quantity: abs(found.value - expected) / abs(expected)}
     row = _row(problem, answer.label, answer.quantity, found.periods, wrong)
-    again = partial(answer.find, inf)
-    return [_Candidate(row, lambda: timed(again, answer.clock)[0], 1.0, taken)]
+    return [_Candidate(row, lambda: answer.find(inf)[0], 1.0, taken)]
 
 
 def _row(

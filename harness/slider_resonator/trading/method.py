@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from time import process_time
-from typing import TypeVar
 
 from slider_resonator.trading.solution import Solution
-
-Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
@@ -30,20 +26,18 @@ class Label:
 class Method:
     """A method to follow a motion.
 
-    `run` follows it over a number of drive periods; `seconds` does so without the readings and
-    returns the CPU time (s), without initialisation. A run has at least `min_periods`; a method
-    that `cannot_stick` does not cover sticking. `missing` gives the reason for each quantity that
-    the method does not compute. `clock` is the CPU time (s) that the method has taken so far, with
-    or without other work.
+    `run` follows it over a number of drive periods and returns its CPU time (s), too; `seconds`
+    does so without the readings and returns the CPU time (s), without initialisation. A run has at
+    least `min_periods`; a method that `cannot_stick` does not cover sticking. `missing` gives the
+    reason for each quantity that the method does not compute.
     """
 
     label: Label
-    run: Callable[[int], Solution]
+    run: Callable[[int], tuple[float, Solution]]
     seconds: Callable[[int], float]
     min_periods: int = 1
     cannot_stick: bool = False
     missing: Mapping[str, str] = field(default_factory=dict)
-    clock: Callable[[], float] = process_time
 
 
 @dataclass(frozen=True)
@@ -59,18 +53,10 @@ class SteadyAnswer:
 class SteadyMethod:
     """A method to find a steady velocity (m/s) or a blocking force (N), named by `quantity`.
 
-    `find` takes its budget of CPU time (s) and raises RuntimeError where that is exceeded. `clock`
-    is the CPU time (s) that the method has taken so far, with or without other work.
+    `find` takes its budget of CPU time (s) and raises RuntimeError where that is exceeded. It
+    returns the CPU time (s) that it took, too.
     """
 
     label: Label
     quantity: str
-    find: Callable[[float], SteadyAnswer]
-    clock: Callable[[], float] = process_time
-
-
-def timed(work: Callable[[], Result], clock: Callable[[], float]) -> tuple[float, Result]:
-    """Return the CPU time (s) that some work takes, by its clock, and the result."""
-    began = clock()
-    result = work()
-    return clock() - began, result
+    find: Callable[[float], tuple[float, SteadyAnswer]]

@@ -18,7 +18,7 @@ from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
     reference_steady_velocity,
 )
-from slider_resonator.trading.method import Label, Method, SteadyAnswer, SteadyMethod, timed
+from slider_resonator.trading.method import Label, Method, SteadyAnswer, SteadyMethod
 from slider_resonator.trading.peers.peer import Peer
 from slider_resonator.trading.peers.registry import peers
 from slider_resonator.trading.problem import Problem
@@ -28,8 +28,8 @@ from slider_resonator.trading.solution import Solution
 
 def shoot(
     problem: Problem, quantity: str, simulate: Simulate, tolerance: float, budget: float
-) -> SteadyAnswer:
-    """Return a steady velocity or blocking force by shooting with any integrator.
+) -> tuple[float, SteadyAnswer]:
+    """Return the CPU time (s), and a steady velocity or blocking force by shooting.
 
     Raises RuntimeError when that takes more CPU time (s) than its budget.
     """
@@ -45,15 +45,12 @@ def shoot(
         return simulate(device, held, times)
 
     phase, load, ratio = (problem.inputs[name] for name in ("phase", "load", "frequency_ratio"))
-    if quantity == "steady_velocity":
-        value = reference_steady_velocity(
-            problem.device, phase, load, ratio, simulate=counted, tolerance=tolerance
-        )
-    else:
-        value = reference_blocking_force(
-            problem.device, phase, ratio, simulate=counted, tolerance=tolerance
-        )
-    return SteadyAnswer(value, "the search by shooting found none", round(sum(simulated)))
+    velocity = partial(reference_steady_velocity, problem.device, phase, load, ratio)
+    force = partial(reference_blocking_force, problem.device, phase, ratio)
+    search = velocity if quantity == "steady_velocity" else force
+    value = search(simulate=counted, tolerance=tolerance)
+    found = SteadyAnswer(value, "the search by shooting found none", round(sum(simulated)))
+    return process_time() - began, found
 
 
 def peer_methods(problem: Problem) -> Iterator[Method]:
@@ -82,18 +79,19 @@ def _label(problem: Problem, peer: Peer) -> Label:
     return Label(PEER, peer.family, name, problem.device.friction_law, tolerance=peer.tolerance)
 
 
-def _run(problem: Problem, peer: Peer, periods: int) -> Solution:
-    times = problem.readings(periods)
+def _run(problem: Problem, peer: Peer, periods: int) -> tuple[float, Solution]:
+    began = process_time()
+    times, ends = problem.readings(periods), problem.ends(periods)
     if problem.beat is not None:
-        times = np.union1d(times, problem.ends(periods))
+        times = np.union1d(times, ends)
     solution = peer.follow(problem.device, problem.lines(periods), times)
-    if problem.beat is None:
-        return solution
-    ends = problem.ends(periods)
-    position = solution.position[np.searchsorted(times, ends)]
-    return replace(solution, history=(ends[1:], np.diff(position) / problem.period))
+    if problem.beat is not None:
+        position = solution.position[np.searchsorted(times, ends)]
+        history = ends[1:], np.diff(position) / problem.period
+        solution = replace(solution, history=history)
+    return process_time() - began, solution
 
 
 def _seconds(problem: Problem, peer: Peer, periods: int) -> float:
-    taken, solution = timed(lambda: _run(problem, peer, periods), process_time)
+    taken, solution = _run(problem, peer, periods)
     return taken - (solution.start_cpu or 0.0)

@@ -42,7 +42,9 @@ def find_reference(problem: Problem) -> Reference:
         answers = {}
         for quantity in ("steady_velocity", "blocking_force"):
             answers[quantity] = (
-                shoot(problem, quantity, simulate, SHOOTING, inf).value if problem.steady else None
+                shoot(problem, quantity, simulate, SHOOTING, inf)[1].value
+                if problem.steady
+                else None
             )
     except (ValueError, RuntimeError) as error:
         raise HarnessError(

@@ -18,7 +18,7 @@ from tests.harness.trading.problems import LUGRE, RAMP, SCAN, TABLE_1, problem, 
 
 
 def followed(problem: Problem, method: Method) -> dict[str, float]:
-    solution = method.run(problem.periods)
+    _, solution = method.run(problem.periods)
     return errors(problem, solution, reference_of(problem), problem.periods)
 
 
@@ -102,7 +102,7 @@ def test_every_fidelity_step_and_law_is_there(instance: Instance) -> None:
 
 def test_answers_are_those_of_the_commands(instance: Instance) -> None:
     answers = list(FmuMethods(problem(TABLE_1), "native", InProcess(instance)).answers())
-    found = {(a.label.name, a.quantity): a.find(inf).value for a in answers}
+    found = {(a.label.name, a.quantity): a.find(inf)[1].value for a in answers}
     assert found["native FMU, fidelity 2", "steady_velocity"] == pytest.approx(0.126667, rel=1e-6)
     assert found["native FMU, fidelity 2", "blocking_force"] == pytest.approx(0.0851861, rel=1e-6)
     first, second = (
@@ -116,6 +116,6 @@ def test_answers_are_those_of_the_commands(instance: Instance) -> None:
 def test_a_run_is_timed_without_its_readings(instance: Instance) -> None:
     table_1 = problem(TABLE_1, max_periods=10)
     assert pick(table_1, instance, 0, 10.0, 1).seconds(10) > 0.0
-    solution = pick(table_1, instance, 2, 10.0).run(10)
+    _, solution = pick(table_1, instance, 2, 10.0).run(10)
     assert solution.steps == 1, "readings are no steps"
     assert solution.start_cpu is not None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import pytest
 
@@ -20,7 +19,12 @@ def quiet(name: str, share: float) -> None:
     assert 0.0 <= share <= 1.0
 
 
-def made_up(name: str, run: Callable[[int], Solution], **fields: bool) -> Method:
+def made_up(
+    name: str, follow: Callable[[int], Solution], cost: float = 0.0, **fields: bool
+) -> Method:
+    def run(periods: int) -> tuple[float, Solution]:
+        return cost * periods, follow(periods)
+
     def seconds(periods: int) -> float:
         run(periods)
         return 1e-3 * periods
@@ -60,17 +64,8 @@ def test_a_failing_method_is_omitted_with_the_reason(monkeypatch: pytest.MonkeyP
 
 def test_a_method_stops_where_its_budget_ends(monkeypatch: pytest.MonkeyPatch) -> None:
     longer = problem(TABLE_1, max_periods=64)
-    used = [0.0]
-
-    def works(cost: float) -> Callable[[int], Solution]:
-        def run(periods: int) -> Solution:
-            used[0] += cost * periods
-            return still(longer)(periods)
-
-        return run
-
-    made = (made_up("slow", works(0.1)), made_up("far too slow", works(10.0)))
-    only(monkeypatch, *(replace(method, clock=lambda: used[0]) for method in made))
+    slow = made_up("slow", still(longer), 0.1)
+    only(monkeypatch, slow, made_up("far too slow", still(longer), 10.0))
     trade = measure_trade(longer, {}, quiet, repeats=5, budget=1.0)
     (row,) = trade.rows
     assert row.periods == 8, "8 periods take 0.8 s, 16 would take 1.6 s of the 1 s"
