@@ -16,7 +16,7 @@ from fmpy import simulate_fmu
 import slider_resonator as sr
 from slider_resonator.fmu import finished
 from slider_resonator.output.plot_style import Picture
-from slider_resonator.trading.peers import registry
+from slider_resonator.trading import peer_methods
 
 STEADY_VELOCITY = 0.0986951
 """Of table 1 at phase 0.4 rad and a load of 0.05 N, by Taylor integration, m/s."""
@@ -294,7 +294,7 @@ def test_stress_is_a_function(native_fmu: Path) -> None:
 
 def test_trade_is_a_function(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     # At rest sgn chatters: the peer that integrates it gives up earlier.
-    monkeypatch.setattr(registry, "MAX_EVALUATIONS", 2000)
+    monkeypatch.setattr(peer_methods, "MAX_EVALUATIONS", 2000)
     scene = {
         "name": "ramped",
         "title": "Inputs that vary have no steady velocity to be searched for",

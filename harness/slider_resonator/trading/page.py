@@ -40,9 +40,8 @@ def work_precision_plot(trade: Trade, quantity: str) -> HoverPlot:
         if own:
             colour, marker, dash = look(index)
             joined = front(own, quantity)
-            others = [row for row in own if row not in joined]
             series.append(_series(family, joined, quantity, colour, marker, 1.3, dash))
-            if others:
+            if others := [row for row in own if row not in joined]:
                 label = f"{family}: not on its front"
                 series.append(_series(label, others, quantity, colour, marker))
     return HoverPlot(

@@ -10,9 +10,8 @@ import numpy as np
 from slider_resonator.errors import HarnessError
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trading.peer_methods import shoot
-from slider_resonator.trading.peers.peer import solution_of
 from slider_resonator.trading.problem import Problem
-from slider_resonator.trading.solution import WindowReadings, windows
+from slider_resonator.trading.solution import WindowReadings, solution_of, windows
 
 SHOOTING = 1e-10
 """Accuracy of the steady state in units of its scale."""

@@ -16,6 +16,7 @@ from slider_resonator.checks.measures import (
     slow_displacement,
 )
 from slider_resonator.device.schedule import nearest
+from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.trading.problem import Problem
 
 QUANTITIES: Mapping[str, str] = {
@@ -91,6 +92,19 @@ def last_events(event_times: Array, times: Array) -> Array:
     """Return the time of the last event up to each time, 0 before the first; shape of `times`."""
     known = np.concatenate([[0.0], event_times])
     return np.asarray(known[np.searchsorted(event_times, times, side="right")])
+
+
+def solution_of(run: Trajectory, *, located: bool) -> Solution:
+    """Return a trajectory as a solution; reversals stand for events that are not located."""
+    return Solution(
+        times=run.time,
+        position=run.position,
+        velocity=run.velocity,
+        last_event=last_events(run.event_times, run.time) if located else None,
+        steps=run.steps or None,
+        evaluations=run.evaluations,
+        events=len(run.event_times) if located else run.reversals,
+    )
 
 
 def errors(

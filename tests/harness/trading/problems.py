@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from slider_resonator.references.resolved.simulate import simulate
-from slider_resonator.trading.peers.peer import solution_of
 from slider_resonator.trading.problem import Problem, problem_of
-from slider_resonator.trading.solution import WindowReadings, windows
+from slider_resonator.trading.solution import WindowReadings, solution_of, windows
 from tests.harness.scene_text import scene_of
 
 

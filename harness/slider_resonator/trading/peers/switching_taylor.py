@@ -23,8 +23,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
-from slider_resonator.trading.peers.peer import NOT_SHOT, Peer, solution_of
-from slider_resonator.trading.solution import Solution
+from slider_resonator.trading.solution import Solution, solution_of
 
 _STATE = ("position", "velocity", "resonator_displacement", "resonator_velocity")
 _AT_REST: dict[str, Any] = {f"initial_{name}": 0.0 for name in (*_STATE, "bristle_deflection")}
@@ -32,42 +31,41 @@ DIRECTION, REVERSED_AT, STRETCH = range(3)
 """Parameters that change in a run; only the first with Coulomb friction."""
 
 
-def heyoka_in_one_call(family: str, tolerance: float) -> Peer:
-    """Return heyoka in one call; it starts where the reference is after one drive period."""
+def heyoka_in_one_call(
+    device: Device, held: Sequence[HeldInputs], times: Array, *, tolerance: float
+) -> Solution:
+    """Follow a motion; it starts where the reference is after one drive period.
 
-    def follow(device: Device, held: Sequence[HeldInputs], times: Array) -> Solution:
-        if len(held) != 1 or held[0].vary:
-            raise ValueError("inputs vary, which it does not cover")
-        (inputs,) = held
-        begin = min(2.0 * np.pi / device.drive_frequency, inputs.stop)
-        early = times[times <= begin]
-        began = process_time()
-        start = simulate(device, [replace(inputs, stop=begin)], np.append(early, begin))
-        started = process_time() - began
-        if begin == inputs.stop:
-            return replace(
-                solution_of(start, located=False),
-                times=early,
-                position=start.position[:-1],
-                velocity=start.velocity[:-1],
-            )
-        if start.contact_mode[-1] == 0:
-            raise ValueError("the slider sticks after a drive period, which it does not cover")
-        moving = device_at(device, start, -1)
-        later = times[times > begin]
-        rest = simulate_sliding(moving, inputs, later, tolerance=tolerance, start=begin)
-        return Solution(
-            times,
-            position=np.concatenate([start.position[:-1], rest.samples[:, 0]]),
-            velocity=np.concatenate([start.velocity[:-1], rest.samples[:, 1]]),
-            steps=rest.steps,
-            events=rest.reversals,
-            start_cpu=started,
+    Raises ValueError for what is not covered, besides what `simulate_sliding` raises.
+    """
+    if len(held) != 1 or held[0].vary:
+        raise ValueError("inputs vary, which it does not cover")
+    (inputs,) = held
+    begin = min(2.0 * np.pi / device.drive_frequency, inputs.stop)
+    early = times[times <= begin]
+    began = process_time()
+    start = simulate(device, [replace(inputs, stop=begin)], np.append(early, begin))
+    started = process_time() - began
+    if begin == inputs.stop:
+        return replace(
+            solution_of(start, located=False),
+            times=early,
+            position=start.position[:-1],
+            velocity=start.velocity[:-1],
         )
-
-    missing = {"event_times": "the times of reversals are not reported", **NOT_SHOT}
-    setting = f"tol {tolerance:.0e}"
-    return Peer(family, setting, tolerance, follow, cannot_stick=True, missing=missing)
+    if start.contact_mode[-1] == 0:
+        raise ValueError("the slider sticks after a drive period, which it does not cover")
+    moving = device_at(device, start, -1)
+    later = times[times > begin]
+    rest = simulate_sliding(moving, inputs, later, tolerance=tolerance, start=begin)
+    return Solution(
+        times,
+        position=np.concatenate([start.position[:-1], rest.samples[:, 0]]),
+        velocity=np.concatenate([start.velocity[:-1], rest.samples[:, 1]]),
+        steps=rest.steps,
+        events=rest.reversals,
+        start_cpu=started,
+    )
 
 
 def device_at(device: Device, run: Trajectory, index: int) -> Device:

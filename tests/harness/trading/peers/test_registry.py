@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from slider_resonator.trading.peers.peer import Peer
-from slider_resonator.trading.peers.registry import peers
+from slider_resonator.trading.peer_methods import Peer, peers
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.solution import errors
 from tests.harness.trading.problems import LUGRE, SCAN, TABLE_1, problem, reference_of
