@@ -8,12 +8,11 @@ import os
 import platform
 import shutil
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import fmpy
 import numpy as np
@@ -107,6 +106,7 @@ HEADERS: Mapping[str, Sequence[str]] = {
 }
 """First line of each file."""
 
+T = TypeVar("T")
 At = tuple[tuple[str, float], ...]
 """What a sweep has varied, () without a sweep."""
 
@@ -161,22 +161,21 @@ def replace_folder(fresh: Path, folder: Path) -> None:
 def read_recorded(folder: Path) -> Recorded:
     """Read the files of a scene; HarnessError names the file and the line that is no record."""
     points: dict[At, dict[str, Measurement]] = {}
-    for line, (place, name, _, value) in _read(folder / NUMBERS):
-        with _naming(folder / NUMBERS, line):
-            points.setdefault(_at(place), {})[name] = Measurement(_value(name, value))
+    numbers = _read(folder / NUMBERS, lambda row: (_at(row[0]), row[1], _value(row[1], row[3])))
+    for at, name, value in numbers:
+        points.setdefault(at, {})[name] = Measurement(value)
     columns: dict[At, list[list[float]]] = {}
     if (folder / TRAJECTORY).exists():
-        for line, (place, *row) in _read(folder / TRAJECTORY):
-            with _naming(folder / TRAJECTORY, line):
-                columns.setdefault(_at(place), []).append([_number(text) for text in row])
+        for at, row in _read(
+            folder / TRAJECTORY, lambda row: (_at(row[0]), [*map(_number, row[1:])])
+        ):
+            columns.setdefault(at, []).append(row)
     for at, rows in columns.items():
-        table = np.array(rows).T
-        signals = {
-            name: Measurement(column, times=table[0])
-            for name, column in zip(SIGNALS, table[1:], strict=True)
-        }
-        points.setdefault(at, {}).update(signals)
-    return Recorded(points, {what: value for _, (what, value) in _read(folder / PROVENANCE)})
+        times, *signals = np.array(rows).T
+        points.setdefault(at, {}).update(
+            {name: Measurement(s, times=times) for name, s in zip(SIGNALS, signals, strict=True)}
+        )
+    return Recorded(points, dict(_read(folder / PROVENANCE, lambda row: (row[0], row[1]))))
 
 
 def recorded_scenes(folder: Path) -> list[Path]:
@@ -206,8 +205,8 @@ def _write(path: Path, rows: Iterable[Sequence[str]]) -> None:
         csv.writer(file, lineterminator="\n").writerows([HEADERS[path.name], *rows])
 
 
-def _read(path: Path) -> Iterator[tuple[int, list[str]]]:
-    """Yield the number and the cells of each line after the header."""
+def _read(path: Path, parsed: Callable[[list[str]], T]) -> Iterator[T]:
+    """Yield the parsed cells of each line after the header; HarnessError with file and line."""
     try:
         with path.open(newline="", encoding="utf-8") as file:
             found, *rows = list(csv.reader(file)) or [[]]
@@ -221,16 +220,10 @@ def _read(path: Path) -> Iterator[tuple[int, list[str]]]:
     for line, row in enumerate(rows, start=2):
         if len(row) != len(header):
             raise HarnessError(f"{path} line {line}: {len(row)} cells; must be {len(header)}")
-        yield line, row
-
-
-@contextmanager
-def _naming(path: Path, line: int) -> Iterator[None]:
-    """Turn a ValueError into a HarnessError with file and line."""
-    try:
-        yield
-    except ValueError as error:
-        raise HarnessError(f"{path} line {line}: {error}") from error
+        try:
+            yield parsed(row)
+        except ValueError as error:
+            raise HarnessError(f"{path} line {line}: {error}") from error
 
 
 def _text(value: Value) -> str:

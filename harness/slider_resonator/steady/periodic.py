@@ -156,8 +156,7 @@ class FmuPeriodMap:
         self.names = STATE if self.bristle is None else (*STATE, "bristle_deflection")
         self._initial = [f"initial_{name}" for name in self.names]
         self._leads = np.array((0.0,) if self.bristle is None else self.bristle.leads)
-        self._times = self._times_before(self.period)
-        self._position = instance.block(["position"])
+        self._times = np.maximum(0.0, self.period - self._leads)
         self._read = instance.block(
             ["position", *STATE, "friction_force", "normal_force", "stick_fraction"]
         )
@@ -183,7 +182,7 @@ class FmuPeriodMap:
         self._start(start, load)
         whole = 0 if self.instance.fmu.takes_equal_steps_only else count - 1
         samples = np.linspace(whole * period, count * period, (count - whole) * SAMPLES + 1)
-        before_end = self._times_before(count * period)
+        before_end = np.maximum(0.0, count * period - self._leads)
         times = np.union1d(samples, before_end)
         readings = self._readings(times)
         self._count(count)
@@ -207,11 +206,7 @@ class FmuPeriodMap:
     def _start(self, state: Vector, load: float) -> float:
         initial = dict(zip(self._initial, state.tolist(), strict=True))
         self.instance.start({**self.values, **initial, "load": load})
-        return self._position.read()[0]
-
-    def _times_before(self, stop: float) -> Array:
-        """Return the times (s) of the readings that give the state at `stop`."""
-        return np.maximum(0.0, stop - self._leads)
+        return self._read.read()[0]
 
     def _readings(self, times: Array) -> Array:
         """Return what is read at the times (s), a row each; `stick_fraction` is then the last."""
