@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from itertools import pairwise
 from math import inf, pi
 
-from slider_resonator.device.device import Device
-from slider_resonator.device.signal import Signal
+import numpy as np
+
+from slider_resonator.checks.natural_scale import fast_velocity
 from slider_resonator.errors import SceneError
-from slider_resonator.references.closed_forms import equivalent_force
 from slider_resonator.scenes.scene import Scene
 
 NEAR_AN_INTEGER = 0.1
@@ -69,11 +68,16 @@ def scales_of(scene: Scene) -> Scales:
     friction = device.mean_friction
     ratio = scene.signals["frequency_ratio"].at(0.0)
     detuning = abs(ratio - round(ratio))
-    fast = _fast_velocity(device)
+    fast = fast_velocity(device) or None if friction > 0.0 else None
     damping = device.damping_ratio * device.resonator_frequency / (1.0 - device.mass_ratio)
     load = max(map(abs, scene.signals["load"].values))
     sizes = {"phase": 1.0, "load": friction or 1.0, "frequency_ratio": 1.0}
-    rates = [_steepest(scene.signals[name]) * period / size for name, size in sizes.items()]
+    rates = [0.0]
+    for name, size in sizes.items():
+        signal = scene.signals[name]
+        if not signal.hold and len(signal.times) > 1:
+            steepest = np.abs(np.diff(signal.values) / np.diff(signal.times)).max()
+            rates.append(float(steepest) * period / size)
     slowness = kappa = None
     relaxation = inf
     if fast:
@@ -94,18 +98,3 @@ def scales_of(scene: Scene) -> Scales:
         saturation=load / friction if friction > 0.0 else inf if load else 0.0,
         input_rate=max(rates),
     )
-
-
-def _fast_velocity(device: Device) -> float | None:
-    try:
-        return equivalent_force(device).velocity_amplitude or None
-    except ValueError:  # no friction, or an undamped resonator at resonance
-        return None
-
-
-def _steepest(signal: Signal) -> float:
-    """Return the largest rate (1/s) of a polyline, 0 for one that is held."""
-    if signal.hold:
-        return 0.0
-    points = list(zip(signal.times, signal.values, strict=True))
-    return max((abs((v1 - v0) / (t1 - t0)) for (t0, v0), (t1, v1) in pairwise(points)), default=0.0)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -79,67 +80,47 @@ def _measure(
     sweep: Sweep, variables: Mapping[str, Drawn], columns: Columns, measure: str
 ) -> list[str]:
     answers = drawn_measure(columns, measure)
-    notes = [_note(columns, measure, answers, point) for point in range(len(answers.values))]
+    y, words = answers.values, answers.words
+    notes = [_note(columns, measure, answers, point) for point in range(len(y))]
     axes = {n: Axis(one.label, log=n in sweep.logarithmic) for n, one in variables.items()}
     lines = split_into_lines(sweep, variables)
-    if lines is None:
-        x, y = (one.values for one in variables.values())
-        colours, scale = _coloured(answers)
-        series = _points(x, y, answers, notes, colours, cells=sweep.is_grid)
-        across, up = axes.values()
-        return [plot_html(HoverPlot(answers.words, across, up, series)), scale]
-    abscissa, groups = lines
+    abscissa, groups = lines or (next(iter(variables)), [])
     x = variables[abscissa].values
-    series = [
-        one
-        for index, (name, chosen) in enumerate(groups)
-        for one in _line(index, name or answers.words, x, answers.values, chosen, notes)
-    ]
-    return [plot_html(HoverPlot(answers.words, axes[abscissa], Axis(answers.label), series))]
 
+    def series(
+        label: str,
+        chosen: NDArray[np.intp],
+        up: Array | None,
+        colour: str,
+        marker: str,
+        **more: Any,
+    ) -> Series:
+        """Return a series of some points, those without an answer at no height."""
+        heights = [None] * len(chosen) if up is None else up[chosen].tolist()
+        own = [notes[point] for point in chosen]
+        return Series(label, x[chosen].tolist(), heights, colour, marker, notes=own, **more)
 
-def _points(
-    x: Array, y: Array, answers: Drawn, notes: list[str], colours: list[str], *, cells: bool
-) -> list[Series]:
-    """Return the series of points with and without an answer; `colours` are those of the former."""
-    found = np.flatnonzero(np.isfinite(answers.values)).tolist()
-    missing = np.flatnonzero(np.isnan(answers.values)).tolist()
-    series = []
-    if found:
-        colour = colours[len(found) // 2]
-        answered = Series(
-            *(answers.words, x[found].tolist(), y[found].tolist(), colour, "●"),
-            notes=[notes[i] for i in found],
-            colours=colours,
-            cells=cells,
-        )
-        series.append(answered)
-    if missing:
-        none = Series(
-            *(NO_ANSWER, x[missing].tolist(), y[missing].tolist(), GREY, "✖"),
-            notes=[notes[i] for i in missing],
-        )
-        series.append(none)
-    return series
-
-
-def _line(
-    index: int, label: str, x: Array, result: Array, chosen: NDArray[np.intp], notes: Sequence[str]
-) -> list[Series]:
-    """Return the series of one line, and one of its points without an answer, if any."""
-    colour, marker, dash = look(index)
-    points = chosen[np.argsort(x[chosen], kind="stable")]
-    found = [i for i in points if not np.isnan(result[i])]
-    missing = [i for i in points if np.isnan(result[i])]
-    line = Series(
-        *(label, x[found].tolist(), result[found].tolist(), colour, marker, 1.4, dash),
-        notes=[notes[i] for i in found],
-    )
-    none = Series(
-        *(f"{label}: {NO_ANSWER}", x[missing].tolist(), [None] * len(missing), colour, "✖"),
-        notes=[notes[i] for i in missing],
-    )
-    return [line, none] if missing else [line]
+    all_series: list[Series] = []
+    for index, (name, chosen) in enumerate(groups):
+        label, (colour, marker, dash) = name or words, look(index)
+        points = chosen[np.argsort(x[chosen], kind="stable")]
+        none = np.isnan(y[points])
+        all_series.append(series(label, points[~none], y, colour, marker, width=1.4, dash=dash))
+        if none.any():
+            all_series.append(series(f"{label}: {NO_ANSWER}", points[none], None, colour, "✖"))
+    if lines is not None:
+        plot = HoverPlot(words, axes[abscissa], Axis(answers.label), all_series)
+        return [plot_html(plot)]
+    (across, up_axis), (_, up) = axes.values(), variables.values()
+    found, missing = np.flatnonzero(np.isfinite(y)), np.flatnonzero(np.isnan(y))
+    colours, scale = _coloured(answers)
+    if found.size:
+        middle, cells = colours[len(found) // 2], sweep.is_grid
+        one = series(words, found, up.values, middle, "●", colours=colours, cells=cells)
+        all_series.append(one)
+    if missing.size:
+        all_series.append(series(NO_ANSWER, missing, up.values, GREY, "✖"))
+    return [plot_html(HoverPlot(words, across, up_axis, all_series)), scale]
 
 
 def _coloured(answers: Drawn) -> tuple[list[str], str]:

@@ -116,36 +116,34 @@ COLUMNS = (
 )
 
 
-@dataclass(frozen=True)
-class CheapestRows:
-    """The cheapest rows that meet a need, None where no method does.
+def choices(trade: Trade) -> list[tuple[str, ...]]:
+    """Return the cheapest method for every need of a scene, in the order of `COLUMNS`.
 
-    `python` is the same model in the Python FMU, None where it does not meet the need there: that
-    FMU holds inputs over each step.
+    The native FMU decides the model; the Python FMU, which holds inputs over each step, may not
+    meet the need with it.
     """
-
-    quantity: str
-    error: float
-    native: Row | None
-    python: Row | None
-    peer: Row | None
-
-
-def choices(trade: Trade) -> list[CheapestRows]:
-    """Return the cheapest method for every need of a scene; the native FMU decides the model."""
     found = []
     for quantity, error in NEEDS:
         rows = trade.candidates(quantity)
         if not rows:
             continue
-        native = cheapest([r for r in rows if r.family.startswith("native")], quantity, error)
-        twins = [
-            row
-            for row in rows
-            if native is not None and row.method == native.method.replace("native", "Python", 1)
-        ]
+        native = cheapest([row for row in rows if row.family.startswith("native")], quantity, error)
         peer = cheapest([row for row in rows if row.kind == PEER], quantity, error)
-        found.append(CheapestRows(quantity, error, native, cheapest(twins, quantity, error), peer))
+        twin, model, off = "", "none", ""
+        if native is not None:
+            twin = native.method.replace("native", "Python", 1)
+            model = native.method.removeprefix("native FMU, ")
+            off = f"{native.errors[quantity]:.0e}"
+        python = cheapest([row for row in rows if row.method == twin], quantity, error)
+        costs = [
+            "not reached"
+            if row is None
+            else duration(row.cost) + (" / s" if row.answer == "run" else "")
+            for row in (native, python, peer)
+        ]
+        if peer is not None:
+            costs[2] += f" ({peer.method})"
+        found.append((quantity.replace("_", " "), f"{error:.0e}", model, off, *costs))
     return found
 
 
@@ -159,7 +157,7 @@ def write_choices(path: Path, trades: Sequence[Trade]) -> None:
         raise HarnessError(f"{path}: the suffix is {path.suffix!r}; must be {allowed}")
     parts = []
     for trade in trades:
-        table = Table(COLUMNS, [cells(choice) for choice in choices(trade)])
+        table = Table(COLUMNS, choices(trade))
         if path.suffix == ".md":
             heading = markdown.escaped(title(trade))
             parts.append(f"\n**{heading}**\n\n{markdown.rendered(table)}\n")
@@ -172,21 +170,3 @@ def write_choices(path: Path, trades: Sequence[Trade]) -> None:
 def title(trade: Trade) -> str:
     """Return the title of a table."""
     return f"{trade.title} (scene {trade.scene}, {LAWS[trade.friction_law]} friction)"
-
-
-def cells(choice: CheapestRows) -> tuple[str, ...]:
-    """Return a row of the table, in the order of `COLUMNS`."""
-    rows = (choice.native, choice.python, choice.peer)
-    native, python, peer = ("not reached" if row is None else _cost(row) for row in rows)
-    if choice.peer is not None:
-        peer += f" ({choice.peer.method})"
-    model, error = "none", ""
-    if choice.native is not None:
-        model = choice.native.method.removeprefix("native FMU, ")
-        error = f"{choice.native.errors[choice.quantity]:.0e}"
-    quantity = choice.quantity.replace("_", " ")
-    return (quantity, f"{choice.error:.0e}", model, error, native, python, peer)
-
-
-def _cost(row: Row) -> str:
-    return duration(row.cost) + (" / s" if row.answer == "run" else "")
