@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +23,7 @@ def fit_figure(measurements: Measurements, numbers: Array) -> Figure:
 
     `numbers` are measured and predicted values and residuals, (3, n).
     """
-    panels = [*_point_panels(measurements, numbers), *_run_panels(measurements, numbers)]
+    panels = list(_panels(measurements, numbers))
     with style():
         figure = Picture((3.6 + 3.2 * len(panels), 5.2), layout="constrained")
         axes = figure.subplots(
@@ -45,14 +46,19 @@ def fit_figure(measurements: Measurements, numbers: Array) -> Figure:
     return figure
 
 
-def _point_panels(measurements: Measurements, numbers: Array) -> list[Panel]:
+def _panels(measurements: Measurements, numbers: Array) -> Iterator[Panel]:
     points = measurements.points
-    panels: list[Panel] = []
     for quantity in dict.fromkeys(point.quantity for point in points):
         rows = [i for i, point in enumerate(points) if point.quantity == quantity]
-        over = _abscissa([points[i] for i in rows])
-        panels.append(_panel(over, quantity, "", numbers[:, rows]))
-    return panels
+        yield _panel(_abscissa([points[i] for i in rows]), quantity, "", numbers[:, rows])
+    begin = len(points)
+    for run in measurements.runs:
+        for name, column in run.outputs.items():
+            there = np.isfinite(column)
+            own = slice(begin, begin + int(there.sum()))
+            begin = own.stop
+            over = drawn("time", "s", run.schedule.times[there])
+            yield _panel(over, name, f" ({Path(run.source).name})", numbers[:, own])
 
 
 def _panel(over: Drawn, name: str, source: str, numbers: Array) -> Panel:
@@ -73,16 +79,3 @@ def _abscissa(points: list[Point]) -> Drawn:
     start = VARIABLES[name].start or 0.0
     values = np.array([point.values.get(name, start) for point in points])
     return drawn(name, VARIABLES[name].unit, values)
-
-
-def _run_panels(measurements: Measurements, numbers: Array) -> list[Panel]:
-    begin = len(measurements.points)
-    panels: list[Panel] = []
-    for run in measurements.runs:
-        for name, column in run.outputs.items():
-            there = np.isfinite(column)
-            own = slice(begin, begin + int(there.sum()))
-            begin = own.stop
-            over = drawn("time", "s", run.schedule.times[there])
-            panels.append(_panel(over, name, f" ({Path(run.source).name})", numbers[:, own]))
-    return panels

@@ -73,6 +73,11 @@ def measurements_from(table: Mapping[str, Any]) -> Measurements:
 
 
 def _measurements(columns: _Columns) -> Measurements:
+    for name, column in columns.values.items():
+        deviations = columns.values.get(f"{name}_std", np.ones(len(column)))
+        for index in np.flatnonzero(np.isfinite(column) & ~(deviations > 0.0)).tolist():
+            row, deviation = f"{columns.source} {columns.rows[index]}", deviations[index]
+            raise HarnessError(f"{row}: {name}_std = {deviation:g}: must be above 0")
     found = _run(columns) if "time" in columns.values else _table(columns)
     plain = [
         (columns.source, name, value)
@@ -181,7 +186,7 @@ def _table(columns: _Columns) -> Measurements:
     for index, row in enumerate(columns.rows):
         own = {name: float(values[name][index]) for name in given}
         for name in [name for name, known in zip(measured, there[:, index], strict=True) if known]:
-            deviation = _deviation(columns, name, index)
+            deviation = float(values[f"{name}_std"][index]) if f"{name}_std" in values else None
             points.append(Point(own, name, float(values[name][index]), deviation, source, row))
     skipped = np.count_nonzero(~is_needed)
     note = f"{source}: {skipped} of {len(columns.rows)} rows skipped: nothing measured"
@@ -194,17 +199,6 @@ def _check_filled(columns: _Columns, name: str, needed: NDArray[np.bool_]) -> No
     if empty.size:
         row = columns.rows[int(empty[0])]
         raise HarnessError(f"{columns.source} {row}: {name} is empty; must be a number")
-
-
-def _deviation(columns: _Columns, name: str, index: int) -> float | None:
-    """Return the standard deviation of a number, None where there are none."""
-    if f"{name}_std" not in columns.values:
-        return None
-    deviation = float(columns.values[f"{name}_std"][index])
-    if not deviation > 0.0:
-        row = f"{columns.source} {columns.rows[index]}"
-        raise HarnessError(f"{row}: {name}_std = {deviation:g}: must be above 0")
-    return deviation
 
 
 def _run(columns: _Columns) -> Measurements:
@@ -233,9 +227,6 @@ def _run(columns: _Columns) -> Measurements:
     if not outputs:
         raise HarnessError(f"{source}: measures nothing; must have a column of an output")
     deviations = {name: values[f"{name}_std"] for name in outputs if f"{name}_std" in values}
-    for name in deviations:
-        for number in np.flatnonzero(np.isfinite(outputs[name])).tolist():
-            _deviation(columns, name, number)
     notes = []
     if times[0] > 0.0:
         # A point at time 0 at which nothing is measured.

@@ -136,9 +136,8 @@ def _beat(times: Array, mean_velocity: Array, beat: float) -> float | None:
         times, mean_velocity = times[:-1], mean_velocity[:-1]
     half = len(times) // 2
     later = times[half:]
-    if len(later) < 16 or not (later[-1] - later[0]) * beat > 2.0:
-        return None
-    if (later[-1] - later[0]) / (len(later) - 1) * beat > 0.4:
+    beats = (later[-1] - later[0]) * beat
+    if len(later) < 16 or not beats > 2.0 or beats > 0.4 * (len(later) - 1):
         return None
     try:
         return dominant_frequency(later, mean_velocity[half:])
