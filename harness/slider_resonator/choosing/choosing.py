@@ -168,7 +168,7 @@ class Choosing:
             return self._nearest(model).why if ran else refused
         step = steps[at]
         index = choices.index(FIRST_TOLERANCE) if FIRST_TOLERANCE in choices else 0
-        while excess(choices[index], step) > 1.0:  # the tightest serves
+        while not excess(choices[index], step) <= 1.0:  # the tightest serves
             index += 1
         while index > 0 and excess(choices[index - 1], step) <= 1.0:
             index -= 1
