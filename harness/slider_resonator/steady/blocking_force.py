@@ -10,9 +10,8 @@ from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.steady.periodic import FmuPeriodMap, Obstacle, read_facts, repeating_periods
-from slider_resonator.steady.search import blocked_point
 from slider_resonator.steady.search_result import SearchResult, cost, with_undamped_hint
-from slider_resonator.steady.shooting import NoFixedPoint
+from slider_resonator.steady.shooting import NoFixedPoint, blocked_point
 
 
 @dataclass(frozen=True, repr=False)

@@ -12,8 +12,13 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
-from slider_resonator.steady.newton import DIFFERENCE, Matrix, Vector, central_jacobian
-from slider_resonator.steady.shooting import PeriodMap
+from slider_resonator.steady.newton import (
+    DIFFERENCE,
+    Matrix,
+    PeriodMap,
+    Vector,
+    central_jacobian,
+)
 
 DOUBLINGS = 6
 """Maximum doublings of the bounds, which begin at the scale of the slow state."""

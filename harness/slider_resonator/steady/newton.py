@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 
 Vector = NDArray[np.float64]
 Matrix = NDArray[np.float64]
+PeriodMap = Callable[[Vector], tuple[Vector, float]]
+"""State (n,) at the start of a period -> state (n,) at its end, displacement over it."""
 Ending = Literal["converged", "singular", "stalled", "limit"]
 
 DIFFERENCE = 1e-4

@@ -16,7 +16,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.steady.bristle_reading import bristle_reading
 from slider_resonator.steady.newton import Vector
-from slider_resonator.steady.search import WARM_UP, WarmedUp
+from slider_resonator.steady.shooting import WARM_UP, WarmedUp
 
 STATE = ("velocity", "resonator_displacement", "resonator_velocity")
 """The outputs that are states; the position does not matter, for nothing depends on it."""

@@ -17,9 +17,8 @@ from slider_resonator.steady.periodic import (
     read_facts,
     repeating_periods,
 )
-from slider_resonator.steady.search import steady_point
 from slider_resonator.steady.search_result import SearchResult, cost, with_undamped_hint
-from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint
+from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint, steady_point
 
 
 @dataclass(frozen=True, repr=False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import cached_property, partial
 from math import ceil
@@ -64,9 +64,9 @@ class FmuMethods:
         """The orders of averages from which the FMU has a choice, highest first; else None."""
         return AVERAGING_ORDERS if self.fmu.run(attrgetter("fmu.has_orders")) else (None,)
 
-    def _run(self, task: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
+    def _run(self, task: Callable[..., Any], **arguments: Any) -> Any:
         """Return the CPU time (s) of `task(instance, ...)` in the FMU's process, and its result."""
-        return self.fmu.run(partial(_timed, partial(task, **options), arguments))
+        return self.fmu.run(partial(_timed, partial(task, **arguments)))
 
     def methods(self) -> Iterator[Method]:
         """Yield every setting; the other friction law as a model of the same device."""
@@ -123,7 +123,7 @@ class FmuMethods:
             schedule = self.problem.schedule(periods, size, interpolates=self.interpolates)
             taken: list[float] = []
             while not taken or (sum(taken) < SHORTEST and len(taken) < MAX_RUNS):
-                _, record = self._run(run, values, schedule, outputs=OUTPUTS)
+                _, record = self._run(run, parameters=values, schedule=schedule, outputs=OUTPUTS)
                 taken.append(record.step_cpu)
             return sum(taken) / len(taken)
 
@@ -144,7 +144,7 @@ class FmuMethods:
         outputs = (*OUTPUTS, "last_event_time", "reversals")
         record: Record
         schedule = own.read_at(readings, closest)
-        taken, record = self._run(run, values, schedule, outputs=outputs)
+        taken, record = self._run(run, parameters=values, schedule=schedule, outputs=outputs)
         at = np.searchsorted(record.times, own.times)
         return taken, Solution(
             times=record.times,
@@ -164,10 +164,10 @@ class FmuMethods:
         def find(_: float) -> tuple[float, SteadyAnswer]:
             search: SearchResult
             if quantity == "steady_velocity":
-                taken, search = self._run(find_steady, values)
+                taken, search = self._run(find_steady, values=values)
             else:
                 free = {name: value for name, value in values.items() if name != "load"}
-                taken, search = self._run(find_blocking, free)
+                taken, search = self._run(find_blocking, values=free)
             found = SteadyAnswer(getattr(search, quantity), search.reason, search.periods)
             return taken, found
 
@@ -181,19 +181,17 @@ class FmuMethods:
         family = f"{self.build} FMU, output {quantity}" + (f", order {order}" if order else "")
 
         def find(_: float) -> tuple[float, SteadyAnswer]:
-            taken, value = self._run(_value_at_start, values, quantity)
+            taken, value = self._run(_value_at_start, values=values, output=quantity)
             return taken, SteadyAnswer(value, "", 0)
 
         label = Label(AVERAGED, family, family, law, averaging_order=order)
         return SteadyMethod(label, quantity, find)
 
 
-def _timed(
-    task: Callable[..., Any], arguments: Sequence[Any], instance: Instance
-) -> tuple[float, Any]:
+def _timed(task: Callable[[Instance], Any], instance: Instance) -> tuple[float, Any]:
     """Return the CPU time (s) of a task and its result, in the process of the FMU."""
     began = process_time()
-    result = task(instance, *arguments)
+    result = task(instance)
     return process_time() - began, result
 
 

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from slider_resonator.steady.newton import Vector
-from slider_resonator.steady.search import WarmedUp, blocked_point, steady_point
-from slider_resonator.steady.shooting import FixedPoint
+from slider_resonator.steady.shooting import FixedPoint, WarmedUp, blocked_point, steady_point
 
 
 class _Slider:
