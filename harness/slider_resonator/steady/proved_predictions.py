@@ -9,20 +9,27 @@ velocity of the limit must be the one that was predicted, and the motion must be
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from math import isfinite, tau
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from math import isfinite, nan, tau
+from typing import Literal
 
 import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
+from slider_resonator.device.interface import INPUTS
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.resolved.equations import steady_vibration
 from slider_resonator.steady.periodic import STATE
 from slider_resonator.steady.shooting import NEUTRAL
+
+Quantity = Literal["steady_velocity", "blocking_force"]
+
+QUANTITIES: tuple[Quantity, ...] = ("steady_velocity", "blocking_force")
 
 PERIODS = 5
 """Common periods of a run: four changes of the state, of three entries and the travel."""
@@ -37,7 +44,8 @@ RANK = 1e-9
 
 DEVICE = (
     *("slider_mass", "resonator_mass", "resonator_frequency", "damping_ratio", "drive_frequency"),
-    *("base_amplitude", "tangential_force", "friction_law", "fidelity", "averaging_order"),
+    *("base_amplitude", "tangential_force", "frequency_ratio"),
+    *("friction_law", "fidelity", "averaging_order"),
 )
 PREDICTIONS = ("steady_velocity", "blocking_force", "prediction_valid")
 INITIAL = tuple(f"initial_{name}" for name in STATE)
@@ -46,101 +54,160 @@ READ = (*STATE, "position", "stick_fraction")
 
 @dataclass(frozen=True)
 class _Candidate:
-    """A prediction and the motion that belongs to it.
+    """A prediction of the point `index` and the motion that belongs to it.
 
-    `start` and `scale` (3,) are those of the entries of `STATE`, `period` (s) is the common period,
+    `start` and `scale` are those of the entries of `STATE`, `period` (s) is the common period,
     `velocity` (m/s) the mean velocity that the motion must have.
     """
 
+    index: int
     prediction: float
     values: Mapping[str, float]
     velocity: float
     period: float
-    start: Array
-    scale: Array
+    start: tuple[float, ...]
+    scale: tuple[float, ...]
 
 
-def proved_prediction(
-    instance: Instance, quantity: str, values: Mapping[str, float], max_denominator: int
-) -> float | None:
-    """Return what the FMU predicts for a `steady_velocity` or `blocking_force`, None if unproved.
+def proved_predictions(
+    instance: Instance,
+    quantity: Quantity,
+    points: Sequence[Mapping[str, float]],
+    max_denominator: int,
+) -> list[float | None]:
+    """Return what the FMU predicts at each point, None where that could not be proved.
 
-    `values` are parameters and inputs by name. Only Coulomb friction of the full device is proved:
+    `points` are parameters and inputs by name. Only Coulomb friction of the full device is proved:
     the outputs show its whole state.
     """
-    try:
-        one = _candidate(instance, quantity, values, max_denominator)
-        return None if one is None else _proved(instance, one)
-    except HarnessError:
-        instance.recreate()
-        return None
+    proved: list[float | None] = [None] * len(points)
+    if any(name not in instance.fmu.variables for name in (*PREDICTIONS, "averaging_order")):
+        return proved
+    instance.start({})
+    defaults = instance.read(DEVICE)
+    left = [
+        candidate
+        for index, point in enumerate(points)
+        if (candidate := _candidate(instance, quantity, index, point, defaults, max_denominator))
+    ]
+    matrices: Array | None = None
+    for _ in range(1 + RESTARTS):
+        runs = np.array([_run(instance, one) for one in left]).reshape(-1, PERIODS + 1, 5)
+        seen = _seen(left, runs)
+        good = np.isfinite(runs).all(axis=(1, 2)) & (runs[:, -1, 4] < 1.0)
+        if matrices is None:
+            matrices = _matrices(np.where(good[:, None, None], seen, 0.0))
+            good &= np.abs(np.linalg.eigvals(matrices)).max(axis=1) < 1.0 - NEUTRAL
+        left = [one for one, is_good in zip(left, good, strict=True) if is_good]
+        seen, matrices = seen[good], matrices[good]
+        rest = _rest(matrices, seen)
+        limits = seen[:, -1] + rest
+        aim = np.array([one.velocity / one.scale[0] for one in left])
+        is_proved = (np.abs(limits[:, 3] - aim) <= PROVEN) & (np.abs(rest).max(axis=1) <= NEAR)
+        further = []
+        for one, limit, is_done in zip(left, limits, is_proved, strict=True):
+            if is_done:
+                proved[one.index] = one.prediction
+            else:
+                further.append(replace(one, start=tuple((limit[:3] * one.scale).tolist())))
+        left, matrices = further, matrices[~is_proved]
+    return proved
 
 
 def _candidate(
-    instance: Instance, quantity: str, values: Mapping[str, float], max_denominator: int
+    instance: Instance,
+    quantity: Quantity,
+    index: int,
+    values: Mapping[str, float],
+    defaults: Mapping[str, float],
+    max_denominator: int,
 ) -> _Candidate | None:
     """Return the motion that a prediction belongs to, None where it cannot be proved."""
-    names = (*DEVICE, "frequency_ratio", *PREDICTIONS)
+    device = {**defaults, **values}
+    count = common_period(device["frequency_ratio"], max_denominator)
+    is_full = device["fidelity"] == 2 and device["averaging_order"] == 2
     guessed = "load" if quantity == "blocking_force" else "initial_velocity"
-    if guessed in values or any(name not in instance.fmu.variables for name in names):
-        return None
-    instance.start(values)
-    with instance.explained():
-        read = instance.read(names)
-    count = common_period(read["frequency_ratio"], max_denominator)
-    model = read["fidelity"], read["averaging_order"], read["friction_law"]
-    if model != (2, 2, 0) or count is None or read["prediction_valid"] != 1.0:
+    if not is_full or device["friction_law"] != 0 or count is None or guessed in values:
         return None
     try:
-        # Of the drive without its deviations: near enough as a start.
-        device = Device.from_mapping({name: read[name] for name in DEVICE})
-        displacement, force = steady_vibration(device)
-        swing = force / (1j * device.drive_frequency * device.total_mass)
-    except (ValueError, ArithmeticError):
+        instance.start(values)
+        with instance.explained():
+            velocity, force, valid = instance.block(PREDICTIONS).read()
+    except HarnessError:
+        instance.recreate()
         return None
-    drive = device.drive_frequency * (1.0 + values.get("frequency_deviation", 0.0))
-    velocity, prediction = read["steady_velocity"], read[quantity]
-    if quantity == "blocking_force":
-        values, velocity = {**values, "load": prediction}, 0.0
+    displacement, swing = _vibration(
+        tuple((name, value) for name, value in device.items() if name not in INPUTS)
+    )
+    drive = device["drive_frequency"] * (1.0 + device.get("frequency_deviation", 0.0))
     size = (abs(swing), abs(displacement), abs(displacement) * drive)
-    if 0.0 in size or not all(map(isfinite, (velocity, prediction, *size))):
+    if valid != 1.0 or 0.0 in size or not all(map(isfinite, (velocity, force, *size))):
         return None
-    start = (velocity + swing.imag, displacement.imag, drive * displacement.real)
-    period = count * tau / drive
-    return _Candidate(prediction, values, velocity, period, np.array(start), np.array(size))
+    prediction = velocity if quantity == "steady_velocity" else force
+    if quantity == "blocking_force":
+        values, velocity = {**values, "load": force}, 0.0
+    return _Candidate(
+        index,
+        prediction,
+        values,
+        velocity,
+        count * tau / drive,
+        (velocity + swing.imag, displacement.imag, drive * displacement.real),
+        size,
+    )
 
 
-def _proved(instance: Instance, one: _Candidate) -> float | None:
-    """Return the prediction if the motion that runs from its start have as their limit has it."""
-    start, matrix = one.start, None
-    for _ in range(1 + RESTARTS):
-        run = _run(instance, one, start)
-        if not np.isfinite(run).all() or run[-1, 4] >= 1.0:
-            return None
-        # State and mean velocity of successive common periods, over their scales.
-        travel = np.diff(run[:, 3]) / one.period / one.scale[0]
-        seen = np.column_stack([run[:-1, :3] / one.scale, travel])
-        changes = np.diff(seen, axis=0).T
-        if matrix is None:
-            matrix = changes[:, 1:] @ np.linalg.pinv(changes[:, :-1], rcond=RANK)
-            if np.abs(np.linalg.eigvals(matrix)).max() >= 1.0 - NEUTRAL:
-                return None
-        rest = np.linalg.solve(np.eye(4) - matrix, matrix @ changes[:, -1])
-        limit = seen[-1] + rest
-        error = abs(float(limit[3]) - one.velocity / float(one.scale[0]))
-        if error <= PROVEN and np.abs(rest).max() <= NEAR:
-            return one.prediction
-        start = limit[:3] * one.scale
-    return None
+@lru_cache
+def _vibration(parameters: tuple[tuple[str, float], ...]) -> tuple[complex, complex]:
+    """Return the complex amplitudes of resonator displacement (m) and slider velocity (m/s).
+
+    Those of the steady vibration without friction; 0 where there is none. Points of a sweep often
+    differ by inputs alone, and have the same.
+    """
+    try:
+        device = Device.from_mapping(dict(parameters))
+        displacement, force = steady_vibration(device)
+        return displacement, force / (1j * device.drive_frequency * device.total_mass)
+    except (ValueError, ArithmeticError):
+        return 0j, 0j
 
 
-def _run(instance: Instance, one: _Candidate, start: Array) -> Array:
-    """Return state, position and stick fraction after 0, 1, ... common periods, a row each."""
-    instance.start({**one.values, **dict(zip(INITIAL, start.tolist(), strict=True))})
-    block = instance.block(READ)
-    with instance.explained():
-        rows = [block.read()]
-        for period in range(PERIODS):
-            instance.step_to((period + 1) * one.period)
-            rows.append(block.read())
-    return np.array(rows)
+def _run(instance: Instance, one: _Candidate) -> list[list[float]]:
+    """Return state, position and stick fraction after 0, 1, ... common periods, nan on an error."""
+    initial = dict(zip(INITIAL, one.start, strict=True))
+    try:
+        instance.start({**one.values, **initial})
+        block = instance.block(READ)
+        with instance.explained():
+            rows = [block.read()]
+            for period in range(PERIODS):
+                instance.step_to((period + 1) * one.period)
+                rows.append(block.read())
+    except HarnessError:
+        instance.recreate()
+        return [[nan] * 5] * (PERIODS + 1)
+    return rows
+
+
+def _seen(candidates: Sequence[_Candidate], runs: Array) -> Array:
+    """Return state and mean velocity of successive common periods (n, PERIODS, 4), over scales.
+
+    `runs` (n, PERIODS + 1, 5) are those of `_run`.
+    """
+    scale = np.array([one.scale for one in candidates]).reshape(-1, 1, 3)
+    travel = np.diff(runs[:, :, 3:4], axis=1)
+    period = np.array([one.period for one in candidates]).reshape(-1, 1, 1)
+    return np.concatenate([runs[:, :-1, :3] / scale, travel / period / scale[:, :, :1]], axis=2)
+
+
+def _matrices(seen: Array) -> Array:
+    """Return the matrices (n, 4, 4) of the map of a period, from what is `seen` (n, PERIODS, 4)."""
+    changes = np.swapaxes(np.diff(seen, axis=1), 1, 2)
+    inverse = np.linalg.pinv(changes[:, :, :-1], rcond=RANK)
+    return np.asarray(changes[:, :, 1:] @ inverse, dtype=np.float64)
+
+
+def _rest(matrices: Array, seen: Array) -> Array:
+    """Return what is missing to the limits (n, 4) after runs (n, PERIODS, 4)."""
+    changes = matrices @ (seen[:, -1] - seen[:, -2])[:, :, None]
+    return np.asarray(np.linalg.solve(np.eye(4) - matrices, changes)[:, :, 0], dtype=np.float64)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import tau
+from pathlib import Path
 
 import numpy as np
 
@@ -17,16 +18,11 @@ from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.steady.blocking_force import find_blocking
-from slider_resonator.steady.proved_predictions import proved_prediction
+from slider_resonator.steady.proved_predictions import QUANTITIES, proved_predictions
 from slider_resonator.steady.steady_velocity import find_steady
 
 Cell = float | str | None
 """An entry of the table; None where there is none."""
-
-Point = tuple[int, tuple[float, ...]]
-"""Number of a point and its values."""
-Row = tuple[int, list[Cell], str | None]
-"""Number of a point, the cells of its measures, and its error if it failed."""
 
 SEARCHED: Mapping[str, str] = {"steady_velocity": "m/s", "blocking_force": "N"}
 """Measures that are predicted and proved, or searched, with units; each has a status, too."""
@@ -103,24 +99,27 @@ def unit(measure: str) -> str:
     return SEARCHED.get(measure) or ALL_OUTPUTS[measure.partition(".")[0]]
 
 
-def measure(instance: Instance, task: Task, point: tuple[float, ...]) -> list[Cell]:
+def measure(
+    instance: Instance, task: Task, point: tuple[float, ...], proved: Mapping[str, float]
+) -> list[Cell]:
     """Return the cells of the measures at a point, in the order of the columns.
 
-    Depends on nothing but its arguments: not on the points before, so that neither the order of the
-    points nor the worker shows in the result. Raises what the FMU and the search raise.
+    What is `proved` is not searched. Depends on nothing but its arguments: not on the points
+    before, so that neither the order of the points nor the worker shows in the result. Raises what
+    the FMU and the search raise.
     """
-    values, most = task.values(point), task.max_denominator
+    values = task.values(point)
     statistics = _statistics(instance, task, values)
     cells: list[Cell] = []
     for name in task.measures:
-        if name not in SEARCHED:
-            cells.append(statistics[name])
-        elif (proved := proved_prediction(instance, name, values, most)) is not None:
-            cells += [proved, STATUS[name]]
-        else:
+        if name in proved:
+            cells += [proved[name], STATUS[name]]
+        elif name in SEARCHED:
             find = find_steady if name == "steady_velocity" else find_blocking
-            found = find(instance, values, max_denominator=most)
+            found = find(instance, values, max_denominator=task.max_denominator)
             cells += [getattr(found, name), found.status]
+        else:
+            cells.append(statistics[name])
     return cells
 
 
@@ -143,25 +142,75 @@ def _statistics(instance: Instance, task: Task, values: Mapping[str, float]) -> 
     return results
 
 
-def measure_points(instance: Instance, task: Task, points: Sequence[Point]) -> list[Row]:
-    """Return the rows of points, in the process of the FMU.
+Point = tuple[int, tuple[float, ...]]
+"""Number of a point and its values."""
+Row = tuple[int, list[Cell], str | None]
+"""Number of a point, the cells of its measures, and its error if it failed."""
+Proved = Mapping[str, float]
+"""Measure to its value, of those that need no search."""
+
+
+FEW = 10
+"""Points left of a batch that are searched with it: another process would take longer to start."""
+
+
+def prove_points(instance: Instance, task: Task, points: Sequence[Point]) -> Sequence[Row | Proved]:
+    """Return a row for each point that is proved, for others what is proved.
+
+    Where few are left and need no run, they are searched, too.
+    """
+    done: list[Row | Proved] = [
+        _proved_row(task, point, proved) or proved
+        for point, proved in zip(points, _proved(instance, task, points), strict=True)
+    ]
+    left = [index for index, one in enumerate(done) if not isinstance(one, tuple)]
+    if len(left) <= FEW and all(name in QUANTITIES for name in task.measures):
+        for index in left:
+            done[index] = measure_point(instance, task, points[index], {})
+    return done
+
+
+def _proved(instance: Instance, task: Task, points: Sequence[Point]) -> Sequence[Proved]:
+    values = [task.values(point) for _, point in points]
+    proved: list[dict[str, float]] = [{} for _ in points]
+    for name in QUANTITIES:
+        if name in task.measures:
+            found = proved_predictions(instance, name, values, task.max_denominator)
+            for own, value in zip(proved, found, strict=True):
+                if value is not None:
+                    own[name] = value
+    return proved
+
+
+def measure_point(instance: Instance, task: Task, point: Point, proved: Proved) -> Row:
+    """Return the row of a point, in the process of the FMU.
 
     After a point that fails the instance is recreated, whatever state the failure left it in.
     """
-    rows: list[Row] = []
-    for number, values in points:
-        try:
-            rows.append((number, measure(instance, task, values), None))
-        except Exception as error:  # any error is the result of this point
-            instance.recreate()
-            # A message without the folder of the FMU in this process.
-            text = str(error).replace(str(instance.fmu.path), instance.fmu.path.name)
-            text = text if isinstance(error, HarnessError) else f"{type(error).__name__}: {text}"
-            rows.append(failed_row(task, number, text))
-    return rows
+    number, values = point
+    try:
+        return number, measure(instance, task, values, proved), None
+    except Exception as error:  # any error is the result of this point
+        instance.recreate()
+        return failed_row(task, number, _text(error, instance.fmu.path))
+
+
+def _proved_row(task: Task, point: Point, proved: Proved) -> Row | None:
+    """Return the row of a point of which all is proved, None where some is to be measured."""
+    try:
+        found = [(proved[name], STATUS[name]) for name in task.measures]
+    except KeyError:
+        return None
+    return point[0], [cell for pair in found for cell in pair], None
 
 
 def failed_row(task: Task, number: int, error: str) -> Row:
     """Return the row of a point without results."""
     results = len(task.columns) - len(task.names) - 2
     return number, [None] * results, error
+
+
+def _text(error: Exception, fmu: Path) -> str:
+    """Return a message without the folder of the FMU in this process."""
+    text = str(error).replace(str(fmu), fmu.name)
+    return text if isinstance(error, HarnessError) else f"{type(error).__name__}: {text}"

@@ -2,29 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any, TypeVar
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import FmuDied
+from slider_resonator.fmu.isolation.process import Task as FmuTask
 from slider_resonator.fmu.isolation.tasks import Processes, run_all_tasks
 from slider_resonator.sweeping.measures import (
     SEARCHED,
     Point,
+    Proved,
     Row,
     Task,
     failed_row,
-    measure_points,
+    measure_point,
+    prove_points,
 )
 
-BATCH = 100
-"""Points of a task, at most, where none needs a run: they take less time than to hand them over."""
-BATCHES_PER_JOB = 4
+BATCH = 200
+"""Points whose predictions are proved in one task."""
 ATTEMPTS = 3
 """Processes that may die at a point before it counts as the cause."""
+
+Item = TypeVar("Item")
 
 Keep = Callable[[Sequence[Row]], None]
 """Called with rows as they come, in any order."""
@@ -42,35 +47,80 @@ class Workers:
     jobs: int
     processes: Callable[[], Processes | None] = lambda: None
 
+    def outcomes(
+        self, tasks: Sequence[tuple[Item, FmuTask]]
+    ) -> Generator[tuple[Item, Any, HarnessError | None], None, None]:
+        """Run a task for each item, and yield item, result and error of each."""
+        return run_all_tasks(
+            self.fmu,
+            tasks,
+            self.time_limit,
+            outcomes=(HarnessError,),
+            jobs=self.jobs,
+            processes=self.processes(),
+        )
+
 
 def run_points(workers: Workers, task: Task, points: Sequence[Point], keep: Keep) -> None:
     """Compute all points.
 
-    The points of a batch that fails are measured again, one by one. A point that exceeds a limit,
-    or at which processes keep dying, has an error as its row. Raises FmuError when the FMU cannot
-    be used.
+    What the FMU predicts is proved in batches; what remains is measured point by point. A point
+    that exceeds a limit, or at which processes keep dying, has an error as its row. Raises FmuError
+    when the FMU cannot be used.
     """
-    size, left = 1, list(points)
-    if all(name in SEARCHED for name in task.measures):
-        size = max(1, min(BATCH, len(left) // (BATCHES_PER_JOB * workers.jobs)))
+    left: list[tuple[Point, Proved]] = []
+    unproved = list(points)
+    if any(name in SEARCHED for name in task.measures):
+        for _ in range(ATTEMPTS):
+            more, unproved = _prove(workers, task, unproved, keep)
+            left += more
+    left += [(point, {}) for point in unproved]
     for attempt in range(ATTEMPTS):
-        batches = [tuple(left[first : first + size]) for first in range(0, len(left), size)]
-        tasks = [(batch, partial(measure_points, task=task, points=batch)) for batch in batches]
-        left, size = [], 1
-        finished = run_all_tasks(
-            workers.fmu,
-            tasks,
-            workers.time_limit,
-            outcomes=(HarnessError,),
-            jobs=workers.jobs,
-            processes=workers.processes(),
-        )
-        with closing(finished) as outcomes:
-            for batch, rows, error in outcomes:
-                died = isinstance(error, FmuDied) and not error.over_limit
-                if error is None:
-                    keep(rows)
-                elif attempt < ATTEMPTS - 1 and (died or len(batch) > 1):
-                    left += batch
-                else:
-                    keep([failed_row(task, number, str(error)) for number, _ in batch])
+        left = _measure(workers, task, left, keep, is_last=attempt == ATTEMPTS - 1)
+
+
+def _prove(
+    workers: Workers, task: Task, points: Sequence[Point], keep: Keep
+) -> tuple[list[tuple[Point, Proved]], list[Point]]:
+    """Keep the rows of batches; return what is proved of points without, and those of lost batches.
+
+    A batch is lost where its process ends, which need not be its fault.
+    """
+    batches = [tuple(points[first : first + BATCH]) for first in range(0, len(points), BATCH)]
+    tasks = [(batch, partial(prove_points, task=task, points=batch)) for batch in batches]
+    left: list[tuple[Point, Proved]] = []
+    lost: list[Point] = []
+    with closing(workers.outcomes(tasks)) as outcomes:
+        for batch, found, error in outcomes:
+            if isinstance(error, FmuDied) and not error.over_limit:
+                lost += batch
+                continue
+            done = found if error is None else [{}] * len(batch)
+            left += [
+                (point, one)
+                for point, one in zip(batch, done, strict=True)
+                if not isinstance(one, tuple)
+            ]
+            keep([one for one in done if isinstance(one, tuple)])
+    return left, lost
+
+
+def _measure(
+    workers: Workers,
+    task: Task,
+    points: Sequence[tuple[Point, Proved]],
+    keep: Keep,
+    *,
+    is_last: bool,
+) -> list[tuple[Point, Proved]]:
+    """Keep the row of each point, and return those at which a process died, unless `is_last`."""
+    measure = partial(measure_point, task=task)
+    tasks = [(one, partial(measure, point=one[0], proved=one[1])) for one in points]
+    died: list[tuple[Point, Proved]] = []
+    with closing(workers.outcomes(tasks)) as outcomes:
+        for one, row, error in outcomes:
+            if isinstance(error, FmuDied) and not error.over_limit and not is_last:
+                died.append(one)
+            else:
+                keep([row if error is None else failed_row(task, one[0][0], str(error))])
+    return died

@@ -11,7 +11,7 @@ import pytest
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady import proved_predictions as module
 from slider_resonator.steady.blocking_force import find_blocking
-from slider_resonator.steady.proved_predictions import proved_prediction
+from slider_resonator.steady.proved_predictions import proved_predictions
 from slider_resonator.steady.steady_velocity import find_steady
 
 
@@ -34,7 +34,7 @@ def devices(count: int) -> list[dict[str, float]]:
 
 def test_velocities_are_those_of_shooting(instance: Instance) -> None:
     points = [{**one, "load": 0.01 * (n % 3)} for n, one in enumerate(devices(12))]
-    proved = [proved_prediction(instance, "steady_velocity", one, 20) for one in points]
+    proved = proved_predictions(instance, "steady_velocity", points, 20)
     assert sum(value is not None for value in proved) >= 8
     for values, value in zip(points, proved, strict=True):
         if value is not None:
@@ -45,7 +45,7 @@ def test_velocities_are_those_of_shooting(instance: Instance) -> None:
 
 def test_forces_are_those_of_shooting(instance: Instance) -> None:
     points = devices(12)
-    proved = [proved_prediction(instance, "blocking_force", one, 20) for one in points]
+    proved = proved_predictions(instance, "blocking_force", points, 20)
     assert sum(value is not None for value in proved) >= 8
     for values, value in zip(points, proved, strict=True):
         if value is not None:
@@ -71,8 +71,8 @@ def test_forces_are_those_of_shooting(instance: Instance) -> None:
 def test_what_is_not_exact_stuck_or_refused_is_left_to_shooting(
     instance: Instance, values: Mapping[str, float]
 ) -> None:
-    assert proved_prediction(instance, "steady_velocity", values, 20) is None
-    sound = proved_prediction(instance, "steady_velocity", {}, 20)
+    refused, sound = proved_predictions(instance, "steady_velocity", [values, {}], 20)
+    assert refused is None
     assert sound == pytest.approx(0.126666997, abs=1e-9), "design 2.7"
 
 
@@ -88,5 +88,4 @@ def test_a_wrong_prediction_is_not_proved(
         return one and replace(one, velocity=one.velocity + error * one.scale[0])
 
     monkeypatch.setattr(module, "_candidate", wrong)
-    for values in ({}, {"phase": 0.4}):
-        assert proved_prediction(instance, "steady_velocity", values, 20) is None
+    assert proved_predictions(instance, "steady_velocity", [{}, {"phase": 0.4}], 20) == [None] * 2

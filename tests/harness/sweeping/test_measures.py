@@ -32,18 +32,17 @@ def _task(*measures: str, names: tuple[str, ...] = ("phase",), run: Run | None =
 
 
 def test_measures_by_shooting_are_those_of_the_commands(instance: Instance) -> None:
-    velocity, status = measure(instance, _task("steady_velocity"), (0.4,))
+    velocity, status = measure(instance, _task("steady_velocity"), (0.4,), {})
     alone = find_steady(instance, {"phase": 0.4, "load": 0.01})
-    assert velocity == pytest.approx(alone.steady_velocity, abs=1e-10)
-    assert status == "steady"
-    force, status = measure(instance, _task("blocking_force"), (0.0,))
+    assert (velocity, status) == (alone.steady_velocity, "steady")
+    force, status = measure(instance, _task("blocking_force"), (0.0,), {})
     assert force == pytest.approx(0.0851861, rel=1e-5), "measured for table 1"
     assert status == "blocked"
 
 
 def test_a_motion_that_does_not_repeat_has_a_status_and_no_value(instance: Instance) -> None:
     task = _task("steady_velocity", names=("frequency_ratio",))
-    assert measure(instance, task, (1.37,)) == [None, "no_common_period"]
+    assert measure(instance, task, (1.37,), {}) == [None, "no_common_period"]
 
 
 def test_statistics_are_those_of_the_run_that_was_asked_for(instance: Instance) -> None:
@@ -54,7 +53,7 @@ def test_statistics_are_those_of_the_run_that_was_asked_for(instance: Instance) 
         names=("drive_frequency",),
         run=Run(40, 64, 20),
     )
-    position, velocity, force = measure(instance, task, (7000.0,))
+    position, velocity, force = measure(instance, task, (7000.0,), {})
     period = tau / 7000.0
     instance.start({"load": 0.01, "drive_frequency": 7000.0})
     instance.step_to(20 * period)
@@ -68,9 +67,9 @@ def test_statistics_are_those_of_the_run_that_was_asked_for(instance: Instance) 
 
 def test_a_point_does_not_depend_on_those_before(instance: Instance) -> None:
     task = _task("steady_velocity", "velocity.rms")
-    first = measure(instance, task, (0.4,))
-    measure(instance, task, (pi / 2,))
-    assert measure(instance, task, (0.4,)) == first
+    first = measure(instance, task, (0.4,), {})
+    measure(instance, task, (pi / 2,), {})
+    assert measure(instance, task, (0.4,), {}) == first
 
 
 def test_columns_and_units() -> None:
