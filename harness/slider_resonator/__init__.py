@@ -13,69 +13,18 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from slider_resonator.api import (
-        Blocking,
-        Choice,
-        Device,
-        Fit,
-        HarnessError,
-        OpenFmu,
-        Record,
-        Scene,
-        SteadyMotion,
-        StressResult,
-        SweepResult,
-        Trade,
-        Validation,
-        choose,
-        fit,
-        fmu_path,
-        open_fmu,
-        read_device,
-        read_scene,
-        stress,
-        sweep,
-        to_toml,
-        trade,
-        validate,
-    )
+    from slider_resonator.api import *  # noqa: F403
 
 __version__ = "0.2.0"
-
-__all__ = [
-    "Blocking",
-    "Choice",
-    "Device",
-    "Fit",
-    "HarnessError",
-    "OpenFmu",
-    "Record",
-    "Scene",
-    "SteadyMotion",
-    "StressResult",
-    "SweepResult",
-    "Trade",
-    "Validation",
-    "choose",
-    "fit",
-    "fmu_path",
-    "open_fmu",
-    "read_device",
-    "read_scene",
-    "stress",
-    "sweep",
-    "to_toml",
-    "trade",
-    "validate",
-]
 
 
 def __getattr__(name: str) -> Any:
     """Load a name of the API."""
-    if name not in __all__:
+    api = importlib.import_module(f"{__name__}.api")
+    if name not in (*api.__all__, "__all__"):
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(importlib.import_module(f"{__name__}.api"), name)
+    return getattr(api, name)
 
 
 def __dir__() -> list[str]:
-    return [*globals(), *__all__]
+    return [*globals(), *__getattr__("__all__")]

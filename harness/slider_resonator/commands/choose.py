@@ -13,7 +13,7 @@ from slider_resonator.commands.options import (
     SettingsCommand,
     check_left_to_choose,
     default_fmu,
-    device_named,
+    device_file,
     device_option,
     fmu_option,
     json_option,
@@ -67,8 +67,8 @@ def choose_command(
       slider-resonator choose scenes/mine.toml --json
       slider-resonator choose feed_forward --set friction_law=1 bristle_stiffness=1e6
     """
-    own = device_named(device)
-    check_left_to_choose({**own, **settings})
+    own = device_file(device)
+    check_left_to_choose(own, settings)
     read = find_scene(scene, settings, own)
     path = default_fmu(fmu)
     provenance = provenance_of(path)

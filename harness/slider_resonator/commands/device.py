@@ -17,10 +17,9 @@ from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.output.targets import distinct
 from slider_resonator.scenes.device_file import (
     device_content,
-    device_values,
     example_devices,
     find_device,
-    possible_slips,
+    read_device_file,
     to_ssv,
     without_drive,
 )
@@ -76,25 +75,22 @@ def _list(as_json: bool) -> None:
 
 
 def _explain(name_or_file: str, ssv: Path | None, as_json: bool) -> None:
-    content = device_content(find_device(name_or_file))
-    values = device_values(content, name_or_file)
-    device = Device.from_mapping(values)
-    slips = possible_slips(content["device"])
-    title = str(content.get("title", name_or_file))
+    read = read_device_file(name_or_file)
+    device = Device.from_mapping(read.values)
     if ssv is not None:
-        distinct({"--ssv": ssv}, {"the device": find_device(name_or_file)})
-        write_text(ssv, to_ssv(device, title))
+        distinct({"--ssv": ssv}, {"the device": read.path})
+        write_text(ssv, to_ssv(device, read.title))
     rows = {
         name: {
             "value": value,
             "unit": VARIABLES[name].unit,
             "shown": with_unit(name, value),
-            "given": name in values,
+            "given": name in read.values,
         }
         for name, value in vars(device).items()
     }
     if as_json:
-        print_json({"device": rows, "possible_slips": slips})
+        print_json({"device": rows, "possible_slips": read.slips})
         return
     columns = [*texts("parameter"), *numbers("value", "SI"), *texts("from", "meaning")]
     cells = [
@@ -107,9 +103,9 @@ def _explain(name_or_file: str, ssv: Path | None, as_json: bool) -> None:
         )
         for name, row in rows.items()
     ]
-    print_text(title)
+    print_text(read.title)
     print_table(Table(columns, cells))
-    notes = [f"note: {one}" for one in (*slips, *without_drive(values))]
+    notes = [f"note: {one}" for one in (*read.slips, *without_drive(read.values))]
     print_text("\n".join([*_derived(device), *notes]))
 
 

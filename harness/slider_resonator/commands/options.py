@@ -18,10 +18,9 @@ from slider_resonator.fmu import finished
 from slider_resonator.output.readable import escaped
 from slider_resonator.output.targets import writable
 from slider_resonator.scenes.device_file import (
-    device_content,
-    device_values,
-    find_device,
+    DeviceFile,
     possible_slips,
+    read_device_file,
     refuse_other_kinds,
     without_drive,
 )
@@ -127,11 +126,10 @@ def _each_once(
     return given
 
 
-def check_left_to_choose(settings: Mapping[str, float]) -> None:
-    """Raise UsageError for a setting of fidelity or tolerance, which are to be chosen."""
-    given = [
-        f"{name} = {settings[name]:g}" for name in ("fidelity", "tolerance") if name in settings
-    ]
+def check_left_to_choose(device: DeviceFile | None, settings: Mapping[str, float]) -> None:
+    """Raise UsageError for a fidelity or tolerance in either, which are to be chosen."""
+    all_given = {**(device.values if device else {}), **settings}
+    given = [f"{n} = {all_given[n]:g}" for n in ("fidelity", "tolerance") if n in all_given]
     if given:
         raise click.UsageError(
             f"'--set': {', '.join(given)}: it is chosen; must be another parameter or input"
@@ -268,18 +266,22 @@ settings_option = click.option(
 )
 
 
-def device_named(name_or_file: str | None) -> dict[str, float]:
-    """Return the parameters of a device file or an example, none without a name; note slips.
+def device_file(name_or_file: str | None) -> DeviceFile | None:
+    """Return a device file or an example, None without a name; note slips.
 
-    Raises SceneError as `read_device` does.
+    Raises SceneError as `read_device_file` does.
     """
     if name_or_file is None:
-        return {}
-    content = device_content(find_device(name_or_file))
-    values = device_values(content, name_or_file)
-    notes = (*possible_slips(content["device"]), *without_drive(values))
-    _note([f"{name_or_file}: {note}" for note in notes])
-    return values
+        return None
+    read = read_device_file(name_or_file)
+    _note([f"{name_or_file}: {note}" for note in (*read.slips, *without_drive(read.values))])
+    return read
+
+
+def device_named(name_or_file: str | None) -> dict[str, float]:
+    """Return the parameters that `device_file` states, none without a name."""
+    read = device_file(name_or_file)
+    return read.values if read else {}
 
 
 device_option = click.option(

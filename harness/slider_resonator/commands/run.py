@@ -20,7 +20,7 @@ from slider_resonator.commands.options import (
     Parsed,
     SettingsCommand,
     check_left_to_choose,
-    device_named,
+    device_file,
     device_option,
     json_option,
     native_fmu_argument,
@@ -159,7 +159,7 @@ def run_command(
       slider-resonator run my.fmu table_1 --plot a.png --window 0.1:0.11 --overlay fidelity=1
       slider-resonator run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
-    own = device_named(device)
+    own = device_file(device)
     read = find_scene(scene, settings, own)
     if interpolate is not None:
         read = read.interpolating(interpolate)
@@ -171,7 +171,7 @@ def run_command(
     if plot is None and not drawing.is_default:
         raise click.UsageError("--signals, --window and --overlay need --plot")
     if auto:
-        check_left_to_choose({**own, **settings})
+        check_left_to_choose(own, settings)
     choice, provenance = None, provenance_of(fmu, *others.values())
     if not drawing.is_default:
         check_drawing(read, drawing)

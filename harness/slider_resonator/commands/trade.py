@@ -12,7 +12,7 @@ from slider_resonator.commands.options import (
     FMU_FILE,
     SettingsCommand,
     default_fmus,
-    device_named,
+    device_file,
     device_option,
     json_option,
     out_folder_option,
@@ -113,7 +113,7 @@ def trade_command(
       slider-resonator trade table_1 --device mine.toml --out trade
       slider-resonator trade my.toml --out trade --fmu my.fmu --json
     """
-    own = device_named(device)
+    own = device_file(device)
     read = [find_scene(name, settings, own) for name in scenes or ("table_1",)]
     points = [point for scene in read for point in scene.points()]
     problems = [problem_of(point.scene, point.at, periods) for point in points]

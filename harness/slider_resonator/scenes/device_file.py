@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from importlib import resources
 from math import pi
 from pathlib import Path
@@ -63,13 +64,37 @@ def find_device(name_or_file: str, folder: Path = Path()) -> Path:
     return path
 
 
-def read_device(name_or_file: str) -> dict[str, float]:
-    """Read a device file: the parameters that it states, in SI units.
+@dataclass(frozen=True)
+class DeviceFile:
+    """What a device file says: `values` are the parameters that it states, in SI units.
+
+    `slips` is a sentence for each value that may be meant in another unit.
+    """
+
+    path: Path
+    title: str
+    values: dict[str, float]
+    slips: Sequence[str]
+
+
+def read_device_file(name_or_file: str, folder: Path = Path()) -> DeviceFile:
+    """Read a device file as `find_device` finds it; its title is by default what it is called.
 
     Raises SceneError with file, key, value and requirement.
     """
-    path = find_device(name_or_file)
-    return device_values(device_content(path), str(path))
+    path = find_device(name_or_file, folder)
+    content = device_content(path)
+    return DeviceFile(
+        path,
+        str(content.get("title", name_or_file)),
+        device_values(content, str(path)),
+        possible_slips(content["device"]),
+    )
+
+
+def read_device(name_or_file: str) -> dict[str, float]:
+    """Return the parameters that a device file states, as `read_device_file` does."""
+    return read_device_file(name_or_file).values
 
 
 def device_content(path: Path) -> dict[str, Any]:

@@ -21,12 +21,7 @@ from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown
 from slider_resonator.scenes.csv_signal import csv_signal
-from slider_resonator.scenes.device_file import (
-    device_content,
-    device_values,
-    find_device,
-    refuse_other_kinds,
-)
+from slider_resonator.scenes.device_file import read_device_file, refuse_other_kinds
 from slider_resonator.scenes.expansion import variants
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.explanations import explanations
@@ -334,8 +329,8 @@ def _with_device(
     if not isinstance(name, str):
         return content, ()
     try:
-        file = find_device(name, folder)
-        return {**content, "device": device_values(device_content(file), str(file))}, (file,)
+        read = read_device_file(name, folder)
+        return {**content, "device": read.values}, (read.path,)
     except SceneError as error:
         raise SceneError(f"{source}: device: {error}") from error
 

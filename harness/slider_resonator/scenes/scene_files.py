@@ -11,6 +11,7 @@ from pathlib import Path
 from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.output.readable import number_of
+from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.scenes.scene import Scene, only_scene, read_scenes
 
 _NAME = re.compile(r'^name = "([^"]+)"', re.MULTILINE)
@@ -36,21 +37,23 @@ def is_core(scene: Scene) -> bool:
 def find_scene(
     name_or_file: str,
     values: Mapping[str, float] | None = None,
-    device: Mapping[str, float] | None = None,
+    device: DeviceFile | None = None,
 ) -> Scene:
     """Return the built-in scene of a name, or that of a file, as `FILE#NAME` one of several.
 
     `device` takes the place of the scene's as in `Scene.with_device`, `values` replace those of
-    both, and the title says so. Raises SceneError with the nearest name, and as `read_scenes` does.
+    both, and the title says so, that of the device first. Raises SceneError with the nearest name,
+    and as `read_scenes` does.
     """
     scene = only_scene(_scenes_of(name_or_file), name_or_file)
-    if not values and not device:
+    if not values and not (device and device.values):
         return scene
-    varied = scene.with_device(device or {}).with_values(values or {})
+    varied = scene.with_device(device.values if device else {}).with_values(values or {})
     before, after = vars(scene.device), vars(varied.device)
     changed = sum(before[name] != after[name] for name in before)
     changed += len((values or {}).keys() - PARAMETERS)
-    return replace(varied, title=f"{scene.title}, {number_of(changed, 'value')} replaced")
+    title = f"{scene.title}, {number_of(changed, 'value')} replaced"
+    return replace(varied, title=f"{device.title} ({title})" if device else title)
 
 
 def find_scenes(names_or_files: Sequence[str]) -> list[Scene]:

@@ -159,3 +159,8 @@ def test_the_deviations_of_a_scene_are_written_and_drawn(native_fmu: Path, tmp_p
     call("run", native_fmu, "burst", "--plot", chosen, "--signals", "amplitude_deviation")
     for picture in (usual, chosen):
         assert "amplitude deviation" in picture.read_text(encoding="utf-8")
+
+
+def test_a_run_of_another_device_has_its_title(native_fmu: Path) -> None:
+    result = call("run", native_fmu, "--device", "conveyor", "--set", "load=0.01")
+    assert "table_1: A part on a vibratory conveyor (The device of table 1, 11" in result.stdout
