@@ -29,7 +29,6 @@ from slider_resonator.checks.compare import Value
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.opening import Fmu
-from slider_resonator.output.atomic import clear_abandoned, temporary_prefix
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import built_in_scenes
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -131,9 +130,7 @@ def write_recorded(folder: Path, recorded: Recorded) -> None:
     """
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        clear_abandoned(folder.parent, folder.name)
-        prefix = temporary_prefix(folder.name)
-        fresh = Path(tempfile.mkdtemp(prefix=prefix, dir=folder.parent))
+        fresh = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
         try:
             _write(fresh / NUMBERS, _number_rows(recorded))
             if any(name in SIGNALS for golden in recorded.points.values() for name in golden):
@@ -150,8 +147,7 @@ def write_recorded(folder: Path, recorded: Recorded) -> None:
 def replace_folder(fresh: Path, folder: Path) -> None:
     """Move a folder to the place of another, if there is one; OSError when that fails."""
     if folder.exists():
-        prefix = temporary_prefix(folder.name)
-        with tempfile.TemporaryDirectory(prefix=prefix, dir=folder.parent) as old:
+        with tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as old:
             folder.rename(Path(old) / folder.name)
             fresh.rename(folder)
     else:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -44,29 +43,14 @@ class Signal:
 
     def at(self, time: float) -> float:
         """Return the value at `time` (s); at a jump, the value after it."""
-        index = bisect_right(self.times, time) - 1
-        if index < 0:
-            return self.values[0]
-        if self.hold or index == len(self.times) - 1:
-            return self.values[index]
-        left, right = self.times[index], self.times[index + 1]
-        share = (time - left) / (right - left)
-        return self.values[index] + share * (self.values[index + 1] - self.values[index])
+        return float(self.over(np.array([time]))[0])
 
     def over(self, times: Array) -> Array:
-        """Return the values at ascending times (s), shape (n,), each as `at` gives it."""
-        if len(self.times) == 1:
-            return np.full(len(times), self.values[0], dtype=np.float64)
-        points, values = np.asarray(self.times), np.asarray(self.values)
-        index = np.searchsorted(points, times, side="right") - 1
-        before = values[np.maximum(index, 0)]
-        if self.hold:
-            return before
-        left = np.clip(index, 0, len(points) - 2)
-        inside = np.clip(times, points[0], points[-1])
-        share = (inside - points[left]) / (points[left + 1] - points[left])
-        between = values[left] + share * (values[left + 1] - values[left])
-        return np.where((index < 0) | (index == len(points) - 1), before, between)
+        """Return the values at times (s), shape (n,), each as `at` gives it."""
+        if not self.hold:
+            return np.interp(times, self.times, self.values)
+        index = np.searchsorted(self.times, times, side="right") - 1
+        return np.array(self.values, dtype=np.float64)[np.maximum(index, 0)]
 
     def check_covers(self, stop: float) -> None:
         """Raise ValueError where a file has no values from 0 to `stop` (s), but for rounding."""

@@ -12,7 +12,6 @@ from typing import Any
 
 from slider_resonator.errors import HarnessError
 
-MAGIC = b"SQLite format 3\0"
 APPLICATION = 0x736C7264
 """Marks an SQLite file as a journal of this package."""
 _ENCODER = json.JSONEncoder(separators=(",", ":"))
@@ -41,7 +40,8 @@ class Journal:
         self.damaged: list[int] = []
         self._work, self._remedy = work, remedy
         with self._explained():
-            is_new = self._is_new()
+            with path.open("ab") as file:
+                is_new = file.tell() == 0
             self._file = sqlite3.connect(path, timeout=0.0, isolation_level=None)
             try:
                 # Entries need to survive the end of this process, not that of the machine.
@@ -78,16 +78,6 @@ class Journal:
     def __exit__(self, *error: object) -> None:
         """Close the file."""
         self._file.close()
-
-    def _is_new(self) -> bool:
-        """Whether there is no file, or an empty one; HarnessError for a file of another format."""
-        if not self.path.exists():
-            return True
-        with self.path.open("rb") as file:
-            start = file.read(len(MAGIC))
-        if start not in (b"", MAGIC):
-            raise self._is_none()
-        return not start
 
     def _check(self, digest: str, *, restart: bool) -> None:
         """Read the entries; HarnessError unless they belong to this work."""

@@ -4,13 +4,11 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import pytest
 
 from slider_resonator.output import temporary
-from slider_resonator.output.atomic import write_text
 from slider_resonator.output.temporary import PREFIX, temporary_folder
 
 pytestmark = pytest.mark.skipif(
@@ -72,15 +70,3 @@ def test_files_of_others_are_left_alone(folder: Path, monkeypatch: pytest.Monkey
     with temporary_folder():
         pass
     assert young.is_dir(), "its process may not have locked it yet"
-
-
-def test_half_written_files_of_a_killed_process_are_removed(tmp_path: Path) -> None:
-    with subprocess.Popen([sys.executable, "-c", ""]) as ended:
-        pass
-    long_ago = time.time() - 3600.0
-    dead, alive = (tmp_path / f".table-{number}-x.csv" for number in (ended.pid, os.getpid()))
-    for path in (dead, alive):
-        path.touch()
-        os.utime(path, (long_ago, long_ago))
-    write_text(tmp_path / "table.csv", "a\n")
-    assert sorted(path.name for path in tmp_path.iterdir()) == sorted([alive.name, "table.csv"])
