@@ -21,10 +21,11 @@ The `repr` of a result says what was found, on a screen at most. `to_pandas()` g
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial, wraps
 from numbers import Integral, Real
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
 
@@ -47,11 +48,11 @@ from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run as run_schedule
 from slider_resonator.output.progress import no_progress
+from slider_resonator.output.shown import Drawable
 from slider_resonator.scenes.device_file import device_values, to_toml
 from slider_resonator.scenes.device_file import read_device as read_device_file
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes
-from slider_resonator.scenes.scene_record import SceneRecord
 from slider_resonator.steady.blocking_force import Blocking, find_blocking
 from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
 from slider_resonator.stressing.axes import axis_cases, device_cases
@@ -64,6 +65,9 @@ from slider_resonator.trading.measure import BUDGET, REPEATS, measure_trades, op
 from slider_resonator.trading.measure import TIME_LIMIT as TRADE_LIMIT
 from slider_resonator.trading.problem import problem_of
 from slider_resonator.trading.result import Trade
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = [
     "Blocking",
@@ -113,6 +117,23 @@ def _plain_errors(function: Callable[P, R]) -> Callable[P, R]:
     return call
 
 
+@dataclass(frozen=True, repr=False)
+class SceneRecord(Record, Drawable):
+    """The record of a run of `scene`."""
+
+    scene: Scene
+
+    def figure(self) -> Figure:
+        """Draw position and mean velocity over time, and inputs that vary.
+
+        Where the communication points resolve them, the last drive periods follow in full.
+        """
+        # Imported here: drawing takes longer to load than most scenes to run.
+        from slider_resonator.scenes.run_plot import run_figure
+
+        return run_figure(self, self.scene)
+
+
 class OpenFmu:
     """An FMU that runs in a process of its own: it may crash or hang and the script goes on.
 
@@ -156,20 +177,19 @@ class OpenFmu:
     @_plain_errors
     def steady(self, *, max_denominator: int = MAX_DENOMINATOR, **values: Value) -> SteadyMotion:
         """Find the steady motion by shooting; its `status` says why there is none."""
-        checked = {**self._device, **_checked(values)}
-        largest = _whole("max_denominator", max_denominator)
-        search = partial(find_steady, values=checked, max_denominator=largest)
-        motion: SteadyMotion = self._isolated.run(search)
+        motion: SteadyMotion = self._search(find_steady, max_denominator, values)
         return motion
 
     @_plain_errors
     def blocking(self, *, max_denominator: int = MAX_DENOMINATOR, **values: Value) -> Blocking:
         """Find the load that stops the slider; its `status` says why there is none."""
+        blocking: Blocking = self._search(find_blocking, max_denominator, values)
+        return blocking
+
+    def _search(self, find: Any, max_denominator: int, values: Mapping[str, Value]) -> Any:
         checked = {**self._device, **_checked(values)}
         largest = _whole("max_denominator", max_denominator)
-        search = partial(find_blocking, values=checked, max_denominator=largest)
-        blocking: Blocking = self._isolated.run(search)
-        return blocking
+        return self._isolated.run(partial(find, values=checked, max_denominator=largest))
 
 
 @_plain_errors

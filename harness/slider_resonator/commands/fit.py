@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from functools import partial
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -34,9 +33,6 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
 from slider_resonator.output.targets import make_folder
-
-if TYPE_CHECKING:
-    from slider_resonator.fitting.fit import Fit
 
 
 def _quantity(variable: str) -> Parsed[float]:
@@ -170,7 +166,8 @@ def fit_command(
     title = f"Fit to {', '.join(one.name for one in data) or 'a datasheet'}"
     written = [] if out is None else write_report(found, out, title, provenance)
     if as_json:
-        print_json(_document(found, written), provenance)
+        keys = {key: value for key, value in vars(found).items() if key != "measurements"}
+        print_json({**keys, "written": written}, provenance)
     else:
         print_table(parameter_table(found))
         lines = found.sentences()
@@ -178,22 +175,3 @@ def fit_command(
             lines.append(f"written: {one_line(', '.join(map(str, written)))}")
         print_text("\n".join(lines))
     click.get_current_context().exit(1 if found.open_directions or found.unmet else 0)
-
-
-def _document(found: Fit, written: Sequence[Path]) -> dict[str, Any]:
-    return {
-        "parameters": found.parameters,
-        "device": found.device,
-        "open_directions": found.open_directions,
-        "correlation": found.correlation.tolist(),
-        "measured": found.measured.tolist(),
-        "predicted": found.predicted.tolist(),
-        "residuals": found.residuals.tolist(),
-        "scale": found.scale,
-        "starts": found.starts,
-        "starts_agreeing": found.starts_agreeing,
-        "evaluations": found.evaluations,
-        "unmet": found.unmet,
-        "notes": found.notes,
-        "written": [str(path) for path in written],
-    }

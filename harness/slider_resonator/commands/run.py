@@ -2,20 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from slider_resonator.commands.drawing import (
-    Drawing,
-    check_drawing,
-    draw_signals,
-    overlay,
-    window_of,
-)
 from slider_resonator.commands.options import (
     Parsed,
     SettingsCommand,
@@ -24,6 +17,7 @@ from slider_resonator.commands.options import (
     device_option,
     json_option,
     native_fmu_argument,
+    setting,
     settings_option,
     target,
     time_limit_option,
@@ -53,31 +47,18 @@ HOW_INPUTS = {
 """How inputs that are straight lines reach an FMU, in words."""
 
 
-@dataclass(frozen=True)
-class RunSummary:
-    """A run and its cost; times in s, positions in m, velocities in m/s.
+def _window(text: str) -> tuple[float, float]:
+    """Return the two times (s) of FROM:TO; ValueError for another text."""
+    begin, _, end = text.partition(":")
+    try:
+        return float(begin), float(end)
+    except ValueError as error:
+        raise ValueError(f"{text!r}: must be FROM:TO, two times in s, such as 0.1:0.11") from error
 
-    `auto` is the choice of --auto, `inputs` how inputs that are straight lines reach the FMU: one
-    of `HOW_INPUTS`, None where there are none.
-    """
 
-    fmu: str
-    scene: str
-    simulated_time: float
-    drive_periods: float
-    communication_steps: int
-    position: float
-    mean_velocity: float
-    reversals: int
-    stick_fraction: float
-    last_event_time: float
-    wall_time: float
-    wall_time_per_simulated_time: float
-    microseconds_per_drive_period: float
-    out: str | None
-    plot: str | None
-    auto: Choice | None
-    inputs: str | None
+def _overlay(text: str) -> tuple[str, float] | Path:
+    """Return the setting NAME=VALUE, or the path of an FMU; ValueError for a wrong setting."""
+    return setting(text) if "=" in text and not Path(text).is_file() else Path(text)
 
 
 @click.command("run", cls=SettingsCommand)
@@ -97,13 +78,13 @@ class RunSummary:
 )
 @click.option(
     "--window",
-    type=Parsed("FROM:TO", window_of),
+    type=Parsed("FROM:TO", _window),
     help="With --plot: the time to draw, in s, in steps fine enough to be smooth.",
 )
 @click.option(
     "--overlay",
     "overlays",
-    type=Parsed("NAME=VALUE|FMU", overlay),
+    type=Parsed("NAME=VALUE|FMU", _overlay),
     multiple=True,
     help="With --plot: draw a further run, with a setting such as fidelity=1 or of another FMU. "
     "Repeatable.",
@@ -166,49 +147,50 @@ def run_command(
     files = {f"the scene's file {file}": file for file in read.files}
     others = {f"the FMU {one}": one for one in overlays if isinstance(one, Path)}
     distinct({"--out": out, "--plot": plot}, {"the FMU": fmu, **others, **files})
-    names = None if signals is None else tuple(name.strip() for name in signals.split(","))
-    drawing = Drawing(names, window, overlays)
-    if plot is None and not drawing.is_default:
+    is_chosen = bool(signals is not None or window or overlays)
+    if plot is None and is_chosen:
         raise click.UsageError("--signals, --window and --overlay need --plot")
     if auto:
         check_left_to_choose(own, settings)
-    choice, provenance = None, provenance_of(fmu, *others.values())
-    if not drawing.is_default:
-        check_drawing(read, drawing)
+    choice: Choice | None = None
+    provenance = provenance_of(fmu, *others.values())
+    names = [name.strip() for name in signals.split(",")] if signals is not None else None
+    if is_chosen:
+        # Imported here: drawing takes longer to load than the rest to run.
+        from slider_resonator.scenes.signals_plot import check_signals, check_window
+
+        check_signals(names or (), read)
+        if window is not None:
+            check_window(window, read)
     with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
         if auto:
-            choice = _choose(isolated, read, progress)
-            if not choice.meets:
-                text = "\n".join(choice.sentences())
-                print_result(choice, text, as_json=as_json, provenance=provenance)
+            # Imported here: it loads scipy.
+            from slider_resonator.choosing.choosing import choose_with
+
+            read.schedule()
+            chosen: Choice = isolated.run(partial(choose_with, scene=read), progress)
+            if not chosen.meets:
+                text = "\n".join(chosen.sentences())
+                print_result(chosen, text, as_json=as_json, provenance=provenance)
                 context.exit(1)
-            read = choice.applied_to(read)
+            choice, read = chosen, chosen.applied_to(read)
         how = read.lines_reach(isolated.interpolates)
         if how == "cannot":
             read = read.interpolating(False)
         record = _run(isolated, read, read.schedule(), progress)
         if out is not None:
             write_csv(record, out)
-        if plot is not None and drawing.is_default:
-            # Imported here: drawing takes longer to load than the rest to run.
+        if is_chosen and plot is not None:
+            shown = window or (0.0, float(record.times[-1]))
+            _draw_signals(isolated, fmu, read, names, shown, overlays, plot, time_limit, progress)
+        elif plot is not None:
             from slider_resonator.output.plot_style import save
             from slider_resonator.scenes.run_plot import run_figure, schedule_to_plot
 
             fine = _run(isolated, read, schedule_to_plot(read), progress)
             save(run_figure(fine, read), plot)
-        elif plot is not None:
-            draw_signals(isolated, fmu, read, drawing, plot, time_limit)
     summary = _summary(fmu, read, record, out, plot, choice, how)
     print_result(summary, _sentences(summary, read), as_json=as_json, provenance=provenance)
-
-
-def _choose(isolated: IsolatedFmu, scene: Scene, progress: Progress) -> Choice:
-    # Imported here: it loads scipy.
-    from slider_resonator.choosing.choosing import choose_with
-
-    scene.schedule()
-    choice: Choice = isolated.run(partial(choose_with, scene=scene), progress)
-    return choice
 
 
 def _run(
@@ -222,6 +204,41 @@ def _run(
     return record
 
 
+def _draw_signals(
+    isolated: IsolatedFmu,
+    fmu: Path,
+    scene: Scene,
+    signals: Sequence[str] | None,
+    window: tuple[float, float],
+    overlays: Sequence[tuple[str, float] | Path],
+    path: Path,
+    time_limit: float,
+    progress: Progress,
+) -> None:
+    """Run the scene, and again for each overlay, and draw a window (s); by default `SIGNALS`.
+
+    With an FMU among the overlays, differences are drawn, too. Raises HarnessError for a setting
+    that the scene refuses, and as `IsolatedFmu` does.
+    """
+    from slider_resonator.scenes.signals_plot import SIGNALS, Run, plot_signals, schedule_for_window
+
+    def drawn(on: IsolatedFmu, label: str, varied: Scene) -> Run:
+        interpolates = varied.schedule().interpolates and on.interpolates
+        schedule = schedule_for_window(varied.interpolating(interpolates), window)
+        return Run(label, _run(on, varied, schedule, progress))
+
+    runs = [drawn(isolated, fmu.name, scene)]
+    for overlay in overlays:
+        if isinstance(overlay, Path):
+            with IsolatedFmu(overlay, time_limit) as other:
+                runs.append(drawn(other, overlay.name, scene))
+        else:
+            name, value = overlay
+            runs.append(drawn(isolated, f"{name} {value:g}", scene.with_values({name: value})))
+    differences = any(isinstance(overlay, Path) for overlay in overlays)
+    plot_signals(runs, scene, signals or SIGNALS, window, path, differences=differences)
+
+
 def _summary(
     fmu: Path,
     scene: Scene,
@@ -230,55 +247,57 @@ def _summary(
     plot: Path | None,
     choice: Choice | None,
     how: str | None,
-) -> RunSummary:
+) -> dict[str, Any]:
+    """Return a run and its cost; times in s, positions in m, velocities in m/s.
+
+    `auto` is the choice of --auto, `inputs` how inputs that are straight lines reach the FMU: one
+    of `HOW_INPUTS`, None where there are none.
+    """
     simulated = float(record.times[-1])
     periods = float(scene.drive_periods.passed_by(record.times[-1:])[0])
-    return RunSummary(
-        fmu=str(fmu),
-        scene=scene.name,
-        simulated_time=simulated,
-        drive_periods=periods,
-        communication_steps=len(record.times) - 1,
-        position=record.final("position"),
-        mean_velocity=record.final("mean_velocity"),
-        reversals=round(record.final("reversals")),
-        stick_fraction=record.final("stick_fraction"),
-        last_event_time=record.final("last_event_time"),
-        wall_time=record.wall_time,
-        wall_time_per_simulated_time=record.wall_time / simulated,
-        microseconds_per_drive_period=1e6 * record.wall_time / periods,
-        out=None if out is None else str(out),
-        plot=None if plot is None else str(plot),
-        auto=choice,
-        inputs=how,
-    )
+    return {
+        "fmu": str(fmu),
+        "scene": scene.name,
+        "simulated_time": simulated,
+        "drive_periods": periods,
+        "communication_steps": len(record.times) - 1,
+        "position": record.final("position"),
+        "mean_velocity": record.final("mean_velocity"),
+        "reversals": round(record.final("reversals")),
+        "stick_fraction": record.final("stick_fraction"),
+        "last_event_time": record.final("last_event_time"),
+        "wall_time": record.wall_time,
+        "wall_time_per_simulated_time": record.wall_time / simulated,
+        "microseconds_per_drive_period": 1e6 * record.wall_time / periods,
+        "out": None if out is None else str(out),
+        "plot": None if plot is None else str(plot),
+        "auto": choice,
+        "inputs": how,
+    }
 
 
-def _sentences(summary: RunSummary, scene: Scene) -> str:
-    lines = [] if summary.auto is None else summary.auto.sentences()
+def _sentences(summary: Mapping[str, Any], scene: Scene) -> str:
+    lines = [] if summary["auto"] is None else summary["auto"].sentences()
     lines += [
-        f"scene    {summary.scene}: {one_line(scene.title)}",
-        f"FMU      {one_line(summary.fmu)}",
-        f"run      {summary.simulated_time:.6g} s, {summary.drive_periods:.6g} drive periods in "
-        f"{number_of(summary.communication_steps, 'communication step')}",
-        f"result   position {readable(summary.position, 9)} m, mean velocity over the last drive "
-        f"period {readable(summary.mean_velocity, 9)} m/s",
-        *([f"inputs   {HOW_INPUTS[summary.inputs]}"] if summary.inputs else []),
-        *_contact(summary, scene),
-        f"cost     {summary.wall_time:.3g} s of wall time, "
-        f"{summary.wall_time_per_simulated_time:.3g} per simulated second, "
-        f"{summary.microseconds_per_drive_period:.3g} us per drive period",
+        f"scene    {scene.name}: {one_line(scene.title)}",
+        f"FMU      {one_line(summary['fmu'])}",
+        f"run      {summary['simulated_time']:.6g} s, {summary['drive_periods']:.6g} drive periods "
+        f"in {number_of(summary['communication_steps'], 'communication step')}",
+        f"result   position {readable(summary['position'], 9)} m, mean velocity over the last "
+        f"drive period {readable(summary['mean_velocity'], 9)} m/s",
     ]
-    lines += [f"written  {one_line(file)}" for file in (summary.out, summary.plot) if file]
-    return "\n".join(lines)
-
-
-def _contact(summary: RunSummary, scene: Scene) -> list[str]:
-    """Return the line about contact; averaged motion has no events to count."""
-    if scene.device.fidelity == 0:
-        return []
-    return [
-        f"contact  {number_of(summary.reversals, 'reversal')}, sticking "
-        f"{summary.stick_fraction:.1%} of the last drive period, "
-        f"last event at {summary.last_event_time:.9g} s"
-    ]
+    if summary["inputs"]:
+        lines.append(f"inputs   {HOW_INPUTS[summary['inputs']]}")
+    if scene.device.fidelity != 0:  # averaged motion has no events to count
+        lines.append(
+            f"contact  {number_of(summary['reversals'], 'reversal')}, sticking "
+            f"{summary['stick_fraction']:.1%} of the last drive period, "
+            f"last event at {summary['last_event_time']:.9g} s"
+        )
+    lines.append(
+        f"cost     {summary['wall_time']:.3g} s of wall time, "
+        f"{summary['wall_time_per_simulated_time']:.3g} per simulated second, "
+        f"{summary['microseconds_per_drive_period']:.3g} us per drive period"
+    )
+    written = (summary["out"], summary["plot"])
+    return "\n".join([*lines, *(f"written  {one_line(file)}" for file in written if file)])

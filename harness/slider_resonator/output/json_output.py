@@ -10,7 +10,10 @@ import json
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from math import isfinite
+from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 SCHEMA_VERSION = 1
 
@@ -36,13 +39,17 @@ def _headed(document: Any, head: Mapping[str, Any]) -> Any:
 
 
 def plain(value: Any) -> Any:
-    """Return dataclasses, mappings and lists as JSON has them; what is not finite as None."""
+    """Return dataclasses, mappings, lists and arrays as JSON has them; not finite ones as None."""
     if is_dataclass(value) and not isinstance(value, type):
         return {f.name: plain(getattr(value, f.name)) for f in fields(value)}
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, tuple | list):
         return [plain(item) for item in value]
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, Path):
+        return str(value)
     if isinstance(value, complex):
         return [plain(value.real), plain(value.imag)]
     if isinstance(value, float):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.drive_periods import DrivePeriods
@@ -19,6 +21,12 @@ from slider_resonator.scenes.scene import Scene
 
 ZOOM_PERIODS = 6
 """Drive periods at the end of the run that are drawn in full."""
+ZOOMED = (
+    ("velocity", 2.0, ("velocity",)),
+    ("resonator", 1.6, ("resonator_displacement",)),
+    ("force", 1.6, ("normal_force", "friction_force")),
+)
+"""Label, height and outputs of each panel of these periods."""
 MIN_POINTS = 8
 """Points per drive period below which they are not drawn."""
 SMOOTH_POINTS = 64
@@ -40,7 +48,8 @@ def run_figure(record: Record, scene: Scene) -> Figure:
     gaps = np.diff(before)
     resolved = gaps.size > 0 and bool(np.max(gaps) * MIN_POINTS <= 1.0)
     with style():
-        heights = [2.0, 2.0, *([2.0, 1.6, 1.6] if resolved else []), *[1.3 for _ in varying]]
+        zoomed = ZOOMED if resolved else ()
+        heights = [2.0, 2.0, *(height for _, height, _ in zoomed), *[1.3 for _ in varying]]
         figure = Picture(figsize=(8.0, sum(heights) + 0.3), layout="constrained")
         axes = figure.subplots(len(heights), 1, height_ratios=heights)
         figure.suptitle(f"{scene.title}  ({scene.name}){_constant_inputs(record, varying)}")
@@ -48,10 +57,8 @@ def run_figure(record: Record, scene: Scene) -> Figure:
         times = factor * record.times
         _position(axes[0], record, times)
         _velocity(axes[1], record, times, unit, held=not scene.interpolates)
-        if resolved:
-            _zoom(axes[2], record, before)
-            _resonator(axes[3], record, before)
-            _forces(axes[4], record, before)
+        for panel, (label, _, names) in zip(axes[2:], zoomed, strict=False):
+            _zoom(panel, record, before, label, names)
         for panel, name in zip(axes[len(heights) - len(varying) :], varying, strict=True):
             _input(panel, record, times, unit, name)
         figure.align_ylabels(axes)
@@ -87,44 +94,27 @@ def _velocity(axes: Axes, record: Record, times: Array, time_unit: str, *, held:
     axes.legend()
 
 
-def _zoom(axes: Axes, record: Record, before: Array) -> None:
-    """Plot the last drive periods over the directions of slip."""
-    entries = _over_last_periods(axes, record, before)
-    velocity = record["velocity"][-len(before) :]
-    factor, unit = plot_unit("m/s", velocity)
-    axes.plot(before, factor * velocity, color=COLOURS["velocity"])
-    axes.axhline(0.0, color="0.4", linewidth=0.6)
-    axes.set(ylabel=f"velocity [{unit}]")
-    axes.tick_params(labelbottom=False)
-    axes.legend(handles=entries, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=len(entries))
-
-
-def _resonator(axes: Axes, record: Record, before: Array) -> None:
-    """Plot the resonator relative to the slider."""
-    _over_last_periods(axes, record, before)
-    displacement = record["resonator_displacement"][-len(before) :]
-    factor, unit = plot_unit("m", displacement)
-    axes.plot(before, factor * displacement, color=COLOURS["position"])
-    axes.set(ylabel=f"resonator [{unit}]")
-    axes.tick_params(labelbottom=False)
-
-
-def _forces(axes: Axes, record: Record, before: Array) -> None:
-    """Plot normal force and friction."""
-    _over_last_periods(axes, record, before)
-    forces = {name: record[name][-len(before) :] for name in ("normal_force", "friction_force")}
-    factor, unit = plot_unit("N", *forces.values())
-    for (name, force), look in zip(forces.items(), ("-", "--"), strict=True):
-        colour = COLOURS["theory" if name == "friction_force" else "velocity"]
-        axes.plot(before, factor * force, look, color=colour, label=name.replace("_", " "))
-    axes.set(xlabel="drive periods before the end", ylabel=f"force [{unit}]")
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=2)
-
-
-def _over_last_periods(axes: Axes, record: Record, before: Array) -> list[Patch]:
-    """Shade the directions of slip in the last drive periods and return their legend entries."""
-    axes.set(xlim=(-ZOOM_PERIODS, 0.0))
-    return shade_directions(axes, before, record["contact_mode"][-len(before) :])
+def _zoom(axes: Axes, record: Record, before: Array, label: str, names: Sequence[str]) -> None:
+    """Plot outputs in the last drive periods over the directions of slip."""
+    modes = shade_directions(axes, before, record["contact_mode"][-len(before) :])
+    curves = [record[name][-len(before) :] for name in names]
+    factor, unit = plot_unit(VARIABLES[names[0]].unit, *curves)
+    lines = []
+    for name, curve in zip(names, curves, strict=True):
+        look, colour = ("--", "theory") if name == "friction_force" else ("-", "velocity")
+        words = name.replace("_", " ")
+        lines += axes.plot(before, factor * curve, look, color=COLOURS[colour], label=words)
+    axes.set(xlim=(-ZOOM_PERIODS, 0.0), ylabel=f"{label} [{unit}]")
+    if label == "velocity":
+        axes.axhline(0.0, color="0.4", linewidth=0.6)
+    if label == "force":
+        axes.set(xlabel="drive periods before the end")
+    else:
+        axes.tick_params(labelbottom=False)
+    entries: Mapping[str, Sequence[Artist]] = {"velocity": modes, "force": lines}
+    if shown := entries.get(label):
+        place = (1.0, 0.98)
+        axes.legend(handles=shown, loc="lower right", bbox_to_anchor=place, ncols=len(shown))
 
 
 def _periods_before_the_end(record: Record, drive: DrivePeriods) -> Array:
