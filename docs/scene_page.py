@@ -15,7 +15,6 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from slider_resonator.device.interface import PARAMETERS, TUNABLES, VARIABLES
-from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
 from slider_resonator.scenes.expansion import bundles
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.input_tables import (
@@ -24,7 +23,7 @@ from slider_resonator.scenes.input_tables import (
     InputTable,
     TuningTable,
 )
-from slider_resonator.scenes.key_table import KeyTable
+from slider_resonator.scenes.key_table import PARAMETER_MEANINGS, KeyTable
 from slider_resonator.scenes.need_table import AllowedTable, NeedTable
 from slider_resonator.scenes.schema import RunTable, SceneTable, SweepTable
 from slider_resonator.scenes.toml_file import toml_value

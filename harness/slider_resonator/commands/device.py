@@ -23,7 +23,7 @@ from slider_resonator.scenes.device_file import (
     to_ssv,
     without_drive,
 )
-from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
+from slider_resonator.scenes.key_table import PARAMETER_MEANINGS
 
 
 @click.command("device")

@@ -80,7 +80,7 @@ class ExpectTable(KeyTable):
     @model_validator(mode="after")
     def _comparable(self) -> ExpectTable:
         kinds = ("reference", "value", "at_most", "at_least")
-        given = [kind for kind in kinds if getattr(self, kind) is not None]
+        given = [*self.given(kinds)]
         exactly_one("expect", given, ", ".join(kinds))
         quantity = QUANTITIES.get(self.quantity)
         if quantity is None:

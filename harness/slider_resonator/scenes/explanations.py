@@ -19,9 +19,8 @@ from slider_resonator.device.interface import (
     VARIABLES,
 )
 from slider_resonator.errors import unknown_name
-from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
 from slider_resonator.scenes.expansion import with_bundles
-from slider_resonator.scenes.key_table import NAMED
+from slider_resonator.scenes.key_table import NAMED, PARAMETER_MEANINGS
 from slider_resonator.scenes.schema import RunTable, SceneTable
 from slider_resonator.scenes.toml_file import toml_value
 

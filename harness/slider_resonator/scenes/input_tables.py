@@ -58,8 +58,7 @@ class InputTable(KeyTable):
     @model_validator(mode="after")
     def _one_kind(self) -> InputTable:
         kinds = ("constant", "steps", "ramp", "csv")
-        given = [kind for kind in kinds if getattr(self, kind) is not None]
-        exactly_one("an input", given, "a number, steps, ramp, csv")
+        exactly_one("an input", [*self.given(kinds)], "a number, steps, ramp, csv")
         if self.csv is None and self.model_fields_set & {"column", "between"}:
             raise ValueError("column and between belong to a csv")
         return self
@@ -107,8 +106,7 @@ class AllInputsTable(InputsTable):
     @property
     def deviations(self) -> dict[str, InputTable]:
         """The deviations that are given, by name."""
-        tables = {name: getattr(self, name) for name in DEVIATIONS}
-        return {name: table for name, table in tables.items() if table is not None}
+        return self.given(DEVIATIONS)
 
 
 class TuningTable(KeyTable):
@@ -137,10 +135,9 @@ class TuningTable(KeyTable):
     )
 
     @property
-    def given(self) -> dict[str, InputTable]:
+    def tuned(self) -> dict[str, InputTable]:
         """The tuned parameters by name."""
-        tables = {name: getattr(self, name) for name in TUNABLES}
-        return {name: table for name, table in tables.items() if table is not None}
+        return self.given(TUNABLES)
 
 
 class BesideTable(KeyTable):

@@ -6,8 +6,8 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from slider_resonator.scenes.device_keys import NUMBER_OR_TEXT
 from slider_resonator.scenes.expansion import bundles
+from slider_resonator.scenes.key_table import NUMBER_OR_TEXT
 from slider_resonator.scenes.schema import SceneTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
 

@@ -2,22 +2,77 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Annotated, Any, ClassVar
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 from pydantic_core import PydanticCustomError
 
 from slider_resonator.device.device import DEVIATIONS
-from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS
+from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS, VARIABLES
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import unknown_name
-from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS, device_schema
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
 NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.0)]
 Line = Annotated[str, Field(min_length=1)]
 Point = tuple[Number, Number]
+
+HAS_UNIT = "[A-DF-Za-df-zµμ°%]"
+"""A character that a text has which is a number with a unit, and one without does not have."""
+NUMBER_OR_TEXT: Mapping[str, Any] = {
+    "type": ["number", "string"],
+    "pattern": rf"^\s*[-+.\d].*{HAS_UNIT}",
+}
+"""The JSON schema of a number that may be a text with a unit."""
+
+PARAMETER_MEANINGS: Mapping[str, str] = {
+    "slider_mass": "mass of the slider, M",
+    "resonator_mass": "mass of the resonator, m",
+    "resonator_frequency": "angular natural frequency of the resonator on a fixed slider",
+    "damping_ratio": "damping ratio of the resonator on a fixed slider",
+    "normal_preload": "mean normal load of a face, N0",
+    "normal_amplitude": "amplitude of the normal load of a face; above the mean the contact lifts",
+    "base_amplitude": "amplitude of the base excitation, A",
+    "drive_frequency": "angular frequency of the drive, w",
+    "tangential_force": "amplitude of the direct drive of the slider",
+    "friction_coefficient": "friction coefficient, mu",
+    "friction_faces": "faces with friction: 2 for a clamped slider, 1 for one on a surface",
+    "friction_law": "0 Coulomb, 1 LuGre",
+    "bristle_stiffness": "LuGre: bristle stiffness per unit normal load",
+    "bristle_damping": "LuGre: bristle damping per unit normal load",
+    "fidelity": "0 slow motion, 1 slider with the resonator's steady force, 2 full device",
+    "tolerance": "error of LuGre friction; error of leaps in the slow velocity over the fast one",
+    "initial_position": "position at the start",
+    "initial_velocity": "velocity at the start",
+    "initial_resonator_displacement": "displacement of the resonator against the slider",
+    "initial_resonator_velocity": "velocity of the resonator against the slider",
+    "initial_bristle_deflection": "LuGre: bristle deflection at the start",
+    "averaging_order": "fidelity 0: 1 averages, 2 leaps over periods; predictions alike",
+}
+"""The meaning of each parameter, in the order of the interface."""
+
+
+def device_schema() -> dict[str, Any]:
+    """Return what the JSON schema of a table of parameters has beyond that of a mapping."""
+    return {
+        "properties": {name: _property(name, PARAMETER_MEANINGS[name]) for name in PARAMETERS},
+        "additionalProperties": False,
+    }
+
+
+def _property(name: str, meaning: str) -> dict[str, Any]:
+    variable = VARIABLES[name]
+    bounds = {"minimum": variable.minimum, "maximum": variable.maximum}
+    is_integer = variable.kind == "Integer"
+    return {
+        **({"type": "integer"} if is_integer else NUMBER_OR_TEXT),
+        "description": meaning,
+        "unit": variable.unit,
+        "default": variable.start,
+        **{bound: value for bound, value in bounds.items() if value is not None},
+    }
 
 
 NAMED = "named"
@@ -32,6 +87,11 @@ class KeyTable(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     rules: ClassVar[tuple[str, ...]] = ()
+
+    def given(self, names: Iterable[str]) -> dict[str, Any]:
+        """Return the values of those of these keys that have one, by name."""
+        values = {name: getattr(self, name) for name in names}
+        return {name: value for name, value in values.items() if value is not None}
 
 
 def key(meaning: str, example: Any, *, unit: str = "", default: Any = None) -> Any:
@@ -57,7 +117,7 @@ def units_of(table: type[KeyTable]) -> dict[str, str]:
     }
 
 
-def exactly_one(table: str, given: list[str], choices: str) -> None:
+def exactly_one(table: str, given: Sequence[str], choices: str) -> None:
     """Raise ValueError unless one key is given of those that exclude each other."""
     if len(given) != 1:
         raise ValueError(f"{table} needs exactly one of {choices}, has {given or 'none'}")

@@ -98,5 +98,4 @@ class NeedTable(KeyTable):
     @property
     def needs(self) -> dict[str, AllowedTable]:
         """The needed quantities by name."""
-        tables = {name: getattr(self, name) for name in (*STEADY_NEEDS, *RUN_NEEDS)}
-        return {name: table for name, table in tables.items() if table is not None}
+        return self.given((*STEADY_NEEDS, *RUN_NEEDS))

@@ -25,7 +25,7 @@ from slider_resonator.scenes.device_file import read_device_file, refuse_other_k
 from slider_resonator.scenes.expansion import variants
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.explanations import explanations
-from slider_resonator.scenes.input_tables import InputsTable, InputTable
+from slider_resonator.scenes.input_tables import InputTable
 from slider_resonator.scenes.need_table import NeedTable
 from slider_resonator.scenes.schema import RunTable, SceneTable, SweepTable
 from slider_resonator.scenes.si_values import with_si_values
@@ -284,15 +284,15 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
         table = SceneTable.model_validate(content)
     except ValidationError as error:
         raise SceneError("\n".join(explanations(source, error, content))) from error
-    tables = _tables_of(table.inputs)
+    tables = table.inputs.given(INPUTS)
     deviations = table.inputs.deviations
-    given = {**tables, **table.tuning.given, **deviations}
-    beside = _tables_of(table.beside.inputs) if table.beside else {}
+    given = {**tables, **table.tuning.tuned, **deviations}
+    beside = table.beside.inputs.given(INPUTS) if table.beside else {}
 
     def signals(tables: Mapping[str, InputTable], where: str) -> dict[str, Signal]:
         return {n: _signal(t, n, f"{source}: {where}.{n}", folder) for n, t in tables.items()}
 
-    tuning = signals(table.tuning.given, "tuning")
+    tuning = signals(table.tuning.tuned, "tuning")
     starts = {name: s.at(0.0) for name, s in tuning.items()}
     deviating = signals(deviations, "inputs")
     if tuning or any(len(signal.times) > 1 for signal in deviating.values()):
@@ -333,10 +333,6 @@ def _with_device(
         return {**content, "device": read.values}, (read.path,)
     except SceneError as error:
         raise SceneError(f"{source}: device: {error}") from error
-
-
-def _tables_of(inputs: InputsTable) -> dict[str, InputTable]:
-    return {name: getattr(inputs, name) for name in INPUTS}
 
 
 def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:

@@ -74,8 +74,7 @@ class RunTable(KeyTable):
     def _one_of_each(self) -> RunTable:
         lengths = ("stop_time", "drive_periods")
         for names in (lengths, ("step_size", "steps_per_period", "step_sizes")):
-            given = [name for name in names if getattr(self, name) is not None]
-            exactly_one("run", given, " or ".join(names))
+            exactly_one("run", [*self.given(names)], " or ".join(names))
         return self
 
 
@@ -173,7 +172,7 @@ class SceneTable(KeyTable):
 
     @model_validator(mode="after")
     def _runnable(self) -> SceneTable:
-        for name in self.tuning.given:
+        for name in self.tuning.tuned:
             if name in self.device:
                 raise ValueError(
                     f"tuning.{name} is in [device] and in [tuning]; must be in one of them"
@@ -189,19 +188,16 @@ class SceneTable(KeyTable):
             quantity, key = QUANTITIES[expect.quantity], f"expect: {expect.quantity}"
             if quantity.needs_run and self.run is None:
                 raise ValueError(f"{key} is measured in a run: [run] is missing")
-            if quantity.needs_constants and not self._constant():
+            if quantity.needs_constants and self._changing():
                 raise ValueError(f"{key} needs constant inputs and parameters")
             if quantity.needs_beside and self.beside is None:
                 raise ValueError(f"{key} needs a second instance: [beside] is missing")
         for need in self.need.needs if self.need else ():
             if need in RUN_NEEDS and self.run is None:
                 raise ValueError(f"need.{need} is measured in a run: [run] is missing")
-            if need in STEADY_NEEDS and not self._constant():
+            if need in STEADY_NEEDS and self._changing():
                 raise ValueError(f"need.{need} needs constant inputs and parameters")
         return self
-
-    def _constant(self) -> bool:
-        return not self._changing()
 
     def _changing(self) -> list[str]:
         """Return the names of the inputs and parameters that change in the run.
@@ -209,7 +205,6 @@ class SceneTable(KeyTable):
         Deviations of a drive that is tuned count as such: they are applied to what it is tuned to.
         """
         deviations = self.inputs.deviations
-        tables = {name: getattr(self.inputs, name) for name in INPUTS}
-        tables |= self.tuning.given | deviations
-        combined = deviations if self.tuning.given else {}
+        tables = self.inputs.given(INPUTS) | self.tuning.tuned | deviations
+        combined = deviations if self.tuning.tuned else {}
         return [n for n, table in tables.items() if table.constant is None or n in combined]

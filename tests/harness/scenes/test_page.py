@@ -13,8 +13,8 @@ import pytest
 
 from docs.scene_page import TABLES, beside, scene_page
 from slider_resonator.device.interface import PARAMETERS
-from slider_resonator.scenes.device_keys import PARAMETER_MEANINGS
 from slider_resonator.scenes.json_schema import scene_schema
+from slider_resonator.scenes.key_table import PARAMETER_MEANINGS
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import built_in_scenes, template
 from slider_resonator.scenes.schema import SceneTable
