@@ -45,6 +45,8 @@ COMMANDS: Mapping[str, str] = {
     "validate": "Compare FMUs with the references, scene by scene.",
 }
 """Name to summary of what is installed."""
+ELSEWHERE: Mapping[str, str] = {"campaign": "stress", "extremes": "stress"}
+"""Commands that are in the module of another: names that this once had."""
 
 
 click.Context.formatter_class = FittingHelp
@@ -67,7 +69,7 @@ class HarnessGroup(click.Group):
     def add_package(self, package: str, summaries: Mapping[str, str]) -> None:
         """Add commands, by name and summary.
 
-        Each is `<name>_command` in the module `<package>.<name>`, with _ for -.
+        Each is `<name>_command` in the module `<package>.<name>`, with _ for -, or `ELSEWHERE`.
         """
         self.packages |= dict.fromkeys(summaries, package)
         self.summaries = dict(sorted((self.summaries | dict(summaries)).items()))
@@ -81,7 +83,8 @@ class HarnessGroup(click.Group):
         if cmd_name not in self.summaries:
             return None
         name = cmd_name.replace("-", "_")
-        module = importlib.import_module(f"{self.packages[cmd_name]}.{name}")
+        file = ELSEWHERE.get(cmd_name, name)
+        module = importlib.import_module(f"{self.packages[cmd_name]}.{file}")
         command: click.Command = getattr(module, f"{name}_command")
         command.short_help = self.summaries[cmd_name]
         return command

@@ -9,17 +9,7 @@ import click
 from slider_resonator.choosing import Choice, choose
 from slider_resonator.choosing.choice import error_text
 from slider_resonator.choosing.choosing import TIME_LIMIT
-from slider_resonator.commands.options import (
-    SettingsCommand,
-    check_left_to_choose,
-    default_fmu,
-    device_file,
-    device_option,
-    fmu_option,
-    json_option,
-    settings_option,
-    time_limit_option,
-)
+from slider_resonator.commands import options
 from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
@@ -29,14 +19,14 @@ from slider_resonator.scenes.scene_files import find_scene
 
 @click.command(
     "choose",
-    cls=SettingsCommand,
+    cls=options.SettingsCommand,
 )
 @click.argument("scene")
-@fmu_option
-@device_option
-@settings_option
-@time_limit_option(TIME_LIMIT, "For the whole choice.")
-@json_option
+@options.fmu_option
+@options.device_option
+@options.settings_option
+@options.time_limit_option(TIME_LIMIT, "For the whole choice.")
+@options.json_option
 @click.pass_context
 def choose_command(
     context: click.Context,
@@ -67,10 +57,10 @@ def choose_command(
       slider-resonator choose scenes/mine.toml --json
       slider-resonator choose feed_forward --set friction_law=1 bristle_stiffness=1e6
     """
-    own = device_file(device)
-    check_left_to_choose(own, settings)
+    own = options.device_file(device)
+    options.check_left_to_choose(own, settings)
     read = find_scene(scene, settings, own)
-    path = default_fmu(fmu)
+    path = options.default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:
         choice = choose(read, path, time_limit, progress)

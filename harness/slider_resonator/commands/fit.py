@@ -10,17 +10,7 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import (
-    DATA_FILE,
-    Parsed,
-    SettingsCommand,
-    default_fmu,
-    fmu_option,
-    jobs_option,
-    json_option,
-    set_option,
-    time_limit_option,
-)
+from slider_resonator.commands import options
 from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.device.interface import PARAMETERS, VARIABLES
 from slider_resonator.device.values import si_value
@@ -35,9 +25,9 @@ from slider_resonator.output.readable import one_line
 from slider_resonator.output.targets import make_folder
 
 
-def _quantity(variable: str) -> Parsed[float]:
+def _quantity(variable: str) -> options.Parsed[float]:
     """Return a finite number in SI units, or a text with a unit, of a variable."""
-    return Parsed(VARIABLES[variable].unit, partial(_finite, variable))
+    return options.Parsed(VARIABLES[variable].unit, partial(_finite, variable))
 
 
 def _finite(variable: str, text: str) -> float:
@@ -66,8 +56,8 @@ def _bounds(text: str) -> tuple[str, tuple[float, float]]:
     return name, (_finite(name, match[2]), _finite(name, match[3]))
 
 
-@click.command("fit", cls=SettingsCommand)
-@click.argument("data", type=DATA_FILE, nargs=-1)
+@click.command("fit", cls=options.SettingsCommand)
+@click.argument("data", type=options.DATA_FILE, nargs=-1)
 @click.option(
     "--free",
     metavar="NAME,...",
@@ -77,7 +67,7 @@ def _bounds(text: str) -> tuple[str, tuple[float, float]]:
 )
 @click.option(
     "--bounds",
-    type=Parsed("NAME=LOW:HIGH", _bounds),
+    type=options.Parsed("NAME=LOW:HIGH", _bounds),
     multiple=True,
     help="Bounds of one. Repeatable.",
 )
@@ -86,7 +76,7 @@ def _bounds(text: str) -> tuple[str, tuple[float, float]]:
 @click.option(
     "--velocity-at",
     "loaded",
-    type=Parsed("LOAD=VELOCITY", _loaded),
+    type=options.Parsed("LOAD=VELOCITY", _loaded),
     multiple=True,
     help="Velocity under a load, as '50 mN=30 mm/s'. Repeatable.",
 )
@@ -102,11 +92,11 @@ def _bounds(text: str) -> tuple[str, tuple[float, float]]:
     type=click.Path(path_type=Path, file_okay=False),
     help="Folder for device.toml, fit.png, residuals.csv and fit.html.",
 )
-@set_option
-@fmu_option
-@jobs_option
-@time_limit_option(TIME_LIMIT, "For each start and each end of an interval.")
-@json_option
+@options.set_option
+@options.fmu_option
+@options.jobs_option
+@options.time_limit_option(TIME_LIMIT, "For each start and each end of an interval.")
+@options.json_option
 def fit_command(
     data: tuple[Path, ...],
     free: Sequence[str],
@@ -151,7 +141,7 @@ def fit_command(
         raise click.UsageError("no measurements: must be CSV files, --velocity or --blocking")
     if out is not None:
         make_folder(out)
-    path = default_fmu(fmu)
+    path = options.default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:
         found = fit(

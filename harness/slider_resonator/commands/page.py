@@ -9,13 +9,7 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import (
-    SettingsCommand,
-    json_option,
-    native_fmu_argument,
-    set_option,
-    target,
-)
+from slider_resonator.commands import options
 from slider_resonator.commands.results import print_json, print_text
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import PARAMETERS
@@ -29,11 +23,11 @@ PAGE = "documentation/slider-resonator.html"
 _DEVICES = re.compile(r'(?<=<script type="application/json" id="devices">).*?(?=</script>)', re.S)
 
 
-@click.command("page", cls=SettingsCommand)
-@native_fmu_argument
-@set_option
-@click.option("--out", type=target((".html",)), required=True, help="The page to write.")
-@json_option
+@click.command("page", cls=options.SettingsCommand)
+@options.native_fmu_argument
+@options.set_option
+@click.option("--out", type=options.target((".html",)), required=True, help="The page to write.")
+@options.json_option
 def page_command(fmu: Path, settings: dict[str, float], out: Path, as_json: bool) -> None:
     """Write a page that runs the component in a browser, started at your device.
 

@@ -9,19 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from slider_resonator.commands.options import (
-    Parsed,
-    SettingsCommand,
-    check_left_to_choose,
-    device_file,
-    device_option,
-    json_option,
-    native_fmu_argument,
-    setting,
-    settings_option,
-    target,
-    time_limit_option,
-)
+from slider_resonator.commands import options
 from slider_resonator.commands.results import print_result
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
@@ -58,16 +46,16 @@ def _window(text: str) -> tuple[float, float]:
 
 def _overlay(text: str) -> tuple[str, float] | Path:
     """Return the setting NAME=VALUE, or the path of an FMU; ValueError for a wrong setting."""
-    return setting(text) if "=" in text and not Path(text).is_file() else Path(text)
+    return options.setting(text) if "=" in text and not Path(text).is_file() else Path(text)
 
 
-@click.command("run", cls=SettingsCommand)
-@native_fmu_argument
+@click.command("run", cls=options.SettingsCommand)
+@options.native_fmu_argument
 @click.argument("scene", required=False)
-@click.option("--out", type=target(), help="CSV file of the run.")
+@click.option("--out", type=options.target(), help="CSV file of the run.")
 @click.option(
     "--plot",
-    type=target(PICTURE_SUFFIXES),
+    type=options.target(PICTURE_SUFFIXES),
     help="PNG, SVG or PDF of the run, drawn from a second run with finer steps at the end.",
 )
 @click.option(
@@ -78,13 +66,13 @@ def _overlay(text: str) -> tuple[str, float] | Path:
 )
 @click.option(
     "--window",
-    type=Parsed("FROM:TO", _window),
+    type=options.Parsed("FROM:TO", _window),
     help="With --plot: the time to draw, in s, in steps fine enough to be smooth.",
 )
 @click.option(
     "--overlay",
     "overlays",
-    type=Parsed("NAME=VALUE|FMU", _overlay),
+    type=options.Parsed("NAME=VALUE|FMU", _overlay),
     multiple=True,
     help="With --plot: draw a further run, with a setting such as fidelity=1 or of another FMU. "
     "Repeatable.",
@@ -102,10 +90,12 @@ def _overlay(text: str) -> tuple[str, float] | Path:
     "each step. An FMU without canInterpolateInputs holds them.  [default: as [run] of the scene "
     "says, which holds them unless it has interpolate]",
 )
-@device_option
-@settings_option
-@time_limit_option(TIME_LIMIT, "For each of the choice, the run and the run for the picture.")
-@json_option
+@options.device_option
+@options.settings_option
+@options.time_limit_option(
+    TIME_LIMIT, "For each of the choice, the run and the run for the picture."
+)
+@options.json_option
 @click.pass_context
 def run_command(
     context: click.Context,
@@ -140,7 +130,7 @@ def run_command(
       slider-resonator run my.fmu table_1 --plot a.png --window 0.1:0.11 --overlay fidelity=1
       slider-resonator run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
-    own = device_file(device)
+    own = options.device_file(device)
     read = find_scene(scene, settings, own)
     if interpolate is not None:
         read = read.interpolating(interpolate)
@@ -151,7 +141,7 @@ def run_command(
     if plot is None and is_chosen:
         raise click.UsageError("--signals, --window and --overlay need --plot")
     if auto:
-        check_left_to_choose(own, settings)
+        options.check_left_to_choose(own, settings)
     choice: Choice | None = None
     provenance = provenance_of(fmu, *others.values())
     names = [name.strip() for name in signals.split(",")] if signals is not None else None

@@ -8,14 +8,7 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import (
-    SettingsCommand,
-    json_option,
-    max_denominator_option,
-    native_fmu_argument,
-    set_option,
-    time_limit_option,
-)
+from slider_resonator.commands import options
 from slider_resonator.commands.results import print_result
 from slider_resonator.device.device import Device
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
@@ -30,12 +23,12 @@ def search_command(
 ) -> click.Command:
     """Return the command that searches something of an FMU by shooting."""
 
-    @click.command(name, cls=SettingsCommand, help=help_text)
-    @native_fmu_argument
-    @set_option
-    @max_denominator_option
-    @time_limit_option(TIME_LIMIT, "For the whole search.")
-    @json_option
+    @click.command(name, cls=options.SettingsCommand, help=help_text)
+    @options.native_fmu_argument
+    @options.set_option
+    @options.max_denominator_option
+    @options.time_limit_option(TIME_LIMIT, "For the whole search.")
+    @options.json_option
     @click.pass_context
     def command(
         context: click.Context,

@@ -1,4 +1,4 @@
-"""`stress`: run FMUs at extremes and with random devices."""
+"""`stress`, once `extremes` and `campaign`: run FMUs at extremes and with random devices."""
 
 from __future__ import annotations
 
@@ -11,15 +11,7 @@ from typing import Any
 
 import click
 
-from slider_resonator.commands.options import (
-    default_fmus,
-    device_named,
-    device_option,
-    fmus_argument,
-    jobs_option,
-    json_option,
-    time_limit_option,
-)
+from slider_resonator.commands import options
 from slider_resonator.commands.results import print_result
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.tasks import available_cores
@@ -77,7 +69,7 @@ def seed_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 @click.command("stress")
-@fmus_argument
+@options.fmus_argument
 @click.option(
     "--random",
     "count",
@@ -86,16 +78,16 @@ def seed_options(command: Callable[..., Any]) -> Callable[..., Any]:
 )
 @seed_options
 @long_option
-@device_option
+@options.device_option
 @click.option("--case", "name", metavar="NAME", help="Run the case of this name alone.")
-@time_limit_option(TIME_LIMIT, "For each case; one that hangs fails.")
-@jobs_option
+@options.time_limit_option(TIME_LIMIT, "For each case; one that hangs fails.")
+@options.jobs_option
 @click.option(
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
     help="Folder for stress.json and index.html.",
 )
-@json_option
+@options.json_option
 def stress_command(
     fmus: tuple[Path, ...],
     count: int | None,
@@ -134,7 +126,7 @@ def stress_command(
     if name is not None:
         cases = [case_named(name, "--case")]
     elif device is not None:
-        cases = device_cases(device, device_named(device))
+        cases = device_cases(device, options.device_named(device))
     elif count is not None:
         cases = [random_case(seed, number) for number in range(first, first + count)]
     else:
@@ -143,13 +135,82 @@ def stress_command(
     stress(fmus, cases, files, time_limit, jobs, as_json=as_json)
 
 
+@click.command("extremes")
+@options.fmus_argument
+@options.out_folder_option("extremes.json and index.html")
+@options.time_limit_option(TIME_LIMIT, "For each case; one that hangs fails.", "--limit")
+@long_option
+@click.option("--cell", "name", metavar="NAME", help="Run only the case of this name.")
+@options.json_option
+def extremes_command(
+    fmus: tuple[Path, ...],
+    out: Path,
+    time_limit: float,
+    long: bool,
+    name: str | None,
+    as_json: bool,
+) -> None:
+    """Run `stress` on its axes.
+
+    \b
+    Examples:
+      slider-resonator extremes --out extremes
+      slider-resonator extremes my.fmu --out one --cell "r_m: 1e-12: Coulomb, fidelity 1"
+    """
+    cases = axis_cases(long=long) if name is None else [case_named(name, "--cell")]
+    stress(fmus, cases, in_folder(out, "extremes"), time_limit, as_json=as_json)
+
+
+@click.command("campaign")
+@options.fmus_argument
+@click.option(
+    "--cases",
+    type=click.IntRange(min=1),
+    default=CASES,
+    show_default=True,
+    help="Number of cases. Each takes about half a second.",
+)
+@seed_options
+@click.option(
+    "--case",
+    "number",
+    type=click.IntRange(min=0),
+    help="Run only the case of this number, and print its values.",
+)
+@options.time_limit_option(60.0, "For each case; one that hangs fails.")
+@click.option("--out", type=options.target((".json",)), help="Write the result as JSON, too.")
+@click.option("--html", type=options.target((".html",)), help="One page with plots to point at.")
+@options.json_option
+def campaign_command(
+    fmus: tuple[Path, ...],
+    cases: int,
+    first: int,
+    seed: int,
+    number: int | None,
+    time_limit: float,
+    out: Path | None,
+    html: Path | None,
+    as_json: bool,
+) -> None:
+    """Run `stress` with random devices.
+
+    \b
+    Examples:
+      slider-resonator campaign --cases 10000 --out campaign.json --html campaign.html
+      slider-resonator campaign my.fmu --seed 1 --case 44
+    """
+    numbers = range(first, first + cases) if number is None else (number,)
+    drawn = [random_case(seed, one) for one in numbers]
+    stress(fmus, drawn, Files(out, html), time_limit, as_json=as_json)
+
+
 def case_named(name: str, option: str) -> Case:
     """Return the case of a name, on an axis or drawn; HarnessError when there is none."""
     drawn = _DRAWN.fullmatch(name)
     if drawn:
         return random_case(int(drawn[1]), int(drawn[2]))
     own = _OWN.match(name)
-    found = device_cases(own[1], device_named(own[1])) if own else axis_cases(long=True)
+    found = device_cases(own[1], options.device_named(own[1])) if own else axis_cases(long=True)
     cases = {case.name: case for case in found}
     if name not in cases:
         near = get_close_matches(name, cases, n=1)
@@ -171,7 +232,7 @@ def stress(
     as_json: bool,
 ) -> None:
     """Run the cases, print and write the result, and exit with its code."""
-    chosen = fmus or default_fmus()
+    chosen = fmus or options.default_fmus()
     distinct(
         {"--out": files.json, "--html": files.page}, {f"the FMU {path}": path for path in chosen}
     )

@@ -8,19 +8,7 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import (
-    Parsed,
-    SettingsCommand,
-    default_fmu,
-    device_named,
-    device_option,
-    fmu_option,
-    jobs_option,
-    json_option,
-    settings_option,
-    target,
-    time_limit_option,
-)
+from slider_resonator.commands import options
 from slider_resonator.commands.results import print_result, print_text
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import si_value
@@ -47,12 +35,12 @@ def _axis(text: str) -> tuple[str, dict[str, float]]:
     return name, {"from": si_value(name, first), "to": si_value(name, last), "count": int(count)}
 
 
-@click.command("sweep", cls=SettingsCommand)
+@click.command("sweep", cls=options.SettingsCommand)
 @click.argument("grid", type=click.Path(path_type=Path), required=False)
 @click.option(
     "--over",
     "axes",
-    type=Parsed("NAME=FROM:TO:COUNT", _axis),
+    type=options.Parsed("NAME=FROM:TO:COUNT", _axis),
     multiple=True,
     help="In place of GRID: a range of a parameter or input, in SI units or with units. "
     "Repeatable.",
@@ -64,18 +52,22 @@ def _axis(text: str) -> tuple[str, dict[str, float]]:
     multiple=True,
     help="With --over: what to compute. Repeatable.  [default: steady_velocity]",
 )
-@click.option("--out", type=target(SUFFIXES), required=True, help="Table to write or complete.")
-@click.option("--plot", type=target(PICTURE_SUFFIXES), help="Picture of the results: lines or map.")
-@click.option("--html", type=target([".html"]), help="One page with plots to point at.")
-@device_option
-@settings_option
-@fmu_option
-@jobs_option
+@click.option(
+    "--out", type=options.target(SUFFIXES), required=True, help="Table to write or complete."
+)
+@click.option(
+    "--plot", type=options.target(PICTURE_SUFFIXES), help="Picture of the results: lines or map."
+)
+@click.option("--html", type=options.target([".html"]), help="One page with plots to point at.")
+@options.device_option
+@options.settings_option
+@options.fmu_option
+@options.jobs_option
 @click.option("--dask", metavar="ADDRESS", help="Run on the cluster of this scheduler.")
 @click.option("--restart", is_flag=True, help="Discard the points of an earlier attempt.")
 @click.option("--overwrite", is_flag=True, help="Replace the table of another grid.")
-@time_limit_option(TIME_LIMIT, "For each point; one that takes longer fails.")
-@json_option
+@options.time_limit_option(TIME_LIMIT, "For each point; one that takes longer fails.")
+@options.json_option
 @click.pass_context
 def sweep_command(
     context: click.Context,
@@ -131,12 +123,12 @@ def sweep_command(
     given = {name: path for name, path in sources.items() if path is not None}
     distinct({"--out": out, "--plot": plot, "--html": html}, given)
     if grid is not None:
-        sweep = read_grid(grid, device_named(device), settings)
+        sweep = read_grid(grid, options.device_named(device), settings)
     else:
         content = {"grid": dict(axes), **({"measures": list(measures)} if measures else {})}
-        sweep = grid_from(content, "--over", device_named(device), settings)
+        sweep = grid_from(content, "--over", options.device_named(device), settings)
     _check_drawable(sweep, plot, html)
-    path = default_fmu(fmu)
+    path = options.default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:
         result = run_sweep(

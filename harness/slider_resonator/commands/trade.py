@@ -8,18 +8,7 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.commands.options import (
-    FMU_FILE,
-    SettingsCommand,
-    default_fmus,
-    device_file,
-    device_option,
-    json_option,
-    out_folder_option,
-    settings_option,
-    target,
-    time_limit_option,
-)
+from slider_resonator.commands import options
 from slider_resonator.commands.results import print_json, print_text
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt
@@ -35,13 +24,13 @@ from slider_resonator.trading.result import Trade, write_omissions, write_rows
 from slider_resonator.trading.summary import SUFFIXES, comparisons, standings, title, write_choices
 
 
-@click.command("trade", cls=SettingsCommand)
+@click.command("trade", cls=options.SettingsCommand)
 @click.argument("scenes", nargs=-1)
-@out_folder_option("trade.csv, omissions.csv and index.html")
+@options.out_folder_option("trade.csv, omissions.csv and index.html")
 @click.option(
     "--fmu",
     "fmus",
-    type=FMU_FILE,
+    type=options.FMU_FILE,
     multiple=True,
     help="FMU to measure. Repeatable.  [default: those in dist]",
 )
@@ -66,20 +55,22 @@ from slider_resonator.trading.summary import SUFFIXES, comparisons, standings, t
     help="Shorten runs to this many drive periods.",
 )
 @click.option(
-    "--picture", type=target(PICTURE_SUFFIXES), help="Picture of the first scene for the README."
+    "--picture",
+    type=options.target(PICTURE_SUFFIXES),
+    help="Picture of the first scene for the README.",
 )
 @click.option(
     "--page",
     "pages",
-    type=target(SUFFIXES),
+    type=options.target(SUFFIXES),
     multiple=True,
     help="Markdown or HTML file for the tables from need to model to cost, which go between the "
     "lines <!-- trade --> and <!-- end of trade --> if the file has them. Repeatable.",
 )
-@device_option
-@settings_option
-@time_limit_option(TIME_LIMIT, "For each run and search of an FMU.")
-@json_option
+@options.device_option
+@options.settings_option
+@options.time_limit_option(TIME_LIMIT, "For each run and search of an FMU.")
+@options.json_option
 def trade_command(
     scenes: Sequence[str],
     device: str | None,
@@ -113,11 +104,11 @@ def trade_command(
       slider-resonator trade table_1 --device mine.toml --out trade
       slider-resonator trade my.toml --out trade --fmu my.fmu --json
     """
-    own = device_file(device)
+    own = options.device_file(device)
     read = [find_scene(name, settings, own) for name in scenes or ("table_1",)]
     points = [point for scene in read for point in scene.points()]
     problems = [problem_of(point.scene, point.at, periods) for point in points]
-    paths = fmus or default_fmus()
+    paths = fmus or options.default_fmus()
     provenance = provenance_of(*paths)
     trades: list[Trade] = []
     with (

@@ -9,13 +9,7 @@ import click
 from slider_resonator.checks.own_experiments import validate_own
 from slider_resonator.checks.validate import validate
 from slider_resonator.checks.verdict import TITLE
-from slider_resonator.commands.options import (
-    default_fmus,
-    fmus_argument,
-    jobs_option,
-    scenes_option,
-    time_limit_option,
-)
+from slider_resonator.commands import options
 from slider_resonator.commands.reports import Reports, print_verdicts, report_options
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
@@ -25,8 +19,8 @@ from slider_resonator.scenes.scene_files import find_scenes
 
 
 @click.command("validate")
-@fmus_argument
-@scenes_option("all built-in")
+@options.fmus_argument
+@options.scenes_option("all built-in")
 @click.option(
     "--own",
     is_flag=True,
@@ -38,8 +32,8 @@ from slider_resonator.scenes.scene_files import find_scenes
     is_flag=True,
     help="Show every check of every scene, every point of a sweep, and why it is expected.",
 )
-@jobs_option
-@time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep, on each FMU.")
+@options.jobs_option
+@options.time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep, on each FMU.")
 @report_options
 @click.pass_context
 def validate_command(
@@ -79,7 +73,7 @@ def validate_command(
     reports = Reports.requested(TITLE, junit, html, json, sources)
     try:
         found = [] if own else find_scenes(scenes)
-        paths = fmus or default_fmus()
+        paths = fmus or options.default_fmus()
         with progress_bar() as progress:
             if own:
                 validations = validate_own(paths, progress, time_limit=time_limit)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.commands import extremes, stress
+from slider_resonator.commands import stress
 from slider_resonator.device.model import Model
 from slider_resonator.stressing.axes import device_cases
 from slider_resonator.stressing.case import MODELS, Case, Hold, Limit
@@ -25,8 +25,7 @@ DRAWN = "random device: seed 1, case 10"
 def few_cases(monkeypatch: pytest.MonkeyPatch) -> list[Case]:
     """Put a few cases in place of those of the axes."""
     cases = [GOOD, REFUSED]
-    for module in (stress, extremes):
-        monkeypatch.setattr(module, "axis_cases", lambda *, long: cases)
+    monkeypatch.setattr(stress, "axis_cases", lambda *, long: cases)
     return cases
 
 
