@@ -21,7 +21,7 @@ from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
-from slider_resonator.output.plot_style import COLOURS, IN_FRONT, save, shade_directions, style
+from slider_resonator.output.plot_style import COLOURS, save, shade_directions, style
 from slider_resonator.references.closed_forms import device_blocking_force, device_steady_velocity
 from slider_resonator.steady.steady_velocity import find_steady
 
@@ -108,7 +108,9 @@ def _draw_zoom(axes: Axes, record: Record) -> None:
         xlim=(0.0, ZOOM_PERIODS),
         ylim=(-190.0, 520.0),
     )
-    axes.legend(handles=entries, loc="upper right", ncols=len(entries), **IN_FRONT)
+    axes.legend(
+        handles=entries, loc="upper right", ncols=len(entries), framealpha=0.8, edgecolor="none"
+    ).set_frame_on(True)
 
 
 def _draw_load_speed(axes: Axes, velocities: dict[float, list[float]]) -> None:

@@ -97,7 +97,7 @@ def record_command(
 )
 @click.option("--details", is_flag=True, help="Show unchanged results too.")
 @limited
-@report_options
+@report_options("Slider-resonator baseline")
 @click.pass_context
 def check_command(
     context: click.Context,
@@ -107,9 +107,7 @@ def check_command(
     tolerance: float,
     details: bool,
     time_limit: float,
-    junit: Path | None,
-    html: Path | None,
-    json: Path | None,
+    reports: Reports,
 ) -> None:
     """Compare an FMU with the recorded results: what has changed, by how much and where.
 
@@ -122,7 +120,7 @@ def check_command(
       slider-resonator baseline check my.fmu --dir baseline --scene table_1 --tolerance 1e-6
       slider-resonator baseline check my.fmu --dir baseline --junit report.xml --html report.html
     """
-    reports = Reports.requested("Slider-resonator baseline", junit, html, json, {"the FMU": fmu})
+    reports.spare({"the FMU": fmu})
     try:
         found = find_scenes(scenes) if scenes else []
         with progress_bar() as progress:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce, wraps
 from pathlib import Path
 from typing import Any
 
@@ -41,23 +42,10 @@ class Reports:
     json: Path | None
     summary: Path | None
 
-    @classmethod
-    def requested(
-        cls,
-        title: str,
-        junit: Path | None,
-        html: Path | None,
-        json: Path | None,
-        sources: Mapping[str, Path],
-    ) -> Reports:
-        """Return the reports of these options and the environment.
-
-        Raises HarnessError for a report that would replace one of the sources.
-        """
-        written = None if json == PRINTED else json
-        distinct({"--junit": junit, "--html": html, "--json": written}, sources)
-        summary = os.environ.get(VARIABLE)
-        return cls(title, junit, html, json, Path(summary) if summary else None)
+    def spare(self, sources: Mapping[str, Path]) -> None:
+        """Raise HarnessError for a report that would replace one of the sources."""
+        written = None if self.prints_json else self.json
+        distinct({"--junit": self.junit, "--html": self.html, "--json": written}, sources)
 
     @property
     def prints_json(self) -> bool:
@@ -66,7 +54,7 @@ class Reports:
 
     def write(self, validations: Sequence[Validation], error: str = "") -> None:
         """Write all requested reports; HarnessError when one cannot be written."""
-        if self.json is not None and self.json != PRINTED:
+        if self.json is not None and not self.prints_json:
             write_json(self.json, validations, error)
         if self.junit is not None:
             write_junit(self.junit, validations, error, title=self.title)
@@ -79,8 +67,8 @@ class Reports:
             append_summary(self.summary, validations, error, title=self.title)
 
 
-def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options --junit, --html and --json to a command."""
+def report_options(title: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return what adds --junit, --html and --json to a command, which gets them as `reports`."""
     options = (
         click.option("--junit", type=target([".xml"]), help="JUnit XML for a CI server."),
         click.option(
@@ -95,9 +83,19 @@ def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
             help="Write one JSON document, or print it when no file is given.",
         ),
     )
-    for option in reversed(options):
-        command = option(command)
-    return command
+
+    def add(command: Callable[..., Any]) -> Callable[..., Any]:
+        @wraps(command)
+        def with_reports(
+            junit: Path | None, html: Path | None, json: Path | None, **others: Any
+        ) -> Any:
+            summary = os.environ.get(VARIABLE)
+            path = Path(summary) if summary else None
+            return command(reports=Reports(title, junit, html, json, path), **others)
+
+        return reduce(lambda made, option: option(made), reversed(options), with_reports)
+
+    return add
 
 
 def print_verdicts(

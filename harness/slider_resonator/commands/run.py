@@ -16,7 +16,7 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.fmu.record import Record, write_csv
 from slider_resonator.fmu.run import run
-from slider_resonator.output.progress import Progress, labelled
+from slider_resonator.output.progress import Progress
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
@@ -190,7 +190,7 @@ def _run(
     progress: Progress,
 ) -> Record:
     task = partial(run, parameters=scene.parameters, schedule=schedule)
-    record: Record = isolated.run(task, labelled(progress, scene.name))
+    record: Record = isolated.run(task, lambda _, share: progress(scene.name, share))
     return record
 
 

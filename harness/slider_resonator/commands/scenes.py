@@ -100,20 +100,12 @@ def _check(given: str) -> None:
 
 def _list_quantities(as_json: bool) -> None:
     if as_json:
-        rows = [
-            {
-                "name": name,
-                "kind": quantity.kind,
-                "unit": quantity.unit,
-                "meaning": quantity.meaning,
-                "references": list(quantity.references),
-                "needs_run": quantity.needs_run,
-            }
-            for name, quantity in QUANTITIES.items()
-        ]
-        print_json(rows)
-        return
-    print_table(quantities_table())
+        keys = ("kind", "unit", "meaning", "references", "needs_run")
+        print_json(
+            [{"name": n, **{key: getattr(q, key) for key in keys}} for n, q in QUANTITIES.items()]
+        )
+    else:
+        print_table(quantities_table())
 
 
 def quantities_table() -> Table:

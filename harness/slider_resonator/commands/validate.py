@@ -34,7 +34,7 @@ from slider_resonator.scenes.scene_files import find_scenes
 )
 @options.jobs_option
 @options.time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep, on each FMU.")
-@report_options
+@report_options(TITLE)
 @click.pass_context
 def validate_command(
     context: click.Context,
@@ -44,9 +44,7 @@ def validate_command(
     details: bool,
     jobs: int | None,
     time_limit: float,
-    junit: Path | None,
-    html: Path | None,
-    json: Path | None,
+    reports: Reports,
 ) -> None:
     """Compare FMUs with the references, scene by scene.
 
@@ -70,7 +68,7 @@ def validate_command(
         raise click.UsageError(f"--own and --scene {scenes[0]}: must be one of them")
     sources = {f"the FMU {path}": path for path in fmus}
     sources |= {f"the scene {scene}": Path(scene) for scene in scenes}
-    reports = Reports.requested(TITLE, junit, html, json, sources)
+    reports.spare(sources)
     try:
         found = [] if own else find_scenes(scenes)
         paths = fmus or options.default_fmus()

@@ -51,15 +51,10 @@ def open_closed_streams() -> None:
 
 
 @contextmanager
-def noting_on_interrupt(note: Callable[[], str]) -> Iterator[None]:
+def noting_on_interrupt(note: Callable[[], str] = lambda: "nothing is kept") -> Iterator[None]:
     """On an interruption within the block, add a note on what is kept and how to resume."""
     try:
         yield
     except KeyboardInterrupt as error:
         error.add_note(note())
         raise
-
-
-def nothing_kept() -> str:
-    """Return the note of commands that write at their end."""
-    return "nothing is kept"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -34,9 +34,6 @@ CONTACT: Mapping[int, tuple[str, str]] = {
 }
 """Contact mode to name and background."""
 
-IN_FRONT: Mapping[str, Any] = {"frameon": True, "framealpha": 0.8, "edgecolor": "none"}
-"""Style of a legend over a shaded background."""
-
 _STYLE: dict[Any, Any] = {
     "font.size": 9.5,
     "axes.titlesize": 10.5,
@@ -55,11 +52,9 @@ _STYLE: dict[Any, Any] = {
 }
 
 
-@contextmanager
-def style() -> Iterator[None]:
-    """Apply the common style to figures made in the block."""
-    with mpl.rc_context(_STYLE):
-        yield
+def style() -> AbstractContextManager[None]:
+    """Return what applies the common style to figures made in its block."""
+    return mpl.rc_context(_STYLE)
 
 
 def save(figure: Figure, path: Path) -> None:

@@ -17,11 +17,6 @@ def counted(label: str, done: int, total: int) -> str:
     return f"{min(done + 1, total)} of {total}: {label}"
 
 
-def labelled(progress: Progress, label: str) -> Progress:
-    """Return a function that reports work without names of its own under one label."""
-    return lambda _, share: progress(label, share)
-
-
 def part_of(progress: Progress, index: int, count: int) -> Progress:
     """Return a function that reports the progress of part `index` of `count` equal parts."""
     return lambda label, share: progress(label, (index + share) / count)

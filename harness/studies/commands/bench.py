@@ -18,7 +18,7 @@ from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import nothing_kept, noting_on_interrupt
+from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Table, numbers, texts
@@ -50,7 +50,7 @@ def bench_command(fmu: Path | None, repeats: int, time_limit: float, as_json: bo
     path = default_fmu(fmu)
     provenance = provenance_of(path)
     with (
-        noting_on_interrupt(nothing_kept),
+        noting_on_interrupt(),
         progress_bar() as progress,
         open_fmu(path) as opened,
     ):

@@ -16,7 +16,7 @@ from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, finished_path
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.atomic import write_csv
-from slider_resonator.output.console import nothing_kept, noting_on_interrupt
+from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import counted, part_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
@@ -92,7 +92,7 @@ def closed_loop_command(
     agreements: list[Agreement] = []
     records: list[LoopRecord] = []
     hosts = [host for host in HOSTS if host.name in (chosen or NAMES[:1])]
-    with noting_on_interrupt(nothing_kept), progress_bar() as progress:
+    with noting_on_interrupt(), progress_bar() as progress:
         for index, host in enumerate(hosts):
             part = part_of(progress, index, len(hosts))
             share = partial(part, counted(host.name, index, len(hosts)))

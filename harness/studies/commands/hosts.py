@@ -18,7 +18,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import nothing_kept, noting_on_interrupt
+from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import counted
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, texts, verdict
@@ -105,7 +105,7 @@ def hosts_command(
     selected = [host for host in selected if host not in missing]
     provenance = provenance_of(fmu, python)
     results: list[HostResult] = []
-    with noting_on_interrupt(nothing_kept), progress_bar() as progress:
+    with noting_on_interrupt(), progress_bar() as progress:
         for index, host in enumerate(selected):
             progress(counted(host.name, index, len(selected)), index / len(selected))
             results += run_host(host, everyone[0], fmu, python, native_3, time_limit)

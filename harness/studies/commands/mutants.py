@@ -22,7 +22,7 @@ from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import nothing_kept, noting_on_interrupt, output
+from slider_resonator.output.console import noting_on_interrupt, output
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.scenes.scene_files import find_scenes
 from studies.mutants.archive import read_python_fmu
@@ -176,7 +176,7 @@ def mutants_command(
 def _kept(journal: Path | None) -> str:
     """Return what an interruption leaves, and how to go on."""
     if journal is None:
-        return f"{nothing_kept()}; --journal FILE keeps the verdicts"
+        return "nothing is kept; --journal FILE keeps the verdicts"
     return f"the verdicts so far are kept in {journal}; the same command goes on from there"
 
 
