@@ -159,33 +159,32 @@ class Renamed(click.Option):
         return super(Renamed, shown).get_help_record(ctx)
 
 
-def fmu_argument(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add an FMU as an argument or as the option --fmu; the command gets it as `fmu`."""
-    return _fmu_argument(command, _must_be_given, "")
-
-
-def native_fmu_argument(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add an FMU as `fmu_argument` does; the default is that of `default_fmu`."""
-    return _fmu_argument(command, default_fmu, "the native one in dist")
-
-
-def other_fmu_argument(default: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return what adds an FMU as `fmu_argument`, or None; `default` is the text about that."""
-    return partial(_fmu_argument, chosen=lambda given: given, default=default)
-
-
 def _must_be_given(fmu: Path | None) -> Path:
-    if fmu is None:
-        raise click.UsageError(f"Missing argument 'FMU'.{_finished()}")
-    return fmu
-
-
-def _finished() -> str:
+    if fmu is not None:
+        return fmu
     try:
         native = finished.finished_path(finished.FMUS["native"], finished.COMMANDS_LOOK_IN)
     except FmuError:
-        return ""
-    return f" The native one is {native}"
+        raise click.UsageError("Missing argument 'FMU'.") from None
+    raise click.UsageError(f"Missing argument 'FMU'. The native one is {native}")
+
+
+def default_fmus() -> tuple[Path, ...]:
+    """Return the FMUs built in the folder `dist` here, or else finished ones, the native one first.
+
+    Raises FmuError, with the remedy, when there is none.
+    """
+    names = (finished.FMUS["native"], finished.FMUS["python"])
+    for folder in finished.COMMANDS_LOOK_IN:
+        found = tuple(folder / name for name in names if (folder / name).is_file())
+        if found:
+            return found
+    return (finished.fmu_path("native"),)
+
+
+def default_fmu(given: Path | None) -> Path:
+    """Return the given FMU, or the first of `default_fmus`, which raises FmuError."""
+    return given if given is not None else default_fmus()[0]
 
 
 def _fmu_argument(
@@ -220,6 +219,17 @@ def _fmu_and_scene(argument: Path | None) -> tuple[Path | None, str]:
         return argument, FIRST
     find_scene(str(argument))  # a wrong name is reported before a default FMU that is not built
     return None, str(argument)
+
+
+fmu_argument = partial(_fmu_argument, chosen=_must_be_given, default="")
+"""Adds an FMU as an argument or as the option --fmu; the command gets it as `fmu`."""
+native_fmu_argument = partial(_fmu_argument, chosen=default_fmu, default="the native one in dist")
+"""The same; the default is that of `default_fmu`."""
+
+
+def other_fmu_argument(default: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return what adds an FMU as `fmu_argument`, or None; `default` is the text about that."""
+    return partial(_fmu_argument, chosen=lambda given: given, default=default)
 
 
 def fmus_argument(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -347,21 +357,3 @@ def time_limit_option(default: float, help_text: str, *aliases: str) -> Callable
         metavar="SECONDS",
         help=help_text,
     )
-
-
-def default_fmu(given: Path | None) -> Path:
-    """Return the given FMU, or the first of `default_fmus`, which raises FmuError."""
-    return given if given is not None else default_fmus()[0]
-
-
-def default_fmus() -> tuple[Path, ...]:
-    """Return the FMUs built in the folder `dist` here, or else finished ones, the native one first.
-
-    Raises FmuError, with the remedy, when there is none.
-    """
-    names = (finished.FMUS["native"], finished.FMUS["python"])
-    for folder in finished.COMMANDS_LOOK_IN:
-        found = tuple(folder / name for name in names if (folder / name).is_file())
-        if found:
-            return found
-    return (finished.fmu_path("native"),)

@@ -162,20 +162,10 @@ class Schedule:
         after = np.nextafter(self.times[self.changes], np.inf)
         return np.sort(np.concatenate([self.times, after]))
 
-    def refined(self, begin: float, step: float) -> Schedule:
-        """Return the same held inputs with more points from `begin` (s) on.
-
-        They are `step` (s) apart, give or take a hundredth of it beside a point of this
-        schedule: those all stay, to the last digit.
-        """
-        begin, stop = max(0.0, begin), float(self.times[-1])
-        fine = np.linspace(begin, stop, step_count(stop - begin, step) + 1)
-        return self.read_at(fine, 0.01 * step)
-
     def read_at(self, times: Array, distance: float) -> Schedule:
         """Return the same held inputs with more points, at `times` (s), shape (m,).
 
-        Those within `distance` (s) of a point of this schedule are left out.
+        Those within `distance` (s) of a point of this schedule are left out; all of these stay.
         """
         return replace(
             self,

@@ -18,6 +18,7 @@ from slider_resonator.output.plot_style import COLOURS, Picture, shade_direction
 from slider_resonator.output.plot_units import drawn, plot_unit
 from slider_resonator.output.start_beyond import limit_to_later
 from slider_resonator.scenes.scene import Scene
+from slider_resonator.scenes.signals_plot import schedule_for_window
 
 ZOOM_PERIODS = 6
 """Drive periods at the end of the run that are drawn in full."""
@@ -29,16 +30,13 @@ ZOOMED = (
 """Label, height and outputs of each panel of these periods."""
 MIN_POINTS = 8
 """Points per drive period below which they are not drawn."""
-SMOOTH_POINTS = 64
-"""Points per drive period for a smooth curve."""
 
 
 def schedule_to_plot(scene: Scene) -> Schedule:
     """Return the schedule of a scene with more points in its last drive periods."""
-    schedule, drive = scene.schedule(), scene.drive_periods
-    stop = float(schedule.times[-1])
+    drive, stop = scene.drive_periods, float(scene.schedule().times[-1])
     begin = drive.instants(drive.passed_by(np.array(stop)) - ZOOM_PERIODS)
-    return schedule.refined(float(begin), (stop - float(begin)) / (ZOOM_PERIODS * SMOOTH_POINTS))
+    return schedule_for_window(scene, (max(0.0, float(begin)), stop))
 
 
 def run_figure(record: Record, scene: Scene) -> Figure:

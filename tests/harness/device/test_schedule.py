@@ -61,7 +61,7 @@ def test_outputs_are_read_before_and_after_a_change() -> None:
     plan = replace(plan, reads_twice=True)
     before, after = 0.5, float(np.nextafter(0.5, 1.0))
     assert plan.readings().tolist() == [0.0, before, after, 1.0], "nothing is set at the stop"
-    finer = plan.refined(0.5, 0.25)
+    finer = plan.read_at(np.linspace(0.5, 1.0, 3), 0.0025)
     assert (finer.reads_twice, finer.readings().tolist()) == (True, [0, before, after, 0.75, 1.0])
 
 
@@ -143,7 +143,7 @@ def test_many_jumps_and_points_fit_into_memory() -> None:
 
 def test_refined_schedule_keeps_points_and_held_inputs() -> None:
     made = schedule(1.0, 0.1, load=ramp([(0.0, 0.0), (1.0, 1.0)]), phase=steps([(0, 0), (0.77, 1)]))
-    fine = made.refined(0.65, 0.01)
+    fine = made.read_at(np.linspace(0.65, 1.0, 36), 1e-4)
     assert set(made.times.tolist()) <= set(fine.times.tolist())
     assert len(fine.times) == len(made.times) + 35 - 4, "35 points, of which 0.7 ... 0.9 were there"
     assert fine.held() == made.held(), "more points must not make the ramp finer"
@@ -196,13 +196,13 @@ def test_lines_are_held_or_have_rates_and_corners() -> None:
     *_, last = lines.held()
     assert (last.start, last.phase, last.load, last.load_rate) == (0.5, 0.7, 0.7, 0.0)
     check_contiguous(lines.held(), rates=["load_rate"])
-    finer = lines.refined(0.2, 0.01)
+    finer = lines.read_at(np.arange(0.2, lines.times[-1], 0.01), 1e-4)
     assert np.allclose(finer.rates[:, 1], np.where(finer.times < 0.35 - 1e-9, 2.0, 0.0))
 
 
 def test_more_points_leave_tuning_as_it_is_held_beside_lines() -> None:
     tuning = {"friction_coefficient": ramp([(0.0, 0.1), (1.0, 0.3)])}
     lines = schedule(1.0, 0.25, tuning, True, load=ramp([(0.0, 0.0), (1.0, 1.0)]))
-    fine = lines.refined(0.2, 0.01)
+    fine = lines.read_at(np.arange(0.2, lines.times[-1], 0.01), 1e-4)
     at = np.searchsorted(lines.times, fine.times, side="right") - 1
     assert fine.tuned[:, 0].tolist() == lines.tuned[at, 0].tolist()

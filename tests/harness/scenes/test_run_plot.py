@@ -10,14 +10,10 @@ from matplotlib.image import imread
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.output.plot_style import save
-from slider_resonator.scenes.run_plot import (
-    SMOOTH_POINTS,
-    ZOOM_PERIODS,
-    run_figure,
-    schedule_to_plot,
-)
+from slider_resonator.scenes.run_plot import ZOOM_PERIODS, run_figure, schedule_to_plot
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import find_scene
+from slider_resonator.scenes.signals_plot import SMOOTH_POINTS
 
 
 @pytest.fixture
