@@ -69,32 +69,10 @@ from slider_resonator.trading.result import Trade
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = [
-    "Blocking",
-    "Choice",
-    "Device",
-    "Fit",
-    "HarnessError",
-    "OpenFmu",
-    "Record",
-    "Scene",
-    "SteadyMotion",
-    "StressResult",
-    "SweepResult",
-    "Trade",
-    "Validation",
-    "choose",
-    "fit",
-    "fmu_path",
-    "open_fmu",
-    "read_device",
-    "read_scene",
-    "stress",
-    "sweep",
-    "to_toml",
-    "trade",
-    "validate",
-]
+__all__ = ["Blocking", "Choice", "Device", "Fit", "HarnessError", "OpenFmu", "Record", "Scene"]
+__all__ += ["SteadyMotion", "StressResult", "SweepResult", "Trade", "Validation"]
+__all__ += ["choose", "fit", "fmu_path", "open_fmu", "read_device", "read_scene", "stress"]
+__all__ += ["sweep", "to_toml", "trade", "validate"]
 
 SceneLike = str | Path | Mapping[str, Any] | Scene
 Value = float | np.number[Any] | str

@@ -78,7 +78,7 @@ def look(index: int) -> tuple[str, str, tuple[int, ...]]:
 
 
 def plot_html(plot: HoverPlot) -> str:
-    """Return the plot as HTML for a page with the scripts `hover_scripts`."""
+    """Return the plot as HTML for a page of `write_plot_page`."""
     return (
         f'<figure><figcaption>{escaped(plot.title)}</figcaption><div class="plot">'
         f'<script type="application/json">{_data(plot)}</script></div></figure>'
@@ -87,23 +87,16 @@ def plot_html(plot: HoverPlot) -> str:
 
 def write_plot_page(path: Path, title: str, parts: Sequence[str]) -> None:
     """Write a page with plots among its parts; HarnessError when it cannot be written."""
-    write_page(path, title, parts, _scripts(), _style())
+    scripts = _texts("vendor/uPlot.iife.min.js", "hover_plot.js")
+    style = "".join(_texts("vendor/uPlot.min.css", "hover_plot.css"))
+    write_page(path, title, parts, scripts, style)
 
 
 @cache
-def _scripts() -> tuple[str, ...]:
-    """Return the scripts that draw the plots of a page."""
+def _texts(*names: str) -> list[str]:
+    """Return the texts of files of this package."""
     folder = files("slider_resonator.output")
-    scripts = (folder / "vendor" / "uPlot.iife.min.js", folder / "hover_plot.js")
-    return tuple(script.read_text(encoding="utf-8") for script in scripts)
-
-
-@cache
-def _style() -> str:
-    """Return the style sheet of the plots of a page."""
-    folder = files("slider_resonator.output")
-    sheets = (folder / "vendor" / "uPlot.min.css", folder / "hover_plot.css")
-    return "".join(sheet.read_text(encoding="utf-8") for sheet in sheets)
+    return [(folder / name).read_text(encoding="utf-8") for name in names]
 
 
 def _data(plot: HoverPlot) -> str:

@@ -172,7 +172,11 @@ def plot_signals(
         for axes, (name, below) in zip(panels, rows, strict=True):
             _panel(axes, runs, name, window, time_factor, scene, differences=below)
             if short and len(runs) == 1 and name != "contact_mode":
-                bands |= _shade(axes, runs[0].record, window, time_factor)
+                record = runs[0].record
+                inside = _inside(record, window)
+                modes = record["contact_mode"][inside]
+                entries = shade_directions(axes, time_factor * record.times[inside], modes)
+                bands |= {str(entry.get_label()): entry for entry in entries}
         ends = (time_factor * window[0], time_factor * window[1])
         panels[-1].set(xlabel=f"time [{time_unit}]", xlim=ends)
         figure.align_ylabels(panels)
@@ -223,16 +227,6 @@ def _panel(
     if name == "contact_mode":
         axes.set_yticks([*CONTACT], [words for words, _ in CONTACT.values()])
         axes.set(ylabel="contact")
-
-
-def _shade(
-    axes: Axes, record: Record, window: tuple[float, float], time_factor: float
-) -> dict[str, Patch]:
-    """Show contact behind the curves; return the legend entry of each mode by its label."""
-    inside = _inside(record, window)
-    times = time_factor * record.times[inside]
-    entries = shade_directions(axes, times, record["contact_mode"][inside])
-    return {str(entry.get_label()): entry for entry in entries}
 
 
 def _same_times(runs: Sequence[Run]) -> bool:
