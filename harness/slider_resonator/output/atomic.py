@@ -18,7 +18,7 @@ def replacing(path: Path) -> Iterator[Path]:
 
     If the block fails, `path` stays unchanged. Raises HarnessError when it cannot be written.
     """
-    temporary = path.with_name(f".{path.stem}-{uuid4().hex}{path.suffix}")
+    temporary = path.with_name(f".{path.stem}-{uuid4().hex[:8]}{path.suffix}")
     try:
         temporary.touch(exist_ok=False)
         try:

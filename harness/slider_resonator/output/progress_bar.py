@@ -18,7 +18,6 @@ MIN_SHARE = 0.02
 """Share of the work from which on the time left is estimated."""
 BAR = 10
 """Columns of the bar."""
-MIN_WIDTH_FOR_BAR = 80
 TIMES = len("0:00:00 00:00:00 left") + 4
 """Columns of the times beside a label, with those between."""
 
@@ -55,15 +54,14 @@ def progress_bar() -> Iterator[Progress]:
     if not sys.stderr.isatty():
         yield no_progress
         return
-    console = Console(stderr=True)
-    bar = BarColumn(bar_width=BAR) if console.width >= MIN_WIDTH_FOR_BAR else TextColumn("")
     columns = (
         TextColumn("{task.description}", markup=False),
-        bar,
+        BarColumn(bar_width=BAR),
         TimeElapsedColumn(),
         _TimeLeftColumn(),
     )
-    room = console.width - TIMES - (BAR if isinstance(bar, BarColumn) else 0)
+    console = Console(stderr=True)
+    room = console.width - TIMES - BAR
     with Bar(*columns, console=console, transient=True) as shown:
         task = shown.add_task("", total=1.0)
         yield lambda label, share: shown.update(
