@@ -20,7 +20,7 @@ from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.run import run
 from slider_resonator.output.plot_style import COLOURS, save, style
-from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.references.equivalent_force import equivalent_force
 
 ROOT = Path(__file__).resolve().parents[1]
 PERIOD = 2.0 * pi / Device().drive_frequency

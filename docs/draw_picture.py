@@ -22,7 +22,7 @@ from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
 from slider_resonator.output.plot_style import COLOURS, save, shade_directions, style
-from slider_resonator.references.closed_forms import device_blocking_force, device_steady_velocity
+from slider_resonator.references.averaged.device_average import blocking_force, steady_velocity
 from slider_resonator.steady.steady_velocity import find_steady
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -76,7 +76,7 @@ def _measure(instance: Instance) -> _Measured:
 
 
 def _draw_approach(axes: Axes, record: Record) -> None:
-    predicted = 1e3 * device_steady_velocity(DEVICE, phase=0.0)
+    predicted = 1e3 * steady_velocity(DEVICE, 0.0, 0.0, 1.0)
     axes.axhline(predicted, color=COLOURS["theory"], linestyle="--")
     axes.annotate(
         f"averaged theory {predicted:.1f} mm/s",
@@ -115,7 +115,7 @@ def _draw_zoom(axes: Axes, record: Record) -> None:
 
 def _draw_load_speed(axes: Axes, velocities: dict[float, list[float]]) -> None:
     for phase, shade in zip(PHASES, (COLOURS["theory"], "#8a6fae"), strict=True):
-        curve = [1e3 * device_steady_velocity(DEVICE, phase, load) for load in CURVE_LOADS]
+        curve = [1e3 * steady_velocity(DEVICE, phase, load, 1.0) for load in CURVE_LOADS]
         axes.plot(1e3 * CURVE_LOADS, curve, color=shade, label=f"theory, phase {phase:g} rad")
         axes.plot(
             1e3 * MARKER_LOADS,
@@ -128,7 +128,7 @@ def _draw_load_speed(axes: Axes, velocities: dict[float, list[float]]) -> None:
             markeredgewidth=1.3,
             label=f"FMU, phase {phase:g} rad",
         )
-    blocking = 1e3 * device_blocking_force(DEVICE, PHASES[0])
+    blocking = 1e3 * blocking_force(DEVICE, PHASES[0], 1.0)
     axes.axhline(0.0, color="0.4", linewidth=0.6)
     axes.annotate(
         f"blocking force\n{blocking:.1f} mN",

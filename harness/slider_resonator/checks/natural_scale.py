@@ -8,38 +8,29 @@ left of a transient of the resonator does not move them.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from math import pi
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
+from slider_resonator.references.equivalent_force import equivalent_force
 
 NEAR_ZERO = 0.01
 """Share of the natural scale that a reference counts as at least, unless a scene gives an absolute
 tolerance."""
 
 
-def _vibration(pick: Callable[[EquivalentForce], float]) -> Callable[[Device], float]:
-    """Return a function for an amplitude of the steady vibration without friction, (32)-(34).
-
-    It gives 0 where there is none.
-    """
-
-    def size(device: Device) -> float:
-        # The vibration does not depend on friction, without which there is no equivalent force.
-        driven = replace(device, friction_coefficient=1.0, friction_faces=1, normal_preload=1.0)
-        try:
-            return abs(pick(equivalent_force(driven)))
-        except ValueError:
-            return 0.0
-
-    return size
+def _amplitude(device: Device, name: str) -> float:
+    """Return an amplitude of the steady vibration without friction, (32)-(34), 0 without one."""
+    try:
+        return float(getattr(equivalent_force(device), name))
+    except ValueError:
+        return 0.0
 
 
-fast_velocity = _vibration(lambda force: force.velocity_amplitude)
-"""Amplitude v_q of the fast velocity (m/s) of a device, 0 without vibration."""
+def fast_velocity(device: Device) -> float:
+    """Return the amplitude v_q of the fast velocity (m/s) of a device, 0 without vibration."""
+    return _amplitude(device, "velocity_amplitude")
 
 
 def largest_fast_velocity(device: Device, held: Sequence[HeldInputs]) -> float:
@@ -47,8 +38,13 @@ def largest_fast_velocity(device: Device, held: Sequence[HeldInputs]) -> float:
     return max(fast_velocity(inputs.tuned_device(device)) for inputs in held)
 
 
-_displacement = _vibration(lambda force: force.ripple_amplitude)
-_resonator = _vibration(lambda force: force.resonator_amplitude)
+def _ripple(device: Device) -> float:
+    return _amplitude(device, "ripple_amplitude")
+
+
+def _resonator(device: Device) -> float:
+    return _amplitude(device, "resonator_amplitude")
+
 
 _SCALES: Mapping[str, Callable[[Device], float]] = {
     "steady_velocity": fast_velocity,
@@ -63,9 +59,9 @@ _SCALES: Mapping[str, Callable[[Device], float]] = {
     "predicted_blocking_force_in_run": lambda device: device.max_friction,
     "friction_force": lambda device: device.max_friction,
     "normal_force": lambda device: device.max_normal_force,
-    "position": _displacement,
-    "slow_displacement": _displacement,
-    "ripple_amplitude": _displacement,
+    "position": _ripple,
+    "slow_displacement": _ripple,
+    "ripple_amplitude": _ripple,
     "resonator_displacement": _resonator,
     "resonator_velocity": lambda device: _resonator(device) * device.drive_frequency,
     "stick_fraction": lambda device: 1.0,

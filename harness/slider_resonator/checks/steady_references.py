@@ -7,12 +7,9 @@ from functools import cached_property
 from math import pi
 
 from slider_resonator.device.device import FULL, Device
-from slider_resonator.references import closed_forms
-from slider_resonator.references.averaged import (
-    averaged_coulomb,
-    prediction_validity,
-    uniform_average,
-)
+from slider_resonator.references.averaged.device_average import blocking_force, steady_velocity
+from slider_resonator.references.averaged.prediction_validity import prediction_valid
+from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
     reference_steady_velocity,
@@ -54,43 +51,33 @@ class SteadyReferences:
     @property
     def predicted_velocity(self) -> float:
         """Steady velocity of averaged motion: any ratio, both laws, with lift-off."""
-        ratio = self.frequency_ratio
-        if self.device.friction_law == 1:
-            return uniform_average.device_steady_velocity(self.device, self.phase, self.load, ratio)
-        return averaged_coulomb.device_steady_velocity_at_ratio(
-            self.device, self.phase, ratio, self.load
-        )
+        return steady_velocity(self.device, self.phase, self.load, self.frequency_ratio)
 
     @property
     def predicted_blocking_force(self) -> float:
         """Blocking force of averaged motion, as for `predicted_velocity`."""
-        ratio = self.frequency_ratio
-        if self.device.friction_law == 1:
-            return uniform_average.device_blocking_force(self.device, self.phase, ratio)
-        return averaged_coulomb.device_blocking_force_at_ratio(self.device, self.phase, ratio)
+        return blocking_force(self.device, self.phase, self.frequency_ratio)
 
     @property
     def prediction_valid(self) -> float:
         """1 where averaged theory applies, 0 where not."""
         inputs = (self.phase, self.load, self.frequency_ratio)
-        return 1.0 if prediction_validity.prediction_valid(self.device, *inputs) else 0.0
+        return 1.0 if prediction_valid(self.device, *inputs) else 0.0
 
     @property
     def averaged_velocity(self) -> float:
-        """Steady velocity of averaged theory, (5) and (20); for equal frequencies only."""
-        self._require_equal_frequencies()
-        return closed_forms.device_steady_velocity(self.device, self.phase, self.load)
+        """Steady velocity of the paper's theory, (5) and (20); for equal frequencies only."""
+        return steady_velocity(self._device_of_paper(), self.phase, self.load, 1.0)
 
     @property
     def averaged_blocking_force(self) -> float:
-        """Blocking force of averaged theory, (22) for all faces; for equal frequencies only."""
-        self._require_equal_frequencies()
-        return closed_forms.device_blocking_force(self.device, self.phase)
+        """Blocking force of the paper's theory, (22) for all faces; for equal frequencies only."""
+        return blocking_force(self._device_of_paper(), self.phase, 1.0)
 
     @property
     def ripple_amplitude(self) -> float:
         """Amplitude (m) of the fast displacement, (33)-(34)."""
-        return closed_forms.equivalent_force(self.device).ripple_amplitude
+        return equivalent_force(self.device).ripple_amplitude
 
     @property
     def difference_frequency(self) -> float:
@@ -101,8 +88,16 @@ class SteadyReferences:
         ratio = self.frequency_ratio
         return abs(ratio - round(ratio)) * self.device.drive_frequency / (2.0 * pi)
 
-    def _require_equal_frequencies(self) -> None:
+    def _device_of_paper(self) -> Device:
+        """Return the device with Coulomb friction; ValueError where (5) and (22) do not hold."""
         if self.frequency_ratio != 1.0:
             raise ValueError(
                 f"frequency_ratio = {self.frequency_ratio!r}: the closed form allows only 1"
             )
+        if self.device.normal_amplitude > self.device.normal_preload:
+            raise ValueError(
+                f"normal_amplitude = {self.device.normal_amplitude!r} N must be at most "
+                f"normal_preload = {self.device.normal_preload!r} N: where the contact lifts the "
+                "closed form does not hold"
+            )
+        return replace(self.device, friction_law=0)

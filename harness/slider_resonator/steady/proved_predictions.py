@@ -23,7 +23,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.resolved.equations import steady_vibration
+from slider_resonator.references.equivalent_force import steady_vibration
 from slider_resonator.steady.periodic import STATE
 from slider_resonator.steady.shooting import NEUTRAL
 

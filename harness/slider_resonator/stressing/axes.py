@@ -11,7 +11,7 @@ from random import Random
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.model import Model
-from slider_resonator.references.closed_forms import device_blocking_force
+from slider_resonator.references.averaged.device_average import blocking_force
 from slider_resonator.stressing.case import DEVICE, MODELS, Case, Hold, Limit
 
 TABLE_1 = Device()
@@ -206,7 +206,7 @@ def _input_axes() -> Iterator[Axis]:
         "frequency ratio", _each("frequency_ratio", {"0": 0.0, "1e-6": 1e-6, **around, **others})
     )
     yield Axis("frequency ratio", {"changes every step": {}}, steps=_changing_ratio)
-    blocking = device_blocking_force(TABLE_1, Hold(PERIOD).phase)
+    blocking = blocking_force(TABLE_1, Hold(PERIOD).phase, 1.0)
     stands = Limit("mean_velocity", 0.0, 1e-7, "(22): the averaged slider stands")
     yield Axis(
         "blocking load",

@@ -17,7 +17,7 @@ import numpy as np
 from slider_resonator.device.device import Device
 from slider_resonator.device.model import Model
 from slider_resonator.device.random_device import decades, random_device
-from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.stressing.case import RANDOM, Case, Hold
 
 IN_TURN = (

@@ -7,10 +7,8 @@ from matplotlib.figure import Figure as Drawing
 
 from slider_resonator.arrays import Array
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references import closed_forms
-from slider_resonator.references.averaged import uniform_average
-from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from studies.paper import labels
+from slider_resonator.references.averaged.uniform_average import LugreCase
+from studies.paper import labels, slow_theory
 from studies.paper.figure import SHADES, Data, PaperFigure, curve, panels
 from studies.paper.mapping import coulomb_case, lugre_case, stiffness_of
 from studies.paper.measure import steady_velocity
@@ -45,11 +43,11 @@ def errors(data: Data) -> dict[str, tuple[Array, Array]]:
     for name, points in data.items():
         frequencies = np.array(points["x"])
         if name == "Coulomb":
-            average = closed_forms.steady_velocity(1.0, AMPLITUDE_RATIO, PHASE)
+            average = slow_theory.steady_velocity(1.0, AMPLITUDE_RATIO, PHASE)
         else:
             # At a given kappa the average does not depend on the frequency.
             stiffness = stiffness_of(float(name.split()[1]), CASE, 1000.0)
-            average = uniform_average.steady_velocity(CASE, stiffness, 1000.0)
+            average = slow_theory.uniform_velocity(CASE, stiffness, 1000.0)
         result[name] = frequencies, np.abs(np.array(points["v"]) - average)
     return result
 

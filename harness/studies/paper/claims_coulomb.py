@@ -9,7 +9,7 @@ import numpy as np
 
 from slider_resonator.checks.measures import ripple_amplitude
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references import closed_forms
+from studies.paper import slow_theory
 from studies.paper.claim import Claim, ClaimGroup, claim, labelled, near
 from studies.paper.mapping import coulomb_case
 from studies.paper.measure import blocking_force, record, steady_velocity
@@ -48,7 +48,7 @@ def _strengths(instance: Instance) -> Iterator[Claim]:
     per_alpha = {
         a: steady_velocity(instance, coulomb_case(1.0, FREQUENCY, a)) / a for a in (0.1, 0.3, 1.0)
     }
-    theory = {a: closed_forms.steady_velocity(1.0, a, pi / 2.0) / a for a in per_alpha}
+    theory = {a: slow_theory.steady_velocity(1.0, a, pi / 2.0) / a for a in per_alpha}
     yield claim(
         "linear_in_alpha",
         all(near(per_alpha[a], theory[a], 2e-3) for a in theory),
@@ -65,7 +65,7 @@ def _blocking(instance: Instance) -> Iterator[Claim]:
         "Omega_100": coulomb_case(1.0, 100.0),
     }
     forces = {name: blocking_force(instance, values) for name, values in cases.items()}
-    theory = closed_forms.blocking_load(1.0, pi / 2.0)
+    theory = slow_theory.blocking_load(1.0, pi / 2.0)
     independent = all(near(force, theory, 0.03) for force in forces.values())
     yield claim("blocking_independent", independent, forces)
     one = forces["q_1"]

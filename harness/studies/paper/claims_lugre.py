@@ -8,8 +8,8 @@ from math import pi
 import numpy as np
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.averaged import averaged_lugre, uniform_average
-from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.references.averaged.uniform_average import LugreCase
+from studies.paper import slow_theory
 from studies.paper.claim import Claim, ClaimGroup, claim, labelled, near
 from studies.paper.mapping import lugre_case, stiffness_of
 from studies.paper.measure import blocking_force, steady_velocity
@@ -54,20 +54,20 @@ def _shapes(instance: Instance) -> Iterator[Claim]:
         all(np.all(np.diff(list(over.values())) > 0.0) for over in (over_q, over_alpha)),
         labelled("V_at_q", over_q) | labelled("V_at_alpha", over_alpha),
     )
-    linear = averaged_lugre.linear_velocity(LugreCase(amplitude_ratio=0.05))
+    linear = slow_theory.lugre_linear_velocity(LugreCase(amplitude_ratio=0.05))
     found = _velocity(instance, amplitude_ratio=0.05)
     yield claim("lugre_linear", near(found, linear, 0.06), {"formula": linear, "fmu": found})
 
 
 def _manifold(instance: Instance) -> Iterator[Claim]:
-    paper = averaged_lugre.steady_velocity(LugreCase())
+    paper = slow_theory.lugre_steady_velocity(LugreCase())
     high, low = (
         steady_velocity(instance, lugre_case(LugreCase(), frequency, OWN))
         for frequency in (1000.0, 10.0)
     )
     numbers = {"formula": paper, "fmu": high, "kappa": 0.25}
     yield claim("slow_manifold_high_frequency", near(high, paper, 5e-3), numbers)
-    uniform = uniform_average.steady_velocity(LugreCase(), OWN, 10.0)
+    uniform = slow_theory.uniform_velocity(LugreCase(), OWN, 10.0)
     yield claim(
         "slow_manifold_low_frequency",
         near(low, 0.6645, 5e-3) and not near(low, paper, 0.1),
@@ -76,12 +76,12 @@ def _manifold(instance: Instance) -> Iterator[Claim]:
 
 
 def _over_kappa(instance: Instance) -> Iterator[Claim]:
-    numbers = {"formula": averaged_lugre.blocking_load(LugreCase())}
+    numbers = {"formula": slow_theory.lugre_blocking_load(LugreCase())}
     worst = 0.0
     for kappa in KAPPAS:
         stiffness = stiffness_of(kappa, LugreCase(), FREQUENCY)
         direct = _blocking(instance, stiffness, 1.0, 0.4)
-        uniform = uniform_average.blocking_load(LugreCase(), stiffness, FREQUENCY)
+        uniform = slow_theory.uniform_blocking_load(LugreCase(), stiffness, FREQUENCY)
         numbers |= {f"fmu_kappa_{kappa:g}": direct, f"uniform_kappa_{kappa:g}": uniform}
         worst = max(worst, abs(direct - uniform))
     yield claim(

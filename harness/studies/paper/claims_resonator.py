@@ -9,8 +9,8 @@ import numpy as np
 
 from slider_resonator.checks.measures import dominant_frequency
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.averaged import averaged_coulomb
-from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.references.equivalent_force import equivalent_force
+from studies.paper import slow_theory
 from studies.paper.claim import Claim, ClaimGroup, claim, labelled, near
 from studies.paper.figure_7 import CASE, PERIOD, STOP_PERIODS
 from studies.paper.figure_8 import DEVICE, velocity_at
@@ -91,13 +91,13 @@ def _beat(instance: Instance, ratio: float, detuning: float) -> tuple[float, flo
     points = settled + BEATS * 100
     values = {"frequency_ratio": ratio + detuning / DEVICE.drive_frequency}
     run = record(instance, values, points * step, points)
-    position = run["position"][settled:] / equivalent_force(DEVICE).length_scale
+    position = run["position"][settled:] / slow_theory.length_scale(DEVICE)
     frequency = 2.0 * pi * dominant_frequency(run.times[settled:], position)
     return frequency, float(np.ptp(position[-101:])) / 2.0
 
 
 def _beats(instance: Instance) -> Iterator[Claim]:
-    strength = equivalent_force(DEVICE).strength
+    strength = slow_theory.strength_of(DEVICE)
     beats = {detuning: _beat(instance, 1.0, detuning) for detuning in DETUNINGS}
     frequencies = {detuning: frequency for detuning, (frequency, _) in beats.items()}
     amplitudes = {detuning: amplitude for detuning, (_, amplitude) in beats.items()}
@@ -110,7 +110,7 @@ def _beats(instance: Instance) -> Iterator[Claim]:
             "rad_per_s_near_ratio_3_at_2": near_three,
         },
     )
-    linear = {d: averaged_coulomb.linear_beat_displacement(strength, 1.0, d) for d in DETUNINGS}
+    linear = {d: slow_theory.linear_beat_displacement(strength, 1.0, d) for d in DETUNINGS}
     yield claim(
         "beat_amplitude",
         bool(np.all(np.diff(list(amplitudes.values())) < 0.0)),

@@ -10,10 +10,10 @@ from matplotlib.figure import Figure as Drawing
 
 from slider_resonator.arrays import Array
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.averaged import averaged_coulomb, uniform_average
-from slider_resonator.references.averaged.averaged_lugre import LugreCase, fast_displacement
+from slider_resonator.references.averaged import uniform_average
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
-from studies.paper import labels
+from slider_resonator.references.averaged.uniform_average import LugreCase
+from studies.paper import labels, slow_theory
 from studies.paper.figure import SHADES, Data, PaperFigure, markers, panels
 from studies.paper.mapping import Values, coulomb_case, lugre_case
 from studies.paper.measure import plain, record
@@ -55,12 +55,12 @@ def averaged_position(law: str, frequency: float, times: Array) -> Array:
 
     def acceleration(time: float, velocity: float) -> float:
         if law == "Coulomb":
-            return averaged_coulomb.slow_acceleration(velocity, STRENGTH, 1.0, pi / 2.0)
+            return slow_theory.slow_acceleration(velocity, STRENGTH, 1.0, pi / 2.0)
         return -uniform_average.mean_friction(velocity, LugreCase(), STIFFNESS, frequency)
 
     coarse = np.linspace(0.0, times[-1], 201)
     slow = np.interp(times, coarse, slow_trajectory(acceleration, coarse, velocity=STRENGTH)[0])
-    fast = np.array([fast_displacement(frequency * t, STRENGTH, frequency) for t in times])
+    fast = -STRENGTH / frequency * np.sin(frequency * times)  # X_f / Omega of (10)
     return np.asarray(slow + fast)
 
 

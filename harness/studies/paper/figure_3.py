@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references import closed_forms
+from studies.paper import slow_theory
 from studies.paper.figure import SHADES, Line, SweptPanel, swept_figure
 from studies.paper.mapping import coulomb_case
 from studies.paper.measure import steady_velocity
@@ -40,8 +40,8 @@ PANELS = (
     ),
 )
 LINES = (
-    Line("(5)", "-", SHADES[0], lambda case: closed_forms.steady_velocity(**case)),
-    Line("(7), small velocities", ":", "0.5", lambda case: closed_forms.linear_velocity(**case)),
+    Line("(5)", "-", SHADES[0], lambda case: slow_theory.steady_velocity(**case)),
+    Line("(7), small velocities", ":", "0.5", lambda case: slow_theory.linear_velocity(**case)),
 )
 FIGURE = swept_figure(
     "figure_3",

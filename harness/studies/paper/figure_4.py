@@ -8,10 +8,8 @@ import numpy as np
 from matplotlib.figure import Figure as Drawing
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references import closed_forms
-from slider_resonator.references.averaged import averaged_lugre, uniform_average
-from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from studies.paper import labels
+from slider_resonator.references.averaged.uniform_average import LugreCase
+from studies.paper import labels, slow_theory
 from studies.paper.figure import SHADES, Data, PaperFigure, curve, markers, panels
 from studies.paper.mapping import coulomb_case, lugre_case
 from studies.paper.measure import steady_velocity
@@ -31,12 +29,12 @@ def _measure(instance: Instance) -> Data:
             (
                 "Coulomb",
                 coulomb_case(strength, FREQUENCY),
-                closed_forms.blocking_load(1.0, pi / 2.0),
+                slow_theory.blocking_load(1.0, pi / 2.0),
             ),
             (
                 "LuGre",
                 lugre_case(lugre, FREQUENCY, STIFFNESS),
-                uniform_average.blocking_load(lugre, STIFFNESS, FREQUENCY),
+                slow_theory.uniform_blocking_load(lugre, STIFFNESS, FREQUENCY),
             ),
         ):
             loads = [blocking * share for share in SHARES]
@@ -48,19 +46,19 @@ def _measure(instance: Instance) -> Data:
 def _draw(data: Data) -> Drawing:
     drawing, axes = panels(2)
     for strength, shade, dash in zip(STRENGTHS, SHADES, ("-", "--"), strict=False):
-        end = closed_forms.blocking_load(1.0, pi / 2.0)
+        end = slow_theory.blocking_load(1.0, pi / 2.0)
         loads = np.linspace(0.0, end, 101).tolist()
-        curve = [closed_forms.loaded_velocity(strength, 1.0, pi / 2.0, load) for load in loads]
+        curve = [slow_theory.steady_velocity(strength, 1.0, pi / 2.0, load) for load in loads]
         axes[0].plot(loads, curve, dash, color=shade, label=f"(20), q = {strength:g}")
         case = LugreCase(strength=strength)
-        end = averaged_lugre.blocking_load(case)
+        end = slow_theory.lugre_blocking_load(case)
         loads = np.linspace(0.0, end, 101).tolist()
-        curve = [averaged_lugre.steady_velocity(case, load) for load in loads]
+        curve = [slow_theory.lugre_steady_velocity(case, load) for load in loads]
         axes[1].plot(loads, curve, dash, color=shade, label=f"(23), q = {strength:g}")
-        end = uniform_average.blocking_load(case, STIFFNESS, FREQUENCY)
+        end = slow_theory.uniform_blocking_load(case, STIFFNESS, FREQUENCY)
         loads = np.linspace(0.0, end, 61).tolist()
         curve = [
-            uniform_average.steady_velocity(case, STIFFNESS, FREQUENCY, load=load) for load in loads
+            slow_theory.uniform_velocity(case, STIFFNESS, FREQUENCY, load=load) for load in loads
         ]
         axes[1].plot(loads, curve, ":", color=shade, label=f"uniform, q = {strength:g}")
         for axis, law in zip(axes, ("Coulomb", "LuGre"), strict=True):

@@ -7,8 +7,8 @@ from math import pi
 import numpy as np
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.averaged import averaged_lugre, uniform_average
-from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.references.averaged.uniform_average import LugreCase
+from studies.paper import slow_theory
 from studies.paper.figure import SHADES, Line, SweptPanel, swept_figure
 from studies.paper.mapping import lugre_case
 from studies.paper.measure import steady_velocity
@@ -34,11 +34,11 @@ def _velocity(instance: Instance, case: dict[str, float]) -> float:
 
 
 def _uniform(case: dict[str, float]) -> float:
-    return uniform_average.steady_velocity(LugreCase(**case), STIFFNESS, FREQUENCY)
+    return slow_theory.uniform_velocity(LugreCase(**case), STIFFNESS, FREQUENCY)
 
 
 LINES = (
-    Line("(17)", "-", SHADES[0], lambda case: averaged_lugre.steady_velocity(LugreCase(**case))),
+    Line("(17)", "-", SHADES[0], lambda case: slow_theory.lugre_steady_velocity(LugreCase(**case))),
     Line("uniform average", ":", SHADES[2], _uniform),
 )
 FIGURE = swept_figure(

@@ -10,10 +10,10 @@ from matplotlib.figure import Figure as Drawing
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.averaged import averaged_coulomb
+from slider_resonator.references.averaged.averaged_motion import slow_start
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
-from slider_resonator.references.closed_forms import equivalent_force
-from studies.paper import labels
+from slider_resonator.references.equivalent_force import equivalent_force
+from studies.paper import labels, slow_theory
 from studies.paper.figure import SHADES, Data, PaperFigure, markers, panels
 from studies.paper.mapping import resonator_case
 from studies.paper.measure import plain, record
@@ -42,13 +42,11 @@ def averaged_trajectory(times: Array) -> tuple[Array, Array]:
     """
     device = Device.from_mapping({k: v for k, v in CASE.items() if k != "phase"})
     force = equivalent_force(device)
-    phase = averaged_coulomb.phase_to_force(force, PHASE, 1.0)
+    phase, strength = PHASE + force.angle, slow_theory.strength_of(device)
     return slow_trajectory(
-        lambda time, velocity: averaged_coulomb.slow_acceleration(
-            velocity, force.strength, 1.0, phase
-        ),
+        lambda time, velocity: slow_theory.slow_acceleration(velocity, strength, 1.0, phase),
         times,
-        averaged_coulomb.slow_start(device),
+        slow_start(device),
     )
 
 

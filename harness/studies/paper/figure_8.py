@@ -10,15 +10,12 @@ from matplotlib.figure import Figure as Drawing
 
 from slider_resonator.device.device import Device
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.averaged import averaged_coulomb
-from slider_resonator.references.averaged.averaged_coulomb import (
-    device_steady_velocity_at_ratio,
-    drifting_phase,
-)
+from slider_resonator.references.averaged.averaged_motion import slow_start
+from slider_resonator.references.averaged.device_average import steady_velocity
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
-from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.steady.steady_velocity import find_steady
-from studies.paper import labels
+from studies.paper import labels, slow_theory
 from studies.paper.figure import (
     SHADES,
     Data,
@@ -42,7 +39,7 @@ POINTS = 400
 def velocity_at(instance: Instance, phase: float, ratio: float) -> float | None:
     """Return the FMU's steady velocity in x0 w0 by shooting; None where it finds none."""
     velocity = find_steady(instance, {"phase": phase, "frequency_ratio": ratio}).steady_velocity
-    return None if velocity is None else velocity / equivalent_force(DEVICE).length_scale
+    return None if velocity is None else velocity / slow_theory.length_scale(DEVICE)
 
 
 def _measure(instance: Instance) -> Data:
@@ -72,8 +69,8 @@ def _draw(data: Data) -> Drawing:
 
 
 def _scaled(phase: float, ratio: float) -> float:
-    length = equivalent_force(DEVICE).length_scale
-    return device_steady_velocity_at_ratio(DEVICE, phase, ratio) / length
+    length = slow_theory.length_scale(DEVICE)
+    return steady_velocity(DEVICE, phase, 0.0, ratio) / length
 
 
 def _over_ratio(axis: Axes, data: Data) -> None:
@@ -100,25 +97,25 @@ def _over_phase(axis: Axes, data: Data) -> None:
 
 
 def _detuned(axis: Axes, data: Data) -> None:
-    force = equivalent_force(DEVICE)
+    force, strength = equivalent_force(DEVICE), slow_theory.strength_of(DEVICE)
     times = np.linspace(0.0, STOP, 401)
     for detuning, shade in zip(DETUNINGS, SHADES, strict=False):
 
         def acceleration(time: float, velocity: float, detuning: float = detuning) -> float:
-            phase = drifting_phase(time, detuning, force.angle)
-            return averaged_coulomb.slow_acceleration(velocity, force.strength, 1.0, phase)
+            phase = detuning * time + force.angle  # psi of (A.1)
+            return slow_theory.slow_acceleration(velocity, strength, 1.0, phase)
 
-        start = averaged_coulomb.slow_start(DEVICE) / force.length_scale
+        start = slow_start(DEVICE) / slow_theory.length_scale(DEVICE)
         axis.plot(times, slow_trajectory(acceleration, times, start)[0], color=shade)
         run = data["detuned"][f"{detuning:g}"]
-        position = np.array(run["position"]) / force.length_scale
+        position = np.array(run["position"]) / slow_theory.length_scale(DEVICE)
         label = f"$\\Delta\\Omega$ = {detuning:g}"
         markers(axis, run["time"][::8], position[::8], shade, label)
     axis.set(xlabel=labels.TIME, ylabel=labels.DISPLACEMENT, ylim=(0.0, 2.3))
 
 
 def _histories(axis: Axes, data: Data) -> None:
-    length = equivalent_force(DEVICE).length_scale
+    length = slow_theory.length_scale(DEVICE)
     for ratio, shade in zip(HISTORY_RATIOS, SHADES, strict=False):
         run = data["history"][f"{ratio:g}"]
         position = np.array(run["position"]) / length

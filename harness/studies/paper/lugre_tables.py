@@ -6,9 +6,10 @@ import numpy as np
 
 from slider_resonator.device.device import Device
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.averaged import averaged_lugre, uniform_average
-from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.references.averaged import device_average
+from slider_resonator.references.averaged.uniform_average import LugreCase
+from slider_resonator.references.equivalent_force import equivalent_force
+from studies.paper import slow_theory
 from studies.paper.mapping import lugre_case, stiffness_of
 from studies.paper.measure import blocking_force, steady_velocity
 from studies.paper.table import PaperTable, rows_over
@@ -22,8 +23,8 @@ TABLE_1 = Device(friction_law=1)
 def _blocking_row(instance: Instance, kappa: float) -> dict[str, float]:
     stiffness = stiffness_of(kappa, CASE, FREQUENCY)
     direct = blocking_force(instance, lugre_case(CASE, FREQUENCY, stiffness))
-    uniform = uniform_average.blocking_load(CASE, stiffness, FREQUENCY)
-    paper = averaged_lugre.blocking_load(CASE)
+    uniform = slow_theory.uniform_blocking_load(CASE, stiffness, FREQUENCY)
+    paper = slow_theory.lugre_blocking_load(CASE)
     return {
         "kappa": kappa,
         "stiffness": stiffness,
@@ -65,8 +66,8 @@ def _device_row(instance: Instance, kappa: float) -> dict[str, float]:
     values = {"friction_law": 1.0, "bristle_stiffness": stiffness}
     two, one = (steady_velocity(instance, {**values, "fidelity": f}) for f in (2.0, 1.0))
     force = blocking_force(instance, values)
-    velocity = uniform_average.device_steady_velocity(device, 0.0)
-    blocking = uniform_average.device_blocking_force(device, 0.0)
+    velocity = device_average.steady_velocity(device, 0.0, 0.0, 1.0)
+    blocking = device_average.blocking_force(device, 0.0, 1.0)
     return {
         "kappa": kappa,
         "stiffness": stiffness,

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from math import pi
 
-from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.references.averaged.uniform_average import LugreCase
 
 Values = dict[str, float]
 """Parameters and inputs of the FMU by name."""

@@ -10,10 +10,8 @@ from matplotlib.figure import Figure as Drawing
 
 from slider_resonator.arrays import Array
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references import closed_forms
-from slider_resonator.references.averaged import averaged_lugre, uniform_average
-from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from studies.paper import labels
+from slider_resonator.references.averaged.uniform_average import LugreCase
+from studies.paper import labels, slow_theory
 from studies.paper.figure import SHADES, Data, PaperFigure, curve, markers, panels
 from studies.paper.mapping import lugre_case, stiffness_of
 from studies.paper.measure import blocking_force, steady_velocity
@@ -35,8 +33,8 @@ def _draw(data: Data) -> Drawing:
     drawing, (velocity, error, blocking) = panels(3)
     fine = np.geomspace(KAPPAS[0], KAPPAS[-1], 81).tolist()
     coulomb_strength = CASE.strength / CASE.friction_coefficient
-    hard = CASE.friction_coefficient * closed_forms.steady_velocity(coulomb_strength, 1.0, pi / 2)
-    paper = averaged_lugre.steady_velocity(CASE)
+    hard = CASE.friction_coefficient * slow_theory.steady_velocity(coulomb_strength, 1.0, pi / 2)
+    paper = slow_theory.lugre_steady_velocity(CASE)
     velocity.plot(fine, _uniform_velocity(fine), color=SHADES[2], label="uniform average")
     velocity.axhline(paper, color=SHADES[0], linestyle="--", label="(17)")
     velocity.axhline(hard, color="0.4", linestyle=":", label="(5), Coulomb")
@@ -49,9 +47,9 @@ def _draw(data: Data) -> Drawing:
     error.plot(KAPPAS, uniform, color=SHADES[2], label="uniform against FMU")
     error.set(yscale="log", ylabel="error of $V$ [$x_0 \\omega_0$]")
 
-    blocked = [uniform_average.blocking_load(CASE, s, FREQUENCY) for s in _stiffnesses(fine)]
-    paper = averaged_lugre.blocking_load(CASE)
-    hard = CASE.friction_coefficient * closed_forms.blocking_load(1.0, pi / 2)
+    blocked = [slow_theory.uniform_blocking_load(CASE, s, FREQUENCY) for s in _stiffnesses(fine)]
+    paper = slow_theory.lugre_blocking_load(CASE)
+    hard = CASE.friction_coefficient * slow_theory.blocking_load(1.0, pi / 2)
     blocking.plot(fine, blocked, color=SHADES[2], label="uniform average")
     blocking.axhline(paper, color=SHADES[0], linestyle="--", label="(24)")
     blocking.axhline(hard, color="0.4", linestyle=":", label="(21), Coulomb")
@@ -69,7 +67,7 @@ def _stiffnesses(kappas: Iterable[float]) -> list[float]:
 
 def _uniform_velocity(kappas: Iterable[float]) -> Array:
     stiffnesses = _stiffnesses(kappas)
-    return np.array([uniform_average.steady_velocity(CASE, s, FREQUENCY) for s in stiffnesses])
+    return np.array([slow_theory.uniform_velocity(CASE, s, FREQUENCY) for s in stiffnesses])
 
 
 FIGURE = PaperFigure(

@@ -8,9 +8,8 @@ import numpy as np
 from matplotlib.figure import Figure as Drawing
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.averaged.averaged_coulomb import device_steady_velocity_at_ratio
-from slider_resonator.references.closed_forms import equivalent_force
-from studies.paper import labels
+from slider_resonator.references.averaged.device_average import steady_velocity
+from studies.paper import labels, slow_theory
 from studies.paper.figure import Data, PaperFigure, panels
 from studies.paper.figure_8 import DEVICE, velocity_at
 
@@ -25,11 +24,9 @@ def _measure(instance: Instance) -> Data:
 
 def _draw(data: Data) -> Drawing:
     drawing, axes = panels(2)
-    length = equivalent_force(DEVICE).length_scale
+    length = slow_theory.length_scale(DEVICE)
     found = np.array(data["velocity"], dtype=np.float64)
-    theory = [
-        [device_steady_velocity_at_ratio(DEVICE, p, r) / length for p in PHASES] for r in RATIOS
-    ]
+    theory = [[steady_velocity(DEVICE, p, 0.0, r) / length for p in PHASES] for r in RATIOS]
     for axis, values, title in zip(
         axes, (found, np.array(theory)), ("FMU", "average"), strict=True
     ):

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from slider_resonator.device.device import Device
-from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.scenes.scene import Scene, scene_from
 
 COUNT = 200

@@ -10,8 +10,8 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.averaged import uniform_average
-from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.references.averaged import device_average
+from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
@@ -66,8 +66,8 @@ def test_uniform_average_errors_fall_with_the_frequency(
     errors = []
     for frequency in (1000.0, 4000.0):
         device = unit_device(kappa, frequency, amplitude_ratio)
-        velocity = uniform_average.device_steady_velocity(device, 1.0)
-        force = uniform_average.device_blocking_force(device, 1.0)
+        velocity = device_average.steady_velocity(device, 1.0, 0.0, 1.0)
+        force = device_average.blocking_force(device, 1.0, 1.0)
         errors.append(
             (
                 velocity - steady_velocity(device, 1.0, guess=velocity),
@@ -81,7 +81,7 @@ def test_uniform_average_errors_fall_with_the_frequency(
 
 def test_ratio_3_with_the_resonator_matches_the_average() -> None:
     device = Device(friction_law=1)
-    average = uniform_average.device_steady_velocity(device, 0.4, 0.02, 3)
+    average = device_average.steady_velocity(device, 0.4, 0.02, 3.0)
     found = steady_velocity(device, 0.4, 0.02, 3.0, guess=average)
     fast = equivalent_force(device).velocity_amplitude
     assert found == pytest.approx(average, abs=5e-3 * fast)

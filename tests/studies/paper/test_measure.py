@@ -4,9 +4,8 @@ import pytest
 
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references import closed_forms
-from slider_resonator.references.averaged import uniform_average
-from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.references.averaged.uniform_average import LugreCase
+from studies.paper import slow_theory
 from studies.paper.mapping import coulomb_case, lugre_case
 from studies.paper.measure import blocking_force, plain, record, steady_velocity
 
@@ -27,9 +26,9 @@ def test_no_steady_motion_is_an_error_with_its_reason(instance: Instance) -> Non
 
 def test_coulomb_cases_meet_theory(instance: Instance) -> None:
     values = coulomb_case(1.0, 1000.0, 0.8, 1.0)
-    theory = closed_forms.steady_velocity(1.0, 0.8, 1.0)
+    theory = slow_theory.steady_velocity(1.0, 0.8, 1.0)
     assert steady_velocity(instance, values) == pytest.approx(theory, abs=2e-3)
-    blocked = closed_forms.blocking_load(0.8, 1.0)
+    blocked = slow_theory.blocking_load(0.8, 1.0)
     assert blocking_force(instance, values) == pytest.approx(blocked, abs=2e-3)
 
 
@@ -37,7 +36,7 @@ def test_coulomb_cases_meet_theory(instance: Instance) -> None:
 def test_lugre_cases_meet_the_uniform_average(instance: Instance, stiffness: float) -> None:
     case = LugreCase()
     values = lugre_case(case, 1000.0, stiffness)
-    average = uniform_average.steady_velocity(case, stiffness, 1000.0)
+    average = slow_theory.uniform_velocity(case, stiffness, 1000.0)
     assert steady_velocity(instance, values) == pytest.approx(average, abs=2e-3)
-    blocked = uniform_average.blocking_load(case, stiffness, 1000.0)
+    blocked = slow_theory.uniform_blocking_load(case, stiffness, 1000.0)
     assert blocking_force(instance, values) == pytest.approx(blocked, abs=2e-3)

@@ -9,14 +9,14 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.errors import HarnessError
-from slider_resonator.references.averaged import uniform_average
-from slider_resonator.references.averaged.averaged_coulomb import device_steady_velocity_at_ratio
-from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.references.averaged.device_average import steady_velocity
+from slider_resonator.references.equivalent_force import equivalent_force
 from studies.paper.average_error import errors, slope
 from studies.paper.claim import statements
 from studies.paper.figure_8 import PHASES
 from studies.paper.mapping import stiffness_of
 from studies.paper.reproduce import FIGURES, NAMES, TABLES, reproduce
+from studies.paper.slow_theory import length_scale, uniform_velocity
 from studies.paper.stiffness_validity import CASE
 
 
@@ -69,14 +69,14 @@ def test_the_whole_paper_is_confirmed(native_fmu: Path, tmp_path: Path) -> None:
 
     points = results("stiffness_validity")["velocity"]
     for kappa, velocity in zip(points["x"], points["v"], strict=True):
-        average = uniform_average.steady_velocity(CASE, stiffness_of(kappa, CASE, 1000.0), 1000.0)
+        average = uniform_velocity(CASE, stiffness_of(kappa, CASE, 1000.0), 1000.0)
         assert velocity == pytest.approx(average, abs=2e-3), f"uniform average at kappa {kappa}"
 
     force = equivalent_force(Device())
     for ratio, values in results("figure_8")["phase"].items():
         for phase, velocity in zip(PHASES, values, strict=True):
-            average = device_steady_velocity_at_ratio(Device(), phase, float(ratio))
-            assert velocity * force.length_scale == pytest.approx(
+            average = steady_velocity(Device(), phase, 0.0, float(ratio))
+            assert velocity * length_scale(Device()) == pytest.approx(
                 average, abs=0.01 * force.velocity_amplitude
             ), f"Coulomb average at ratio {ratio}, phase {phase}"
 

@@ -25,13 +25,14 @@ from slider_resonator.device.held_inputs import (
     check_times,
     with_steady_phase,
 )
-from slider_resonator.references.averaged import averaged_coulomb, uniform_average
-from slider_resonator.references.averaged.averaged_coulomb import slow_start
-from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from slider_resonator.references.averaged.block import slide_of_block
-from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
+from slider_resonator.references.averaged.device_average import (
+    fast_motion,
+    full_friction,
+    mean_friction,
+)
+from slider_resonator.references.averaged.slow_trajectory import slide_of_block, slow_trajectory
 from slider_resonator.references.averaged.vibrating_contact import MAX_TURNS, turns_until_repeat
-from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
+from slider_resonator.references.equivalent_force import EquivalentForce
 from slider_resonator.references.phase import advanced
 
 MAX_DETUNING = 0.1
@@ -58,36 +59,6 @@ class AveragedMotion:
     mean_velocity: Array
 
 
-def mean_friction(
-    device: Device, force: EquivalentForce, velocity: float, lead: float, ratio: float
-) -> float:
-    """Return the mean friction in N at a slow velocity in m/s.
-
-    ``lead`` in rad is how far the normal load is ahead of ``ratio`` times the base excitation; the
-    phase counts only for an integer ratio. Raises ValueError for values out of bounds.
-    """
-    phase = lead + ratio * force.angle
-    fast, scale = force.velocity_amplitude, device.friction_faces * device.normal_preload
-    if device.friction_law == 0:
-        share = averaged_coulomb.mean_friction(velocity, fast, device.amplitude_ratio, phase, ratio)
-        return scale * device.friction_coefficient * share
-    case = LugreCase(
-        fast, device.amplitude_ratio, phase, device.friction_coefficient, device.bristle_damping
-    )
-    return scale * uniform_average.mean_friction(
-        velocity, case, device.bristle_stiffness, device.drive_frequency, ratio
-    )
-
-
-def full_friction(device: Device, phase: float, ratio: float) -> float:
-    """Return the mean friction in N of a block that slides without vibration, under either law.
-
-    ``phase`` in rad is that of the normal load, which counts only at ratio 0.
-    """
-    share = averaged_coulomb.mean_friction(1.0, 1.0, device.amplitude_ratio, phase, ratio)
-    return device.mean_friction * share
-
-
 def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) -> AveragedMotion:
     """Return the averaged motion under held inputs at ``times`` (shape (n,), s).
 
@@ -100,29 +71,30 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     momentum and centre are continuous, so the slow velocity jumps by the change of the drive's
     part.
 
-    Raises ValueError for inputs with gaps, times outside them, and as `equivalent_force` does;
+    Raises ValueError for inputs with gaps, times outside them, and as `fast_motion` does;
     RuntimeError when the slow motion cannot be integrated.
     """
     check_contiguous(held, rates=RATES)
     check_times(times, held)
-    start, share = device, device.mass_ratio
-    drive = _Drive.of(held[0].tuned_device(device))
-    slow = device.initial_velocity + share * device.initial_resonator_velocity + drive.velocity
+    share = device.mass_ratio
+    tuned = held[0].tuned_device(device)
+    slow = device.initial_velocity + share * device.initial_resonator_velocity + slow_start(tuned)
     centre = device.initial_position + share * device.initial_resonator_displacement
     theta = psi = 0.0
     rows = np.empty((0, 3))
     last = np.array([device.initial_position, device.initial_velocity])
     for inputs in in_slow_phases(with_steady_phase(held, device), device):
-        tuned = inputs.tuned_device(start)
-        before, drive = drive, _Drive.of(tuned)
-        slow += (drive.velocity - before.velocity) * math.cos(theta)
-        centre += (drive.displacement - before.displacement) * math.sin(theta)
-        device, force = tuned, equivalent_force(tuned)
+        before, tuned = tuned, inputs.tuned_device(device)
+        drive, drive_before = slow_start(tuned), slow_start(before)
+        slow += (drive - drive_before) * math.cos(theta)
+        swing = drive / tuned.drive_frequency - drive_before / before.drive_frequency
+        centre += swing * math.sin(theta)
+        force = fast_motion(tuned)
         local = times[len(rows) : np.searchsorted(times, inputs.stop, side="right")] - inputs.start
         grid = np.union1d(local, [0.0, inputs.stop - inputs.start])
-        moved, velocity = _slow_motion(device, force, inputs, (theta, psi), slow, grid)
+        moved, velocity = _slow_motion(tuned, force, inputs, (theta, psi), slow, grid)
         places = np.searchsorted(grid, local)
-        angle = theta + device.drive_frequency * grid - force.angle
+        angle = theta + tuned.drive_frequency * grid - force.angle
         position = centre + moved - force.ripple_amplitude * np.sin(angle)
         motion = np.column_stack([position, velocity - force.velocity_amplitude * np.cos(angle)])
         there = motion[places]
@@ -131,23 +103,21 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
         rows = np.vstack([rows, np.column_stack([there, velocity[places]])])
         centre += float(moved[-1])
         slow = float(velocity[-1])
-        turned = device.drive_frequency * float(grid[-1])
+        turned = tuned.drive_frequency * float(grid[-1])
         theta = advanced(theta, turned)
-        psi = advanced(psi, inputs.turned(float(grid[-1]), device.drive_frequency))
+        psi = advanced(psi, inputs.turned(float(grid[-1]), tuned.drive_frequency))
     return AveragedMotion(times, *rows.T)
 
 
-@dataclass(frozen=True)
-class _Drive:
-    """Amplitudes of the vibration of the centre of mass by the drive, in m/s and m."""
+def slow_start(device: Device) -> float:
+    """Return the slow velocity in m/s of a device that starts from rest, resonator and all.
 
-    velocity: float
-    displacement: float
-
-    @classmethod
-    def of(cls, device: Device) -> _Drive:
-        velocity = slow_start(device)
-        return cls(velocity, velocity / device.drive_frequency)
+    The drive leaves the momentum ``m A w + tangential_force / w`` between its swings; a start with
+    the resonator's steady motion, as (34) assumes, would leave another.
+    """
+    frequency = device.drive_frequency
+    push = device.resonator_mass * device.base_amplitude * frequency
+    return (push + device.tangential_force / frequency) / device.total_mass
 
 
 def _slow_motion(

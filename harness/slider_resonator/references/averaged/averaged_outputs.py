@@ -17,11 +17,10 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, with_steady_phase
 from slider_resonator.references.averaged.averaged_motion import (
     AveragedMotion,
-    full_friction,
-    mean_friction,
     slow_ratio,
 )
-from slider_resonator.references.closed_forms import EquivalentForce, equivalent_force
+from slider_resonator.references.averaged.device_average import full_friction, mean_friction
+from slider_resonator.references.equivalent_force import EquivalentForce, equivalent_force
 from slider_resonator.references.phase import advanced
 
 _LIFTED = 2

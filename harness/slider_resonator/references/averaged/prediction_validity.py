@@ -10,12 +10,9 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from slider_resonator.device.device import Device
 from slider_resonator.references.averaged.vibrating_contact import mean_load
-
-_RESONANCE_RESOLUTION = 1e-12
+from slider_resonator.references.equivalent_force import RESONANCE_RESOLUTION, equivalent_force
 
 
 def prediction_valid(device: Device, phase: float, load: float, ratio: float) -> bool:
@@ -27,13 +24,12 @@ def prediction_valid(device: Device, phase: float, load: float, ratio: float) ->
     sliding = device.friction_faces * device.friction_coefficient * normal
     if not abs(load) < sliding:
         return False
-    free = _forces(device, held=False)
-    if free is None:
+    try:
+        free = equivalent_force(device)
+    except ValueError:
         return False
-    force, amplitude = free
-    stuck = _forces(device, held=True)
-    held_force = math.inf if stuck is None else stuck[0]
-    return min(force, held_force) > _resistance(device, normal, amplitude)
+    held = _force_on_held_slider(device)
+    return min(free.amplitude, held) > _resistance(device, normal, free.ripple_amplitude)
 
 
 def _mean_normal_force(device: Device, phase: float, ratio: float) -> float:
@@ -54,30 +50,15 @@ def _resistance(device: Device, normal: float, amplitude: float) -> float:
     return device.friction_faces * normal * share
 
 
-def _forces(device: Device, *, held: bool) -> tuple[float, float] | None:
-    """Return the amplitude of the force (N) on a slider without friction, and of its motion (m).
+def _force_on_held_slider(device: Device) -> float:
+    """Return the amplitude (N) of what spring, damper and direct drive exert on a held slider.
 
-    On the free slider it is the force that moves slider and resonator as one mass, on the held one
-    that of spring, damper and direct drive; both are steady amplitudes of exp(i w t) that solve
-    (26)-(27). None for undamped resonance.
+    It is a steady amplitude of exp(i w t) that solves (27), infinite for undamped resonance.
     """
     w, m = device.drive_frequency, device.resonator_mass
     coupling = complex(device.stiffness, w * device.damping)
-    swing = m * device.base_amplitude * w * w
-    if held:
-        resonance = abs(device.resonator_frequency**2 - w * w)
-        if device.damping_ratio == 0.0 and resonance <= _RESONANCE_RESOLUTION * w * w:
-            return None
-        displacement = swing / (coupling - m * w * w) if m else 0.0
-        return abs(coupling * displacement + device.tangential_force), 0.0
-    if m == 0.0:
-        force = abs(device.tangential_force)
-        return force, force / (device.slider_mass * w * w)
-    matrix = np.array(
-        [[-device.slider_mass * w * w, -coupling], [-m * w * w, coupling - m * w * w]]
-    )
-    scale = np.diag(1.0 / np.abs(matrix).max(axis=1))
-    if abs(np.linalg.det(scale @ matrix)) <= _RESONANCE_RESOLUTION:
-        return None
-    moved = abs(np.linalg.solve(matrix, [device.tangential_force, swing])[0])
-    return float(device.total_mass * w * w * moved), float(moved)
+    resonance = abs(device.resonator_frequency**2 - w * w)
+    if device.damping_ratio == 0.0 and resonance <= RESONANCE_RESOLUTION * w * w:
+        return math.inf
+    displacement = m * device.base_amplitude * w * w / (coupling - m * w * w) if m else 0.0
+    return abs(coupling * displacement + device.tangential_force)

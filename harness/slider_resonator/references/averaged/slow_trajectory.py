@@ -1,7 +1,8 @@
-"""The trajectory of a slow motion, from its averaged acceleration."""
+"""Trajectories of slow motion: from an averaged acceleration, and of a block without vibration."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -39,3 +40,27 @@ def slow_trajectory(
     if not solution.success:
         raise RuntimeError(f"the slow motion cannot be integrated: {solution.message}")
     return np.asarray(solution.y[0]), np.asarray(solution.y[1])
+
+
+def slide_of_block(
+    velocity: float, friction: float, load: float, mass: float, times: Array
+) -> tuple[Array, Array]:
+    """Return how far a block has moved (m) and its velocity (m/s) at ``times``, shape (n,), s.
+
+    Dry friction of constant size acts against a constant load. ``velocity`` (m/s) is that at time
+    0; ``friction`` (N) holds a block at rest against a smaller ``load`` (N), which pulls backward;
+    ``mass`` is in kg.
+    """
+    deceleration = (math.copysign(friction, velocity) + load) / mass if velocity else 0.0
+    stops = math.inf if velocity else 0.0
+    if deceleration * velocity > 0.0:
+        stops = velocity / deceleration
+    first = np.minimum(times, stops)
+    moved = velocity * first - 0.5 * deceleration * first**2
+    speed = np.where(times < stops, velocity - deceleration * first, 0.0)
+    if abs(load) > friction:
+        dragged = -math.copysign(abs(load) - friction, load) / mass
+        rest = np.maximum(times - stops, 0.0)
+        moved += 0.5 * dragged * rest**2
+        speed += dragged * rest
+    return moved, speed

@@ -2,29 +2,25 @@
 
 The fast velocity V - q cos(theta) has a periodic bristle response, explicit from the path: between
 reversals s0 z relaxes to +-mu with the distance slid. Its friction, weighted with the load and
-integrated numerically over a turn, is the mean friction. For ``stiffness_number`` -> 0 it is
-the slow manifold of the paper, (16), for large ones Coulomb friction, (4). Errors are O(1 / Omega).
-The contact may lift (``amplitude_ratio`` > 1).
+integrated numerically over a turn, is the mean friction. For kappa = sigma_0 q / (mu Omega) -> 0 it
+is the slow manifold of the paper, (16), for large ones Coulomb friction, (4). Errors are
+O(1 / Omega). The contact may lift (``amplitude_ratio`` > 1).
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.device import Device
-from slider_resonator.references.averaged.averaged_lugre import LugreCase
-from slider_resonator.references.averaged.slow_equilibria import stable_velocity
 from slider_resonator.references.averaged.vibrating_contact import (
     closed_spans,
     mean_load,
     turns_until_repeat,
 )
-from slider_resonator.references.closed_forms import equivalent_force
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)
 _MIN_GRADED_PANELS, _MAX_GRADED_PANELS = 3, 30
@@ -34,9 +30,31 @@ _WIDEST_PANEL = 2.0
 """Width in rad of the angle of the normal load: 24 nodes then integrate its sine to rounding."""
 
 
-def stiffness_number(case: LugreCase, stiffness: float, frequency: float) -> float:
-    """Return kappa = sigma_0 q / (mu Omega), the path of a turn over that of a bristle."""
-    return stiffness * case.strength / (case.friction_coefficient * frequency)
+@dataclass(frozen=True)
+class LugreCase:
+    """Parameters of (9) without bristle stiffness and frequency.
+
+    Dimensionless as below (9), in units of ``x0 = N0 / (m w0^2)`` and ``1 / w0``, or SI.
+    """
+
+    strength: float = 1.0
+    """q = F_T / Omega."""
+    amplitude_ratio: float = 1.0
+    """alpha = dN / N0."""
+    phase: float = math.pi / 2.0
+    """phi in rad."""
+    friction_coefficient: float = 0.4
+    """mu."""
+    damping: float = 1.0
+    """sigma_1."""
+
+    def __post_init__(self) -> None:
+        for name in ("strength", "friction_coefficient"):
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f"{name} = {getattr(self, name)!r} must be greater than 0")
+        for name in ("amplitude_ratio", "damping"):
+            if not getattr(self, name) >= 0.0:
+                raise ValueError(f"{name} = {getattr(self, name)!r} must be at least 0")
 
 
 def mean_friction(
@@ -79,72 +97,6 @@ def mean_friction(
         for in_turn in (case, *later):
             total += _arc(velocity, in_turn, rate, (start, end), sign, share, ratio)
     return mu * total / (2.0 * math.pi * turns)
-
-
-def steady_velocity(
-    case: LugreCase, stiffness: float, frequency: float, *, ratio: float = 1, load: float = 0.0
-) -> float:
-    """Return the steady slow velocity under a load in units of N0.
-
-    Raises ValueError for a load that friction balances at no velocity.
-    """
-    return stable_velocity(
-        lambda velocity: mean_friction(velocity, case, stiffness, frequency, ratio),
-        case.strength,
-        load,
-    )
-
-
-def blocking_load(
-    case: LugreCase, stiffness: float, frequency: float, *, ratio: float = 1
-) -> float:
-    """Return the load, in units of N0, under which the slow motion stops."""
-    return -mean_friction(0.0, case, stiffness, frequency, ratio)
-
-
-def device_case(device: Device, phase: float, ratio: float) -> LugreCase:
-    """Return the averaged case of a device, in SI units: strength is the fast velocity in m/s.
-
-    ``phase`` in rad relative to the base excitation. Raises ValueError as `equivalent_force` does.
-    """
-    force = equivalent_force(device)
-    return LugreCase(
-        strength=force.velocity_amplitude,
-        amplitude_ratio=device.amplitude_ratio,
-        phase=phase + ratio * force.angle,
-        friction_coefficient=device.friction_coefficient,
-        damping=device.bristle_damping,
-    )
-
-
-def device_steady_velocity(
-    device: Device, phase: float, load: float = 0.0, ratio: float = 1
-) -> float:
-    """Return the steady velocity of a device with LuGre friction in m/s, load in N.
-
-    Raises ValueError as `device_case` and `steady_velocity` do.
-    """
-    return steady_velocity(
-        device_case(device, phase, ratio),
-        device.bristle_stiffness,
-        device.drive_frequency,
-        ratio=ratio,
-        load=load / (device.friction_faces * device.normal_preload),
-    )
-
-
-def device_blocking_force(device: Device, phase: float, ratio: float = 1) -> float:
-    """Return the load in N that stops a device with LuGre friction.
-
-    Raises ValueError as `device_case` does.
-    """
-    share = blocking_load(
-        device_case(device, phase, ratio),
-        device.bristle_stiffness,
-        device.drive_frequency,
-        ratio=ratio,
-    )
-    return device.friction_faces * device.normal_preload * share
 
 
 def _share_at_end_of_forward(backward: float, forward: float) -> float:

@@ -12,11 +12,6 @@ MAX_TURNS = 4
 """Turns of the drive up to which a clipped load that repeats after them has a slow phase."""
 
 
-def turning_angle(velocity: float, strength: float) -> float:
-    """Return theta_1 = acos(velocity / q), at its bounds where the motion no longer reverses."""
-    return math.acos(max(-1.0, min(1.0, velocity / strength)))
-
-
 def mean_load(amplitude_ratio: float) -> float:
     """Return the load averaged over all its angles, 1 for a contact that never lifts."""
     if amplitude_ratio <= 1.0:

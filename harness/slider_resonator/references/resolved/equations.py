@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
+from slider_resonator.references.equivalent_force import steady_vibration
 from slider_resonator.references.resolved.contact import LIFTED, STICK
 
 State = tuple[float, ...]
@@ -20,8 +21,6 @@ State = tuple[float, ...]
 deflection of the bristle, m."""
 
 Number = TypeVar("Number", float, Array)
-
-_RESONANCE_RESOLUTION = 1e-12
 
 
 @dataclass(frozen=True)
@@ -276,31 +275,3 @@ def initial_state(device: Device) -> State:
         velocity, displacement, resonator_velocity = momentum / device.total_mass, 0.0, 0.0
     bristle = (device.initial_bristle_deflection,) if device.friction_law == 1 else ()
     return (device.initial_position, velocity, displacement, resonator_velocity, *bristle)
-
-
-def steady_vibration(device: Device) -> tuple[complex, complex]:
-    """Return the complex amplitudes of the resonator (m), (32), and of the force (N) in (33).
-
-    The drive is the imaginary part of exp(i theta), and friction does not act. Raises ValueError
-    for an undamped resonator at its slipping resonance.
-    """
-    frequency = device.drive_frequency
-    base_acceleration = device.base_amplitude * frequency**2
-    mobility = 1.0 / (1.0 - device.mass_ratio)
-    response = complex(
-        mobility * device.resonator_frequency**2 - frequency**2,
-        2.0 * device.damping_ratio * device.resonator_frequency * mobility * frequency,
-    )
-    if abs(response) <= _RESONANCE_RESOLUTION * frequency**2:
-        raise ValueError(
-            f"damping_ratio = {device.damping_ratio!r} at resonator_frequency = "
-            f"{device.resonator_frequency!r} rad/s, the slipping resonance: fidelity 1 needs a "
-            "steady state, damping_ratio must be greater than 0 or the frequencies differ"
-        )
-    resonator = (base_acceleration - device.tangential_force / device.slider_mass) / response
-    force = (
-        device.resonator_mass * base_acceleration
-        + device.tangential_force
-        + device.resonator_mass * frequency**2 * resonator
-    )
-    return resonator, force

@@ -8,14 +8,10 @@ import pytest
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged import averaged_coulomb as coulomb
-from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
+from slider_resonator.references.averaged.averaged_motion import slow_start
+from slider_resonator.references.averaged.device_average import blocking_force, steady_velocity
 from slider_resonator.references.averaged.vibrating_contact import mean_load
-from slider_resonator.references.closed_forms import (
-    device_blocking_force,
-    device_steady_velocity,
-    equivalent_force,
-    loaded_velocity,
-)
+from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.steady.reference_steady import reference_steady_velocity
 
@@ -56,16 +52,9 @@ def test_mean_friction_is_continuous_at_lift_off(ratio: float) -> None:
         assert lifting == pytest.approx(closed, abs=2e-9), "nothing jumps where the contact lifts"
 
 
-@pytest.mark.parametrize(("alpha", "ratio"), [(0.8, 1.0), (1.8, 1.0), (1.8, 3.0), (1.8, 1.5)])
-def test_blocking_load_stops_the_motion(alpha: float, ratio: float) -> None:
-    load = coulomb.blocking_load_at_ratio(alpha, 0.7, ratio)
-    velocity = coulomb.steady_velocity_at_ratio(0.9, alpha, 0.7, ratio, load)
-    assert velocity == pytest.approx(0.0, abs=1e-12), "the velocity under the blocking load is 0"
-
-
 def steady_by_shooting(device: Device, phase: float, load: float, ratio: int) -> float:
     """Mean velocity in m/s of the motion that repeats, by the integrator with located events."""
-    guess = coulomb.device_steady_velocity_at_ratio(device, phase, float(ratio), load)
+    guess = steady_velocity(device, phase, load, float(ratio))
     found = reference_steady_velocity(device, phase, load, float(ratio), guess)
     assert found is not None, "the device slides steadily"
     return found
@@ -88,51 +77,11 @@ def test_average_predicts_a_lifting_contact(
             drive_frequency=3500.0 * factor,
             resonator_frequency=3500.0 * factor,
         )
-        average = coulomb.device_steady_velocity_at_ratio(device, phase, float(ratio), load)
+        average = steady_velocity(device, phase, load, float(ratio))
         error = average - steady_by_shooting(device, phase, load, ratio)
         errors.append(error / equivalent_force(device).velocity_amplitude)
     assert abs(errors[0]) < 0.01, "1 % of the fast velocity"
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05), "averages err by 1 / Omega"
-
-
-def test_ratio_1_matches_the_paper() -> None:
-    for load in (-0.3, 0.0, 0.5):
-        assert coulomb.steady_velocity_at_ratio(1.3, 0.8, 0.7, 1.0, load) == pytest.approx(
-            loaded_velocity(1.3, 0.8, 0.7, load), rel=1e-12
-        )
-    assert coulomb.device_steady_velocity_at_ratio(Device(), 0.4, 1.0, 0.05) == pytest.approx(
-        device_steady_velocity(Device(), 0.4, 0.05), rel=1e-12
-    )
-    for phase in (0.0, -0.4):
-        assert coulomb.device_blocking_force_at_ratio(Device(), phase, 1.0) == pytest.approx(
-            device_blocking_force(Device(), phase), rel=1e-12
-        )
-
-
-def test_linear_acceleration_is_the_slope_at_rest() -> None:
-    step = 1e-5
-    for velocity in (0.0, step):
-        exact = coulomb.slow_acceleration(velocity, 0.9, 0.6, 0.8)
-        linear = coulomb.linear_slow_acceleration(velocity, 0.9, 0.6, 0.8)
-        assert linear == pytest.approx(exact, abs=1e-9), "(6) is (4) for small velocities"
-
-
-def test_linear_beat_is_where_the_linear_slow_motion_settles() -> None:
-    strength, alpha, detuning = 1.0, 0.1, 1.5
-    times = np.linspace(0.0, 40.0 * math.pi / detuning, 4001)
-
-    def acceleration(time: float, velocity: float) -> float:
-        phase = coulomb.drifting_phase(time, detuning, 0.3)
-        return coulomb.linear_slow_acceleration(velocity, strength, alpha, phase)
-
-    position, velocity = slow_trajectory(acceleration, times)
-    late = times > times[-1] - 2.0 * math.pi / detuning
-    assert np.ptp(velocity[late]) / 2.0 == pytest.approx(
-        coulomb.linear_beat_velocity(strength, alpha, detuning), rel=1e-4
-    )
-    assert np.ptp(position[late]) / 2.0 == pytest.approx(
-        coulomb.linear_beat_displacement(strength, alpha, detuning), rel=1e-4
-    )
 
 
 def test_slow_start_is_the_momentum_of_the_drive() -> None:
@@ -142,21 +91,23 @@ def test_slow_start_is_the_momentum_of_the_drive() -> None:
     times = np.array([0.0, 40.0, 60.0]) * period
     motion = simulate(device, [HeldInputs(0.0, times[-1])], times)
     mean = (motion.position[2] - motion.position[1]) / (20.0 * period)
-    assert coulomb.slow_start(device) == pytest.approx(mean, rel=1e-6)
+    assert slow_start(device) == pytest.approx(mean, rel=1e-6)
+
+
+@pytest.mark.parametrize(("alpha", "ratio"), [(0.8, 1.0), (1.8, 1.0), (1.8, 3.0), (1.8, 1.5)])
+def test_blocking_force_stops_the_motion(alpha: float, ratio: float) -> None:
+    device = Device(normal_amplitude=alpha)
+    force = blocking_force(device, 0.7, ratio)
+    velocity = steady_velocity(device, 0.7, force, ratio)
+    assert velocity == pytest.approx(0.0, abs=1e-12), "the velocity under the blocking force is 0"
 
 
 def test_invalid_arguments_are_refused_by_name() -> None:
-    with pytest.raises(ValueError, match=r"load = 1\.0"):
-        coulomb.steady_velocity_at_ratio(1.0, 1.0, 0.0, 3.0, 1.0)
+    with pytest.raises(ValueError, match=r"load = 0\.201"):
+        steady_velocity(Device(), 0.0, 0.201, 3.0)
     with pytest.raises(ValueError, match=r"amplitude_ratio = -0\.2"):
         coulomb.mean_friction(0.0, 1.0, -0.2, 0.0)
     with pytest.raises(ValueError, match="strength = 0"):
         coulomb.mean_friction(0.0, 0.0, 1.0, 0.0)
-    with pytest.raises(ValueError, match="detuning = 0"):
-        coulomb.linear_beat_displacement(1.0, 1.0, 0.0)
-    with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.5"):
-        coulomb.linear_slow_acceleration(0.0, 1.0, 1.5, 0.0)
-    with pytest.raises(ValueError, match=r"amplitude_ratio = 1\.5"):
-        coulomb.linear_beat_velocity(1.0, 1.5, 0.1)
-    with pytest.raises(ValueError, match=r"load = 1\.6"):
-        coulomb.steady_velocity_at_ratio(1.0, 3.0, 0.0, 1.0, 1.6)
+    with pytest.raises(ValueError, match=r"load = 0\.32"):
+        steady_velocity(Device(normal_amplitude=3.0), 0.0, 0.32, 1.0)

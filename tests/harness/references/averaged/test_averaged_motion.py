@@ -9,10 +9,9 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.averaged.averaged_coulomb import device_steady_velocity_at_ratio
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
-from slider_resonator.references.averaged.uniform_average import device_steady_velocity
-from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.references.averaged.device_average import steady_velocity
+from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 
@@ -120,8 +119,8 @@ def test_averaged_motion_starts_with_the_momentum_of_the_drive() -> None:
 def test_averaged_motion_settles_at_the_steady_velocity(load: float) -> None:
     held = [HeldInputs(0.0, 60.0, 0.4, load)]
     for device, velocity in (
-        (COULOMB, device_steady_velocity_at_ratio(COULOMB, 0.4, 1.0, load)),
-        (BRISTLES, device_steady_velocity(BRISTLES, 0.4, load)),
+        (COULOMB, steady_velocity(COULOMB, 0.4, load, 1.0)),
+        (BRISTLES, steady_velocity(BRISTLES, 0.4, load, 1.0)),
     ):
         motion = simulate_averaged(device, held, np.array([60.0]))
         assert motion.mean_velocity[0] == pytest.approx(velocity, rel=1e-6)

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from slider_resonator.references.averaged.block import slide_of_block
+from slider_resonator.references.averaged.slow_trajectory import slide_of_block
 
 TIMES = np.linspace(0.0, 1.0, 11)
 

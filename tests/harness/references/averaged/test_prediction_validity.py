@@ -9,7 +9,7 @@ import pytest
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.prediction_validity import prediction_valid
-from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
 
 TABLE_1 = Device()

@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from slider_resonator.references.averaged.averaged_lugre import (
-    LugreCase,
-    blocking_load,
-    mean_friction,
-)
-from slider_resonator.references.averaged.slow_equilibria import stable_velocity
+from slider_resonator.references.averaged.device_average import stable_velocity
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 
 
@@ -23,15 +18,6 @@ def test_forward_one_of_two_stable_velocities_is_returned() -> None:
         cubic = Polynomial([shift, -0.25, 0.0, 1.0])
         found = stable_velocity(cubic, 1.0, 0.0)
         assert found == pytest.approx(side * 0.5, abs=1e-4)
-
-
-def test_lugre_friction_holds_loads_above_sliding_friction() -> None:
-    case = LugreCase()
-    load = 0.45
-    assert case.friction_coefficient < load < blocking_load(case)
-    velocity = stable_velocity(lambda v: mean_friction(v, case), 1.0, load)
-    assert 0.0 < velocity < 0.2, "below the blocking load the slider still moves ahead"
-    assert mean_friction(velocity, case) + load == pytest.approx(0.0, abs=1e-12)
 
 
 def test_load_above_all_friction_is_refused() -> None:

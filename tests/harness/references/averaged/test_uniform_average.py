@@ -7,10 +7,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from slider_resonator.device.device import Device
-from slider_resonator.references import closed_forms
-from slider_resonator.references.averaged import averaged_lugre, uniform_average
+from slider_resonator.references.averaged import uniform_average
 from slider_resonator.references.averaged.averaged_coulomb import mean_friction as coulomb_friction
-from slider_resonator.references.averaged.averaged_lugre import LugreCase
+from slider_resonator.references.averaged.device_average import stable_velocity, steady_velocity
+from slider_resonator.references.averaged.uniform_average import LugreCase
+from slider_resonator.references.equivalent_force import equivalent_force
 
 CASE = LugreCase()
 
@@ -58,30 +59,6 @@ def test_mean_friction_matches_an_integrated_bristle(
     assert found == pytest.approx(mean, abs=2e-7), "the explicit periodic response is the response"
 
 
-@pytest.mark.parametrize("amplitude_ratio", [1.0, 1.8])
-def test_soft_bristle_is_on_the_slow_manifold(amplitude_ratio: float) -> None:
-    case = LugreCase(amplitude_ratio=amplitude_ratio)
-    errors = []
-    for stiffness in (10.0, 1.0):
-        found = uniform_average.steady_velocity(case, stiffness, 1000.0)
-        errors.append(abs(found - averaged_lugre.steady_velocity(case)))
-    assert errors[1] < 1e-6, "(17) is the limit of a bristle slower than the vibration"
-    assert errors[0] / errors[1] == pytest.approx(100.0, rel=0.1), "the error is of order kappa^2"
-
-
-@pytest.mark.parametrize(("phase", "order"), [(math.pi / 2.0, 1.0), (0.5, 0.5)])
-def test_stiff_bristle_approaches_coulomb_friction(phase: float, order: float) -> None:
-    """The turnover takes an angle of order kappa^(-1/2), which in quadrature cancels."""
-    target = closed_forms.steady_velocity(1.0, 1.0, phase)
-    case = LugreCase(strength=0.4, phase=phase)  # q / mu = 1: velocities in units of mu
-    errors = []
-    for stiffness in (1e8, 1e10):
-        found = uniform_average.steady_velocity(case, stiffness, 1000.0)
-        errors.append(abs(found / 0.4 - target))
-    assert errors[1] < 3e-4, "(5) is the limit of a bristle faster than the vibration"
-    assert math.log10(errors[0] / errors[1]) / 2.0 == pytest.approx(order, abs=0.02)
-
-
 @pytest.mark.parametrize("ratio", [-1, 0, 1, 2, 3, 1.37, 60])
 @pytest.mark.parametrize("amplitude_ratio", [0.7, 2.5])
 def test_stiff_bristle_approaches_coulomb_friction_at_every_velocity(
@@ -94,16 +71,10 @@ def test_stiff_bristle_approaches_coulomb_friction_at_every_velocity(
         assert found == pytest.approx(expected, abs=1e-6)
 
 
-def test_blocking_load_stops_the_motion() -> None:
-    blocking = uniform_average.blocking_load(CASE, 1000.0, 1000.0)
-    velocity = uniform_average.steady_velocity(CASE, 1000.0, 1000.0, load=blocking)
-    assert velocity == pytest.approx(0.0, abs=1e-10)
-
-
 def test_units_do_not_matter() -> None:
     """Table 1 in SI units against the same case made dimensionless."""
     device = Device(friction_law=1)
-    force = closed_forms.equivalent_force(device)
+    force = equivalent_force(device)
     mass, load = device.total_mass, 2.0 * device.normal_preload
     case = LugreCase(
         strength=force.velocity_amplitude * mass / load,
@@ -111,10 +82,13 @@ def test_units_do_not_matter() -> None:
         friction_coefficient=0.1,
         damping=device.bristle_damping * load / mass,
     )
-    scaled = uniform_average.steady_velocity(case, 1e5 * load / mass, 3500.0)
-    assert uniform_average.device_steady_velocity(device, 0.4) == pytest.approx(
-        scaled * load / mass, rel=1e-9
+    stiffness = 1e5 * load / mass
+    scaled = stable_velocity(
+        lambda velocity: uniform_average.mean_friction(velocity, case, stiffness, 3500.0),
+        case.strength,
+        0.0,
     )
+    assert steady_velocity(device, 0.4, 0.0, 1.0) == pytest.approx(scaled * load / mass, rel=1e-9)
 
 
 @pytest.mark.parametrize(("stiffness", "frequency"), [(0.0, 1.0), (1.0, 0.0), (math.nan, 1.0)])
@@ -123,6 +97,10 @@ def test_invalid_arguments_are_refused_by_name(stiffness: float, frequency: floa
         uniform_average.mean_friction(0.1, CASE, stiffness, frequency)
 
 
-def test_load_above_friction_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"load = -0\.6"):
-        uniform_average.steady_velocity(CASE, 10.0, 10.0, load=-0.6)
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("strength", 0.0), ("friction_coefficient", -0.1), ("damping", -1.0), ("amplitude_ratio", -1)],
+)
+def test_an_invalid_case_is_refused_by_name(name: str, value: float) -> None:
+    with pytest.raises(ValueError, match=name):
+        LugreCase(**{name: value})

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from slider_resonator.device.device import Device
-from slider_resonator.references.closed_forms import equivalent_force
+from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.contact import LIFTED, SLIP_FORWARD, STICK
 from slider_resonator.references.resolved.equations import equations_of, initial_state
 

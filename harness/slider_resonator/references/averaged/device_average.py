@@ -1,0 +1,130 @@
+"""Averages of a device, dimensional: mean friction, steady velocity and blocking force."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from slider_resonator.device.device import Device
+from slider_resonator.references.averaged import averaged_coulomb, uniform_average
+from slider_resonator.references.averaged.uniform_average import LugreCase
+from slider_resonator.references.equivalent_force import EquivalentForce, equivalent_force
+
+_SAMPLES = 65
+"""Velocities between which equilibria are searched."""
+
+
+def mean_friction(
+    device: Device, force: EquivalentForce, velocity: float, lead: float, ratio: float
+) -> float:
+    """Return the mean friction in N at a slow velocity in m/s.
+
+    ``lead`` in rad is how far the normal load is ahead of ``ratio`` times the base excitation; the
+    phase counts only for an integer ratio. Raises ValueError for values out of bounds.
+    """
+    phase = lead + ratio * force.angle
+    fast, scale = force.velocity_amplitude, device.friction_faces * device.normal_preload
+    if device.friction_law == 0:
+        share = averaged_coulomb.mean_friction(velocity, fast, device.amplitude_ratio, phase, ratio)
+        return scale * device.friction_coefficient * share
+    case = LugreCase(
+        fast, device.amplitude_ratio, phase, device.friction_coefficient, device.bristle_damping
+    )
+    return scale * uniform_average.mean_friction(
+        velocity, case, device.bristle_stiffness, device.drive_frequency, ratio
+    )
+
+
+def full_friction(device: Device, phase: float, ratio: float) -> float:
+    """Return the mean friction in N of a block that slides without vibration, under either law.
+
+    ``phase`` in rad is that of the normal load, which counts only at ratio 0.
+    """
+    share = averaged_coulomb.mean_friction(1.0, 1.0, device.amplitude_ratio, phase, ratio)
+    return device.mean_friction * share
+
+
+def steady_velocity(device: Device, phase: float, load: float, ratio: float) -> float:
+    """Return the steady velocity in m/s, (5) and (20) for Coulomb friction at ratio 1.
+
+    ``phase`` in rad relative to the base excitation, ``load`` in N. Raises ValueError for a device
+    without vibration, as `fast_motion` does, and for a load that friction does not balance.
+    """
+    force = _vibration(device)
+    return stable_velocity(
+        lambda velocity: mean_friction(device, force, velocity, phase, ratio),
+        force.velocity_amplitude,
+        load,
+    )
+
+
+def blocking_force(device: Device, phase: float, ratio: float) -> float:
+    """Return the load in N that stops a device; phase in rad relative to the base excitation.
+
+    For Coulomb friction at ratio 1 it is (22), which is for one face, times the faces. Raises
+    ValueError for a device without vibration and as `fast_motion` does.
+    """
+    return -mean_friction(device, _vibration(device), 0.0, phase, ratio)
+
+
+def fast_motion(device: Device) -> EquivalentForce:
+    """Return the motion that averages are over.
+
+    Raises ValueError as `equivalent_force` does and for a device without friction.
+    """
+    if device.mean_friction <= 0.0:
+        raise ValueError(
+            f"mean friction = {device.mean_friction!r} N from friction_coefficient = "
+            f"{device.friction_coefficient!r} and normal_preload = {device.normal_preload!r} N "
+            "must be greater than 0: averages are in units of it"
+        )
+    return equivalent_force(device)
+
+
+def _vibration(device: Device) -> EquivalentForce:
+    force = fast_motion(device)
+    if force.amplitude <= 0.0:
+        raise ValueError(
+            f"base_amplitude = {device.base_amplitude!r} m and tangential_force = "
+            f"{device.tangential_force!r} N: averages need a vibration, one must differ from 0"
+        )
+    return force
+
+
+def stable_velocity(friction: Callable[[float], float], strength: float, load: float) -> float:
+    """Return the slow velocity within +-``strength`` that balances a load and is stable.
+
+    ``friction`` is the averaged friction at a slow velocity, constant from +-strength on, ``load``
+    in its unit. LuGre friction is not monotonic, so that a load above that of full sliding may be
+    balanced, and at more than one velocity: the one farthest in the direction in which the slider
+    leaves rest without load is returned. Raises ValueError if there is none.
+    """
+
+    def excess(turn: float) -> float:
+        return friction(strength * math.cos(turn)) + load
+
+    turns = [math.pi * step / (_SAMPLES - 1) for step in range(_SAMPLES)]
+    values = [excess(turn) for turn in turns]
+    found = [
+        strength * math.cos(_root(excess, turns[step], turns[step + 1]))
+        for step in range(_SAMPLES - 1)
+        if values[step] > 0.0 >= values[step + 1]  # friction grows with velocity
+    ]
+    if not found:
+        raise ValueError(
+            f"load = {load!r} is balanced at no velocity: friction lies between "
+            f"{min(values) - load!r} and {max(values) - load!r}, a greater load runs away"
+        )
+    return max(found) if friction(0.0) <= 0.0 else min(found)
+
+
+def _root(function: Callable[[float], float], left: float, right: float) -> float:
+    """Return where a function falls through 0, by halving: scipy's takes longer to load."""
+    while True:
+        middle = 0.5 * (left + right)
+        if middle in (left, right):
+            return middle
+        if function(middle) > 0.0:
+            left = middle
+        else:
+            right = middle

@@ -1,0 +1,100 @@
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from slider_resonator.device.device import Device
+from slider_resonator.references.averaged.device_average import blocking_force, steady_velocity
+from slider_resonator.references.equivalent_force import equivalent_force
+
+TABLE_1 = Device()
+SLIPPING_RESONANCE = {"damping_ratio": 0.0, "resonator_frequency": 3500.0 * math.sqrt(1.0 / 1.1)}
+
+
+def test_table_1_figures() -> None:
+    force = equivalent_force(TABLE_1)
+    assert force.amplitude == pytest.approx(910.947, abs=5e-4), "F_T* in N"
+    assert force.angle == pytest.approx(0.733313, abs=5e-7), "phi = theta1 in rad at phase 0"
+    assert force.ripple_amplitude == pytest.approx(67.603e-6, abs=5e-10), "ripple in m"
+    velocity = steady_velocity(TABLE_1, 0.0, 0.0, 1.0)
+    assert velocity == pytest.approx(0.126731, abs=5e-7), "steady velocity of (5) in m/s"
+    blocking = blocking_force(TABLE_1, 0.0, 1.0)
+    assert blocking == pytest.approx(0.085222, abs=5e-7), "blocking force of both faces in N"
+
+
+def test_one_face_blocks_at_half_the_force() -> None:
+    one = blocking_force(replace(TABLE_1, friction_faces=1), 0.3, 1.0)
+    force = equivalent_force(TABLE_1)
+    expected = 2.0 / math.pi * 0.1 * 1.0 * math.sin(0.3 + force.angle)
+    assert one == pytest.approx(expected), "(22) as printed holds for one face"
+
+
+@pytest.mark.parametrize(
+    "device",
+    [
+        TABLE_1,
+        replace(TABLE_1, resonator_frequency=1500.0),
+        replace(TABLE_1, resonator_frequency=6000.0, damping_ratio=0.4),
+        replace(TABLE_1, tangential_force=300.0),
+        replace(TABLE_1, tangential_force=2000.0, base_amplitude=0.0),
+        replace(TABLE_1, resonator_frequency=1500.0, damping_ratio=0.0, tangential_force=-50.0),
+    ],
+    ids=["table 1", "above resonance", "damped", "both drives", "direct drive", "undamped"],
+)
+def test_equivalent_force_matches_the_frictionless_device(device: Device) -> None:
+    """Integrate fig. 6 without friction from the claimed steady state: it must stay in it."""
+    force = equivalent_force(device)
+    frequency, mass = device.drive_frequency, device.resonator_mass
+
+    def slopes(time: float, state: np.ndarray) -> list[float]:
+        _, displacement, velocity = state
+        spring = device.damping * velocity + device.stiffness * displacement
+        push = device.tangential_force * math.sin(frequency * time)
+        slider = (spring + push) / device.slider_mass
+        base = device.base_amplitude * frequency**2 * math.sin(frequency * time)
+        return [slider, velocity, base - spring / mass - slider]
+
+    period = 2.0 * math.pi / frequency
+    turned = -force.resonator_angle
+    start = [
+        -force.velocity_amplitude * math.cos(force.angle),
+        force.resonator_amplitude * math.sin(turned),
+        frequency * force.resonator_amplitude * math.cos(turned),
+    ]
+    times = np.linspace(0.0, 3.0 * period, 50)
+    run = solve_ivp(
+        slopes,
+        (0.0, float(times[-1])),
+        start,
+        "DOP853",
+        times,
+        rtol=1e-11,
+        atol=1e-16,
+        max_step=1e-4,
+    )
+    velocity = -force.velocity_amplitude * np.cos(frequency * times - force.angle)
+    allowed = 1e-7 * force.velocity_amplitude
+    assert run.y[0] == pytest.approx(velocity, abs=allowed), "as under F_T* alone, (33)"
+    resonator = force.resonator_amplitude * np.sin(frequency * times - force.resonator_angle)
+    allowed = 1e-7 * abs(force.resonator_amplitude)
+    assert run.y[1] == pytest.approx(resonator, abs=allowed), "as (32) says"
+
+
+@pytest.mark.parametrize(
+    ("changed", "load", "message"),
+    [
+        ({}, 0.25, r"load = 0\.25 .* 0\.2"),
+        ({"base_amplitude": 0.0}, 0.0, r"base_amplitude = 0\.0 m and tangential_force"),
+        ({"normal_preload": 0.0}, 0.0, r"normal_preload = 0\.0 N must be greater than 0"),
+        (SLIPPING_RESONANCE, 0.0, r"damping_ratio = 0\.0 .* greater than 0"),
+    ],
+)
+def test_device_without_an_average_is_refused(
+    changed: dict[str, float], load: float, message: str
+) -> None:
+    with pytest.raises(ValueError, match=message):
+        steady_velocity(Device.from_mapping(changed), 0.0, load, 1.0)
