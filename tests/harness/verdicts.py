@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from slider_resonator.checks.compare import Check
-from slider_resonator.checks.validate import Curves, NotApplied, RunFailure, Validation
+from slider_resonator.checks.curves import Curves
+from slider_resonator.checks.validate import NotApplied, RunFailure, Validation
 
 PASSED = Check(
     *("phase_sweep", "steady_velocity", "m/s", 0.126667, "located_events", 0.126667),

@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from slider_resonator.checks.compare import Check, Comparison, Tolerance, compare
+from slider_resonator.checks.curves import Curves, curves_of
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measuring import Measurement, measure
-from slider_resonator.checks.validate import Curves, curves_of
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.scene import ScenePoint
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -83,11 +83,11 @@ AGAINST = "baseline"
 def compare_golden(
     point: ScenePoint, golden: Golden, now: Golden, tolerance: float
 ) -> Iterator[tuple[Check, Curves | None]]:
-    """Compare every quantity that was recorded or exists now; yield checks and their curves.
+    """Compare every quantity that was recorded or exists now.
 
-    Numbers may change by `tolerance` times their size, signals by that share of their peak, times
-    of events by that share of a drive period; counts, words and contact modes must be equal. Raises
-    SceneError where the run has other points.
+    Yield checks, and the curves of failed ones. Numbers may change by `tolerance` times their size,
+    signals by that share of their peak, times of events by that share of a drive period; counts,
+    words and contact modes must be equal. Raises SceneError where the run has other points.
     """
     for name in sorted({*golden, *now}, key=order):
         recorded = golden.get(name, Measurement(None, "it was not recorded"))
@@ -106,7 +106,7 @@ def compare_golden(
         check = compare(comparison, measured, recorded.value, point)
         if measured.value is None and recorded.value is None:
             check = replace(check, passed=True)
-        yield check, curves_of(check, measured, recorded.value)
+        yield check, None if check.passed else curves_of(check, measured, recorded.value)
 
 
 def _same_points(one: Measurement, other: Measurement) -> bool:

@@ -27,8 +27,9 @@ from slider_resonator.baseline.store import (
     write_recorded,
 )
 from slider_resonator.checks.compare import Check
+from slider_resonator.checks.curves import Curves
 from slider_resonator.checks.fmu_side import measure_points
-from slider_resonator.checks.validate import Curves, NotApplied, RunFailure, Validation
+from slider_resonator.checks.validate import NotApplied, RunFailure, Validation
 from slider_resonator.errors import HarnessError, NotApplicable, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu

@@ -12,7 +12,6 @@ from slider_resonator.arrays import Array
 from slider_resonator.checks.conduct.dependencies import dependency_faults
 from slider_resonator.checks.conduct.devices import device_faults
 from slider_resonator.checks.conduct.experiments import experiment_faults
-from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.conduct.host_calls import host_faults
 from slider_resonator.checks.conduct.input_rates import rate_differences
 from slider_resonator.checks.conduct.refusals import refusal_faults
@@ -41,6 +40,8 @@ from slider_resonator.errors import NotApplicable, SceneError
 from slider_resonator.fmu.interface_check import description_faults
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
+SHOWN = 3
+"""Faults that a text names; the others are counted."""
 _ESTIMATE = "slow_motion_error"
 WITHIN = 0.1
 """Share of the error that `tolerance` allows up to which an error counts as none."""
@@ -94,8 +95,9 @@ def measure(quantity: str, fmu: FmuSide) -> Measurement:
         raise SceneError(f"{where} cannot be measured: {error}") from error
     if QUANTITIES[quantity].kind == "signal":
         return Measurement(value, times=fmu.record.times[-len(value) :])
-    if isinstance(value, Findings):
-        return Measurement(float(value.count), value.text)
+    if isinstance(value, list):
+        more = [f"and {len(value) - SHOWN} more"] if len(value) > SHOWN else []
+        return Measurement(float(len(value)), "; ".join([*value[:SHOWN], *more]))
     if value is None:
         search = fmu.steady if quantity == "steady_velocity" else fmu.blocking
         return Measurement(None, search.reason)
@@ -184,7 +186,7 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "other_device_differences": other_device_differences,
     "refusal_faults": refusal_faults,
     "start_faults": start_faults,
-    "description_faults": lambda fmu: Findings.of(description_faults(fmu.instance.fmu.description)),
+    "description_faults": lambda fmu: description_faults(fmu.instance.fmu.description),
     "dependency_faults": dependency_faults,
     "device_faults": device_faults,
     "experiment_faults": experiment_faults,

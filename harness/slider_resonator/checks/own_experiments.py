@@ -15,8 +15,9 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.compare import Check, Comparison, Tolerance, compare
+from slider_resonator.checks.curves import Curves
 from slider_resonator.checks.measuring import Measurement
-from slider_resonator.checks.validate import Curves, RunFailure, Validation, curves_of
+from slider_resonator.checks.validate import RunFailure, Validation
 from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
@@ -86,7 +87,7 @@ def validate_own(
 
 def _validate(fmu: Path, progress: Progress, time_limit: float) -> Validation:
     began, checks, failures = perf_counter(), list[Check](), list[RunFailure]()
-    curves: list[Curves | None] = []
+    curves: list[Curves] = []
     try:
         experiments = own_experiments(fmu)
     except HarnessError as error:
@@ -95,9 +96,9 @@ def _validate(fmu: Path, progress: Progress, time_limit: float) -> Validation:
         point = ScenePoint(experiment.scene)
         progress(f"{fmu.name}: {experiment.scene.name}", index / len(experiments))
         try:
-            for check, measured, expected in _judged(fmu, experiment, point, time_limit):
-                checks.append(check)
-                curves.append(curves_of(check, measured, expected))
+            for one in _judged(fmu, experiment, point, time_limit):
+                checks.append(one.check)
+                curves += [] if one.check.passed else [one]
         except HarnessError as error:
             failures.append(RunFailure.of(fmu, point, error))
     return Validation(
@@ -105,7 +106,7 @@ def _validate(fmu: Path, progress: Progress, time_limit: float) -> Validation:
         tuple(checks),
         perf_counter() - began,
         tuple(failures),
-        tuple(curve for curve in curves if curve is not None),
+        tuple(curves),
         lacking(fmu),
         identity=identity_of(fmu),
     )
@@ -113,7 +114,8 @@ def _validate(fmu: Path, progress: Progress, time_limit: float) -> Validation:
 
 def _judged(
     fmu: Path, experiment: OwnExperiment, point: ScenePoint, time_limit: float
-) -> list[tuple[Check, Measurement, Array]]:
+) -> list[Curves]:
+    """Return the check of each result, with its signals."""
     scene, times = experiment.scene, experiment.times
     with IsolatedFmu(fmu, time_limit) as isolated:
         task = partial(run, parameters=scene.parameters, schedule=scene.schedule())
@@ -131,7 +133,8 @@ def _judged(
             Tolerance(relative=experiment.allowed),
             "the FMU carries this result of its experiment",
         )
-        judged.append((compare(comparison, measured, expected, point), measured, expected))
+        check = compare(comparison, measured, expected, point)
+        judged.append(Curves(check, times, measured.value, expected))
     return judged
 
 

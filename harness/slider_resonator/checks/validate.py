@@ -10,13 +10,11 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from slider_resonator.arrays import Array
 from slider_resonator.checks.compare import Check, Comparison, compare
+from slider_resonator.checks.curves import Curves, curves_of, overview_of
 from slider_resonator.checks.expected_values import ExpectedValues
 from slider_resonator.checks.fmu_side import measure_points
-from slider_resonator.checks.measures import Tube
-from slider_resonator.checks.measuring import Measurement, measure_all
-from slider_resonator.checks.overview import Overview, overview_of
+from slider_resonator.checks.measuring import measure_all
 from slider_resonator.checks.verdict import place, sentence, title
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
@@ -27,7 +25,6 @@ from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.scenes.scene import Scene, ScenePoint
-from slider_resonator.scenes.vocabulary import QUANTITIES
 
 
 @dataclass(frozen=True)
@@ -57,16 +54,6 @@ class NotApplied:
     at: Mapping[str, float]
 
 
-@dataclass(frozen=True)
-class Curves:
-    """The signals behind a failed check: `fmu` and `reference` at `times` (s), all shape (n,)."""
-
-    check: Check
-    times: Array
-    fmu: Array
-    reference: Array
-
-
 @dataclass(frozen=True, repr=False)
 class Validation(Shown, Tabular):
     """All checks of an FMU, in the order of the scenes, and the wall time in s.
@@ -87,7 +74,7 @@ class Validation(Shown, Tabular):
     lacks: tuple[str, ...] = ()
     not_applied: tuple[NotApplied, ...] = ()
     identity: FmuIdentity | None = None
-    overviews: tuple[Overview, ...] = ()
+    overviews: tuple[Curves, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -189,9 +176,9 @@ class _Judging:
         self._waiting: deque[Finished[ScenePoint]] = deque()
         self._checks: list[Check] = []
         self._run_failures: list[RunFailure] = []
-        self._curves: list[Curves | None] = []
+        self._curves: list[Curves] = []
         self._not_applied: list[NotApplied] = []
-        self._overviews: dict[str, Overview | None] = {}
+        self._overviews: dict[str, Curves | None] = {}
 
     def measure(self, points: Sequence[ScenePoint], time_limit: float, jobs: int) -> None:
         """Run the points, and judge those at the head whose expected values are there by then."""
@@ -222,7 +209,7 @@ class _Judging:
             tuple(self._checks),
             perf_counter() - self._began,
             tuple(self._run_failures),
-            tuple(curve for curve in self._curves if curve is not None),
+            tuple(self._curves),
             lacking(self._path),
             tuple(self._not_applied),
             self._identity,
@@ -239,7 +226,7 @@ class _Judging:
             self._run_failures.append(RunFailure.of(self._path, point, one.error))
             return
         values = self._expected.at(point)
-        judged: list[tuple[Check, Measurement, object]] = []
+        signals: list[Curves] = []
         for expect, measured, value in zip(point.scene.expect, one.result, values, strict=True):
             if not measured.applicable:
                 place = (point.scene.name, expect.quantity, measured.note, point.at)
@@ -249,10 +236,11 @@ class _Judging:
             else:
                 check = compare(Comparison.of(expect), measured, value, point)
                 self._checks.append(check)
-                self._curves.append(curves_of(check, measured, value))
-                judged.append((check, measured, value))
+                if curves := curves_of(check, measured, value):
+                    signals.append(curves)
+        self._curves += [one for one in signals if not one.check.passed]
         if point.scene.name not in self._overviews:
-            self._overviews[point.scene.name] = overview_of(judged)
+            self._overviews[point.scene.name] = overview_of(signals)
 
 
 def provenance_of_all(validations: Sequence[Validation]) -> Provenance:
@@ -279,15 +267,6 @@ def not_applied(validation: Validation) -> list[tuple[str, str, str]]:
         (f"{one.scene}{place(one.at, ' at ')}", one.quantity, one.reason)
         for one in validation.not_applied
     ]
-
-
-def curves_of(check: Check, measured: Measurement, expected: Any) -> Curves | None:
-    """Return the signals behind a failed check, None where it has passed or has no signal."""
-    signal = QUANTITIES[check.quantity].kind == "signal"
-    if not signal or check.passed or measured.times is None:
-        return None
-    middle = expected.middle if isinstance(expected, Tube) else expected
-    return Curves(check, measured.times, measured.value, middle)
 
 
 def worst_of_sweeps(checks: Sequence[Check]) -> list[tuple[Check, int]]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from fmpy.model_description import Unknown
 
-from slider_resonator.checks.conduct.findings import Findings, other_value
+from slider_resonator.checks.conduct.findings import other_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import INPUTS, SETTABLE, VARIABLES
@@ -27,7 +27,7 @@ STEP = 1.37e-4
 """Steps (s) of a run after each of which an input is changed."""
 
 
-def dependency_faults(fmu: FmuSide) -> Findings:
+def dependency_faults(fmu: FmuSide) -> list[str]:
     """Change each variable at the start, and each input in a run, and see which outputs follow."""
     instance, description = fmu.instance, fmu.instance.fmu.description
     at_start = _declared(description.initialUnknowns)
@@ -48,7 +48,7 @@ def dependency_faults(fmu: FmuSide) -> Findings:
             for _ in range(STEPS):
                 instance.step_by(STEP)
                 faults += _after_inputs(instance, situation, in_run)
-    return Findings.of(list(dict.fromkeys(faults)))
+    return list(dict.fromkeys(faults))
 
 
 def _after_inputs(

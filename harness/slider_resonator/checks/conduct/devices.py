@@ -10,7 +10,6 @@ from math import isfinite, sqrt
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Discard
 
-from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fmu.instance import Instance
@@ -62,7 +61,7 @@ LONG_STEP = 0.2
 """A step (s) that takes the last of them beyond."""
 
 
-def device_faults(fmu: FmuSide) -> Findings:
+def device_faults(fmu: FmuSide) -> list[str]:
     """Start each device, and turn a good one into it in a run; both must be refused by name.
 
     Extreme devices may be refused, but what is accepted has finite outputs.
@@ -74,7 +73,7 @@ def device_faults(fmu: FmuSide) -> Findings:
         faults += _in_a_run(instance, one)
     for device in EXTREMES:
         faults += _extreme(instance, device)
-    return Findings.of(faults)
+    return faults
 
 
 def _at_the_start(instance: Instance, one: Meaningless) -> Iterator[str]:

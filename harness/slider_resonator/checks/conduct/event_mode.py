@@ -12,7 +12,6 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Warning
 from fmpy.fmi3 import FMU3Slave
 
-from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.opening import Fmu
 
@@ -92,7 +91,7 @@ def _made(fmu: Fmu, *, events: bool, early: bool) -> Iterator[_Slave]:
         made.slave.freeInstance()
 
 
-def event_mode_faults(instance: Instance) -> Findings:
+def event_mode_faults(instance: Instance) -> list[str]:
     """Run an FMI 3.0 FMU with and without event mode, and compare."""
     fmu = instance.fmu
     try:
@@ -101,7 +100,7 @@ def event_mode_faults(instance: Instance) -> Findings:
         faults += [*_late_return_faults(fmu), *_call_faults(fmu)]
     except FMICallException as error:
         faults = [f"a run with event mode fails: {error}"]
-    return Findings.of(faults)
+    return faults
 
 
 def _plain_run(fmu: Fmu) -> tuple[list[list[float]], list[float]]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,34 +12,6 @@ from slider_resonator.device.interface import INPUTS, VARIABLES
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
 
-SHOWN = 3
-"""Findings that a text names; the others are counted."""
-
-
-@dataclass(frozen=True)
-class Findings:
-    """How many things are wrong, and the first of them in words."""
-
-    count: int
-    shown: tuple[str, ...]
-
-    @classmethod
-    def of(cls, faults: Sequence[str]) -> Findings:
-        """Return the findings of faults in words."""
-        return cls(len(faults), tuple(faults[:SHOWN]))
-
-    def __add__(self, other: Findings) -> Findings:
-        return Findings(self.count + other.count, (*self.shown, *other.shown)[:SHOWN])
-
-    @property
-    def text(self) -> str:
-        """The first findings in words, and the number of the others."""
-        more = self.count - len(self.shown)
-        return "; ".join([*self.shown, *([f"and {more} more"] if more else [])])
-
-
-NOTHING = Findings(0, ())
-
 
 def differences(
     what: str,
@@ -48,7 +19,7 @@ def differences(
     times: Array,
     rows: Sequence[Sequence[float]],
     expected: Sequence[Sequence[float]],
-) -> Findings:
+) -> list[str]:
     """Return where rows of outputs, at times (s) of shape (n,), are not equal to the last bit.
 
     `what` begins each finding. Rows that are missing or too many count as one difference each.
@@ -57,15 +28,13 @@ def differences(
     seen, right = np.array(rows[:count]), np.array(expected[:count])
     shape = count, len(outputs)
     places = np.argwhere(seen.reshape(shape) != right.reshape(shape))
-    shown = [
+    found = [
         f"{what}: {outputs[column]} at {times[row]:.9g} s is {float(seen[row, column])!r}, was "
         f"{float(right[row, column])!r}"
-        for row, column in places[:SHOWN].tolist()
+        for row, column in places.tolist()
     ]
-    lengths = abs(len(rows) - len(expected))
-    if lengths:
-        shown.append(f"{what}: {len(rows)} readings, expected {len(expected)}")
-    return Findings(len(places) + lengths, tuple(shown[:SHOWN]))
+    counts = f"{what}: {len(rows)} readings, expected {len(expected)}"
+    return found + [counts] * abs(len(rows) - len(expected))
 
 
 SHARE = 0.37

@@ -21,7 +21,6 @@ from fmpy.fmi2 import (
 )
 
 from slider_resonator.checks.conduct.event_mode import event_mode_faults
-from slider_resonator.checks.conduct.findings import Findings
 from slider_resonator.checks.conduct.memory import instance_leaks
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INTEGERS, PARAMETERS, VARIABLES
@@ -52,7 +51,7 @@ MANY = 4096
 """Number of values read in one call, far more than there are variables."""
 
 
-def host_faults(fmu: FmuSide) -> Findings:
+def host_faults(fmu: FmuSide) -> list[str]:
     """Ask for the version, try instances that must not be made, and switch logging off and on.
 
     One of FMI 3.0 is asked about its event mode, where it has one.
@@ -83,7 +82,7 @@ def host_faults(fmu: FmuSide) -> Findings:
         instance.terminate()
     faults += _integer_faults(instance)
     faults += instance_leaks(instance)
-    return Findings.of(faults)
+    return faults
 
 
 def _version_faults(slave: FMU2Slave) -> Iterator[str]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from slider_resonator.checks.conduct.findings import NOTHING, Findings, differences
+from slider_resonator.checks.conduct.findings import differences
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule
@@ -26,7 +26,7 @@ ROUNDING = 1e-9
 """Share of the peak by which positions may differ where inputs are added up differently."""
 
 
-def rate_differences(fmu: FmuSide) -> Findings:
+def rate_differences(fmu: FmuSide) -> list[str]:
     """Set derivatives before values; leave out those of inputs that are held; set one by one.
 
     An input that is set without a derivative after a step is held from then on.
@@ -35,7 +35,7 @@ def rate_differences(fmu: FmuSide) -> Findings:
     instance.fmu.require("canInterpolateInputs")
     plain = run(instance, fmu.scene.parameters, schedule)
     expected = np.column_stack([plain[name] for name in instance.fmu.outputs]).tolist()
-    found = NOTHING
+    found: list[str] = []
     for what, set_inputs in WAYS.items():
         running = Running(instance, schedule)
         running.start(fmu.scene.parameters)
@@ -50,7 +50,7 @@ def rate_differences(fmu: FmuSide) -> Findings:
     return found + _kept(fmu, plain) + _begun(fmu)
 
 
-def _kept(fmu: FmuSide, plain: Record) -> Findings:
+def _kept(fmu: FmuSide, plain: Record) -> list[str]:
     """Set values and derivatives at the corners of lines only: derivatives last until then."""
     instance, schedule = fmu.instance, fmu.scene.schedule()
     rates = schedule.rates
@@ -68,11 +68,11 @@ def _kept(fmu: FmuSide, plain: Record) -> Findings:
     position = np.array(running.rows)[:, 0]
     off = float(np.abs(position - plain["position"]).max() / np.abs(plain["position"]).max())
     if off <= ROUNDING:
-        return NOTHING
-    return Findings.of([f"position is off by {off:.2g} of its peak where derivatives are kept"])
+        return []
+    return [f"position is off by {off:.2g} of its peak where derivatives are kept"]
 
 
-def _begun(fmu: FmuSide) -> Findings:
+def _begun(fmu: FmuSide) -> list[str]:
     """Set derivatives before a reset, where they must end, and before initialization ends."""
     instance, parameters = fmu.instance, fmu.scene.parameters
 
@@ -98,7 +98,7 @@ def _begun(fmu: FmuSide) -> Findings:
         instance.begin()
         if after_a_step() != growing:
             faults.append("derivatives set before initialization ends are forgotten")
-    return Findings.of(faults)
+    return faults
 
 
 def _before_values(instance: Instance, schedule: Schedule, step: int) -> None:

@@ -14,7 +14,6 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Fatal
 
 from slider_resonator.checks.conduct.findings import (
-    Findings,
     adding_refusal,
     differences,
     other_value,
@@ -257,7 +256,7 @@ def bad_values(variable: Variable) -> list[float]:
     return beyond + ([] if high is None else [math.nextafter(high, math.inf), high + 1.0])
 
 
-def refusal_faults(fmu: FmuSide) -> Findings:
+def refusal_faults(fmu: FmuSide) -> list[str]:
     """Try what must be refused before, in and after the run of the scene; the run goes on."""
     instance, schedule = fmu.instance, fmu.scene.schedule()
     expected = plain_rows(instance, fmu.scene.parameters, schedule)
@@ -269,8 +268,8 @@ def refusal_faults(fmu: FmuSide) -> Findings:
         what = "a run with refused calls"
         outputs, times = instance.fmu.outputs, schedule.readings()
         found = differences(what, outputs, times, running.rows, expected)
-        return Findings.of(trial.faults) + found
-    return Findings.of(trial.faults)
+        return trial.faults + found
+    return trial.faults
 
 
 def _try_all(trial: Trial, running: Running, start: Mapping[str, float], start_time: float) -> None:

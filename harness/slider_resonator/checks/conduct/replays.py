@@ -11,8 +11,6 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from slider_resonator.checks.conduct.findings import (
-    NOTHING,
-    Findings,
     differences,
     other_inputs,
     other_value,
@@ -49,7 +47,7 @@ class _Comparison:
         self.rows = plain_rows(self.instance, self.parameters, self.schedule)
         self._times = self.schedule.readings()
 
-    def of(self, what: str, rows: Rows, *, begin: int = 0) -> Findings:
+    def of(self, what: str, rows: Rows, *, begin: int = 0) -> list[str]:
         """Return how rows from the reading `begin` on differ from those of the run."""
         outputs = self.instance.fmu.outputs
         return differences(what, outputs, self._times[begin:], rows, self.rows[begin:])
@@ -80,7 +78,7 @@ def _another(instance: Instance) -> Iterator[Instance]:
         yield other
 
 
-def reset_differences(fmu: FmuSide) -> Findings:
+def reset_differences(fmu: FmuSide) -> list[str]:
     """Compare a run on a new instance with one after a reset: after a run, and in its middle."""
     fmu.instance.renew()
     first = _Comparison(fmu)
@@ -96,7 +94,7 @@ def reset_differences(fmu: FmuSide) -> Findings:
     return found + first.of("after a run that was terminated and reset", again)
 
 
-def restored_differences(fmu: FmuSide) -> Findings:
+def restored_differences(fmu: FmuSide) -> list[str]:
     """Save states in a run, and go on from each after the run and a detour.
 
     From each saved state derivatives of outputs are compared with a short step, but not from the
@@ -105,7 +103,7 @@ def restored_differences(fmu: FmuSide) -> Findings:
     fmu.instance.fmu.require("canGetAndSetFMUstate")
     plain = _Comparison(fmu)
     instance = fmu.instance
-    found = NOTHING
+    found: list[str] = []
     wrong: list[str] = []
     device = fmu.scene.device
     begins_resolved = device.fidelity > 0 or device.averaging_order == 2
@@ -136,7 +134,7 @@ def restored_differences(fmu: FmuSide) -> Findings:
         finally:
             for _, _, state in saved:
                 state.free()
-    return found + Findings.of(wrong)
+    return found + wrong
 
 
 def _detour(running: Running, step: int) -> None:
@@ -149,13 +147,13 @@ def _detour(running: Running, step: int) -> None:
         instance.step_by(running.step_size(index))
 
 
-def transferred_differences(fmu: FmuSide) -> Findings:
+def transferred_differences(fmu: FmuSide) -> list[str]:
     """Go on in another instance, at first new and then used, from serialised states."""
     fmu.instance.fmu.require("canGetAndSetFMUstate")
     fmu.instance.fmu.require("canSerializeFMUstate")
     plain = _Comparison(fmu)
     instance = fmu.instance
-    found = NOTHING
+    found: list[str] = []
     with _another(instance) as other, instance.explained():
         running = _started(instance, plain.parameters, plain.schedule)
         taken = Running(other, plain.schedule)
@@ -177,7 +175,7 @@ def transferred_differences(fmu: FmuSide) -> Findings:
     return found
 
 
-def beside_differences(fmu: FmuSide) -> Findings:
+def beside_differences(fmu: FmuSide) -> list[str]:
     """Step two instances in turn, the second started later, and compare each with itself alone."""
     assert fmu.scene.beside is not None
     beside = fmu.scene.beside
@@ -202,7 +200,7 @@ def beside_differences(fmu: FmuSide) -> Findings:
         return found + differences("the other instance", outputs, times, second.rows, alone)
 
 
-def _kept(what: str, instance: Instance, given: Mapping[str, float]) -> Findings:
+def _kept(what: str, instance: Instance, given: Mapping[str, float]) -> list[str]:
     """Return which fixed parameters are not as they were given."""
     fixed = {name: value for name, value in given.items() if name not in TUNABLES}
     wrong = [
@@ -210,10 +208,10 @@ def _kept(what: str, instance: Instance, given: Mapping[str, float]) -> Findings
         for name, value in instance.read(list(fixed)).items()
         if not is_same(value, fixed[name])
     ]
-    return Findings.of([f"{what}: {name} is not what was set" for name in wrong])
+    return [f"{what}: {name} is not what was set" for name in wrong]
 
 
-def overwritten_differences(fmu: FmuSide) -> Findings:
+def overwritten_differences(fmu: FmuSide) -> list[str]:
     """Set another and a refused value before each value, at the start and in the run.
 
     Before the run outputs are read under the other values.
@@ -246,10 +244,10 @@ def overwritten_differences(fmu: FmuSide) -> Findings:
             instance.set(present)
             running.advance(step)
     found = plain.of("with values set again", running.rows)
-    return found + Findings.of(list(dict.fromkeys(accepted)))
+    return found + list(dict.fromkeys(accepted))
 
 
-def separate_differences(fmu: FmuSide) -> Findings:
+def separate_differences(fmu: FmuSide) -> list[str]:
     """Set what changes, and nothing else, each value by a call of its own.
 
     Initialization ends under a load that breaks a stick; that of the scene is set after it, as many
@@ -289,7 +287,7 @@ def _refused(instance: Instance, name: str) -> list[str]:
     return [f"{name} takes a value that must be refused"]
 
 
-def reading_differences(fmu: FmuSide) -> Findings:
+def reading_differences(fmu: FmuSide) -> list[str]:
     """Read all variables, one by one and backwards, and the status, between any two calls."""
     plain = _Comparison(fmu)
     instance, schedule = fmu.instance, plain.schedule
@@ -318,10 +316,10 @@ def reading_differences(fmu: FmuSide) -> Findings:
             running.advance(step, read_all)
             read_all()
             unequal += status_faults(instance)
-    return plain.of("with more readings", running.rows) + Findings.of(unequal)
+    return plain.of("with more readings", running.rows) + unequal
 
 
-def other_device_differences(fmu: FmuSide) -> Findings:
+def other_device_differences(fmu: FmuSide) -> list[str]:
     """Compare a run with those after runs of devices that differ in one parameter each.
 
     Each of them is the first on its instance. A device that the FMU refuses is left out.
@@ -329,7 +327,7 @@ def other_device_differences(fmu: FmuSide) -> Findings:
     instance, schedule, given = fmu.instance, fmu.scene.schedule(), fmu.scene.parameters
     instance.renew()
     plain = plain_rows(instance, given, schedule)
-    found = NOTHING
+    found: list[str] = []
     for name in PARAMETERS:
         if name not in instance.fmu.variables or name in schedule.tuning:
             continue

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from slider_resonator.checks.conduct.findings import Findings, other_value
+from slider_resonator.checks.conduct.findings import other_value
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.rounding import is_same
 
 
-def start_faults(fmu: FmuSide) -> Findings:
+def start_faults(fmu: FmuSide) -> list[str]:
     """Read every parameter and input new, when set, in a run and after a reset.
 
     Outputs that are read before initialization ends are those at its end.
@@ -43,7 +43,7 @@ def start_faults(fmu: FmuSide) -> Findings:
         faults += _unequal(instance, others, "after a step")
         instance.set_up()
         faults += _unequal(instance, starts, "after a reset")
-    return Findings.of(faults)
+    return faults
 
 
 def _in_one_call(instance: Instance, others: Mapping[str, float]) -> Iterator[str]:

@@ -9,7 +9,7 @@ from ctypes import byref, c_char, c_void_p
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
-from slider_resonator.checks.conduct.findings import Findings, adding_refusal, other_value
+from slider_resonator.checks.conduct.findings import adding_refusal, other_value
 from slider_resonator.checks.conduct.memory import state_leaks
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
@@ -26,7 +26,7 @@ DAMAGED = 24
 """Places in a serialised state at which a bit is turned."""
 
 
-def state_faults(fmu: FmuSide) -> Findings:
+def state_faults(fmu: FmuSide) -> list[str]:
     """Get a state into the place of another, damage serialised ones, and free them."""
     instance = fmu.instance
     instance.fmu.require("canGetAndSetFMUstate")
@@ -41,7 +41,7 @@ def state_faults(fmu: FmuSide) -> Findings:
         faults.extend(state_leaks(instance))
         faults.extend(_early_faults(instance, fmu.scene.parameters))
         instance.terminate()
-    return Findings.of(faults)
+    return faults
 
 
 def _overwriting_faults(instance: Instance) -> Iterator[str]:

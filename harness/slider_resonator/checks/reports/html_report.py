@@ -7,14 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from slider_resonator.checks.compare import Check
-from slider_resonator.checks.overview import Overview
+from slider_resonator.checks.curves import Curves
 from slider_resonator.checks.reports.headline import headline
 from slider_resonator.checks.validate import (
-    Curves,
     Validation,
     judged_without,
     not_applied,
@@ -32,9 +29,8 @@ from slider_resonator.output.hover_plot import (
     write_plot_page,
 )
 from slider_resonator.output.html_page import escaped, folded, rendered, section
-from slider_resonator.output.plot_style import COLOURS, png_data_uri, style
 from slider_resonator.output.readable import number_of
-from slider_resonator.output.start_beyond import limit_to_later, range_after_start, words_for_start
+from slider_resonator.output.start_beyond import range_after_start, words_for_start
 from slider_resonator.output.table import Cell, Row, Table, numbers, texts, verdict
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -95,54 +91,17 @@ def _failure(check: Check, curves: Curves | None) -> list[str]:
         f'<p>{escaped(sentence(check))}<br><span class="note">{escaped(check.why)}</span></p>',
     ]
     if curves is not None:
-        parts.append(f'<img alt="{escaped(title(check))}" src="{deviation_png(curves)}">')
+        plots = _of_signals(curves.thinned(), "")
+        if check.first_time is not None and len(curves.times) > 2 * ZOOM_POINTS:
+            first = int(np.searchsorted(curves.times, check.first_time))
+            near = slice(max(0, first - ZOOM_POINTS), first + ZOOM_POINTS)
+            plots += _of_signals(curves.part(near), f", from {check.first_time:.9g} s on")
+        parts += map(plot_html, plots)
     return parts
 
 
-NEAR = "around the first deviation"
 ZOOM_POINTS = 64
 """Points shown on each side of the first one outside the tolerance."""
-
-
-def deviation_png(curves: Curves) -> str:
-    """Return a PNG as a data URI: FMU and reference over the run and near the first deviation.
-
-    Few points, such as those of a baseline, are drawn in one panel and not joined: many periods
-    may lie between them.
-    """
-    sparse = len(curves.times) <= ZOOM_POINTS
-    first = curves.check.first_time
-    index = 0 if first is None else int(np.searchsorted(curves.times, first))
-    near = slice(max(0, index - ZOOM_POINTS), index + ZOOM_POINTS)
-    parts = {"points of the run": slice(None)} if sparse else {"whole run": slice(None), NEAR: near}
-    with style():
-        figure = Figure(figsize=(9.0, 4.2), layout="constrained")
-        axes = figure.subplots(2, len(parts), sharex="col", squeeze=False)
-        for column, (title, part) in enumerate(parts.items()):
-            _draw(axes[0][column], axes[1][column], curves, part, joined=not sparse)
-            axes[0][column].set(title=title)
-        unit = curves.check.unit or 1
-        axes[0][0].set(ylabel=f"{curves.check.quantity} [{unit}]")
-        axes[1][0].set(ylabel=f"FMU - reference [{unit}]")
-        axes[0][0].legend()
-        return png_data_uri(figure)
-
-
-def _draw(above: Axes, below: Axes, curves: Curves, part: slice, *, joined: bool) -> None:
-    times = curves.times[part]
-    reference, fmu, difference = ("-", "--", "-") if joined else ("o", "+", "+")
-    above.plot(times, curves.reference[part], reference, color=COLOURS["theory"], label="reference")
-    above.plot(times, curves.fmu[part], fmu, color=COLOURS["velocity"], label="FMU")
-    off = curves.fmu[part] - curves.reference[part]
-    below.plot(times, off, difference, color=COLOURS["velocity"])
-    below.set(xlabel="time [s]")
-    limit_to_later(above, times, curves.fmu[part], curves.reference[part])
-    limit_to_later(below, times, off)
-    if curves.check.first_time is not None:
-        for axes in (above, below):
-            axes.axvline(curves.check.first_time, color="0.4", linewidth=0.8)
-
-
 DIGITS = 8
 HEIGHT, DIFFERENCE_HEIGHT = 240, 170
 MAX_MARKERS = 60
@@ -168,13 +127,13 @@ def scene_sections(validation: Validation, prefix: str) -> list[str]:
     scenes: dict[str, list[Check]] = {}
     for check in validation.checks:
         scenes.setdefault(check.scene, []).append(check)
-    overviews = {overview.scene: overview for overview in validation.overviews}
+    overviews = {overview.check.scene: overview for overview in validation.overviews}
     ids = {scene: f"{prefix}-{number}" for number, scene in enumerate(scenes)}
     columns = (*texts("scene", ""), *numbers("checks", "failed", "largest share of a tolerance"))
     rows = [_index_row(Cell(name, target=ids[name]), checks) for name, checks in scenes.items()]
     parts = ["<h3>Scenes</h3>", rendered(Table(columns, rows))]
     for name, checks in scenes.items():
-        plots = _of_signal(overviews[name]) if name in overviews else _over_sweep(checks)
+        plots = _of_signals(overviews[name], "") if name in overviews else _over_sweep(checks)
         drawn = "".join(plot_html(plot) for plot in plots)
         table = rendered(Table(COLUMNS, [_row(check) for check in checks]))
         failed = sum(not check.passed for check in checks)
@@ -191,14 +150,15 @@ def _index_row(name: Cell, checks: Sequence[Check]) -> Row:
     return (name, verdict(not failed), str(len(checks)), str(failed), share)
 
 
-def _of_signal(overview: Overview) -> list[HoverPlot]:
-    times, fmu, reference = overview.times, overview.fmu, overview.reference
+def _of_signals(curves: Curves, where: str) -> list[HoverPlot]:
+    times, fmu, reference = curves.times, curves.fmu, curves.reference
     shown = range_after_start(times, fmu, reference)
-    name = overview.quantity.replace("_", " ")
+    name = curves.check.quantity.replace("_", " ")
     return _overlay(
-        f"{name}: FMU on reference" + (f"; {words_for_start(fmu, reference)}" if shown else ""),
+        f"{name}: FMU on reference{where}"
+        + (f"; {words_for_start(fmu, reference)}" if shown else ""),
         Axis("time [s]"),
-        Axis(_label(overview.quantity, overview.unit), range=shown),
+        Axis(_label(curves.check.quantity, curves.check.unit), range=shown),
         *(times.tolist(), fmu.tolist(), reference.tolist()),
     )
 

@@ -5,20 +5,20 @@ from dataclasses import replace
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.compare import Check
+from slider_resonator.checks.curves import MAX_POINTS, Curves, curves_of, overview_of
 from slider_resonator.checks.measures import no_tube
 from slider_resonator.checks.measuring import Measurement
-from slider_resonator.checks.overview import MAX_POINTS, overview_of
 from tests.harness.verdicts import PASSED, SIGNAL
 
-Judged = tuple[Check, Measurement, object]
 
-
-def judged(quantity: str, count: int, *, tube: bool = False) -> Judged:
+def judged(quantity: str, count: int, *, tube: bool = False) -> Curves:
     times = np.linspace(0.0, 1.0, count)
     reference: Array = 2.0 * times
     expected = no_tube(reference) if tube else reference
-    return replace(SIGNAL, quantity=quantity), Measurement(times, times=times), expected
+    check = replace(SIGNAL, quantity=quantity)
+    found = curves_of(check, Measurement(times, times=times), expected)
+    assert found is not None
+    return found
 
 
 def test_the_slowest_signal_is_shown_whatever_the_order() -> None:
@@ -26,8 +26,8 @@ def test_the_slowest_signal_is_shown_whatever_the_order() -> None:
     for order in (both, both[::-1]):
         found = overview_of(order)
         assert found is not None
-        assert found.quantity == "mean_velocity_in_run"
-        assert found.scene == SIGNAL.scene
+        assert found.check.quantity == "mean_velocity_in_run"
+        assert found.check.scene == SIGNAL.scene
         assert np.array_equal(found.reference, 2.0 * found.fmu)
 
 
@@ -50,5 +50,5 @@ def test_of_a_long_fast_signal_the_end_is_shown_in_full() -> None:
 
 def test_scenes_without_signals_have_none() -> None:
     assert overview_of([]) is None
-    assert overview_of([(PASSED, Measurement(0.1), 0.1)]) is None
+    assert curves_of(PASSED, Measurement(0.1), 0.1) is None
     assert overview_of([judged("contact_mode", 9)]) is None
