@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from operator import methodcaller
+from operator import attrgetter, methodcaller
 from typing import Any
 
 import numpy as np
 
-from slider_resonator.checks.measures import Tube, no_tube, slow_displacement
+from slider_resonator.checks.measures import no_tube, slow_displacement
 from slider_resonator.checks.period_means import (
     last_events,
     mean_velocities,
@@ -42,14 +42,6 @@ def expected_value(expect: ExpectTable, references: ReferenceSide) -> Any:
 def _resolved(method: str, *arguments: Any) -> Mapping[str, Expected]:
     """Return what a method of `ReferenceSide` gives of each reference with the fast motion."""
     return {name: methodcaller(method, name, *arguments) for name in RESOLVED}
-
-
-def _averaged(output: str) -> Mapping[str, Expected]:
-    return {"averaged": lambda references: getattr(references.averaged_outputs, output)}
-
-
-def _without_events(references: ReferenceSide) -> Tube:
-    return no_tube(np.zeros_like(references.times))
 
 
 EXPECTED: Mapping[str, Mapping[str, Expected]] = {
@@ -90,25 +82,25 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     "prediction_valid": {
         "averaged": lambda references: references.steady_at_end.prediction_valid,
     },
-    "position": {
-        **_resolved("signal", "position"),
-        "averaged": lambda references: references.averaged_motion.position,
-    },
-    "velocity": {
-        **_resolved("signal", "velocity"),
-        "averaged": lambda references: references.averaged_motion.velocity,
+    **{
+        output: {
+            **_resolved("signal", output),
+            "averaged": attrgetter(f"averaged_motion.{output}"),
+        }
+        for output in ("position", "velocity")
     },
     **{
-        output: {**_resolved("signal", output), **_averaged(output)}
-        for output in ("resonator_displacement", "resonator_velocity")
-    },
-    "normal_force": {
-        **_resolved("signal", "normal_force"),
-        **_averaged("normal_force"),
-    },
-    **{
-        output: {**_resolved("beside_events", output), **_averaged(output)}
-        for output in ("friction_force", "contact_mode")
+        output: {
+            **_resolved(method, output),
+            "averaged": attrgetter(f"averaged_outputs.{output}"),
+        }
+        for method, output in (
+            ("signal", "resonator_displacement"),
+            ("signal", "resonator_velocity"),
+            ("signal", "normal_force"),
+            ("beside_events", "friction_force"),
+            ("beside_events", "contact_mode"),
+        )
     },
     "slow_displacement": {
         "located_events": lambda references: slow_displacement(
@@ -121,14 +113,14 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         ),
     },
     "mean_velocity": {
-        **_resolved("mean_velocity"),
+        **_resolved("at_end", mean_velocities),
         "averaged": lambda references: float(references.averaged_motion.mean_velocity[-1]),
     },
     "mean_velocity_in_run": {
         **_resolved("in_run", mean_velocities),
         "averaged": lambda references: references.averaged_motion.mean_velocity,
     },
-    "stick_fraction": _resolved("stick_fraction"),
+    "stick_fraction": _resolved("at_end", stick_fractions),
     "stick_fraction_in_run": {
         **_resolved("in_run", stick_fractions),
         "averaged": lambda references: np.zeros_like(references.times),
@@ -137,11 +129,11 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     "reversals": _resolved("reversals"),
     "reversals_in_run": {
         **_resolved("in_run", reversal_counts),
-        "averaged": _without_events,
+        "averaged": lambda references: no_tube(np.zeros_like(references.times)),
     },
     "event_times": {
         **_resolved("in_run", last_events),
-        "averaged": _without_events,
+        "averaged": lambda references: no_tube(np.zeros_like(references.times)),
     },
     "last_event_time": _resolved("last_event_time"),
     "ripple_amplitude": {"closed_form": lambda references: references.steady.ripple_amplitude},

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from slider_resonator.arrays import Array
 
@@ -99,10 +100,6 @@ def ripple_amplitude(times: Array, position: Array, period: float) -> float:
 
 HARMONICS = 3
 """Harmonics in the fit: without them a distorted wave would shift the frequency."""
-DIFFERENCE = 1e-6
-"""Relative change of the frequency for the derivative of the wave."""
-ITERATIONS = 50
-"""Most iterations of the fit, of which a clear wave takes some five."""
 
 
 class NoOscillation(ValueError):
@@ -113,7 +110,7 @@ def dominant_frequency(times: Array, signal: Array) -> float:
     """Return the frequency (Hz) of the strongest oscillation around the trend of a signal (n,).
 
     The highest line of a windowed spectrum starts a least squares fit of a wave with harmonics and
-    a straight trend, by Gauss-Newton's method. Raises ValueError for unequal steps and for fewer
+    a straight trend. Raises ValueError for unequal steps and for fewer
     than 16 points, and NoOscillation for a signal that is constant or not finite.
     """
     steps = np.diff(times)
@@ -129,17 +126,17 @@ def dominant_frequency(times: Array, signal: Array) -> float:
     resolution = 1.0 / (len(flat) * float(steps.mean()))
     line = max(int(np.argmax(spectrum)), 1)
     bounds = ((line - 1.0 + 1e-3) * resolution, (line + 1.0) * resolution)
-    local, frequency = times - times.mean(), line * resolution
-    for _ in range(ITERATIONS):
-        basis = _basis(local, frequency)
+    local = times - times.mean()
+
+    def misfit(frequency: Array) -> Array:
+        basis = _basis(local, float(frequency[0]))
         waves = np.linalg.lstsq(basis, signal, rcond=None)[0]
-        change = (_basis(local, frequency * (1.0 + DIFFERENCE)) - basis) @ waves / DIFFERENCE
-        step = np.linalg.lstsq(np.column_stack([basis, change]), signal, rcond=None)[0][-1]
-        before = frequency
-        frequency = float(np.clip(frequency * (1.0 + step), *bounds))
-        if abs(frequency - before) <= 1e-12 * frequency:
-            break
-    return frequency
+        return np.asarray(basis @ waves - signal)
+
+    fit = scipy.optimize.least_squares(
+        misfit, line * resolution, bounds=bounds, x_scale=resolution, xtol=1e-12, gtol=1e-15
+    )
+    return float(fit.x[0])
 
 
 def _basis(times: Array, frequency: float) -> Array:

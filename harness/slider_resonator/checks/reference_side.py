@@ -15,12 +15,10 @@ from slider_resonator.checks.measures import Tube, no_tube
 from slider_resonator.checks.period_means import (
     COINCIDENCE,
     last_events,
-    mean_velocities,
     quadrature,
-    stick_fractions,
 )
 from slider_resonator.checks.steady_references import SteadyReferences
-from slider_resonator.device.device import FULL, Device
+from slider_resonator.device.device import FULL
 from slider_resonator.device.drive_periods import DrivePeriods
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
@@ -144,10 +142,11 @@ class ReferenceSide:
         """Resonator, contact and forces of the averaged motion, at the communication points."""
         return averaged_outputs(self.device, self.scene.schedule().held(), self.averaged_motion)
 
-    def mean_velocity(self, reference: str) -> float:
-        """Return the mean velocity (m/s) over the last whole drive period of the run."""
-        run, end = self.trajectory(reference), self.times[-1:]
-        return float(mean_velocities(run, end, self.periods)[0])
+    def at_end(
+        self, reference: str, measure: Callable[[Trajectory, Array, DrivePeriods], Array]
+    ) -> float:
+        """Return a measure of `period_means` over the last whole drive period of the run."""
+        return float(measure(self.trajectory(reference), self.times[-1:], self.periods)[0])
 
     def friction_power(self, reference: str) -> float:
         """Return the mean power (W) of friction over the last whole drive period of the run."""
@@ -157,11 +156,6 @@ class ReferenceSide:
         times, weights = quadrature(events, begin, end)
         run = self._simulate(reference, times)
         return float(np.sum(weights * run.friction_force * run.velocity) / (end - begin))
-
-    def stick_fraction(self, reference: str) -> float:
-        """Return the share of the last whole drive period of the run that is spent sticking."""
-        run, end = self.trajectory(reference), self.times[-1:]
-        return float(stick_fractions(run, end, self.periods)[0])
 
     @cached_property
     def steady(self) -> SteadyReferences:
@@ -183,7 +177,7 @@ class ReferenceSide:
         ratio = now.frequency_ratio
         lead = sum(
             (h.frequency_ratio + 0.5 * h.ratio_rate * (h.stop - h.start) - ratio)
-            * _drive_frequency(h, self.device)
+            * h.tuned_device(self.device).drive_frequency
             * (h.stop - h.start)
             for h in held
         )
@@ -204,10 +198,6 @@ class ReferenceSide:
     def periods(self) -> DrivePeriods:
         """The whole periods of the drive."""
         return self.scene.drive_periods
-
-
-def _drive_frequency(inputs: HeldInputs, device: Device) -> float:
-    return inputs.tuned_device(device).drive_frequency
 
 
 def _near(times: Array, instants: Array, margin: float) -> NDArray[np.bool_]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, fields
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -18,7 +18,6 @@ from slider_resonator.checks.measuring import measure_all
 from slider_resonator.checks.verdict import place, sentence, title
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
-from slider_resonator.fmu.isolation.tasks import Finished
 from slider_resonator.fmu.opening import lacking
 from slider_resonator.fmu.provenance import FmuIdentity, Provenance, identity_of, provenance_of
 from slider_resonator.output.progress import Progress, counted, no_progress
@@ -126,35 +125,31 @@ def validate(
 
     Expected values are computed once for all FMUs, while they run: by `jobs` processes, or with 1
     by this one; an FMU that shows no fault runs in up to `jobs` processes. The verdicts and their
-    order are those with 1. `progress` gets the scene at work
-    and the share of all the work that is done. An FMU that does not answer within `time_limit` (s)
-    for a point is stopped. Raises SceneError for a scene that expects nothing; what is wrong with
-    an FMU is among the run failures of its validation.
+    order are those with 1. `progress` gets the scene at work and the share of the points done. An
+    FMU that does not answer within `time_limit` (s) for a point is stopped. Raises SceneError for a
+    scene that expects nothing; what is wrong with an FMU is among the run failures of its
+    validation.
     """
     points = [point for scene in scenes for point in points_to_check(scene)]
-    work = _Work(progress, len(points) * len(fmu_paths))
     with ExpectedValues(points, jobs) as expected:
-        judgings = [_Judging(path, expected, work) for path in fmu_paths]
-        for judging in judgings:
-            judging.measure(points, time_limit, jobs)
-        validations = tuple(judging.finish() for judging in judgings)
+        validations = tuple(
+            _validate(
+                path,
+                points,
+                expected,
+                partial(_report, progress, number * len(points), len(fmu_paths) * len(points)),
+                time_limit,
+                jobs,
+            )
+            for number, path in enumerate(fmu_paths)
+        )
     progress("", 1.0)
     return validations
 
 
-@dataclass
-class _Work:
-    """How many of `points` on all FMUs are measured and judged; the two count as equal work."""
-
-    progress: Progress
-    points: int
-    measured: int = 0
-    judged: int = 0
-
-    def begin(self, point: ScenePoint, done: int) -> None:
-        """Report a point at work, where `done` of this kind of work are finished before."""
-        share = (self.measured + self.judged) / (2 * self.points)
-        self.progress(counted(point.scene.name, done, self.points), share)
+def _report(progress: Progress, before: int, count: int, point: ScenePoint, done: int) -> None:
+    """Report a point at work, of so many of all FMUs, where `done` of this FMU are judged."""
+    progress(counted(point.scene.name, before + done, count), (before + done) / count)
 
 
 def points_to_check(scene: Scene) -> tuple[ScenePoint, ...]:
@@ -166,81 +161,59 @@ def points_to_check(scene: Scene) -> tuple[ScenePoint, ...]:
     return scene.points()
 
 
-class _Judging:
-    """The verdicts on an FMU, point by point, as soon as the expected values are there."""
+def _validate(
+    path: Path,
+    points: Sequence[ScenePoint],
+    expected: ExpectedValues,
+    report: Callable[[ScenePoint, int], None],
+    time_limit: float,
+    jobs: int,
+) -> Validation:
+    """Return the verdicts on an FMU at all points, in order."""
+    began, identity = perf_counter(), identity_of(path)
+    checks, curves = list[Check](), list[Curves]()
+    failures, not_applied = list[RunFailure](), list[NotApplied]()
+    overviews: dict[str, Curves | None] = {}
+    judged = 0
 
-    def __init__(self, path: Path, expected: ExpectedValues, work: _Work) -> None:
-        self._path = path
-        self._expected = expected
-        self._work = work
-        self._waiting: deque[Finished[ScenePoint]] = deque()
-        self._checks: list[Check] = []
-        self._run_failures: list[RunFailure] = []
-        self._curves: list[Curves] = []
-        self._not_applied: list[NotApplied] = []
-        self._overviews: dict[str, Curves | None] = {}
+    def meanwhile(point: ScenePoint) -> None:
+        report(point, judged)
+        expected.prepare(point)
 
-    def measure(self, points: Sequence[ScenePoint], time_limit: float, jobs: int) -> None:
-        """Run the points, and judge those at the head whose expected values are there by then."""
-        self._began = perf_counter()
-        self._identity = identity_of(self._path)
-
-        def meanwhile(point: ScenePoint) -> None:
-            self._work.begin(point, self._work.measured)
-            self._expected.prepare(point)
-
-        runs = measure_points(self._path, points, measure_all, time_limit, meanwhile, jobs)
-        with closing(runs) as finished:
-            for one in finished:
-                self._work.measured += 1
-                self._waiting.append(one)
-                while self._waiting and self._ready(self._waiting[0]):
-                    self._judge(self._waiting.popleft())
-
-    def finish(self) -> Validation:
-        """Judge the rest, in order, and return all verdicts."""
-        while self._waiting:
-            one = self._waiting.popleft()
-            if one.item is not None:
-                self._work.begin(one.item, self._work.judged)
-            self._judge(one)
-        return Validation(
-            str(self._path),
-            tuple(self._checks),
-            perf_counter() - self._began,
-            tuple(self._run_failures),
-            tuple(self._curves),
-            lacking(self._path),
-            tuple(self._not_applied),
-            self._identity,
-            tuple(overview for overview in self._overviews.values() if overview is not None),
-        )
-
-    def _ready(self, one: Finished[ScenePoint]) -> bool:
-        return one.error is not None or one.item is None or self._expected.ready(one.item)
-
-    def _judge(self, one: Finished[ScenePoint]) -> None:
-        point = one.item
-        self._work.judged += 1
-        if one.error is not None or point is None:
-            self._run_failures.append(RunFailure.of(self._path, point, one.error))
-            return
-        values = self._expected.at(point)
-        signals: list[Curves] = []
-        for expect, measured, value in zip(point.scene.expect, one.result, values, strict=True):
-            if not measured.applicable:
-                place = (point.scene.name, expect.quantity, measured.note, point.at)
-                self._not_applied.append(NotApplied(*place))
-            elif isinstance(value, SceneError):
-                self._run_failures.append(RunFailure.of(self._path, point, value))
-            else:
-                check = compare(Comparison.of(expect), measured, value, point)
-                self._checks.append(check)
-                if curves := curves_of(check, measured, value):
-                    signals.append(curves)
-        self._curves += [one for one in signals if not one.check.passed]
-        if point.scene.name not in self._overviews:
-            self._overviews[point.scene.name] = overview_of(signals)
+    runs = measure_points(path, points, measure_all, time_limit, meanwhile, jobs)
+    with closing(runs) as finished:
+        for one in finished:
+            judged += 1
+            point = one.item
+            if one.error is not None or point is None:
+                failures.append(RunFailure.of(path, point, one.error))
+                continue
+            signals: list[Curves] = []
+            values = expected.at(point)
+            for expect, measured, value in zip(point.scene.expect, one.result, values, strict=True):
+                if not measured.applicable:
+                    where = (point.scene.name, expect.quantity, measured.note, point.at)
+                    not_applied.append(NotApplied(*where))
+                elif isinstance(value, SceneError):
+                    failures.append(RunFailure.of(path, point, value))
+                else:
+                    checks.append(compare(Comparison.of(expect), measured, value, point))
+                    if shown := curves_of(checks[-1], measured, value):
+                        signals.append(shown)
+            curves += [shown for shown in signals if not shown.check.passed]
+            if point.scene.name not in overviews:
+                overviews[point.scene.name] = overview_of(signals)
+    return Validation(
+        str(path),
+        tuple(checks),
+        perf_counter() - began,
+        tuple(failures),
+        tuple(curves),
+        lacking(path),
+        tuple(not_applied),
+        identity,
+        tuple(overview for overview in overviews.values() if overview is not None),
+    )
 
 
 def provenance_of_all(validations: Sequence[Validation]) -> Provenance:

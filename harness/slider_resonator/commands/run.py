@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import partial
+from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -164,7 +165,7 @@ def run_command(
                 print_result(chosen, text, as_json=as_json, provenance=provenance)
                 context.exit(1)
             choice, read = chosen, chosen.applied_to(read)
-        how = read.lines_reach(isolated.interpolates)
+        how = read.lines_reach(isolated.run(attrgetter("fmu.interpolates")))
         if how == "cannot":
             read = read.interpolating(False)
         record = _run(isolated, read, read.schedule(), progress)
@@ -213,7 +214,7 @@ def _draw_signals(
     from slider_resonator.scenes.signals_plot import SIGNALS, Run, plot_signals, schedule_for_window
 
     def drawn(on: IsolatedFmu, label: str, varied: Scene) -> Run:
-        interpolates = varied.schedule().interpolates and on.interpolates
+        interpolates = varied.schedule().interpolates and on.run(attrgetter("fmu.interpolates"))
         schedule = schedule_for_window(varied.interpolating(interpolates), window)
         return Run(label, _run(on, varied, schedule, progress))
 

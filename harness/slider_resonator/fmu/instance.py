@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, contextmanager, suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from itertools import count
 from typing import Any
@@ -29,30 +29,6 @@ EQUAL = 1e-6
 _numbers = count(1)
 
 
-class _Explained:
-    """A context in which a failed FMI call becomes a Refusal with the log of the FMU.
-
-    A Python FMU in this process can also fail by an exception that it leaves set: ctypes raises
-    SystemError then.
-    """
-
-    def __init__(self, instance: Instance) -> None:
-        self.instance = instance
-
-    def __enter__(self) -> None:
-        del self.instance.messages[:]
-
-    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
-        if isinstance(error, FMICallException | SystemError):
-            instance = self.instance
-            logged = fmu_log.in_one_line(instance.messages)
-            if isinstance(error, SystemError):
-                logged = f"the FMU left a Python exception behind: {error.__cause__!r}"
-            reason = logged or f"{error} The FMU logged no reason."
-            where = f"{instance.fmu.path.name} at t = {instance.time:.9g} s"
-            raise Refusal(f"{where}: {reason}") from error
-
-
 @dataclass(frozen=True)
 class _Plan:
     """How a set of variables is read and written: Integers one by one, Reals in one call."""
@@ -75,7 +51,6 @@ class Instance:
 
     def __init__(self, fmu: Fmu) -> None:
         self.fmu = fmu
-        self._explained = _Explained(self)
         self._create()
 
     def recreate(self) -> None:
@@ -259,9 +234,22 @@ class Instance:
             plan = plans[names] = _Plan(integers, reals, self.block(reals))
         return plan
 
-    def explained(self) -> AbstractContextManager[None]:
-        """Return a context that turns a failed FMI call into a Refusal with the log of the FMU."""
-        return self._explained
+    @contextmanager
+    def explained(self) -> Iterator[None]:
+        """Turn a failed FMI call in the block into a Refusal with the log of the FMU.
+
+        A Python FMU in this process can also fail by an exception that it leaves set: ctypes raises
+        SystemError then.
+        """
+        del self.messages[:]
+        try:
+            yield
+        except (FMICallException, SystemError) as error:
+            reason = fmu_log.in_one_line(self.messages) or f"{error} The FMU logged no reason."
+            if isinstance(error, SystemError):
+                reason = f"the FMU left a Python exception behind: {error.__cause__!r}"
+            where = f"{self.fmu.path.name} at t = {self.time:.9g} s"
+            raise Refusal(f"{where}: {reason}") from error
 
 
 @contextmanager

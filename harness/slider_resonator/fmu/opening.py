@@ -169,7 +169,7 @@ def _read_description(path: Path) -> ModelDescription:
         raise FmuError(f"{path}: not an FMU: it is no zip archive")
     try:
         check_unpacked_size(path)
-        version = _fmi_version(path)
+        version = root_attributes(path).get("fmiVersion", "unknown")
         if version not in ("2.0", "3.0"):
             raise FmuError(f"{path}: FMI version {version}; must be 2.0 or 3.0")
         description = read_model_description(str(path))
@@ -178,6 +178,8 @@ def _read_description(path: Path) -> ModelDescription:
         return description
     except FmuError:
         raise
+    except KeyError as error:
+        raise FmuError(f"{path}: not an FMU: the archive has no modelDescription.xml") from error
     except Exception as error:  # fmpy, lxml and the schema each raise their own
         raise FmuError(f"{path}: modelDescription.xml cannot be read: {error}") from error
 
@@ -201,14 +203,15 @@ def check_unpacked_size(path: Path) -> None:
         )
 
 
-def _fmi_version(path: Path) -> str:
-    """Return the FMI version of the description, before the rest is read."""
-    with zipfile.ZipFile(path) as archive:
-        if "modelDescription.xml" not in archive.namelist():
-            raise FmuError(f"{path}: not an FMU: the archive has no modelDescription.xml")
-        with archive.open("modelDescription.xml") as file:
-            _, root = next(iter(ET.iterparse(file, events=("start",))))
-            return str(root.get("fmiVersion", "unknown"))
+def root_attributes(path: Path) -> dict[str, str]:
+    """Return the attributes of the root of a model description, without reading the rest.
+
+    Raises KeyError where the archive has none; a corrupt one raises errors of zipfile, zlib, struct
+    and the parser.
+    """
+    with zipfile.ZipFile(path) as archive, archive.open("modelDescription.xml") as file:
+        _, root = next(iter(ET.iterparse(file, events=("start",))))
+        return dict(root.attrib)
 
 
 def _check_interface(path: Path, description: ModelDescription) -> None:

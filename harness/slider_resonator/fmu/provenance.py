@@ -6,16 +6,16 @@ import hashlib
 import os
 import platform
 import re
-import zipfile
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from xml.etree import ElementTree as ET
 
 import fmpy
 
 from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.opening import root_attributes
 
 DATE_VARIABLE = "SOURCE_DATE_EPOCH"
 """Environment variable with the date of reproducible reports, in seconds since 1970."""
@@ -74,21 +74,11 @@ def provenance_of(*fmus: str | Path | FmuIdentity) -> Provenance:
 def identity_of(fmu: str | Path) -> FmuIdentity:
     """Return what identifies an FMU file, as far as a missing or corrupt one allows."""
     guid = version = tool = None
-    root = _root_attributes(Path(fmu))
-    if root is not None:
+    with suppress(Exception):  # it may have no description, or a corrupt one
+        root = root_attributes(Path(fmu))
         guid = root.get("guid", root.get("instantiationToken"))
         version, tool = root.get("version", ""), root.get("generationTool", "")
     return FmuIdentity(str(fmu), guid, _digest(Path(fmu)), version, tool)
-
-
-def _root_attributes(fmu: Path) -> dict[str, str] | None:
-    """Return the attributes of the root of the model description, None where it cannot be read."""
-    try:
-        with zipfile.ZipFile(fmu) as archive, archive.open("modelDescription.xml") as file:
-            _, root = next(iter(ET.iterparse(file, events=("start",))))
-            return dict(root.attrib)
-    except Exception:  # a corrupt archive raises errors of zipfile, zlib, struct and the parser
-        return None
 
 
 def _digest(fmu: Path) -> str | None:

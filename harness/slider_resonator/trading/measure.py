@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass, replace
 from math import inf
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -57,7 +58,7 @@ def opened(fmus: Sequence[Path], time_limit: float) -> Iterator[dict[str, Isolat
         instances: dict[str, IsolatedFmu] = {}
         for path in fmus:
             fmu = stack.enter_context(IsolatedFmu(path, time_limit))
-            build = "native" if fmu.runs_without_python else "Python"
+            build = "native" if fmu.run(attrgetter("fmu.runs_without_python")) else "Python"
             instances[build if build not in instances else f"{build} {path.name}"] = fmu
         yield instances
 

@@ -132,7 +132,7 @@ def reproduce(
     jobs: list[PaperFigure | PaperTable | ClaimGroup] = [*figures, *tables, *groups]
     found: dict[str, Any] = {}
     with noting_on_interrupt(lambda: _kept(found, out)), IsolatedFmu(fmu_path, time_limit) as fmu:
-        guid = fmu.guid
+        guid = provenance.fmus[0].guid or ""
         for index, job in enumerate(jobs):
             progress(counted(job.name, index, len(jobs)), index / len(jobs))
             found[job.name] = fmu.run(partial(_measure, job.name))

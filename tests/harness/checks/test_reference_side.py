@@ -3,6 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from slider_resonator.checks.period_means import mean_velocities, stick_fractions
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.references.resolved.simulate import simulate
 from tests.harness.scene_text import scene_of
@@ -18,16 +19,16 @@ def test_the_mean_velocity_is_that_of_the_last_whole_period() -> None:
     reference = side(RUN.replace("12.3", "12").replace("8", "1"))
     position = reference.signal("located_events", "position")
     expected = (position[-1] - position[-2]) / reference.drive_period
-    assert reference.mean_velocity("located_events") == pytest.approx(expected, rel=1e-12)
-    assert side(RUN).mean_velocity("located_events") == pytest.approx(expected, rel=1e-9), (
-        "the third of a period after it does not count"
-    )
+    assert reference.at_end("located_events", mean_velocities) == pytest.approx(expected, rel=1e-12)
+    assert side(RUN).at_end("located_events", mean_velocities) == pytest.approx(
+        expected, rel=1e-9
+    ), "the third of a period after it does not count"
 
 
 def test_a_device_that_never_moves_sticks_all_the_time() -> None:
     weak = "[device]\nbase_amplitude = 5e-9\nnormal_amplitude = 0.5\n"
     reference = side(weak + RUN)
-    assert reference.stick_fraction("located_events") == pytest.approx(1.0, abs=1e-12)
+    assert reference.at_end("located_events", stick_fractions) == pytest.approx(1.0, abs=1e-12)
     assert reference.last_event_time("located_events") == 0.0
 
 

@@ -44,7 +44,7 @@ def test_a_failure_exits_with_1(native_fmu: Path, tmp_path: Path) -> None:
     assert report["passed"] is False
     assert junit.get("failures") == "1"
     assert "off by 1 of the peak" in result.stdout, "it stands where it should move"
-    assert "data:image/png" in (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "FMU on reference" in (tmp_path / "report.html").read_text(encoding="utf-8")
 
 
 @pytest.mark.isolated

@@ -26,7 +26,6 @@ from slider_resonator.fmu.isolation.child_environment import TRACEBACK, WORK
 from slider_resonator.fmu.isolation.messages import (
     Failure,
     Message,
-    Opened,
     Progress,
     Request,
     Result,
@@ -61,13 +60,9 @@ def main() -> None:
             (folder / WORK).mkdir()
             os.chdir(folder / WORK)
             begin()
-            instance, opened = None, Opened()
-            if fmu is not None:
-                instance = stack.enter_context(instantiate(fmu))
-                guid = str(fmu.description.guid)
-                opened = Opened(fmu.runs_without_python, guid, fmu.interpolates)
+            instance = stack.enter_context(instantiate(fmu)) if fmu is not None else None
             faulthandler.cancel_dump_traceback_later()
-            _send(messages, Result(opened))
+            _send(messages, Result())
             for request in _read(requests):
                 begin()
                 message = _run(instance, request, messages)

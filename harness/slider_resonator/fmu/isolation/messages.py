@@ -21,15 +21,6 @@ class Started:
 
 
 @dataclass(frozen=True)
-class Opened:
-    """The FMU is instantiated: whether it runs without Python and takes derivatives, its GUID."""
-
-    runs_without_python: bool = False
-    guid: str = ""
-    interpolates: bool = False
-
-
-@dataclass(frozen=True)
 class Progress:
     """What the present task does, empty where that has no name, and its share done, 0 to 1."""
 
@@ -39,7 +30,7 @@ class Progress:
 
 @dataclass(frozen=True)
 class Result:
-    """The return value of a task; that of opening the FMU is `Opened`."""
+    """The return value of a task; None once the FMU is open."""
 
     value: Any = None
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import pickle
 import queue
-import select
 import subprocess
 import sys
 import threading
@@ -21,7 +20,6 @@ from slider_resonator.fmu.isolation.crash_report import crash_report, missed_lim
 from slider_resonator.fmu.isolation.messages import (
     Failure,
     Message,
-    Opened,
     Progress,
     Request,
     Result,
@@ -30,40 +28,6 @@ from slider_resonator.fmu.isolation.messages import (
 from slider_resonator.fmu.isolation.supervised import Supervised
 from slider_resonator.output.progress import Progress as ReportProgress
 from slider_resonator.output.temporary import temporary_folder
-
-
-class RequestPipe:
-    """A pipe whose writer does not wait for ever for a reader that has stopped."""
-
-    def __init__(self, pipe: IO[bytes]) -> None:
-        self._pipe = pipe
-        if sys.platform != "win32":
-            os.set_blocking(pipe.fileno(), False)
-
-    def __enter__(self) -> RequestPipe:
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        with suppress(OSError):  # the process has closed its end of the pipe
-            self.close()
-
-    def close(self) -> None:
-        """Say that there are no more requests."""
-        self._pipe.close()
-
-    def write(self, content: bytes, seconds: float) -> None:
-        """Write all; OSError where the reader has ended or does not read for that long."""
-        if sys.platform == "win32":
-            self._pipe.write(content)
-            self._pipe.flush()
-            return
-        left, deadline = memoryview(content), monotonic() + seconds
-        while left:
-            _, ready, _ = select.select([], [self._pipe], [], max(0.0, deadline - monotonic()))
-            if not ready:
-                raise TimeoutError("the process does not read")
-            left = left[os.write(self._pipe.fileno(), left[: select.PIPE_BUF]) :]
-
 
 TIME_LIMIT = 120.0
 """Default time limit of a task, s; the slowest built-in scene takes a few."""
@@ -113,13 +77,10 @@ class IsolatedFmu:
         self._folder = self._resources.enter_context(temporary_folder())
         try:
             self._start(fmu)
-            opened: Opened = self.result()
+            self._result()
         except BaseException:
             self.kill()
             raise
-        self.runs_without_python = opened.runs_without_python
-        self.guid = opened.guid
-        self.interpolates = opened.interpolates
 
     def _start(self, fmu: Path | None) -> None:
         with self._log.open("wb") as log:
@@ -138,7 +99,8 @@ class IsolatedFmu:
         requests, answers = self._process.process.stdin, self._process.process.stdout
         assert requests is not None
         assert answers is not None
-        self._requests = self._resources.enter_context(RequestPipe(requests))
+        self._resources.enter_context(suppress(OSError))  # it has closed its end of the pipe
+        self._requests = self._resources.enter_context(requests)
         self._messages: queue.SimpleQueue[Message | None] = queue.SimpleQueue()
         threading.Thread(target=_collect, args=(answers, self._messages), daemon=True).start()
         self._resources.callback(self._process.end)
@@ -164,21 +126,15 @@ class IsolatedFmu:
         With `progress` the task must take a keyword argument of that name. Raises FmuDied when the
         FMU crashed or exceeded the time limit.
         """
-        self.submit(task, reports_progress=progress is not None)
-        return self.result(progress)
-
-    def submit(self, task: Task, *, reports_progress: bool = False) -> None:
-        """Send a task without waiting for its result; FmuDied when the process has ended."""
         if self._killed:
             raise FmuDied("the process of the FMU has been ended")
-        request = pickle.dumps(Request(task, reports_progress))
-        try:
-            self._requests.write(request, LOADING + self.time_limit)
-        except OSError as error:
-            raise self._died() from error
+        request = pickle.dumps(Request(task, progress is not None))
+        # In a thread: it would wait for ever for a process that has stopped.
+        threading.Thread(target=_send, args=(self._requests, request), daemon=True).start()
+        return self._result(progress)
 
-    def result(self, progress: ReportProgress | None = None) -> Any:
-        """Wait for the task that was submitted first, and return or raise as `run` does."""
+    def _result(self, progress: ReportProgress | None = None) -> Any:
+        """Wait for a result, and return or raise as `run` does."""
         deadline = monotonic() + LOADING
         while True:
             match self._receive(deadline):
@@ -238,6 +194,12 @@ class IsolatedFmu:
         over = missed_limit(trace, ending) or ending.over_limit
         self.kill()
         return FmuDied(report, over_limit=over)
+
+
+def _send(requests: IO[bytes], content: bytes) -> None:
+    with suppress(OSError, ValueError):  # a process that has ended is noticed by who waits for it
+        requests.write(content)
+        requests.flush()
 
 
 def _last(file: Path) -> str:

@@ -67,8 +67,6 @@ class ModeSequence:
         for inputs in turning_apart(with_steady_phase(held, self._device)):
             self._equations = equations_of(inputs.tuned_device(self._device))
             self._run_held(inputs)
-        if self._bends:
-            return self._recorder.lugre_trajectory()
         return self._recorder.trajectory()
 
     def _run_held(self, inputs: HeldInputs) -> None:
@@ -151,11 +149,8 @@ class ModeSequence:
         resonator = equations.resonator_motion(theta, states)
         load = inputs.load + inputs.load_rate * local
         forces = equations.contact_forces(mode, load, theta, angle, states)
-        deflection, modes = None, np.full(len(states), float(mode))
-        if self._bends:
-            deflection = states[:, 4]
-            modes = modes if mode == LIFTED else np.sign(states[:, 1])
-        self._recorder.keep(states, resonator, forces, modes, deflection)
+        modes = np.sign(states[:, 1]) if self._bends and mode != LIFTED else mode
+        self._recorder.keep(states, resonator, forces, modes)
 
     def _keep_present(self, mode: int, inputs: HeldInputs, times: Array) -> None:
         """Keep the present state as the sample of each of the times."""

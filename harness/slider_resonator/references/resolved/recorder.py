@@ -6,7 +6,7 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.references.resolved.contact_record import ContactRecord
-from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
+from slider_resonator.references.resolved.trajectory import Trajectory
 
 
 class Recorder:
@@ -19,7 +19,6 @@ class Recorder:
         self.evaluations = 0
         self._next = 0
         self._signals: list[Array] = []
-        self._deflections: list[Array] = []
 
     def pending(self, stop: float = np.inf) -> Array:
         """Return the times up to ``stop`` (s) that have no sample yet, shape (k,)."""
@@ -34,24 +33,22 @@ class Recorder:
         resonator: tuple[Array, Array],
         forces: tuple[Array, Array],
         mode: int | Array,
-        deflection: Array | None = None,
     ) -> None:
         """Keep the samples of the next k times, SI units.
 
-        ``states`` (k, m) begin with position and velocity; ``resonator`` is its displacement and
-        velocity, ``forces`` are normal force and friction, and ``deflection`` is that of the
-        bristle: (k,) each. ``mode`` is the contact mode of all, or of each.
+        ``states`` (k, m) begin with position and velocity, and have the bristle deflection as a
+        fifth where there is one; ``resonator`` is its displacement and velocity, ``forces`` are
+        normal force and friction, (k,) each. ``mode`` is the contact mode of all, or of each.
         """
         modes = np.broadcast_to(np.asarray(mode, dtype=np.float64), len(states))
-        rows = np.column_stack([states[:, 0], states[:, 1], *resonator, *forces, modes])
+        bent = states[:, 4] if states.shape[1] > 4 else np.zeros(len(states))
+        rows = np.column_stack([states[:, :2], *resonator, *forces, bent, modes])
         self._signals.append(rows)
         self._next += len(rows)
-        if deflection is not None:
-            self._deflections.append(deflection)
 
     def trajectory(self) -> Trajectory:
         """Return the trajectory of all samples."""
-        signals = np.concatenate([np.empty((0, 7)), *self._signals])
+        signals = np.concatenate([np.empty((0, 8)), *self._signals])
         return Trajectory(
             time=self.times,
             position=signals[:, 0],
@@ -60,7 +57,8 @@ class Recorder:
             resonator_velocity=signals[:, 3],
             normal_force=signals[:, 4],
             friction_force=signals[:, 5],
-            contact_mode=signals[:, 6].astype(np.int64),
+            bristle_deflection=signals[:, 6],
+            contact_mode=signals[:, 7].astype(np.int64),
             reversals=self.contact.reversals,
             sticks=self.contact.sticks,
             stick_time=self.contact.stick_time,
@@ -70,8 +68,3 @@ class Recorder:
             steps=self.steps,
             evaluations=self.evaluations,
         )
-
-    def lugre_trajectory(self) -> LugreTrajectory:
-        """Return the trajectory of all samples, with the bristle."""
-        deflection = np.concatenate([np.empty(0), *self._deflections])
-        return LugreTrajectory(**vars(self.trajectory()), bristle_deflection=deflection)

@@ -21,6 +21,11 @@ class Trajectory:
     ``event_times`` are the instants of every change of contact mode, s, and ``modes`` the contact
     modes at the first instant and from each of them on: one more. ``reversal_times`` (s) are those
     of the reversals, NaN where they are not located; ``stick_time`` is in s.
+
+    ``bristle_deflection`` is z of (8) in m, 0 with Coulomb friction. Bristles never stick: with
+    them ``contact_mode`` is the sign of the velocity (2 while lifted), ``sticks`` and
+    ``stick_time`` are 0, and ``reversals`` counts every change of sign of the velocity, those in
+    flight too.
     """
 
     time: Array
@@ -30,6 +35,7 @@ class Trajectory:
     resonator_velocity: Array
     normal_force: Array
     friction_force: Array
+    bristle_deflection: Array
     contact_mode: NDArray[np.int64]
     reversals: int
     sticks: int
@@ -39,15 +45,3 @@ class Trajectory:
     modes: NDArray[np.int64]
     steps: int
     evaluations: int
-
-
-@dataclass(frozen=True)
-class LugreTrajectory(Trajectory):
-    """A ``Trajectory`` with ``bristle_deflection``, z of (8) in m, shape (n,).
-
-    Bristles never stick: ``contact_mode`` is the sign of the velocity (2 while lifted), ``sticks``
-    and ``stick_time`` are 0. ``reversals`` counts every change of sign of the velocity, those in
-    flight too.
-    """
-
-    bristle_deflection: Array

@@ -91,8 +91,7 @@ class RunWithoutEvents:
             follow(self, inputs)
             self.theta += rate * span
             self.psi += inputs.turned(span, rate)
-        bends = self.device.friction_law == 1
-        return self.recorder.lugre_trajectory() if bends else self.recorder.trajectory()
+        return self.recorder.trajectory()
 
     def angles(self, inputs: HeldInputs, local: Number) -> Number:
         """Return psi + phase in rad at times in s since the start of the inputs."""
@@ -109,7 +108,6 @@ class RunWithoutEvents:
             equations.resonator_motion(self.theta + equations.drive_frequency * local, states),
             (np.maximum(0.0, load), friction),
             np.where(load > 0.0, np.sign(states[:, 1]), float(LIFTED)),
-            states[:, 4] if states.shape[1] > 4 else None,
         )
 
 

@@ -22,7 +22,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.simulate import simulate
-from slider_resonator.references.resolved.trajectory import LugreTrajectory, Trajectory
+from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.trading.solution import Solution, solution_of
 
 _STATE = ("position", "velocity", "resonator_displacement", "resonator_velocity")
@@ -71,8 +71,9 @@ def heyoka_in_one_call(
 def device_at(device: Device, run: Trajectory, index: int) -> Device:
     """Return the device that starts in the state of a trajectory at one of its samples."""
     state: dict[str, Any] = {f"initial_{name}": float(getattr(run, name)[index]) for name in _STATE}
-    bent = run.bristle_deflection[index] if isinstance(run, LugreTrajectory) else 0.0
-    return replace(device, **state, initial_bristle_deflection=float(bent))
+    return replace(
+        device, **state, initial_bristle_deflection=float(run.bristle_deflection[index])
+    )
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import os
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -12,7 +11,7 @@ import pytest
 
 from slider_resonator.errors import FmuError, Refusal
 from slider_resonator.fmu.isolation import process
-from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, RequestPipe
+from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from tests.harness.fmu.isolation import tasks_of_tests as tasks
 from tests.processes import has_ended
 
@@ -141,17 +140,6 @@ def test_what_an_fmu_prints_is_limited(isolated: IsolatedFmu) -> None:
     with pytest.raises(RuntimeError, match="File too large"):
         isolated.run(tasks.print_much)
     assert isolated.run(partial(tasks.position_after, time=0.01)) != 0.0
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="a write into a pipe of Windows waits")
-def test_writing_to_a_process_that_does_not_read_ends_at_the_deadline() -> None:
-    reading, writing = os.pipe()
-    with (
-        open(reading, "rb"),
-        RequestPipe(open(writing, "wb")) as pipe,
-        pytest.raises(TimeoutError),
-    ):
-        pipe.write(bytes(2**20), seconds=0.2)
 
 
 def test_an_fmu_that_cannot_be_used(tmp_path: Path, temporary: Path) -> None:

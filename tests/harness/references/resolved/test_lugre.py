@@ -7,11 +7,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.simulate import simulate
-from slider_resonator.references.resolved.trajectory import LugreTrajectory
 from slider_resonator.trading.peers import event_free
 from tests.harness.references.comparing import assert_agree, split
 from tests.harness.references.lugre_problems import DURATION, PROBLEMS, STIFF, TIMES, constant
@@ -29,12 +27,6 @@ QUIET = Device(
 QUICK = ("table 1", "ratio 1.37, lift-off", "deep presliding", "schedule", "1e6")
 
 
-def follow(device: Device, held: list[HeldInputs], times: Array) -> LugreTrajectory:
-    motion = simulate(device, held, times)
-    assert isinstance(motion, LugreTrajectory)
-    return motion
-
-
 @pytest.mark.parametrize(
     "name",
     [
@@ -45,13 +37,13 @@ def follow(device: Device, held: list[HeldInputs], times: Array) -> LugreTraject
 def test_scipy_agrees(name: str) -> None:
     device, held = (PROBLEMS | STIFF)[name]
     found = event_free.simulate(device, held, TIMES, rtol=1e-13, atol=1e-15)
-    assert_agree(follow(device, held, TIMES), found, allowed=1e-8)
+    assert_agree(simulate(device, held, TIMES), found, allowed=1e-8)
 
 
 @pytest.mark.parametrize("name", ["table 1", "ratio 1.37, lift-off", "schedule", "one face"])
 def test_reversals_lift_offs_and_touchdowns_are_located(name: str) -> None:
     device, held = PROBLEMS[name]
-    exact = follow(device, held, TIMES)
+    exact = simulate(device, held, TIMES)
     assert len(exact.event_times) > 4
     events = exact.event_times
     reverses = np.isin(events, exact.reversal_times)
@@ -70,8 +62,8 @@ def test_reversals_lift_offs_and_touchdowns_are_located(name: str) -> None:
 @pytest.mark.parametrize("name", [*PROBLEMS, *STIFF])
 def test_splitting_the_inputs_changes_nothing(name: str) -> None:
     device, held = (PROBLEMS | STIFF)[name]
-    whole = follow(device, held, TIMES)
-    assert_agree(whole, follow(device, split(held, 20), TIMES), allowed=1e-12)
+    whole = simulate(device, held, TIMES)
+    assert_agree(whole, simulate(device, split(held, 20), TIMES), allowed=1e-12)
 
 
 @pytest.mark.parametrize("stiffness", [1e3, 1e5, 1e8])
@@ -83,7 +75,7 @@ def test_presliding_rings_at_the_bristle_frequency(stiffness: float, faces: int)
     device = replace(device, initial_velocity=amplitude * frequency)
     period = 2.0 * math.pi / frequency
     times = np.linspace(0.0, 3.3 * period, 100)
-    motion = follow(device, [HeldInputs(0.0, times[-1])], times)
+    motion = simulate(device, [HeldInputs(0.0, times[-1])], times)
     swing = amplitude * np.sin(frequency * times)
     assert motion.position == pytest.approx(swing, abs=2e-6 * amplitude), (
         "a motion far below break-away is that of a mass on springs faces N s0"
@@ -98,7 +90,7 @@ def test_presliding_is_damped_by_the_bristles() -> None:
     decay = damping / mass
     frequency = math.sqrt(2.0 * stiffness / mass - decay**2)
     device = replace(device, initial_velocity=1e-12)
-    motion = follow(device, constant(), TIMES)
+    motion = simulate(device, constant(), TIMES)
     expected = 1e-12 / frequency * np.exp(-decay * TIMES) * np.sin(frequency * TIMES)
     allowed = 1e-5 * np.abs(expected).max()
     assert motion.position == pytest.approx(expected, abs=allowed), "their damping is faces N s1"
@@ -110,7 +102,7 @@ def test_steady_sliding_stretches_the_bristle_to_its_limit(
     direction: float, stiffness: float
 ) -> None:
     device = replace(QUIET, bristle_stiffness=stiffness, initial_velocity=5.0 * direction)
-    motion = follow(device, constant(), TIMES)
+    motion = simulate(device, constant(), TIMES)
     assert motion.bristle_deflection[-1] == pytest.approx(0.1 * direction / stiffness, rel=1e-12), (
         "in steady sliding z = mu / s0 along the motion"
     )
@@ -121,7 +113,7 @@ def test_bristle_relaxes_along_the_path() -> None:
     device = replace(
         QUIET, bristle_stiffness=50.0, initial_velocity=1.0, initial_bristle_deflection=-3e-3
     )
-    motion = follow(device, constant(), TIMES)
+    motion = simulate(device, constant(), TIMES)
     expected = 2e-3 - 5e-3 * np.exp(-500.0 * motion.position)
     assert motion.bristle_deflection == pytest.approx(expected, rel=1e-12, abs=1e-16), (
         "dz/dx = 1 - s0 z / mu"
@@ -130,7 +122,7 @@ def test_bristle_relaxes_along_the_path() -> None:
 
 def test_bristle_keeps_evolving_in_flight() -> None:
     device = replace(QUIET, bristle_stiffness=1e3, initial_velocity=0.01, normal_preload=0.0)
-    motion = follow(device, constant(), TIMES)
+    motion = simulate(device, constant(), TIMES)
     expected = 1e-4 * -np.expm1(-1e4 * 0.01 * TIMES)
     assert (motion.contact_mode == 2).all(), "without preload the contact is open"
     assert not motion.friction_force.any(), "an open contact has no friction"
@@ -152,7 +144,7 @@ def test_stiff_bristles_approach_coulomb(
     errors = []
     for stiffness in (1e6, 1e8, 1e10):
         stiff = replace(device, bristle_stiffness=stiffness)
-        motion = follow(stiff, constant(phase=0.4), TIMES)
+        motion = simulate(stiff, constant(phase=0.4), TIMES)
         errors.append(float(np.abs(motion.velocity - coulomb.velocity).max()))
         assert motion.reversals == coulomb.reversals, "the same reversals"
     ratios = [sooner / later for sooner, later in pairwise(errors)]
@@ -164,7 +156,7 @@ def test_stiff_bristles_approach_coulomb(
 
 def test_contact_mode_is_the_sign_of_the_velocity_or_lifted() -> None:
     device, held = PROBLEMS["ratio 1.37, lift-off"]
-    motion = follow(device, held, TIMES)
+    motion = simulate(device, held, TIMES)
     lifted = motion.normal_force == 0.0
     assert 0.2 < lifted.mean() < 0.5, "about a third of the time the contact is open"
     assert (motion.contact_mode[lifted] == 2).all(), "lifted where the normal force is 0"
@@ -174,7 +166,7 @@ def test_contact_mode_is_the_sign_of_the_velocity_or_lifted() -> None:
 
 
 def test_slider_at_rest_without_drive_stays() -> None:
-    motion = follow(QUIET, constant(), TIMES)
+    motion = simulate(QUIET, constant(), TIMES)
     assert not motion.velocity.any(), "nothing moves it"
     assert motion.reversals == 0, "no motion, no reversal"
 
@@ -182,6 +174,6 @@ def test_slider_at_rest_without_drive_stays() -> None:
 def test_samples_at_starts_and_stops_are_kept() -> None:
     device, held = PROBLEMS["schedule"]
     edges = np.array([inputs.start for inputs in held] + [DURATION])
-    motion = follow(device, held, edges)
+    motion = simulate(device, held, edges)
     assert motion.position.shape == edges.shape, "one sample for each time"
-    assert follow(device, held, np.empty(0)).position.shape == (0,), "no times, no samples"
+    assert simulate(device, held, np.empty(0)).position.shape == (0,), "no times, no samples"
