@@ -13,7 +13,6 @@ from slider_resonator.arrays import Array
 from slider_resonator.checks.measures import Tube, mismatch_share, no_tube, peak, share_of
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.natural_scale import smallest_reference
-from slider_resonator.device.device import Device
 from slider_resonator.rounding import beyond_rounding, is_same
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.scene import Scene, ScenePoint
@@ -39,10 +38,6 @@ class Tolerance:
         """Return the tolerance that a scene file gives."""
         given = "absolute" in expect.model_fields_set
         return cls(expect.absolute if given else None, expect.relative, expect.tube)
-
-    def smallest_reference(self, quantity: str, device: Device) -> float:
-        """Return the minimum size of a reference, in the quantity's unit."""
-        return smallest_reference(quantity, device) if self.absolute is None else 0.0
 
 
 Value = float | str | None
@@ -114,7 +109,9 @@ def compare(
 ) -> Check:
     """Compare a measurement with the expected value: number, word, None, signal (n,) or a tube."""
     quantity = QUANTITIES[comparison.quantity]
-    floor = comparison.tolerance.smallest_reference(comparison.quantity, point.scene.device)
+    floor = 0.0
+    if comparison.tolerance.absolute is None:
+        floor = smallest_reference(comparison.quantity, point.scene.device)
     if quantity.kind == "signal":
         clock = _clock_rounding(point.scene)
         difference = _difference_of_signals(comparison, measured, expected, floor, clock)
@@ -142,20 +139,12 @@ def _difference_of_values(
         passed = measured is not None and measured == expected
         return {**values, "deviation": None, "allowed": None, "passed": passed}
     tolerance = comparison.tolerance
-    excess = _excess(comparison.against, measured - expected)
+    off = measured - expected  # a bound counts by how much it is exceeded; NaN stays NaN
+    excess = {AT_MOST: max(off, 0.0), AT_LEAST: max(-off, 0.0)}.get(comparison.against, abs(off))
     deviation = 0.0 if is_same(measured, expected) else excess
     allowed = (tolerance.absolute or 0.0) + tolerance.relative * max(abs(expected), floor)
     passed = deviation <= allowed
     return {**values, "deviation": deviation, "allowed": allowed, "passed": passed}
-
-
-def _excess(against: str, difference: float) -> float:
-    """Return the size of a difference; for a bound, by how much it is exceeded; NaN of NaN."""
-    if against == AT_MOST:
-        return max(difference, 0.0)
-    if against == AT_LEAST:
-        return max(-difference, 0.0)
-    return abs(difference)
 
 
 def _difference_of_signals(

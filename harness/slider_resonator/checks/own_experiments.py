@@ -63,13 +63,16 @@ def own_experiments(fmu: Path) -> list[OwnExperiment]:
         if not manifest.is_file():
             missing = f"extra/{OWN_NAME}/{MANIFEST} is missing"
             raise SceneError(f"{fmu}: carries no experiments: {missing}")
-        found = [
-            _experiment(entry, file, opened.folder)
-            for related in _root(manifest).iter("Related")
-            if related.get("type") == EXPERIMENTS_TYPE
-            for file in [_source(related, folder, opened.folder)]
-            for entry in _root(file).iter("Experiment")
-        ]
+        try:
+            found = [
+                _experiment(entry, file, opened.folder)
+                for related in _root(manifest).iter("Related")
+                if related.get("type") == EXPERIMENTS_TYPE
+                for file in [_source(related, folder, opened.folder)]
+                for entry in _root(file).iter("Experiment")
+            ]
+        except ValueError as error:  # of a table
+            raise SceneError(str(error)) from error
     if not found:
         raise SceneError(f"{fmu}: carries no experiments: {MANIFEST} names none")
     return found
@@ -201,21 +204,14 @@ def _inputs(file: Path) -> dict[str, dict[str, str]]:
 def _results(file: Path) -> tuple[Array, dict[str, Array]]:
     """Return times (s) and outputs, (n,) each."""
     signals = [name for name, one in QUANTITIES.items() if one.kind == "signal"]
-    names = _columns(file, signals)
-    try:
-        found = {name: csv_signal(file, name, "hold") for name in names}
-    except ValueError as error:
-        raise SceneError(str(error)) from error
+    found = {name: csv_signal(file, name, "hold") for name in _columns(file, signals)}
     results = {name: np.array(one.values) for name, one in found.items()}
-    return np.array(found[names[0]].times), results
+    return np.array(next(iter(found.values())).times), results
 
 
 def _columns(file: Path, allowed: Collection[str]) -> list[str]:
     """Return the names of the columns after the time, at least one."""
-    try:
-        header, _ = csv_rows(file)
-    except ValueError as error:
-        raise SceneError(str(error)) from error
+    header, _ = csv_rows(file)
     for name in header[1:]:
         if name not in allowed:
             raise SceneError(f"{file.name}: {unknown_name('column', name, allowed)}")

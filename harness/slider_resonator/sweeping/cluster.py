@@ -53,7 +53,6 @@ class FmuPlugin(WorkerPlugin):
     def teardown(self, worker: Worker) -> None:
         """End the FMU's processes on the worker."""
         if self.digest in _runners:
-            _runners[self.digest].stop()
             _runners.pop(self.digest).end()
 
 

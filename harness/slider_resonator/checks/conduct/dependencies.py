@@ -56,7 +56,7 @@ def _after_inputs(
 ) -> list[str]:
     """Change each input from the value that was set, and set it back."""
     faults: list[str] = []
-    before = _outputs(instance)
+    before = instance.read(instance.fmu.outputs)
     for name in (*INPUTS, *DEVIATIONS):
         if name not in instance.fmu.variables:
             continue
@@ -78,11 +78,7 @@ def _declared(unknowns: Iterable[Unknown]) -> dict[str, set[str] | None]:
 def _started(instance: Instance, values: Mapping[str, float]) -> Mapping[str, float]:
     instance.start(values)
     with instance.explained():
-        return _outputs(instance)
-
-
-def _outputs(instance: Instance) -> Mapping[str, float]:
-    return instance.read(instance.fmu.outputs)
+        return instance.read(instance.fmu.outputs)
 
 
 def _undeclared(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from ctypes import c_double, c_uint
 from math import tau
@@ -12,6 +12,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Warning
 from fmpy.fmi3 import FMU3Slave
 
+from slider_resonator.checks.conduct.findings import is_refused
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.opening import Fmu
 
@@ -131,7 +132,7 @@ def _run_faults(fmu: Fmu, rows: list[list[float]], times: list[float]) -> Iterat
             for name, value, right, peak in zip(fmu.outputs, found, row, peaks, strict=True):
                 if not abs(value - right) <= SAME_SHARE * peak:
                     yield f"with event mode {name} is {value!r}, was {right!r}"
-        if not _refused(lambda: slave.slave.doStep(STEPS * STEP, STEP)):
+        if not is_refused(lambda: slave.slave.doStep(STEPS * STEP, STEP)):
             yield "with event mode a step beyond the stop time is accepted"
     for time in times:
         if not any(abs(time - other) <= SAME_TIME for other in seen):
@@ -196,9 +197,9 @@ def _call_faults(fmu: Fmu) -> Iterator[str]:
     with _made(fmu, events=False, early=False) as slave:
         slave.start()
         slave.slave.doStep(0.0, STEP)
-        if not _refused(slave.slave.enterEventMode):
+        if not is_refused(slave.slave.enterEventMode):
             yield "fmi3EnterEventMode is accepted though the host announced that it uses none"
-        if not _refused(lambda: slave.slave.setFloat64([slave.time], [1.0])):
+        if not is_refused(lambda: slave.slave.setFloat64([slave.time], [1.0])):
             yield "time can be set"
         names = [slave.reference("position"), slave.time, slave.reference("resonator_velocity")]
         alone = [slave.slave.getFloat64([name])[0] for name in names]
@@ -209,11 +210,3 @@ def _call_faults(fmu: Fmu) -> Iterator[str]:
         status = slave.slave.dll.fmi3GetFloat64(slave.slave.component, references, 1, values, 2)
         if status <= fmi2Warning:
             yield "fmi3GetFloat64 accepts two values for one reference"
-
-
-def _refused(attempt: Callable[[], object]) -> bool:
-    try:
-        attempt()
-    except FMICallException:
-        return True
-    return False

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
 import numpy as np
+from fmpy.fmi1 import FMICallException
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS, VARIABLES
@@ -67,3 +68,12 @@ def adding_refusal(instance: Instance, faults: list[str]) -> Iterator[None]:
         if not faults:
             raise
         faults.append(f"and then {error}")
+
+
+def is_refused(attempt: Callable[[], object]) -> bool:
+    """Make a call of FMI; return whether it fails."""
+    try:
+        attempt()
+    except FMICallException:
+        return True
+    return False

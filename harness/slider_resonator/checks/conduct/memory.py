@@ -19,15 +19,9 @@ STEP = 1.1e-3
 
 
 class _Counts(ctypes.Structure):
-    """The result of mallinfo2."""
+    """The result of mallinfo2, of which `hblkhd` is the fifth and `uordblks` the eighth count."""
 
-    _fields_ = [
-        (name, ctypes.c_size_t)
-        for name in (
-            *("arena", "ordblks", "smblks", "hblks", "hblkhd"),
-            *("usmblks", "fsmblks", "uordblks", "fordblks", "keepcost"),
-        )
-    ]
+    _fields_ = [("counts", ctypes.c_size_t * 10)]
 
 
 def instance_leaks(instance: Instance) -> Iterator[str]:
@@ -67,5 +61,5 @@ def _in_use() -> list[int]:
     except (AttributeError, OSError, TypeError):
         return []
     count.restype = _Counts
-    counts = count()
-    return [counts.uordblks + counts.hblkhd]
+    *_, mapped, _, _, used, _, _ = count().counts
+    return [used + mapped]

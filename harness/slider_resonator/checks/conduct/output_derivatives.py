@@ -49,7 +49,10 @@ def derivative_faults(
     if isinstance(slave, Fmi3Slave) or offered < 1:
         return []
     step = SHORT * tau / frequency
-    outputs = (*OUTPUTS, SLOW) if _is_averaged(instance) else OUTPUTS
+    order = "averaging_order"
+    first_order = order not in instance.fmu.variables or instance.value(order) == 1.0
+    averaged = first_order and instance.value("fidelity") == 0.0
+    outputs = (*OUTPUTS, SLOW) if averaged else OUTPUTS
     held = [name for name in HELD if name not in outputs]
     reported = {
         name: _derivative(slave, instance.fmu.reference(name)) for name in (*outputs, *held)
@@ -76,13 +79,6 @@ def derivative_faults(
         if derivative is not None and not abs(derivative - quotient) <= ALLOWED * size:
             faults.append(f"the derivative of {name} is {derivative!r}, it grows by {quotient!r}")
     return faults
-
-
-def _is_averaged(instance: Instance) -> bool:
-    """Return whether motion is averaged to first order."""
-    order = "averaging_order"
-    first = order not in instance.fmu.variables or instance.value(order) == 1.0
-    return first and instance.value("fidelity") == 0.0
 
 
 def _derivative(slave: FMU2Slave, reference: int) -> float | None:

@@ -6,12 +6,14 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from slider_resonator.checks.conduct.findings import (
     differences,
+    is_refused,
     other_inputs,
     other_value,
 )
@@ -275,14 +277,11 @@ def separate_differences(fmu: FmuSide) -> list[str]:
 
 def _refused(instance: Instance, name: str) -> list[str]:
     """Set a variable to NaN, an Integer to a value that none has; return a fault if it is taken."""
-    variable = instance.fmu.variables[name]
-    reference = [variable.valueReference]
-    try:
-        if variable.type == "Integer":
-            instance.slave.setInteger(reference, [1 << 20])
-        else:
-            instance.slave.setReal(reference, [math.nan])
-    except FMICallException:
+    variable, slave = instance.fmu.variables[name], instance.slave
+    write, value = (slave.setReal, math.nan)
+    if variable.type == "Integer":
+        write, value = (slave.setInteger, 1 << 20)
+    if is_refused(partial(write, [variable.valueReference], [value])):
         return []
     return [f"{name} takes a value that must be refused"]
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from ctypes import byref, c_char, c_void_p
+from functools import partial
 
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
-from slider_resonator.checks.conduct.findings import adding_refusal, other_value
+from slider_resonator.checks.conduct.findings import adding_refusal, is_refused, other_value
 from slider_resonator.checks.conduct.memory import state_leaks
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
@@ -116,13 +117,10 @@ def _freeing_faults(instance: Instance) -> Iterator[str]:
     if state.value and instance.fmu.runs_without_python:
         yield "the pointer to a state that is freed is not null"
     state.value = None
-    if instance.fmu.runs_without_python:
-        with suppress(FMICallException):
-            instance.call("fmi2SetFMUstate", state)
-            yield "a null pointer is accepted as a state"
-    try:
-        instance.call("fmi2FreeFMUstate", byref(state))
-    except FMICallException:
+    call = instance.call
+    if instance.fmu.runs_without_python and not is_refused(partial(call, "fmi2SetFMUstate", state)):
+        yield "a null pointer is accepted as a state"
+    if is_refused(partial(call, "fmi2FreeFMUstate", byref(state))):
         yield "freeing a null pointer is refused"
 
 

@@ -165,7 +165,14 @@ def _of_signals(curves: Curves, where: str) -> list[HoverPlot]:
 
 def _over_sweep(checks: Sequence[Check]) -> list[HoverPlot]:
     """Return the plots of the first number that has a reference over the sweep, if there is one."""
-    swept = [check for check in checks if _is_swept_number(check)]
+    swept = [
+        check
+        for check in checks
+        if isinstance(check.fmu, float)
+        and isinstance(check.reference, float)
+        and len(check.at) == 1
+        and QUANTITIES[check.quantity].kind == "number"
+    ]
     if not swept:
         return []
     first, variable = swept[0], next(iter(swept[0].at))
@@ -203,11 +210,6 @@ def _overlay(
         HoverPlot(title, x_axis, y_axis, both, HEIGHT),
         HoverPlot("FMU - reference", x_axis, below, difference, DIFFERENCE_HEIGHT),
     ]
-
-
-def _is_swept_number(check: Check) -> bool:
-    both = isinstance(check.fmu, float) and isinstance(check.reference, float)
-    return both and len(check.at) == 1 and QUANTITIES[check.quantity].kind == "number"
 
 
 def _label(name: str, unit: str) -> str:

@@ -93,12 +93,9 @@ class Runner:
                 first = first or error
         return first
 
-    def stop(self) -> None:
-        """Give up the tasks at work."""
-        self._stop.set()
-
     def end(self) -> None:
-        """End the idle processes."""
+        """Give up the tasks at work and end the idle processes."""
+        self._stop.set()
         while self._idle:
             self._idle.pop().kill()
 
@@ -125,9 +122,9 @@ class LocalProcesses:
 
     def end(self) -> None:
         """End all processes, also in the middle of a task."""
-        self._runner.stop()
-        self._threads.shutdown(cancel_futures=True)
         self._runner.end()
+        self._threads.shutdown(cancel_futures=True)
+        self._runner.end()  # those that became idle meanwhile
 
 
 MAX_CRASHES = 3

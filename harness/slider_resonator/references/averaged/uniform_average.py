@@ -86,7 +86,9 @@ def mean_friction(
     rate = stiffness / (mu * frequency)
     backward = 2.0 * rate * (q * math.sin(turn) - velocity * turn)
     forward = 2.0 * rate * (q * math.sin(turn) + velocity * (math.pi - turn))
-    turned_backward = _share_at_end_of_forward(backward, forward)
+    # s0 z / mu where forward sliding ends, of the response that repeats every turn.
+    gained = -math.expm1(-forward) + math.exp(-forward) * math.expm1(-backward)
+    turned_backward = gained / -math.expm1(-forward - backward)
     turned_forward = turned_backward + (1.0 + turned_backward) * math.expm1(-backward)
     later = [replace(case, phase=case.phase + 2.0 * math.pi * k * ratio) for k in range(1, turns)]
     total = 0.0
@@ -97,15 +99,6 @@ def mean_friction(
         for in_turn in (case, *later):
             total += _arc(velocity, in_turn, rate, (start, end), sign, share, ratio)
     return mu * total / (2.0 * math.pi * turns)
-
-
-def _share_at_end_of_forward(backward: float, forward: float) -> float:
-    """Return s0 z / mu where forward sliding ends, of the response that repeats every turn.
-
-    ``backward`` and ``forward`` are the paths slid each way, in units of mu / s0.
-    """
-    gained = -math.expm1(-forward) + math.exp(-forward) * math.expm1(-backward)
-    return gained / -math.expm1(-forward - backward)
 
 
 def _arc(

@@ -24,6 +24,18 @@ Number = TypeVar("Number", float, Array)
 
 
 @dataclass(frozen=True)
+class Instant:
+    """Angles (rad) of drive and normal load, load (N), its rate (N/s), ratio and its rate (1/s)."""
+
+    theta: float
+    angle: float
+    load: float
+    load_rate: float
+    ratio: float
+    ratio_rate: float
+
+
+@dataclass(frozen=True)
 class Equations:
     """Coefficients, in SI units, of the motion between two events.
 
@@ -86,25 +98,20 @@ class Equations:
     def slopes(
         self,
         mode: int | None,
-        load: float,
-        theta: float,
-        angle: float,
-        frequency_ratio: float,
+        now: Instant,
         width: float = 0.0,
-        *,
-        load_rate: float = 0.0,
-        ratio_rate: float = 0.0,
     ) -> Callable[[float, Array], list[float]]:
         """Return the time derivative of the state as a function of time (s) and state (4).
 
-        ``theta``, ``angle``, ``load`` and ``frequency_ratio`` are those at time 0; the last two
-        have rates in N/s and 1/s. Within a contact mode the derivative is smooth; with mode None
-        friction follows the sign of the velocity at every instant, or with a ``width`` in m/s its
-        regularisation tanh(velocity / width), or in a state with a bristle (5) that.
+        Angles and inputs are those of ``now`` at time 0. Within a contact mode the derivative is
+        smooth; with mode None friction follows the sign of the velocity at every instant, or with a
+        ``width`` in m/s its regularisation tanh(velocity / width), or in a state with a bristle (5)
+        that.
         """
         sin, cos, tanh = math.sin, math.cos, math.tanh
-        rate, angle_rate = self.drive_frequency, frequency_ratio * self.drive_frequency
-        half_acceleration = 0.5 * ratio_rate * self.drive_frequency
+        theta, angle, load, load_rate = now.theta, now.angle, now.load, now.load_rate
+        rate, angle_rate = self.drive_frequency, now.ratio * self.drive_frequency
+        half_acceleration = 0.5 * now.ratio_rate * self.drive_frequency
         coupling_damping, coupling_stiffness = self.coupling_damping, self.coupling_stiffness
         force_sine, force_cosine = self.force_sine, self.force_cosine
         base, damping, stiffness = self.base_acceleration, self.damping_rate, self.stiffness_rate

@@ -30,7 +30,7 @@ from slider_resonator.references.resolved.contact import (
     mode_at_rest,
     time_to_contact_change,
 )
-from slider_resonator.references.resolved.equations import equations_of, initial_state
+from slider_resonator.references.resolved.equations import Instant, equations_of, initial_state
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.segment import Follow, Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
@@ -47,7 +47,6 @@ class ModeSequence:
         self._equations = equations_of(device)
         self._follow = follow
         self._recorder = Recorder(times)
-        self._contact = self._recorder.contact
         self._theta = 0.0
         self._psi = 0.0
         self._events_at_this_instant = 0
@@ -76,15 +75,15 @@ class ModeSequence:
         self._keep_present(mode, inputs, self._recorder.pending(inputs.start))
         began = inputs.start
         if not self._bends:
-            self._contact.enter(mode, began)
+            self._recorder.enter(mode, began)
         while (remaining := elapsed.until(span)) > 0.0:
             now = _present(inputs, elapsed)
             contact_span = self._time_to_contact_change(mode, now)
             result = self._pass(mode, inputs, now, elapsed, min(remaining, contact_span))
             if self._bends and result.duration:
                 # Of a start at rest the first instant only shows the direction.
-                self._contact.slide(self._direction, began)
-                self._contact.enter(mode, began)
+                self._recorder.slide(self._direction, began)
+                self._recorder.enter(mode, began)
             elapsed.add(result.duration)
             self._theta = advanced(self._theta, self._equations.drive_frequency * result.duration)
             self._psi = advanced(
@@ -101,7 +100,7 @@ class ModeSequence:
             else:
                 break
             if not self._bends:
-                self._contact.enter(mode, began)
+                self._recorder.enter(mode, began)
         # An event at the stop, to rounding, has passed over the samples there.
         end = inputs.later(span)
         self._keep_present(mode, end, self._recorder.pending(inputs.stop))
@@ -112,25 +111,24 @@ class ModeSequence:
         """Follow a mode; ``now`` are the inputs as they are at present."""
         local = elapsed.until(self._recorder.pending(inputs.stop) - inputs.start)
         samples = local[: np.searchsorted(local, span, side="right")] if len(local) else local
+        instant = Instant(
+            *(self._theta, self._psi + now.phase, now.load, now.load_rate),
+            *(now.frequency_ratio, now.ratio_rate),
+        )
         segment = Segment(
             equations=self._equations,
             mode=mode,
             start=inputs.start + elapsed.seconds,
             state=self.state,
-            theta=self._theta,
-            angle=self._psi + now.phase,
-            load=now.load,
-            frequency_ratio=now.frequency_ratio,
+            now=instant,
             span=span,
             samples=samples,
             direction=self._direction if self._bends else mode,
-            load_rate=now.load_rate,
-            ratio_rate=now.ratio_rate,
         )
         result = self._follow(segment)
         if len(result.samples):
             self._keep(mode, now, samples[: len(result.samples)], result.samples)
-        self._contact.stay(result.duration)
+        self._recorder.stay(result.duration)
         self._recorder.steps += result.steps
         self._recorder.evaluations += result.evaluations
         return result

@@ -1,22 +1,32 @@
-"""The samples and counts of a run, for every integrator."""
+"""The samples, contact modes and counts of a run, for every integrator."""
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.references.resolved.contact_record import ContactRecord
+from slider_resonator.references.resolved.contact import SLIP_BACKWARD, SLIP_FORWARD, STICK
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 
 class Recorder:
-    """Keeps samples at ``times`` (shape (n,), s, ascending) and counts while a run is followed."""
+    """Keeps samples at ``times`` (shape (n,), s, ascending) and counts while a run is followed.
+
+    Counts are those of ``Trajectory``, taken while contact modes are entered.
+    """
 
     def __init__(self, times: Array) -> None:
         self.times = times
-        self.contact = ContactRecord()
+        self.event_times: list[float] = []
+        self.reversal_times: list[float] = []
+        self.modes: list[int] = []
+        self.sticks = 0
+        self.stick_time = 0.0
         self.steps = 0
         self.evaluations = 0
+        self._direction = 0  # of the last motion, 0 before the first
         self._next = 0
         self._signals: list[Array] = []
 
@@ -46,6 +56,31 @@ class Recorder:
         self._signals.append(rows)
         self._next += len(rows)
 
+    def enter(self, mode: int, time: float) -> None:
+        """Enter a contact mode at a time in s; entering the present mode changes nothing."""
+        if self.modes and mode == self.modes[-1]:
+            return
+        if self.modes:
+            self.event_times.append(time)
+            self.sticks += mode == STICK
+        if mode in (SLIP_BACKWARD, SLIP_FORWARD):
+            self.slide(mode, time)
+        self.modes.append(mode)
+
+    def slide(self, direction: int, time: float = math.nan) -> None:
+        """Move in a direction (-1, 0 or 1) from a time in s on; the opposite of the last reverses.
+
+        Motion in flight counts too.
+        """
+        if direction * self._direction < 0:
+            self.reversal_times.append(time)
+        self._direction = direction or self._direction
+
+    def stay(self, duration: float) -> None:
+        """Stay in the present mode for a duration in s."""
+        if self.modes and self.modes[-1] == STICK:
+            self.stick_time += duration
+
     def trajectory(self) -> Trajectory:
         """Return the trajectory of all samples."""
         signals = np.concatenate([np.empty((0, 8)), *self._signals])
@@ -59,12 +94,12 @@ class Recorder:
             friction_force=signals[:, 5],
             bristle_deflection=signals[:, 6],
             contact_mode=signals[:, 7].astype(np.int64),
-            reversals=self.contact.reversals,
-            sticks=self.contact.sticks,
-            stick_time=self.contact.stick_time,
-            event_times=np.array(self.contact.event_times),
-            reversal_times=np.array(self.contact.reversal_times),
-            modes=np.array(self.contact.modes, dtype=np.int64),
+            reversals=len(self.reversal_times),
+            sticks=self.sticks,
+            stick_time=self.stick_time,
+            event_times=np.array(self.event_times),
+            reversal_times=np.array(self.reversal_times),
+            modes=np.array(self.modes, dtype=np.int64),
             steps=self.steps,
             evaluations=self.evaluations,
         )

@@ -6,44 +6,31 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from slider_resonator.arrays import Array
-from slider_resonator.references.resolved.equations import Equations, State
+from slider_resonator.references.resolved.equations import Equations, Instant, State
 
 
 @dataclass(frozen=True)
 class Segment:
     """A contact mode, to be followed for at most ``span`` s.
 
-    It obeys ``equations`` and begins ``start`` s into the run, at the drive angle ``theta`` and the
-    angle ``angle`` of the normal load, rad. The motion is sampled at ``samples`` (shape (n,),
-    ascending, within (0, span], s from its start). ``load`` and ``frequency_ratio`` are those at
-    the start, with their rates in N/s and 1/s.
+    It obeys ``equations`` and begins ``start`` s into the run, where angles and inputs are those of
+    ``now``. The motion is sampled at ``samples`` (shape (n,), ascending, within (0, span], s from
+    its start).
     """
 
     equations: Equations
     mode: int
     start: float
     state: State
-    theta: float
-    angle: float
-    load: float
-    frequency_ratio: float
+    now: Instant
     span: float
     samples: Array
     direction: int
-    load_rate: float = 0.0
-    ratio_rate: float = 0.0
-
-    @property
-    def varies(self) -> bool:
-        """Whether load or ratio change."""
-        return bool(self.load_rate or self.ratio_rate)
 
     @property
     def largest_ratio(self) -> float:
         """The largest magnitude of the ratio within the span."""
-        return max(
-            abs(self.frequency_ratio), abs(self.frequency_ratio + self.ratio_rate * self.span)
-        )
+        return max(abs(self.now.ratio), abs(self.now.ratio + self.now.ratio_rate * self.span))
 
 
 @dataclass(frozen=True)

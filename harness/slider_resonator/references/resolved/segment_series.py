@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import accumulate, repeat
 from operator import mul
 
@@ -15,7 +16,6 @@ from slider_resonator.references.resolved.segment import Segment, SegmentResult
 from slider_resonator.references.resolved.taylor_series import (
     LONGEST,
     ORDER,
-    Instant,
     MotionSeries,
     Series,
     motion_series,
@@ -38,18 +38,18 @@ def follow_series(segment: Segment) -> SegmentResult:
     longest = LONGEST * frequency / equations.fastest_rate(segment.largest_ratio)
     span, times = segment.span * frequency, segment.samples * frequency
     elapsed = Elapsed()
-    theta, angle = segment.theta, segment.angle
+    start = segment.now
+    theta, angle = start.theta, start.angle
     kept = [np.empty((0, len(units)))]
     sampled = steps = event = 0
     while not event and (remaining := elapsed.until(span)) > 0.0:
         passed = (elapsed.seconds + elapsed.carry) / frequency
-        now = Instant(
-            theta,
-            angle,
-            segment.load + segment.load_rate * passed,
-            segment.load_rate,
-            segment.frequency_ratio + segment.ratio_rate * passed,
-            segment.ratio_rate,
+        now = replace(
+            start,
+            theta=theta,
+            angle=angle,
+            load=start.load + start.load_rate * passed,
+            ratio=start.ratio + start.ratio_rate * passed,
         )
         series = motion_series(equations, mode, segment.direction, now, states)
         step = min(remaining, longest)
@@ -74,7 +74,7 @@ def follow_series(segment: Segment) -> SegmentResult:
         steps += 1
         elapsed.add(step)
         theta = advanced(theta, step)
-        angle = advanced(angle, (now.ratio + 0.5 * segment.ratio_rate / frequency * step) * step)
+        angle = advanced(angle, (now.ratio + 0.5 * now.ratio_rate / frequency * step) * step)
     samples = np.concatenate(kept) * units
     samples[:, 0] += segment.state[0]
     way, *others = (state * unit for state, unit in zip(states, units, strict=True))
@@ -150,7 +150,7 @@ def _force_size(segment: Segment, series: MotionSeries, step: float, grip: float
     equations, frequency = segment.equations, segment.equations.drive_frequency
     coupling = equations.coupling_damping + equations.coupling_stiffness / frequency
     swing = coupling * max(_size(row, step) for row in series.states[2:4])
-    outer = abs(equations.force_sine) + abs(equations.force_cosine) + abs(segment.load)
+    outer = abs(equations.force_sine) + abs(equations.force_cosine) + abs(segment.now.load)
     held = grip * (equations.friction_mean + equations.friction_amplitude)
     return (swing + outer + held) / (equations.inertia * frequency)
 

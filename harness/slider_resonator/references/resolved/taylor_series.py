@@ -17,7 +17,7 @@ from math import cos, factorial, sin
 from operator import mul
 
 from slider_resonator.references.resolved.contact import LIFTED, STICK
-from slider_resonator.references.resolved.equations import Equations
+from slider_resonator.references.resolved.equations import Equations, Instant
 
 ORDER = 24
 """Order of the series: over `LONGEST` rad of the fastest rate the rest is below rounding."""
@@ -28,18 +28,6 @@ _INVERSE_FACTORIALS = [1.0 / factorial(order) for order in range(ORDER + 1)]
 
 Series = list[float]
 """Coefficients of ascending powers of the drive angle, ORDER + 1 of them."""
-
-
-@dataclass(frozen=True)
-class Instant:
-    """Angles (rad) of drive and normal load, load (N), its rate (N/s), ratio and its rate (1/s)."""
-
-    theta: float
-    angle: float
-    load: float
-    load_rate: float
-    ratio: float
-    ratio_rate: float
 
 
 @dataclass(frozen=True)

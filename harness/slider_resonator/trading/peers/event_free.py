@@ -26,7 +26,12 @@ from slider_resonator.device.held_inputs import (
     with_steady_phase,
 )
 from slider_resonator.references.resolved.contact import LIFTED, SLIP_FORWARD
-from slider_resonator.references.resolved.equations import Number, equations_of, initial_state
+from slider_resonator.references.resolved.equations import (
+    Instant,
+    Number,
+    equations_of,
+    initial_state,
+)
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.trajectory import Trajectory
 
@@ -128,10 +133,12 @@ def _integrate(
         ratio = max(inputs.frequency_ratio, inputs.later(span).frequency_ratio, key=abs)
         longest = 2.0 * np.pi / equations.fastest_rate(ratio) / STEPS_PER_FASTEST_PERIOD
     slopes = equations.slopes(
-        *(None, inputs.load, run.theta, run.psi + inputs.phase, inputs.frequency_ratio),
+        None,
+        Instant(
+            *(run.theta, run.psi + inputs.phase, inputs.load, inputs.load_rate),
+            *(inputs.frequency_ratio, inputs.ratio_rate),
+        ),
         width,
-        load_rate=inputs.load_rate,
-        ratio_rate=inputs.ratio_rate,
     )
     solver = method(slopes, 0.0, run.state, span, max_step=longest, rtol=rtol, atol=atol * scales)
     while solver.status == "running":
@@ -146,7 +153,7 @@ def _integrate(
         recorder.steps += 1
         load = equations.normal_amplitude * np.sin(run.angles(inputs, float(solver.t)))
         if equations.normal_preload + load > 0.0:
-            recorder.contact.slide(int(np.sign(solver.y[1])))
+            recorder.slide(int(np.sign(solver.y[1])))
         reached = inputs.start + solver.t if solver.status == "running" else inputs.stop
         local = recorder.pending(reached) - inputs.start
         if local.size:

@@ -59,22 +59,14 @@ def _follow(segment: Segment, rtol: float, atol: float, steps_per_period: int) -
     longest = 2.0 * math.pi / equations.fastest_rate(segment.largest_ratio) / steps_per_period
     method: Callable[..., Any] = DOP853
     solver = method(
-        equations.slopes(
-            segment.mode,
-            segment.load,
-            segment.theta,
-            segment.angle,
-            segment.frequency_ratio,
-            load_rate=segment.load_rate,
-            ratio_rate=segment.ratio_rate,
-        ),
+        equations.slopes(segment.mode, segment.now),
         0.0,
         np.array([0.0, *segment.state[1:]]),
         segment.span,
         first_step=min(longest, segment.span),
         max_step=longest,
         rtol=rtol,
-        atol=atol * equations.state_scales(segment.load),
+        atol=atol * equations.state_scales(segment.now.load),
     )
     samples = [np.empty((0, 4))]
     steps = sampled = event = 0
@@ -133,11 +125,11 @@ def _margin(segment: Segment, dense: Dense, event: int, time: float | Array) -> 
     _, velocity, displacement, resonator_velocity = dense(time)
     if segment.mode != STICK:
         return np.asarray(segment.mode * velocity)
-    local = np.asarray(time)
-    rate, half = equations.drive_frequency, 0.5 * segment.ratio_rate
-    angle = segment.angle + (segment.frequency_ratio + half * local) * rate * local
-    load = segment.load + segment.load_rate * local
-    theta = segment.theta + rate * local
+    local, now = np.asarray(time), segment.now
+    rate, half = equations.drive_frequency, 0.5 * now.ratio_rate
+    angle = now.angle + (now.ratio + half * local) * rate * local
+    load = now.load + now.load_rate * local
+    theta = now.theta + rate * local
     needed = equations.needed_force(load, theta, displacement, resonator_velocity)
     return np.asarray(equations.friction_limit(angle) - event * needed)
 

@@ -43,7 +43,7 @@ def simulate(
 
 def _follow(run: RunWithoutEvents, inputs: HeldInputs, *, steps_per_period: int) -> None:
     """Step through held inputs; the friction of the last step goes on to the next."""
-    equations, contact = run.equations, run.recorder.contact
+    equations, recorder = run.equations, run.recorder
     rate = equations.drive_frequency
     angle_rate, half = inputs.frequency_ratio * rate, 0.5 * inputs.ratio_rate * rate
     load, load_rate = inputs.load, inputs.load_rate
@@ -71,16 +71,16 @@ def _follow(run: RunWithoutEvents, inputs: HeldInputs, *, steps_per_period: int)
         y += 0.5 * step * (u + next_u)
         v, u = next_v, next_u
         path.extend((x, v, y, u, impulse / step))
-        contact.slide((v > 0.0) - (v < 0.0))
+        recorder.slide((v > 0.0) - (v < 0.0))
         if stopped:
-            contact.sticks += not sticking
-            contact.stick_time += step
+            recorder.sticks += not sticking
+            recorder.stick_time += step
         sticking = stopped
-    run.recorder.steps += count
-    run.recorder.evaluations += count
+    recorder.steps += count
+    recorder.evaluations += count
     rows = np.array(path).reshape(-1, 5)
     run.state, run.friction = rows[-1, :4], float(rows[-1, 4])
-    local = run.recorder.pending(inputs.stop) - inputs.start
+    local = recorder.pending(inputs.stop) - inputs.start
     ends = step * np.arange(count + 1)
     samples = np.column_stack([np.interp(local, ends, column) for column in rows.T])
     run.keep(inputs, local, samples[:, :4], samples[:, 4])

@@ -71,9 +71,7 @@ def heyoka_in_one_call(
 def device_at(device: Device, run: Trajectory, index: int) -> Device:
     """Return the device that starts in the state of a trajectory at one of its samples."""
     state: dict[str, Any] = {f"initial_{name}": float(getattr(run, name)[index]) for name in _STATE}
-    return replace(
-        device, **state, initial_bristle_deflection=float(run.bristle_deflection[index])
-    )
+    return replace(device, **state, initial_bristle_deflection=float(run.bristle_deflection[index]))
 
 
 @dataclass(frozen=True)

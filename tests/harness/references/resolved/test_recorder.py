@@ -1,11 +1,13 @@
 from __future__ import annotations
 
+import numpy as np
+
 from slider_resonator.references.resolved.contact import LIFTED, SLIP_BACKWARD, SLIP_FORWARD, STICK
-from slider_resonator.references.resolved.contact_record import ContactRecord
+from slider_resonator.references.resolved.recorder import Recorder
 
 
-def record_of(*modes: int) -> ContactRecord:
-    record = ContactRecord()
+def record_of(*modes: int) -> Recorder:
+    record = Recorder(np.empty(0))
     for index, mode in enumerate(modes):
         record.enter(mode, float(index))
     return record
@@ -13,17 +15,22 @@ def record_of(*modes: int) -> ContactRecord:
 
 def test_first_mode_is_no_event() -> None:
     record = record_of(STICK)
-    assert (record.sticks, record.reversals, record.event_times) == (0, 0, [])
+    assert (record.sticks, record.trajectory().reversals, record.event_times) == (0, 0, [])
 
 
 def test_sliding_on_in_the_same_direction_is_no_reversal() -> None:
-    assert record_of(STICK, SLIP_FORWARD, STICK, SLIP_FORWARD, LIFTED, SLIP_FORWARD).reversals == 0
+    assert (
+        record_of(STICK, SLIP_FORWARD, STICK, SLIP_FORWARD, LIFTED, SLIP_FORWARD)
+        .trajectory()
+        .reversals
+        == 0
+    )
 
 
 def test_reversal_counts_directly_and_after_stick_or_flight() -> None:
-    assert record_of(SLIP_FORWARD, SLIP_BACKWARD).reversals == 1
-    assert record_of(SLIP_FORWARD, STICK, SLIP_BACKWARD).reversals == 1
-    assert record_of(SLIP_BACKWARD, LIFTED, STICK, SLIP_FORWARD).reversals == 1
+    assert record_of(SLIP_FORWARD, SLIP_BACKWARD).trajectory().reversals == 1
+    assert record_of(SLIP_FORWARD, STICK, SLIP_BACKWARD).trajectory().reversals == 1
+    assert record_of(SLIP_BACKWARD, LIFTED, STICK, SLIP_FORWARD).trajectory().reversals == 1
 
 
 def test_only_mode_changes_are_counted() -> None:
@@ -47,4 +54,4 @@ def test_modes_and_reversals_have_their_times() -> None:
     assert record.modes == [SLIP_FORWARD, LIFTED, SLIP_BACKWARD, STICK]
     assert record.reversal_times == [2.0]
     record.slide(SLIP_FORWARD)
-    assert record.reversals == 2, "a reversal without a time counts"
+    assert record.trajectory().reversals == 2, "a reversal without a time counts"
