@@ -31,8 +31,9 @@ class Curves:
     reference: Array
 
     def part(self, kept: slice | NDArray[np.intp]) -> Curves:
-        """Return some of the points."""
-        return Curves(self.check, self.times[kept], self.fmu[kept], self.reference[kept])
+        """Return some of the points, as copies."""
+        signals = (self.times, self.fmu, self.reference)
+        return Curves(self.check, *(np.array(signal[kept]) for signal in signals))
 
     def thinned(self) -> Curves:
         """Return evenly spaced points, at most `MAX_POINTS`, and the one that is farthest off."""

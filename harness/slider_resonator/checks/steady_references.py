@@ -7,8 +7,11 @@ from functools import cached_property
 from math import pi
 
 from slider_resonator.device.device import FULL, Device
-from slider_resonator.references.averaged.device_average import blocking_force, steady_velocity
-from slider_resonator.references.averaged.prediction_validity import prediction_valid
+from slider_resonator.references.averaged.device_average import (
+    blocking_force,
+    prediction_valid,
+    steady_velocity,
+)
 from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.steady.reference_steady import (
     reference_blocking_force,

@@ -37,11 +37,8 @@ def write_junit(
         _suite(root, validation, provenance)
     if error:
         _suite(root, Validation(title, (), 0.0, (RunFailure("", error, {}),)), provenance)
-    counts = {"tests": 0, "failures": 0, "errors": 0, "skipped": 0}
-    for suite in root:
-        for name in counts:
-            counts[name] += int(suite.attrib[name])
-    root.attrib.update({name: str(count) for name, count in counts.items()})
+    for name in ("tests", "failures", "errors", "skipped"):
+        root.set(name, str(sum(int(suite.attrib[name]) for suite in root)))
     root.set("time", f"{sum(v.wall_time for v in validations):.3f}")
     ET.indent(root)
     with replacing(path) as temporary:

@@ -8,7 +8,7 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.averaged.prediction_validity import prediction_valid
+from slider_resonator.references.averaged.device_average import prediction_valid
 from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
 
