@@ -106,10 +106,10 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         "located_events": lambda references: slow_displacement(
             references.times,
             references.signal("located_events", "position"),
-            references.drive_period,
+            references.scene.drive_period,
         ),
         "averaged": lambda references: slow_displacement(
-            references.times, references.averaged_motion.position, references.drive_period
+            references.times, references.averaged_motion.position, references.scene.drive_period
         ),
     },
     "mean_velocity": {
@@ -137,7 +137,7 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     },
     "last_event_time": _resolved("last_event_time"),
     "ripple_amplitude": {"closed_form": lambda references: references.steady.ripple_amplitude},
-    "ripple_frequency": {"closed_form": lambda references: 1.0 / references.drive_period},
+    "ripple_frequency": {"closed_form": lambda references: 1.0 / references.scene.drive_period},
     "beat_frequency": {"closed_form": lambda references: references.steady.difference_frequency},
 }
 """Quantity to its references, by name, each with the function that gives its value."""

@@ -74,11 +74,6 @@ class FmuSide:
         values = {name: value for name, value in self.scene.values.items() if name != "load"}
         return find_blocking(self.instance, values)
 
-    @property
-    def drive_period(self) -> float:
-        """Drive period in seconds."""
-        return self.scene.drive_period
-
 
 def _measure(instance: Instance, scene: Scene, measure: Callable[[FmuSide], Any]) -> Any:
     return measure(FmuSide(instance, scene))

@@ -150,7 +150,7 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "friction_force": _output("friction_force"),
     "contact_mode": _output("contact_mode"),
     "slow_displacement": lambda fmu: slow_displacement(
-        fmu.record.times, fmu.record["position"], fmu.drive_period
+        fmu.record.times, fmu.record["position"], fmu.scene.drive_period
     ),
     "mean_velocity": _final("mean_velocity"),
     "mean_velocity_in_run": _output("mean_velocity"),
@@ -163,11 +163,11 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "reversals": _final("reversals"),
     "reversals_in_run": _output("reversals"),
     "event_times": lambda fmu: (
-        (fmu.record["last_event_time"] - fmu.scene.start_time) / fmu.drive_period
+        (fmu.record["last_event_time"] - fmu.scene.start_time) / fmu.scene.drive_period
     ),
     "last_event_time": _final("last_event_time"),
     "ripple_amplitude": lambda fmu: ripple_amplitude(
-        fmu.record.times, fmu.record["position"], fmu.drive_period
+        fmu.record.times, fmu.record["position"], fmu.scene.drive_period
     ),
     "ripple_frequency": lambda fmu: dominant_frequency(
         *_later_half(fmu.record.times, fmu.record["velocity"])

@@ -43,11 +43,6 @@ class ReferenceSide:
         self._trajectories: dict[str, Trajectory] = {}
         self._around: dict[tuple[str, float], Trajectory] = {}
 
-    @property
-    def drive_period(self) -> float:
-        """Drive period in seconds."""
-        return self.scene.drive_period
-
     @cached_property
     def times(self) -> Array:
         """Times of the scene (s) at which outputs are read, shape (n,)."""
@@ -61,7 +56,7 @@ class ReferenceSide:
         if reference not in self._trajectories:
             every = any(expect.quantity == "mean_velocity_in_run" for expect in self.scene.expect)
             means = self.times if every else self.times[-1:]
-            times = np.union1d(self.times, self.periods.ends(means))
+            times = np.union1d(self.times, self.scene.drive_periods.ends(means))
             self._trajectories[reference] = self._simulate(reference, times)
         return self._trajectories[reference]
 
@@ -73,7 +68,7 @@ class ReferenceSide:
 
     def tube(self, reference: str, name: str, share: float) -> Tube:
         """Return one output with its range within a share of a drive period to each side."""
-        offsets = share * self.drive_period * np.linspace(-1.0, 1.0, 2 * TUBE_POINTS + 1)
+        offsets = share * self.scene.drive_period * np.linspace(-1.0, 1.0, 2 * TUBE_POINTS + 1)
         around = np.clip(self.times[:, None] + offsets, 0.0, self._simulated_until)
         if (reference, share) not in self._around:
             self._around[reference, share] = self._simulate(reference, np.unique(around))
@@ -90,7 +85,7 @@ class ReferenceSide:
         signal = self.signal(reference, name)
         events = self.trajectory(reference).event_times
         changes = np.array([held.start for held in self.scene.schedule().held()])
-        margin = COINCIDENCE * self.drive_period
+        margin = COINCIDENCE * self.scene.drive_period
         times = self.times
         coincide = _near(times, events, margin) & ~_near(times, changes, margin)
         if not coincide.any():
@@ -109,18 +104,18 @@ class ReferenceSide:
         self, reference: str, measure: Callable[[Trajectory, Array, DrivePeriods], Any]
     ) -> Any:
         """Return a measure of `period_means` at the communication points."""
-        return measure(self.trajectory(reference), self.times, self.periods)
+        return measure(self.trajectory(reference), self.times, self.scene.drive_periods)
 
     def last_event_time(self, reference: str) -> float:
         """Return the time (s) of the last event, that of the start without any."""
         run, end = self.trajectory(reference), self.times[-1:]
-        last = float(last_events(run, end, self.periods).middle[0])
-        return self.scene.start_time + last * self.drive_period
+        last = float(last_events(run, end, self.scene.drive_periods).middle[0])
+        return self.scene.start_time + last * self.scene.drive_period
 
     @property
     def _simulated_until(self) -> float:
         """The time (s) up to which a reference finds events that coincide with the end."""
-        return float(self.times[-1]) + COINCIDENCE * self.drive_period
+        return float(self.times[-1]) + COINCIDENCE * self.scene.drive_period
 
     def _simulate(self, reference: str, times: Array) -> Trajectory:
         # What averaged motion comes close to is the full device.
@@ -146,11 +141,13 @@ class ReferenceSide:
         self, reference: str, measure: Callable[[Trajectory, Array, DrivePeriods], Array]
     ) -> float:
         """Return a measure of `period_means` over the last whole drive period of the run."""
-        return float(measure(self.trajectory(reference), self.times[-1:], self.periods)[0])
+        return float(
+            measure(self.trajectory(reference), self.times[-1:], self.scene.drive_periods)[0]
+        )
 
     def friction_power(self, reference: str) -> float:
         """Return the mean power (W) of friction over the last whole drive period of the run."""
-        begin, end = self.periods.ends(self.times[-1:])[0].tolist()
+        begin, end = self.scene.drive_periods.ends(self.times[-1:])[0].tolist()
         changes = [held.start for held in self.scene.schedule().held()]
         events = np.append(self.trajectory(reference).event_times, changes)
         times, weights = quadrature(events, begin, end)
@@ -193,11 +190,6 @@ class ReferenceSide:
         values = np.array([getattr(references, name) for references in steady])
         starts = np.array([inputs.start for inputs in held[1:]])
         return np.asarray(values[np.searchsorted(starts, self.times, side="left")])
-
-    @property
-    def periods(self) -> DrivePeriods:
-        """The whole periods of the drive."""
-        return self.scene.drive_periods
 
 
 def _near(times: Array, instants: Array, margin: float) -> NDArray[np.bool_]:

@@ -48,8 +48,8 @@ def test_an_event_that_a_change_of_inputs_causes_has_one_right_side() -> None:
 def test_an_event_beyond_the_end_is_not_counted() -> None:
     whole = side("", 3.3)
     reversal = float(whole.trajectory("located_events").reversal_times[-1])
-    late = 1e-7 * whole.drive_period
-    references = side("", (reversal - late) / whole.drive_period)
+    late = 1e-7 * whole.scene.drive_period
+    references = side("", (reversal - late) / whole.scene.drive_period)
     counts = references.in_run("located_events", reversal_counts)
     assert references.reversals("located_events") == counts.middle[-1] == counts.lower[-1]
     assert counts.upper[-1] == counts.middle[-1] + 1.0, "the next coincides with the end"

@@ -18,7 +18,7 @@ def side(text: str) -> ReferenceSide:
 def test_the_mean_velocity_is_that_of_the_last_whole_period() -> None:
     reference = side(RUN.replace("12.3", "12").replace("8", "1"))
     position = reference.signal("located_events", "position")
-    expected = (position[-1] - position[-2]) / reference.drive_period
+    expected = (position[-1] - position[-2]) / reference.scene.drive_period
     assert reference.at_end("located_events", mean_velocities) == pytest.approx(expected, rel=1e-12)
     assert side(RUN).at_end("located_events", mean_velocities) == pytest.approx(
         expected, rel=1e-9
@@ -39,7 +39,7 @@ def test_a_tube_contains_signals_shifted_by_less_than_its_width() -> None:
     assert np.abs(tube.middle - velocity).max() < 1e-12 * np.abs(velocity).max()
     held = reference.scene.schedule().held()
     for late, inside in ((0.015, True), (-0.015, True), (0.03, False)):
-        shift = late * reference.drive_period
+        shift = late * reference.scene.drive_period
         times = np.clip(reference.times - shift, 0.0, reference.times[-1])
         shifted = simulate(reference.device, held, np.unique(times)).velocity
         shifted = shifted[np.searchsorted(np.unique(times), times)]

@@ -14,7 +14,6 @@ import os
 import pickle
 import sys
 import traceback
-from collections.abc import Iterator
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
@@ -63,7 +62,7 @@ def main() -> None:
             instance = stack.enter_context(instantiate(fmu)) if fmu is not None else None
             faulthandler.cancel_dump_traceback_later()
             _send(messages, Result())
-            for request in _read(requests):
+            while request := _next(requests):
                 begin()
                 message = _run(instance, request, messages)
                 faulthandler.cancel_dump_traceback_later()
@@ -90,17 +89,17 @@ def _take_standard_streams() -> tuple[BinaryIO, BinaryIO]:
     return requests, messages
 
 
-def _read(requests: BinaryIO) -> Iterator[Request]:
-    while True:
-        try:
-            yield pickle.load(requests)
-        except EOFError:
-            return
+def _next(requests: BinaryIO) -> Request | None:
+    try:
+        request: Request = pickle.load(requests)
+    except EOFError:
+        return None
+    return request
 
 
 def _run(instance: Instance | None, request: Request, messages: BinaryIO) -> Message:
-    task = request.task
-    if request.reports_progress:
+    task, reports_progress = request
+    if reports_progress:
         task = partial(task, progress=lambda *done: _send(messages, Progress(*done)))
     try:
         return Result(task(instance))

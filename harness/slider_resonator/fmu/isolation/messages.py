@@ -1,18 +1,14 @@
-"""The messages between an isolated FMU and the process that started it, pickled."""
+"""The messages between an isolated FMU and the process that started it, pickled.
+
+A request is a task, a function of the instance, and whether it reports progress: it is then called
+with a keyword argument `progress`.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
-
-
-@dataclass(frozen=True)
-class Request:
-    """A task to run; one that reports progress is called with a keyword argument `progress`."""
-
-    task: Callable[..., Any]
-    reports_progress: bool
 
 
 @dataclass(frozen=True)
@@ -42,5 +38,6 @@ class Failure:
     error: Exception
 
 
+Request = tuple[Callable[..., Any], bool]
 Message = Started | Progress | Result | Failure
 """A message from the process of the FMU."""

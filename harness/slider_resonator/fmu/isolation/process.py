@@ -21,7 +21,6 @@ from slider_resonator.fmu.isolation.messages import (
     Failure,
     Message,
     Progress,
-    Request,
     Result,
     Started,
 )
@@ -128,7 +127,7 @@ class IsolatedFmu:
         """
         if self._killed:
             raise FmuDied("the process of the FMU has been ended")
-        request = pickle.dumps(Request(task, progress is not None))
+        request = pickle.dumps((task, progress is not None))
         # In a thread: it would wait for ever for a process that has stopped.
         threading.Thread(target=_send, args=(self._requests, request), daemon=True).start()
         return self._result(progress)
