@@ -59,10 +59,10 @@ def steady_vibration(device: Device) -> tuple[complex, complex]:
     """
     frequency = device.drive_frequency
     base_acceleration = device.base_amplitude * frequency**2
-    mobility = 1.0 / (1.0 - device.mass_ratio)
+    share = device.slider_mass / device.total_mass
     response = complex(
-        mobility * device.resonator_frequency**2 - frequency**2,
-        2.0 * device.damping_ratio * device.resonator_frequency * mobility * frequency,
+        device.resonator_frequency**2 - share * frequency**2,
+        2.0 * device.damping_ratio * device.resonator_frequency * frequency,
     )
     if abs(response) <= RESONANCE_RESOLUTION * frequency**2:
         raise ValueError(
@@ -70,7 +70,8 @@ def steady_vibration(device: Device) -> tuple[complex, complex]:
             f"{device.resonator_frequency!r} rad/s, the slipping resonance: there is no steady "
             "state; damping_ratio must be greater than 0 or the frequencies differ"
         )
-    resonator = (base_acceleration - device.tangential_force / device.slider_mass) / response
+    direct = device.tangential_force / device.total_mass
+    resonator = (share * base_acceleration - direct) / response
     force = (
         device.resonator_mass * base_acceleration
         + device.tangential_force
