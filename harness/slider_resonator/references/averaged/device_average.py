@@ -17,6 +17,8 @@ from slider_resonator.references.equivalent_force import (
 
 _SAMPLES = 65
 """Velocities between which equilibria are searched."""
+_ROUNDING = 1e-12
+"""Rounding error of a mean friction, as a share of the largest."""
 
 
 def mean_friction(
@@ -102,7 +104,8 @@ def stable_velocity(friction: Callable[[float], float], strength: float, load: f
     ``friction`` is the averaged friction at a slow velocity, constant from +-strength on, ``load``
     in its unit. LuGre friction is not monotonic, so that a load above that of full sliding may be
     balanced, and at more than one velocity: the one farthest in the direction in which the slider
-    leaves rest without load is returned. Raises ValueError if there is none.
+    leaves rest without load is returned, forward if it does not but for rounding. Raises ValueError
+    if there is none.
     """
 
     def excess(turn: float) -> float:
@@ -120,7 +123,8 @@ def stable_velocity(friction: Callable[[float], float], strength: float, load: f
             f"load = {load!r} is balanced at no velocity: friction lies between "
             f"{min(values) - load!r} and {max(values) - load!r}, a greater load runs away"
         )
-    return max(found) if friction(0.0) <= 0.0 else min(found)
+    forward = friction(0.0) <= _ROUNDING * max(map(abs, values))
+    return max(found) if forward else min(found)
 
 
 def _root(function: Callable[[float], float], left: float, right: float) -> float:
