@@ -1,7 +1,5 @@
 """Which tests run with which FMU."""
 
-from __future__ import annotations
-
 import pytest
 
 

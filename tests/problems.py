@@ -1,7 +1,5 @@
 """Named devices and inputs that trajectory tests share: ordinary, extreme and degenerate."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 

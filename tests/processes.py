@@ -1,7 +1,5 @@
 """Commands and Python code in processes of their own."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

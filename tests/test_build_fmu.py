@@ -1,12 +1,8 @@
 """The command, and what holds for both FMUs that it builds."""
 
-from __future__ import annotations
-
 import os
-import re
 import sys
 import zipfile
-from html.parser import HTMLParser
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -16,7 +12,6 @@ from fmpy.validation import validate_fmu
 from build_fmu import main
 from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import MODEL as PYTHON_MODEL
-from fmu_src.building.web_page import NAME as PAGE
 from fmu_src.python.slider_component.variables import VARIABLES
 from tests.fmus import every_fmu, every_slider
 from tests.processes import ROOT, run_command
@@ -119,26 +114,6 @@ def test_page_lists_every_variable(page: str) -> None:
         assert page.count(f"<td><code>{v.name}</code></td>") == 1, v.name
 
 
-@every_slider
-def test_page_is_self_contained_and_balanced(page: str) -> None:
-    class Balance(HTMLParser):
-        opened: list[str] = []  # noqa: RUF012 - one parser only
-
-        def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-            targets = [value or "" for name, value in attrs if name in ("src", "href")]
-            assert all(t.startswith("#") or t == PAGE for t in targets), f"{tag} points elsewhere"
-            if tag not in ("meta", "br"):
-                self.opened.append(tag)
-
-        def handle_endtag(self, tag: str) -> None:
-            assert self.opened.pop() == tag, f"line {self.getpos()[0]}: </{tag}>"
-
-    parser = Balance()
-    parser.feed(page)
-    assert parser.opened == []
-    assert re.search(r"\$\w", page) is None, "every place of the template is filled"
-
-
 def test_all_but_the_page_are_built_for_this_machine(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -185,15 +160,6 @@ def test_a_file_as_folder_is_refused(
     assert (tmp_path / "file").read_text() == "kept"
 
 
-@every_slider
-def test_what_cannot_be_replaced_is_named(
-    fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (tmp_path / fmu.name).mkdir()
-    assert main(["--out", str(tmp_path), *OPTIONS[fmu.stem]]) == 2
-    assert "Is a directory" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     ("arguments", "reason"),
     [
@@ -218,10 +184,3 @@ def test_a_compiler_that_is_not_there_is_named(
     assert main(arguments) == 2
     assert "compiler 'no-such-cc' refused: it is not found" in capsys.readouterr().err
     assert not (tmp_path / "dist").exists()
-
-
-@every_slider
-def test_page_has_a_table_of_contents(page: str) -> None:
-    sections = re.findall(r'<h2 id="(.*?)">', page)
-    assert len(sections) >= 6
-    assert re.findall(r'<a href="#(.*?)">', page) == sections

@@ -1,7 +1,5 @@
 """The layers of the C sources: they hold, and an include against them is found."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys

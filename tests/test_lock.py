@@ -1,12 +1,12 @@
 """The lock files hold what pyproject.toml asks for, so that an SBOM made of them is whole."""
 
-from __future__ import annotations
-
 import re
 import tomllib
+from importlib.metadata import requires
 
 import pytest
 from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 from tests.processes import ROOT
 
@@ -57,3 +57,38 @@ def test_every_requirement_is_locked_at_a_version_that_it_allows(name: str) -> N
 def test_a_lock_file_names_no_index_and_no_folder(name: str) -> None:
     text = (ROOT / name).read_text(encoding="utf-8")
     assert not re.search(r"://|--index|--extra-index|--find-links|^[./]", text, re.MULTILINE)
+
+
+BUILD_TOOLS = {
+    *("cmake", "ninja", "meson", "meson-python", "scons", "scikit-build", "scikit-build-core"),
+    *("ziglang", "clang", "gcc", "cython", "pythonfmu", "setuptools", "wheel", "pip"),
+}
+
+
+def installed_with(requirements: list[str]) -> set[str]:
+    """Return the names of all packages that these requirements install here."""
+    found: set[str] = set()
+    todo = [Requirement(text) for text in requirements]
+    while todo:
+        requirement = todo.pop()
+        name = canonicalize_name(requirement.name)
+        extras = ["", *requirement.extras]
+        if name in found or not needed(requirement, [""]):
+            continue
+        found.add(name)
+        theirs = [Requirement(text) for text in requires(name) or []]
+        todo += [one for one in theirs if needed(one, extras)]
+    return found
+
+
+def needed(requirement: Requirement, extras: list[str]) -> bool:
+    marker = requirement.marker
+    return marker is None or any(marker.evaluate({"extra": extra}) for extra in extras)
+
+
+def test_the_wheel_installs_no_compiler_and_no_build_tool() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    found = installed_with(project["dependencies"])
+    assert "fmpy" in found
+    assert "lxml" in found, "what fmpy requires is among them"
+    assert not found & BUILD_TOOLS

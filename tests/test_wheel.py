@@ -1,7 +1,5 @@
 """The wheel: what it brings, and that it works where the user has folders of the same names."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
@@ -102,12 +100,12 @@ def test_nothing_of_the_build_stays_in_the_sources(wheel: Path) -> None:
     assert not (source / "harness" / "slider_resonator" / "finished").exists()
 
 
-def test_a_wheel_needs_what_builds_fmus_unless_they_are_given() -> None:
-    assert any(name.startswith("ziglang") for name in wheel_backend.get_requires_for_build_wheel())
-    assert wheel_backend.get_requires_for_build_wheel({"fmus": "dist"}) == []
-
-
 def test_a_folder_without_fmus_makes_no_wheel(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match="no FMU in this folder"):
         wheel_backend.build_wheel(str(tmp_path), {"fmus": str(tmp_path)})
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_wheel_needs_what_builds_fmus_unless_they_are_given() -> None:
+    assert any(name.startswith("ziglang") for name in wheel_backend.get_requires_for_build_wheel())
+    assert wheel_backend.get_requires_for_build_wheel({"fmus": "dist"}) == []

@@ -1,7 +1,5 @@
 """The workflows call existing commands with existing options."""
 
-from __future__ import annotations
-
 import shlex
 import subprocess
 from collections.abc import Iterator
@@ -15,7 +13,6 @@ import yaml
 from studies.cli import main
 from tests.processes import ROOT
 
-CI = ROOT / ".github" / "workflows" / "ci.yml"
 WORKFLOWS = (
     *sorted((ROOT / ".github" / "workflows").glob("*.yml")),
     ROOT / "examples" / "validate-fmu.yml",

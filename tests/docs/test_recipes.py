@@ -1,13 +1,11 @@
 """The code of those recipes whose hosts install here, run as it stands there."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
 import pytest
 
-from tests.docs.documented_code import output_of
+from tests.docs.test_code import output_of
 
 RECIPES = Path(__file__).parents[2] / "docs" / "recipes"
 

@@ -1,12 +1,10 @@
-"""What the loader of a system reads in the files of the FMU: symbols, versions, names."""
-
-from __future__ import annotations
+"""What the loader of a system reads in the files of the FMU: symbols and names."""
 
 import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-_ELF_DYNAMIC_SYMBOLS, _ELF_NEEDED_VERSIONS = 11, 0x6FFFFFFE
+_ELF_DYNAMIC_SYMBOLS = 11
 _MACH_SYMBOLS, _MACH_OWN_NAME, _MACH_BUILD_VERSION = 0x2, 0xD, 0x32
 _MACH_PRIVATE, _MACH_KIND, _MACH_DEFINED, _MACH_EXTERNAL = 0x10, 0x0E, 0x0E, 0x01
 
@@ -21,7 +19,6 @@ class _Section:
     offset: int
     size: int
     link: int
-    count: int
 
 
 def _elf_sections(data: bytes) -> list[_Section]:
@@ -32,8 +29,8 @@ def _elf_sections(data: bytes) -> list[_Section]:
     for i in range(count):
         at = table + i * entry
         (kind,) = struct.unpack_from("<I", data, at + 4)
-        offset, size, link, info = struct.unpack_from("<QQII", data, at + 24)
-        found.append(_Section(kind, offset, size, link, info))
+        offset, size, link = struct.unpack_from("<QQI", data, at + 24)
+        found.append(_Section(kind, offset, size, link))
     return found
 
 
@@ -47,23 +44,6 @@ def elf_exports(data: bytes) -> set[str]:
         if section != 0:
             names.add(_text(data, sections[symbols.link].offset + name))
     return names
-
-
-def elf_needed_versions(data: bytes) -> set[str]:
-    """Versions of symbols that a Linux library needs of others, such as GLIBC_2.2.5."""
-    sections = _elf_sections(data)
-    (needed,) = (s for s in sections if s.kind == _ELF_NEEDED_VERSIONS)
-    strings = sections[needed.link].offset
-    versions, at = set(), needed.offset
-    for _ in range(needed.count):
-        _, count, _, first, following = struct.unpack_from("<HHIII", data, at)
-        entry = at + first
-        for _ in range(count):
-            _, _, _, name, step = struct.unpack_from("<IHHII", data, entry)
-            versions.add(_text(data, strings + name))
-            entry += step
-        at += following
-    return versions
 
 
 def pe_exports(data: bytes) -> set[str]:

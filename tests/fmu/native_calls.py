@@ -1,7 +1,5 @@
 """Calls of FMI functions with any arguments, past the care that fmpy takes."""
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """The native state's layout, as state_bytes.h and snapshot.c say, read by other code."""
 
-from __future__ import annotations
-
 import json
 import struct
 from typing import Any

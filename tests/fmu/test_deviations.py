@@ -1,12 +1,8 @@
 """The drive as inputs: deviations of its amplitude and frequency from what the parameters say."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 from tests.fmu.host import OUTPUTS, Instance, Instantiate
 from tests.fmus import both_fmus, native_fmu_only
@@ -73,33 +69,6 @@ def test_deviations_are_tuning_to_the_last_bit(
     device = {**DEVICE, **motion, **law}
     step = STEP if motion["fidelity"] == 0 else 0.1 * STEP
     assert_deviates_as_tuned((instantiate(), instantiate()), device, BURST, step)
-
-
-@both_fmus
-@settings(
-    max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None
-)
-@given(
-    device=st.fixed_dictionaries(
-        {
-            "fidelity": st.integers(1, 2),
-            "friction_law": st.integers(0, 1),
-            "frequency_ratio": st.sampled_from([1.0, 0.5, 3.0, 1.001]),
-            "normal_amplitude": st.floats(0.0, 2.0),
-            "phase": st.floats(-3.0, 3.0),
-            "load": st.floats(-0.1, 0.1),
-        }
-    ),
-    course=st.lists(
-        st.tuples(st.just(-1.0) | st.floats(-1.0, 2.0), st.floats(-0.5, 1.0)),
-        min_size=1,
-        max_size=4,
-    ),
-)
-def test_any_deviation_is_tuning(
-    instantiate: Instantiate, device: Mapping[str, float], course: Course
-) -> None:
-    assert_deviates_as_tuned((instantiate(), instantiate()), {**DRIVE, **device}, course, 2.3e-3)
 
 
 @native_fmu_only

@@ -1,14 +1,10 @@
 """Early return of FMI 3.0 at located events: every one of them, exactly, and without an effect."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
-from fmpy import simulate_fmu
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
@@ -98,10 +94,6 @@ def test_release_and_stop_of_a_driven_block_are_those_of_the_closed_form(
     assert [e.outputs["contact_mode"] for e in events[:2]] == [1.0, -1.0]
 
 
-def test_averaged_motion_has_no_events(unpacked_3: Unpacked) -> None:
-    assert run(unpacked_3, {"fidelity": 0, "averaging_order": 1}, 10, 1e-3).events == []
-
-
 @pytest.mark.parametrize("device", ["table 1", "table 1, LuGre", "stick-slip", "flight"])
 @pytest.mark.parametrize("ulps", [-2, -1, 0, 1, 2])
 def test_steps_that_end_at_events_miss_none(unpacked_3: Unpacked, device: str, ulps: int) -> None:
@@ -128,33 +120,6 @@ def test_a_state_goes_on_as_the_instance(unpacked_3: Unpacked, steps: list[float
         for size in steps:
             assert one.step_to(one.time + size) == other.step_to(other.time + size)
         assert one.state() == other.state(), "to the last bit"
-
-
-def test_inputs_change_at_events(unpacked_3: Unpacked) -> None:
-    """In event mode values are set; the step after it moves under them."""
-    with instance_3(unpacked_3) as instance:
-        instance.initialize()
-        events = instance.step_to(0.9 * PERIOD)
-        assert events
-        instance.slave.enterEventMode()
-        instance.set(load=0.3, normal_preload=2.0)
-        instance.handle_event(enter=False)
-        assert instance.get("load") == (0.3,)
-        assert instance.get("normal_force")[0] > 2.0 - 1.0
-        instance.step_to(2 * PERIOD)
-
-
-def test_fmpy_stops_at_the_events(native_3_fmu: Path) -> None:
-    """Its own simulation, which records twice at an event."""
-    columns = ["velocity", "mean_velocity", "reversals"]
-    about = {"stop_time": 0.1, "output_interval": 1e-3, "output": columns}
-    stopping = simulate_fmu(
-        str(native_3_fmu), use_event_mode=True, early_return_allowed=True, **about
-    )
-    passing = simulate_fmu(str(native_3_fmu), **about)
-    assert np.count_nonzero(stopping["velocity"] == 0.0) >= passing["reversals"][-1] > 100.0
-    assert stopping["reversals"][-1] == passing["reversals"][-1]
-    assert stopping["mean_velocity"][-1] == pytest.approx(passing["mean_velocity"][-1], rel=1e-12)
 
 
 devices = st.fixed_dictionaries(

@@ -1,7 +1,5 @@
 """The mean power of friction over a drive period, against the balance of energy and the force."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Fidelity 0, order 2: motion that leaps over periods, against resolved motion of the same FMU."""
 
-from __future__ import annotations
-
 import math
 import random
 from collections.abc import Mapping
@@ -139,32 +137,6 @@ def test_random_devices_keep_the_tolerance_and_know_their_error(
     assert leapt >= 0.6 * count
     assert kept == count
     assert sum(covered) >= 0.9 * len(covered)
-
-
-KINKED = {
-    "slider_mass": 0.33205,
-    "resonator_mass": 0.046018,
-    "resonator_frequency": 1091.9,
-    "damping_ratio": 0.025739,
-    "base_amplitude": 3.2277e-05,
-    "drive_frequency": 2476.3,
-    "normal_preload": 0.52386,
-    "normal_amplitude": 0.94018,
-    "friction_coefficient": 0.015445,
-    "phase": 0.50484,
-    "load": 0.0095525,
-    "friction_law": 1,
-    "bristle_stiffness": 4.8522e6,
-    "bristle_damping": 0.20517,
-}
-
-
-def test_a_leap_ends_at_a_kink_next_to_a_steady_velocity(instantiate: Instantiate) -> None:
-    """One step to the end almost holds, and the solver finds no rates: steps must be shorter."""
-    values, fast = {**KINKED, "tolerance": 1e-8}, 0.0027832
-    found = compared(instantiate, values, 200.0 * math.tau / KINKED["drive_frequency"], 4)
-    assert max(found.errors) <= 10.0 * 1e-8 * fast
-    assert found.estimates[-1] > 0.0
 
 
 @pytest.mark.parametrize("tolerance", [1e-14, 1e-12])

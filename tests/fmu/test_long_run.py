@@ -1,7 +1,5 @@
 """An hour of simulated time in the native FMU, five minutes in the other: no drift, no leak."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 from pathlib import Path

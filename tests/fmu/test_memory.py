@@ -1,7 +1,5 @@
 """The native FMU's memory, by the functions of its host: tables come when they are first needed."""
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """FMI functions of the native FMU called as no careful host does."""
 
-from __future__ import annotations
-
 import ctypes
 import math
 from dataclasses import dataclass, field
@@ -16,8 +14,9 @@ from fmpy.fmi2 import (
     fmi2CallbackLoggerTYPE,
 )
 
+from fmu_src.model_description import LOG_CATEGORIES
 from fmu_src.python.slider_component.variables import VALUE_REFERENCE, VARIABLES
-from tests.fmu.host import Instance, Instantiate
+from tests.fmu.host import Instance, Unpacked
 from tests.fmu.native_calls import DISCARD, ERROR, OK, call, reals, references
 from tests.fmu.test_native_binaries import fmi_functions
 from tests.fmus import native_fmu_only
@@ -113,14 +112,6 @@ def test_a_refused_instantiation_says_why(
     assert host.taken == host.given_back
 
 
-def test_memory_is_the_hosts_and_all_of_it_comes_back(instance: Instance) -> None:
-    host = Host()
-    component = instantiate_as(instance, host)
-    assert host.taken == [component], "one piece for an instance"
-    give_back(instance, component)
-    assert host.given_back == host.taken
-
-
 @pytest.mark.parametrize(
     "missing", [("allocateMemory",), ("freeMemory",), ("allocateMemory", "freeMemory", "logger")]
 )
@@ -132,12 +123,6 @@ def test_a_host_without_memory_callbacks_is_served(
     assert component is not None
     give_back(instance, component)
     assert host.taken == host.given_back == [], "memory from one is never given to another"
-
-
-def test_a_host_without_memory_is_told(instance: Instance) -> None:
-    host = Host(memory=False)
-    assert instantiate_as(instance, host) is None
-    assert b"no memory for an instance" in host.log[0][-1]
 
 
 def test_a_host_that_runs_out_of_memory_gets_no_state(instance: Instance) -> None:
@@ -154,12 +139,6 @@ def test_a_host_that_runs_out_of_memory_gets_no_state(instance: Instance) -> Non
     instance.slave.dll.fmi2FreeFMUstate(ctypes.c_void_p(component), ctypes.byref(state))
     give_back(instance, component)
     assert sorted(host.taken) == sorted(host.given_back)
-
-
-def test_no_callbacks_no_instance(instance: Instance) -> None:
-    function = instance.slave.dll.fmi2Instantiate
-    function.restype = ctypes.c_void_p
-    assert function(b"x", 1, instance.slave.guid.encode(), None, None, 0, 0) is None
 
 
 @pytest.mark.parametrize("function", sorted(fmi_functions() - {"fmi2Instantiate"}))
@@ -240,19 +219,83 @@ def test_a_status_that_is_not_known_is_discarded(
         assert place.raw == b"\x07" * 8, "nothing was written"
 
 
-def test_time_overflow_is_refused(instantiate: Instantiate) -> None:
-    instance = instantiate().initialize(
-        start_time=1.7e308, fidelity=0, averaging_order=1, friction_coefficient=0.0
-    )
-    with instance.refuses("leaves the range of floating point numbers"):
-        instance.slave.doStep(instance.time, 1e308)
+def debug_logging(instance: Instance, logging_on: bool, *categories: str | None) -> int:
+    names = [None if c is None else c.encode() for c in categories]
+    array = (ctypes.c_char_p * len(names))(*names)
+    return call(instance, "fmi2SetDebugLogging", ctypes.c_int(logging_on), len(names), array)
 
 
-def test_masses_beyond_the_range_of_numbers_are_refused(instantiate: Instantiate) -> None:
-    instance = instantiate().enter_initialization(
-        slider_mass=1e-12, resonator_mass=math.nextafter(math.inf, 0.0)
-    )
-    with instance.refuses("resonator_mass = 1.7976931348623157e+308 refused: together with"):
-        instance.slave.exitInitializationMode()
-    instance.set(slider_mass=1.0, resonator_mass=0.1)
-    instance.slave.exitInitializationMode()
+def provoke_error(instance: Instance) -> int:
+    return call(instance, "fmi2DoStep", ctypes.c_double(0.0), ctypes.c_double(math.nan))
+
+
+def provoke_discard(instance: Instance) -> int:
+    return call(instance, "fmi2GetIntegerStatus", ctypes.c_int(0), ctypes.byref(ctypes.c_int()))
+
+
+def messages_of(instance: Instance) -> int:
+    """Messages that an error and an unknown status give."""
+    before = len(instance.log)
+    assert provoke_error(instance) == ERROR
+    assert provoke_discard(instance) == DISCARD
+    return len(instance.log) - before
+
+
+@pytest.mark.parametrize(
+    ("categories", "sent"),
+    [
+        ((), 2),
+        (("logAll",), 2),
+        (("logStatusError",), 1),
+        (("logStatusDiscard",), 1),
+        (("logStatusDiscard", "logStatusError"), 2),
+        (("logStatusWarning", "logStatusFatal"), 0),
+    ],
+)
+def test_only_wanted_categories_are_sent(
+    instance: Instance, categories: tuple[str, ...], sent: int
+) -> None:
+    assert debug_logging(instance, True, *categories) == OK
+    assert messages_of(instance) == sent
+    assert debug_logging(instance, False, *categories) == OK
+    assert messages_of(instance) == 0, "logging is off"
+    assert debug_logging(instance, True) == OK
+    assert messages_of(instance) == 2
+
+
+@pytest.mark.parametrize("category", LOG_CATEGORIES)
+def test_every_category_of_the_description_is_known(instance: Instance, category: str) -> None:
+    assert debug_logging(instance, True, category) == OK
+
+
+@pytest.mark.parametrize("category", ["logEverything", "", None, "100%d#r1#" * 50])
+def test_unknown_log_category_is_refused(instance: Instance, category: str | None) -> None:
+    assert debug_logging(instance, True, "logStatusError") == OK
+    assert debug_logging(instance, True, "logStatusDiscard", category) == ERROR
+    shown = "(null)" if category is None else category.replace("%", "%%").replace("#", "##")[:20]
+    assert f"category '{shown}" in instance.log[-1], "the logger takes % and # doubled"
+    assert "must be one of logStatusWarning, logStatusDiscard" in instance.log[-1]
+    assert messages_of(instance) == 1
+
+
+def test_invalid_category_counts_are_refused(instance: Instance) -> None:
+    null = ctypes.c_void_p()
+    assert call(instance, "fmi2SetDebugLogging", ctypes.c_int(1), 10**9, null) == ERROR
+    assert "nCategories = 1000000000 refused" in instance.log[-1]
+    assert call(instance, "fmi2SetDebugLogging", ctypes.c_int(1), 2, null) == ERROR
+    assert call(instance, "fmi2SetDebugLogging", ctypes.c_int(1), 0, null) == OK
+
+
+@pytest.mark.parametrize("logging_on", [False, True])
+def test_errors_are_sent_without_debug_logging(
+    unpacked: Unpacked, capfd: pytest.CaptureFixture[str], logging_on: bool
+) -> None:
+    instance = Instance(unpacked, logging_on=logging_on).initialize()
+    assert provoke_error(instance) == ERROR
+    assert provoke_discard(instance) == DISCARD
+    expected = [("slider", ERROR, "logStatusError"), ("slider", DISCARD, "logStatusDiscard")]
+    found = [(entry.instance, entry.status, entry.category) for entry in instance.entries]
+    assert found == (expected if logging_on else expected[:1])
+    assert "communicationStepSize = nan refused" in instance.log[0]
+    instance.free()
+    assert capfd.readouterr() == ("", ""), "the streams belong to the host"

@@ -1,14 +1,12 @@
 """The serialised state of the native FMU: the same layout everywhere, and nothing else is taken."""
 
-from __future__ import annotations
-
 import ctypes
 import math
 import struct
 
 import pytest
 
-from tests.fmu.host import OUTPUTS, Instance, Instantiate, Unpacked, unpack
+from tests.fmu.host import Instance, Unpacked, unpack
 from tests.fmu.native_calls import ERROR, OK, call
 from tests.fmu.native_layout import HEAD, LAYOUT, SETTABLE, checksum, numbers
 from tests.fmus import native_fmu_only
@@ -42,16 +40,6 @@ def test_the_layout_is_that_of_any_platform(instance: Instance, unpacked: Unpack
     for variable in SETTABLE:
         expected = 0.4 if variable.name == "phase" else variable.start
         assert state[variable.name] == expected, variable.name
-
-
-def test_a_state_made_elsewhere_is_taken(instance: Instance, instantiate: Instantiate) -> None:
-    instance.run(7, STEP)
-    foreign = forged(instance.state(), position=0.25, load=0.03)
-    other = instantiate()
-    other.restore(foreign)
-    assert other.get("position", "load") == (0.25, 0.03)
-    other.time = instance.time
-    other.run(3, STEP)
 
 
 @pytest.mark.parametrize(
@@ -147,37 +135,3 @@ def test_null_pointers_are_refused(instance: Instance) -> None:
         assert "null pointer" in instance.log[-1]
     assert call(instance, "fmi2DeSerializeFMUstate", bytes_, 500, null) == ERROR
     assert state.value is None
-
-
-def test_inputs_of_a_prepared_law_leave_no_trace(
-    instance: Instance, instantiate: Instantiate
-) -> None:
-    """Phase and load are changed in place; a restored instance prepares everything anew."""
-    instance.run(7, STEP)
-    instance.set(load=0.03)
-    instance.set(phase=7.5)
-    other = instantiate()
-    other.restore(instance.state())
-    other.time = instance.time
-    for one in (instance, other):
-        one.run(5, STEP)
-    assert instance.state() == other.state()
-    instance.set(load=0.0, frequency_ratio=1.01)
-    other.restore(instance.state())
-    for one in (instance, other):
-        one.run(5, STEP)
-    assert instance.state() == other.state()
-    assert instance.get(*OUTPUTS) == other.get(*OUTPUTS)
-
-
-@pytest.mark.parametrize("ratio", [1.0, 1.37, 0.0])
-def test_rotated_turns_do_not_pile_up_errors(instantiate: Instantiate, ratio: float) -> None:
-    """Phasors are handed on from leg to leg only within a step."""
-    period = math.tau / 3500.0
-    whole, cut = (instantiate().initialize(frequency_ratio=ratio) for _ in range(2))
-    whole.step(500 * period)
-    cut.run(4000, period / 8)
-    for name in ("velocity", "resonator_displacement", "position"):
-        scale = 1e-3 if name == "resonator_displacement" else 0.2
-        (one,), (many,) = whole.get(name), cut.get(name)
-        assert abs(one - many) <= 2e-12 * scale, name

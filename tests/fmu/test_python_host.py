@@ -1,7 +1,5 @@
 """What the Python FMU owes a process that goes on without it: its streams, modules and memory."""
 
-from __future__ import annotations
-
 import gc
 import sys
 from pathlib import Path

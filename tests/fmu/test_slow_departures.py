@@ -1,7 +1,5 @@
 """Reversals after a velocity that stays next to zero for long, against the Taylor reference."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The native FMU against the Python one: the same motion to rounding, the same events."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack
@@ -230,18 +228,6 @@ def test_short_steps_of_order_2(
     given = {k: v for k, v in values.items() if k not in ("frequency_ratio", "phase")}
     native, python = both(twins, {"fidelity": 0, **given}, schedule(0.7, 0.01, **held))
     assert_equal(native, python, allowed)
-
-
-def test_bristles_far_harder_than_rounding_of_the_path(twins: Twins) -> None:
-    """Averaged friction needs the path to mu / sigma_0 = 1e-19 m, of an amplitude of 7e-5 m."""
-    first = {"fidelity": 0, "averaging_order": 1, "phase": 0.4}
-    values = {**first, "friction_law": 1, "bristle_stiffness": 1e18}
-    native, python = both(twins, values, schedule(1.0, 0.1))
-    assert_equal(native, python, 1e-9)
-    coulomb, _ = both(twins, first, schedule(1.0, 0.1))
-    for name in ("steady_velocity", "mean_velocity"):
-        gap = np.abs(native[name] - coulomb[name]).max()
-        assert gap <= 1e-7 * np.abs(coulomb[name]).max(), f"{name}: hard bristles are Coulomb's"
 
 
 def refused(instance: Instance, values: Mapping[str, float]) -> str:

@@ -1,7 +1,5 @@
 """Panels of bending bristles of the native component, by their probe."""
 
-from __future__ import annotations
-
 import ctypes
 import math
 import random
@@ -69,37 +67,6 @@ class NativeBending:
         given = (ctypes.c_double(number) for number in (start, tolerance, share))
         found = self.library.panel_errors(_values(values), *given, _pointer(errors))
         return PanelErrors(*errors.tolist()) if found else None
-
-
-def random_device(seed: int) -> dict[str, float]:
-    """A device with LuGre friction: stiffness 1e2 to 1e14, both fidelities, flight, any ratio."""
-    draw = random.Random(seed)
-
-    def decades(low: float, high: float) -> float:
-        return math.exp(draw.uniform(math.log(low), math.log(high)))
-
-    mass, preload = decades(0.05, 20.0), decades(0.05, 20.0)
-    return {
-        "friction_law": 1,
-        "slider_mass": mass,
-        "resonator_mass": mass * draw.choice([0.0, decades(0.01, 1.0), decades(0.01, 1.0)]),
-        "resonator_frequency": decades(300.0, 30_000.0),
-        "damping_ratio": draw.choice([0.0, decades(1e-3, 0.5)]),
-        "normal_preload": preload,
-        "normal_amplitude": preload * draw.choice([0.0, 0.5, 1.0, 1.8]),
-        "base_amplitude": decades(1e-6, 1e-3),
-        "drive_frequency": decades(500.0, 20_000.0),
-        "tangential_force": draw.choice([0.0, 0.0, draw.uniform(-30.0, 30.0)]),
-        "friction_coefficient": decades(0.02, 5.0),
-        "friction_faces": draw.choice([1, 2]),
-        "bristle_stiffness": decades(1e2, 1e14),
-        "bristle_damping": draw.choice([0.0, decades(0.1, 1000.0)]),
-        "fidelity": draw.choice([1, 2]),
-        "phase": draw.uniform(-3.0, 3.0),
-        "load": draw.choice([0.0, draw.gauss(0.0, 1.0)]),
-        "frequency_ratio": draw.choice([1.0, 1.0, 1.001, 2.0, 0.5, 0.0, draw.uniform(-3.0, 3.0)]),
-        "initial_velocity": draw.choice([0.0, draw.gauss(0.0, 0.3)]),
-    }
 
 
 def sliding_device(seed: int) -> dict[str, float]:

@@ -1,7 +1,5 @@
 """The numbers of the native component as a library with probes, compiled for tests."""
 
-from __future__ import annotations
-
 import ctypes
 import re
 import subprocess

@@ -1,7 +1,5 @@
 """The component's elementary functions: as accurate as those of a library, and used throughout."""
 
-from __future__ import annotations
-
 import ctypes
 import math
 import re

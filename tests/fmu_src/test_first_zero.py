@@ -1,7 +1,5 @@
 """The search of either build: it finds the first zero, passes none over, and takes no touch."""
 
-from __future__ import annotations
-
 import ctypes
 import math
 from collections.abc import Callable

@@ -1,8 +1,5 @@
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
-from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -13,7 +10,6 @@ from fmu_src.generators.parameters import python_parameters
 from fmu_src.generators.refusal_texts import c_function
 from fmu_src.generators.variable_table import c_table
 from fmu_src.python.slider_component import constants
-from fmu_src.python.slider_component.parameters import Inputs, Parameters
 from fmu_src.python.slider_component.variables import VARIABLES
 from fmu_src.sources import PACKAGE
 
@@ -80,21 +76,6 @@ def test_bounds_read_back_exactly() -> None:
             assert bound is None or float(text) == bound, variable.name
 
 
-def test_outputs_must_come_last() -> None:
-    with pytest.raises(ValueError, match="outputs must come last"):
-        c_table(tuple(reversed(VARIABLES)), "")
-
-
-def test_fields_of_the_twins_are_those_of_the_table() -> None:
-    in_c = re.findall(r"^    (double|int) (\w+);", CODE["device/parameters.h"], re.MULTILINE)
-    types = {"float": "double", "int": "int"}
-    in_python = [(types[str(f.type)], f.name) for f in (*fields(Parameters), *fields(Inputs))]
-    assert in_c == in_python
-    assert [name for _, name in in_c] == [
-        v.name for kind in ("parameter", "input") for v in VARIABLES if v.causality == kind
-    ]
-
-
 def test_constants_read_back_exactly() -> None:
     found = re.findall(r"^#define ([A-Z_]+) (\S+)$", CODE["base/constants.h"], re.MULTILINE)
     in_python = {name: value for name, value in vars(constants).items() if name.isupper()}
@@ -118,3 +99,8 @@ def test_a_refusal_in_c_takes_its_arguments_in_the_order_of_the_text() -> None:
 def test_a_refusal_must_show_each_argument_once_in_a_form_that_c_has(text: str) -> None:
     with pytest.raises(ValueError, match="once, as text, by !r or by :d"):
         c_function("OUT_OF_STOCK", text)
+
+
+def test_outputs_must_come_last() -> None:
+    with pytest.raises(ValueError, match="outputs must come last"):
+        c_table(tuple(reversed(VARIABLES)), "")

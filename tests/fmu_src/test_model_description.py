@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any
@@ -11,7 +9,6 @@ from pythonfmu import Fmi2Slave
 from fmu_src.model_description import LOG_CATEGORIES, model_description
 from fmu_src.python.slider_component.variable import Variable
 from fmu_src.python.slider_component.variables import VARIABLES
-from fmu_src.units import UNITS
 
 NAMES = [v.name for v in VARIABLES]
 OUTPUTS = [v for v in VARIABLES if v.causality == "output"]
@@ -73,20 +70,6 @@ def test_numbers_read_back_exactly(root: ET.Element, variable: Variable) -> None
         )
 
 
-def test_start_of_many_digits_reads_back_exactly() -> None:
-    described = ET.fromstring(describe(variables=_changed("load", start=0.1 + 0.2)))
-    start = found(described, ".//*[@name='load']/Real").attrib["start"]
-    assert float(start) == 0.1 + 0.2, "16 digits are not enough for a float"
-
-
-@pytest.mark.parametrize("variable", VARIABLES, ids=lambda v: v.name)
-def test_initial_is_legal(root: ET.Element, variable: Variable) -> None:
-    element = found(root, f"ModelVariables/ScalarVariable[@name='{variable.name}']")
-    expected = {"input": None, "parameter": "exact", "output": "calculated"}[variable.causality]
-    assert element.get("initial") == expected
-    assert ("start" in element[0].attrib) == (variable.causality != "output")
-
-
 @pytest.mark.parametrize(
     ("unit", "display", "value", "shown"),
     [
@@ -107,15 +90,6 @@ def test_display_units(
     path = f"UnitDefinitions/Unit[@name='{unit}']/DisplayUnit[@name='{display}']"
     factor = float(found(root, path).attrib["factor"])
     assert factor * value == pytest.approx(shown, rel=1e-14), f"{value} {unit} in {display}"
-
-
-def test_force_is_in_base_units(root: ET.Element) -> None:
-    base = found(root, "UnitDefinitions/Unit[@name='N']/BaseUnit")
-    assert base.attrib == {"kg": "1", "m": "1", "s": "-2"}
-
-
-def test_every_unit_of_the_units_table_is_used() -> None:
-    assert set(UNITS) == {v.unit for v in VARIABLES if v.unit}
 
 
 @pytest.mark.parametrize(
@@ -154,18 +128,6 @@ def test_capabilities(host_manages_memory: bool, takes_derivatives: bool) -> Non
         "providesDirectionalDerivative": "false",
         "maxOutputDerivativeOrder": "1" if takes_derivatives else "0",
     }
-
-
-def test_source_files_are_listed_where_there_are_some(root: ET.Element) -> None:
-    assert root.find("CoSimulation/SourceFiles") is None
-    described = ET.fromstring(describe(source_files=["a.c", "b.c"]))
-    names = [e.attrib["name"] for e in described.iterfind("CoSimulation/SourceFiles/File")]
-    assert names == ["a.c", "b.c"]
-
-
-def test_default_experiment(root: ET.Element) -> None:
-    experiment = {k: float(v) for k, v in found(root, "DefaultExperiment").attrib.items()}
-    assert experiment == {"startTime": 0.0, "stopTime": 0.2, "stepSize": 1e-3}
 
 
 def test_log_categories_are_those_that_the_binary_uses(root: ET.Element) -> None:

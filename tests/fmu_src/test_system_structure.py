@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -48,15 +46,6 @@ def connectors(element: ET.Element) -> dict[str, tuple[str, str]]:
         c.attrib["name"]: (c.attrib["kind"], found(c, f"{SSC}Real").attrib["unit"])
         for c in element.iterfind(f"{SSD}Connectors/{SSD}Connector")
     }
-
-
-def test_system_connectors_have_the_units_of_their_variables() -> None:
-    system = found(ET.fromstring(drive(connectors=True)), f"{SSD}System")
-    assert connectors(system) == {"push": ("input", "N"), "speed": ("output", "m/s")}
-    component = found(system, f"{SSD}Elements/{SSD}Component")
-    assert connectors(component) == {"force": ("input", "N"), "speed": ("output", "m/s")}, (
-        "an input that nothing is connected with is left alone"
-    )
 
 
 def test_connections_are_dropped_with_their_connectors() -> None:

@@ -1,7 +1,5 @@
 """Calling the command line as a user does, in this process."""
 
-from __future__ import annotations
-
 from click.testing import CliRunner, Result
 
 from studies.cli import main

@@ -1,7 +1,5 @@
 """FMUs that are wrong in one way each, made from the native one."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

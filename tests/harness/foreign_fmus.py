@@ -1,7 +1,5 @@
 """FMUs with this interface as other tools might make them, from the native one."""
 
-from __future__ import annotations
-
 import zipfile
 from pathlib import Path
 from xml.etree import ElementTree as ET

@@ -1,7 +1,5 @@
 """FMUs in this process, where an isolated FMU would have one of its own: a start takes a second."""
 
-from __future__ import annotations
-
 import pickle
 import threading
 from contextlib import ExitStack

@@ -1,7 +1,5 @@
 """The public keys of JSON documents, which users' programs read by name."""
 
-from __future__ import annotations
-
 import json
 import tomllib
 from collections.abc import Iterator

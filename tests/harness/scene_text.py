@@ -1,7 +1,5 @@
 """Scenes of a test, from the text of a scene file."""
 
-from __future__ import annotations
-
 import tomllib
 from pathlib import Path
 

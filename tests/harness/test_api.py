@@ -1,7 +1,5 @@
 """The Python API: what the commands do, for scripts."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable
 from dataclasses import replace
@@ -105,16 +103,6 @@ def test_what_a_script_gets_wrong_is_named(native_fmu: Path) -> None:
             read("positon")
 
 
-def test_a_record_is_read_by_the_names_of_its_table(native_fmu: Path) -> None:
-    with sr.open_fmu(native_fmu) as fmu:
-        record = fmu.run({"run": {"stop_time": 0.02, "step_size": 0.01}}, load=0.05)
-    assert record["time"].tolist() == record.times.tolist() == [0.0, 0.01, 0.02]
-    assert record["load"].tolist() == [0.05] * 3
-    assert {name: record[name].tolist() for name in record.table()} == {
-        name: column.tolist() for name, column in record.table().items()
-    }
-
-
 def test_a_refusal_of_the_fmu_is_an_error_with_its_text(native_fmu: Path) -> None:
     with sr.open_fmu(native_fmu) as fmu:
         with pytest.raises(sr.HarnessError, match=r"friction_coefficient = 0\.0 refused: with"):
@@ -171,15 +159,6 @@ def test_results_say_what_was_found_on_a_screen(native_fmu: Path, tmp_path: Path
         record.plot(tmp_path / "run.gif")
     for tabular in (record, table, fit, validation, choice):
         assert len({len(column) for column in tabular.table().values()}) == 1
-
-
-def test_lines_that_do_not_fit_a_screen_are_counted(native_fmu: Path) -> None:
-    (validation,) = sr.validate(native_fmu, scenes=["blocking_force_table_1"])
-    failed = tuple(replace(check, passed=False) for check in validation.checks) * 50
-    lines = repr(replace(validation, checks=failed)).splitlines()
-    assert len(lines) <= 25
-    assert lines[1].startswith(f"  FAILED: 0 of {len(failed)} checks passed")
-    assert lines[-1].endswith("lines more")
 
 
 def test_tables_go_to_pandas_where_it_is_installed(
@@ -304,3 +283,12 @@ def test_trade_is_a_function(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) 
     (measured,) = sr.trade(scene, native_fmu, periods=2, repeats=1, budget=0.01)
     assert len(measured.table()["method"]) == len(measured.rows) > 0
     assert "position within 1 %" in repr(measured)
+
+
+def test_lines_that_do_not_fit_a_screen_are_counted(native_fmu: Path) -> None:
+    (validation,) = sr.validate(native_fmu, scenes=["blocking_force_table_1"])
+    failed = tuple(replace(check, passed=False) for check in validation.checks) * 50
+    lines = repr(replace(validation, checks=failed)).splitlines()
+    assert len(lines) <= 25
+    assert lines[1].startswith(f"  FAILED: 0 of {len(failed)} checks passed")
+    assert lines[-1].endswith("lines more")

@@ -1,7 +1,5 @@
 """The command line as users and CI jobs use it: output, JSON, exit codes."""
 
-from __future__ import annotations
-
 import csv
 import json
 import signal
@@ -12,7 +10,6 @@ from pathlib import Path
 import pytest
 
 from slider_resonator import cli
-from tests.harness import faulty_fmus
 from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 from tests.processes import heed_interrupts
@@ -107,19 +104,6 @@ def test_a_closed_output_does_not_hide_the_verdict(python_fmu: Path) -> None:
     assert in_a_shell("harness steady $fmu >&-", python_fmu).stderr == "code 0\n"
     line = "harness steady $fmu --set load=0.25 >&-"
     assert in_a_shell(line, python_fmu).stderr == "code 1\n"
-
-
-def test_the_version_is_printed() -> None:
-    result = call("--version")
-    assert result.exit_code == 0
-    assert "slider-resonator, version 0." in result.stdout
-
-
-def test_noise_and_minus_zero_are_not_shown(python_fmu: Path) -> None:
-    blocked = call("blocking", python_fmu, "--set", "normal_amplitude=0")
-    assert "blocking force   0 N" in blocked.stdout
-    still = call("steady", python_fmu, "--set", "normal_amplitude=0")
-    assert "steady velocity  0 m/s" in still.stdout
 
 
 @pytest.mark.parametrize(
@@ -219,33 +203,6 @@ def test_run_writes_csv_and_plot_and_reports_the_cost(python_fmu: Path, tmp_path
         rows = list(csv.DictReader(file))
     assert len(rows) == 60 * 32 + 1
     assert float(rows[-1]["reversals"]) == 119.0
-
-
-def test_run_as_json_with_another_load(python_fmu: Path) -> None:
-    result = call("run", python_fmu, "overload", "--set", "load=0.3", "--json")
-    assert result.exit_code == 0
-    summary = json.loads(result.stdout)
-    assert summary["drive_periods"] == pytest.approx(60.0)
-    assert summary["wall_time_per_simulated_time"] > 0.0
-    weaker = json.loads(call("run", python_fmu, "overload", "--json").stdout)
-    assert summary["mean_velocity"] < weaker["mean_velocity"], "0.3 N brakes more than 0.25 N"
-
-
-def test_an_fmu_with_wrong_physics_is_rejected(python_fmu: Path, tmp_path: Path) -> None:
-    wrong = faulty_fmus.other_friction(python_fmu, tmp_path / "wrong.fmu")
-    result = call("validate", wrong, "--scene", "table_1")
-    assert result.exit_code == 1, result.stderr
-    assert "FAIL" in result.stdout
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX closes the streams")
-def test_closed_streams_do_no_harm(tmp_path: Path) -> None:
-    out = tmp_path / "report.json"
-    missing = tmp_path / "none.fmu"
-    call = f"{sys.executable} -m slider_resonator validate {missing} --json {out} <&- >&- 2>&-"
-    done = subprocess.run(["bash", "-c", call], capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert "no such file" in out.read_text()
 
 
 @pytest.mark.parametrize(

@@ -1,18 +1,10 @@
-from __future__ import annotations
-
 from slider_resonator.errors import unknown_name
 
 
 def test_the_nearest_name_is_suggested_whatever_its_case() -> None:
     text = unknown_name("input", "Phse", ["phase", "load"])
     assert text == "unknown input 'Phse'; did you mean 'phase'? (must be one of load, phase)"
-
-
-def test_nothing_is_suggested_for_a_name_unlike_any_other() -> None:
     assert "did you mean" not in unknown_name("input", "xyzzy", ["phase", "load"])
-
-
-def test_of_many_names_those_alike_are_listed() -> None:
     scenes = [f"scene_{number}" for number in range(200)] + ["steady_contact"]
     text = unknown_name("scene", "steady_velocity", scenes)
     assert text.startswith("unknown scene 'steady_velocity'; did you mean 'steady_contact'?")

@@ -1,7 +1,5 @@
 """Commands on a pseudo terminal: lines that fit, progress, and an interruption by Ctrl-C."""
 
-from __future__ import annotations
-
 import os
 import re
 import signal
@@ -93,25 +91,6 @@ def test_an_interrupted_build_ends_with_130(tmp_path: Path) -> None:
     assert code == 130, shown
     assert "Traceback" not in shown
     assert "interrupted" in shown
-
-
-@pytest.mark.slow
-def test_an_interrupted_loop_says_that_nothing_is_kept(
-    closed_loop_package: Path, tmp_path: Path
-) -> None:
-    arguments = ("closed-loop", closed_loop_package, "--out", tmp_path / "out")
-    code, shown = on_terminal(*arguments, interrupt_at="1 of 1: ")
-    assert code == 130, shown
-    assert shown.split("interrupted", 1)[1].split() == ["nothing", "is", "kept"]
-
-
-@pytest.mark.slow
-def test_progress_has_a_number_and_stays_on_its_line(native_fmu: Path) -> None:
-    code, shown = on_terminal("campaign", native_fmu, "--cases", 8)
-    assert code == 0, shown
-    assert re.search(r"8 of 8: .* 0:\d\d:\d\d", shown), "N of M, and the time"
-    frames = [frame.strip() for frame in re.split(r"[\r\n]", shown) if " of 8: " in frame]
-    assert max(map(len, frames)) <= WIDTH, shown
 
 
 @pytest.mark.slow

@@ -1,7 +1,5 @@
 """Verdicts of each kind for the reports, made by hand."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

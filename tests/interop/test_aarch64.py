@@ -1,7 +1,5 @@
 """The FMU of FMI 3.0 on 64-bit ARM, under qemu: the six cases of table 1, by a host in C."""
 
-from __future__ import annotations
-
 import platform
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """The closed loop in other masters, which hand values on without fmpy's delay of the inputs."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The documentation site on a phone: tables fit, or scroll beside a first column that stays."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

@@ -1,13 +1,11 @@
 """The C driver: figures that do not come from fmpy, and its error messages."""
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 
 import pytest
 
-from studies.hosts.driver_host import BINARY, native_driver
+from studies.hosts.driver_host import native_driver
 from studies.hosts.job import describe
 from tests.native.toolchain import Binary, run, unpacked_binary
 
@@ -48,14 +46,6 @@ def test_steady_velocity_in_a_process_without_python(
     assert float(done.stdout) == pytest.approx(STEADY[inputs], rel=1e-6)
 
 
-def test_the_cost_of_a_communication_step_is_told(native_fmu: Path, binary: Binary) -> None:
-    references = describe(str(native_fmu)).references
-    timing = f"time 1000 0.001 {references['load']} 0.0 {references['velocity']}"
-    done = drive(binary, commands(native_fmu, {}, timing))
-    assert done.returncode == 0, done.stderr
-    assert 0.0 < float(done.stdout) < 1000.0, "microseconds for set, step and get"
-
-
 @pytest.mark.parametrize(
     ("line", "code", "message"),
     [
@@ -77,9 +67,3 @@ def test_another_guid_makes_no_instance(binary: Binary) -> None:
     done = drive(binary, "", guid="another")
     assert done.returncode == 1
     assert "fmuGUID = 'another' refused" in done.stderr
-
-
-def test_a_file_that_is_no_library_cannot_be_run(tmp_path: Path) -> None:
-    empty = tmp_path / f"empty{BINARY['Linux'][1]}"
-    empty.write_text("")
-    assert drive(Binary(empty, "any"), "").returncode == 2

@@ -1,7 +1,5 @@
 """Table 1 in every host: each fidelity with each friction law, compared with fmpy."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The reports in a real browser, without a network: they draw, tell points, and log nothing."""
 
-from __future__ import annotations
-
 import re
 import time
 from dataclasses import replace
@@ -26,8 +24,7 @@ from slider_resonator.output.hover_plot import (
     plot_html,
     write_plot_page,
 )
-from slider_resonator.output.html_page import rendered, write_page
-from slider_resonator.output.table import Table, numbers, texts
+from slider_resonator.output.html_page import write_page
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.stressing.page import write_stress_page
 from slider_resonator.sweeping.grid import grid_from
@@ -35,8 +32,8 @@ from slider_resonator.sweeping.page import write_sweep_page
 from slider_resonator.sweeping.sweeping import run_sweep
 from slider_resonator.trading.page import write_trades
 from tests.harness.known_provenance import PROVENANCE
-from tests.harness.stressing.test_page import RESULT
-from tests.harness.trading.test_needs import TRADE
+from tests.harness.stressing.test_run import RESULT
+from tests.harness.trading.test_results import TRADE
 from tests.harness.verdicts import PASSED
 
 pytestmark = pytest.mark.interop
@@ -83,25 +80,6 @@ def scrolled_on_a_phone(browser: Chrome) -> list[str]:
     finally:
         browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     return list(found)
-
-
-def test_a_first_column_keeps_its_words_whole_on_a_phone(browser: Chrome, tmp_path: Path) -> None:
-    rows = [("equivalent", "1", "no result changes by more than the allowed deviation")]
-    table = rendered(Table([*texts(""), *numbers("mutants"), *texts("")], rows))
-    page = tmp_path / "page.html"
-    write_page(page, "Words", [table])
-    browser.get(page.as_uri())
-    phone = {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True}
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", phone)
-    try:
-        boxes = browser.execute_script(
-            "const range = document.createRange();"
-            "range.selectNodeContents(document.querySelector('td'));"
-            "return range.getClientRects().length"
-        )
-    finally:
-        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
-    assert boxes == 1, "one line"
 
 
 def told(browser: Chrome) -> list[str]:

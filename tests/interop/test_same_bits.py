@@ -1,7 +1,5 @@
 """Table 1 by the Windows binary in Wine: the bits of the Linux binary, from the same driver."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

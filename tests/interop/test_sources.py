@@ -1,7 +1,5 @@
 """The C sources inside the native FMU, compiled by a tool that knows only the description."""
 
-from __future__ import annotations
-
 import sys
 import zipfile
 from pathlib import Path

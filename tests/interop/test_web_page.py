@@ -1,7 +1,5 @@
 """The page in a real browser, without a network: its numbers are those of fmpy."""
 
-from __future__ import annotations
-
 import csv
 import math
 from pathlib import Path
@@ -157,16 +155,6 @@ def test_outputs_are_those_of_fmpy(
     assert_outputs_are_those_of_fmpy(found, native_fmu, values, 2.0)
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
-def test_numbers_of_an_example_are_those_of_fmpy(
-    browser: Chrome, page: str, native_fmu: Path, name: str
-) -> None:
-    values = read_device(name)
-    end = 50 * 2 * math.pi / Device.from_mapping(values).drive_frequency
-    found = show(browser, page, address({"device": name, "phase": 0.4, "t": end}))
-    assert_outputs_are_those_of_fmpy(found, native_fmu, values | {"phase": 0.4}, end)
-
-
 def test_a_page_written_for_a_device_starts_at_it(browser: Chrome, page: str) -> None:
     mine = Path(unquote(urlsplit(page).path)).with_name("mine.html")
     text = Path(unquote(urlsplit(page).path)).read_text(encoding="utf-8")
@@ -238,16 +226,6 @@ def test_keys_move_a_slider_and_everything_follows(browser: Chrome, page: str) -
     assert results(browser)["mean_velocity"] == before["mean_velocity"]
 
 
-def test_a_slider_reaches_both_ends_of_its_range(browser: Chrome, page: str) -> None:
-    show(browser, page, "phase=1")
-    slider = browser.find_element(By.CSS_SELECTOR, 'input[type=range][aria-label="phase"]')
-    for key, end in ((Keys.END, 1), (Keys.HOME, -1)):
-        slider.send_keys(key)
-        results(browser)
-        assert browser.execute_script("return location.hash") == f"#phase={end * math.pi}"
-        assert slider.get_attribute("aria-valuetext") == f"{end * 180} deg"
-
-
 def test_a_field_takes_what_its_slider_does_not_reach(browser: Chrome, page: str) -> None:
     show(browser, page)
     text = field(browser, "friction_coefficient")
@@ -268,21 +246,6 @@ def test_a_field_takes_what_its_slider_does_not_reach(browser: Chrome, page: str
     assert frequency.get_attribute("value") == "20000", "in Hz, as is a number without a unit"
     si_value = browser.execute_script("return location.hash").split("drive_frequency=")[1]
     assert float(si_value) == pytest.approx(20e3 * 2 * math.pi, rel=1e-15)
-
-
-@pytest.mark.parametrize("name", EXAMPLES)
-def test_sliders_follow_the_device(browser: Chrome, page: str, name: str) -> None:
-    show(browser, page, f"device={name}")
-    slider = browser.find_element(By.CSS_SELECTOR, '[type=range][aria-label="drive_frequency"]')
-    before = Device.from_mapping(read_device(name)).drive_frequency
-    slider.send_keys(Keys.END)
-    results(browser)
-    (change,) = [
-        part.removeprefix("drive_frequency=")
-        for part in browser.execute_script("return location.hash").strip("#").split("&")
-        if part.startswith("drive_frequency=")
-    ]
-    assert before < float(change) <= 2 * before
 
 
 def test_what_differs_from_the_device_is_shown_and_in_the_address(
@@ -340,17 +303,6 @@ def test_a_saved_device_file_is_the_device_for_other_commands(
         lambda _: "friction_coefficient=0.35" in browser.execute_script("return location.hash")
     )
     assert results(browser) == found
-
-
-def test_a_frequency_that_may_be_meant_in_hertz_is_noted(
-    browser: Chrome, page: str, tmp_path: Path
-) -> None:
-    show(browser, page)
-    path = tmp_path / "mine.toml"
-    path.write_text("[device]\ndrive_frequency = 20000\n")
-    browser.find_element(By.ID, "file").send_keys(str(path))
-    WebDriverWait(browser, SECONDS).until(lambda _: message(browser) not in ("", "computing"))
-    assert message(browser).endswith('if 20000 Hz is meant, write drive_frequency = "20000 Hz"')
 
 
 @pytest.mark.parametrize(
@@ -469,35 +421,6 @@ def test_no_text_is_over_another(
         if min(a[3], b[3]) - max(a[1], b[1]) > 1 and min(a[4], b[4]) - max(a[2], b[2]) > 1
     ]
     assert over == []
-
-
-def keys(browser: Chrome) -> dict[str, list[str]]:
-    """The entries of the key of each plot, by its title."""
-    charts = browser.execute_script(
-        "return [...document.querySelectorAll('.chart')].map((chart) => [chart.querySelector('h3')"
-        ".textContent, [...chart.querySelectorAll('.key span')].map((one) => one.textContent)])"
-    )
-    return dict(charts)
-
-
-def test_every_key_is_of_a_curve_that_is_drawn(browser: Chrome, page: str) -> None:
-    show(browser, page, "load=0.03")
-    by_title = keys(browser)
-    assert by_title["Steady velocity over load"] == ["predicted", "end of the run", "at this load"]
-    assert by_title["Mean velocity of the run"] == ["mean velocity", "predicted"]
-    show(browser, page, "load=0.5")
-    by_title = keys(browser)
-    assert by_title["Mean velocity of the run"] == [], "no steady motion under this load"
-    assert by_title["Steady velocity over load"] == ["predicted", "end of the run"]
-
-
-def test_in_the_dark_the_page_is_dark(browser: Chrome, page: str) -> None:
-    features = [{"name": "prefers-color-scheme", "value": "dark"}]
-    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": features})
-    show(browser, page)
-    paper = browser.execute_script("return getComputedStyle(document.body).backgroundColor")
-    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": []})
-    assert paper == "rgb(20, 24, 27)"
 
 
 @pytest.mark.parametrize("screen", [*SCREENS.values(), (360, 740, True)])

@@ -1,7 +1,5 @@
 """Scripts for the C driver: ordinary devices and extreme ones."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 

@@ -1,15 +1,11 @@
 """All functions of FMI 2.0 in random order, with good, bad and absurd arguments."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
 import pytest
 
-from fmu_src.building.c_sources import UNBUILT_GUID, slider_sources, write_sources
 from fmu_src.controller.variables import VARIABLES
-from studies.hosts.compiler import compile_program, native_compiler
 from tests.native.toolchain import COUNTS, PROGRAMS, Binary, program, run, unpacked_binary
 
 CALLS = 300_000
@@ -83,21 +79,3 @@ def test_no_call_of_the_controller_crashes_or_hangs(
 ) -> None:
     settable = sum(variable.causality != "output" for variable in VARIABLES)
     fuzz(fuzzer, unpacked_binary(controller_fmu, tmp_path), 1, CALLS, settable)
-
-
-@pytest.mark.slow
-def test_the_fuzzer_notices_a_refusal_that_is_not_logged(fuzzer: Path, tmp_path: Path) -> None:
-    silent = tmp_path / "silent"
-    code = slider_sources()
-    speaking = "done ? STATUS_OK : send_report(instance, STATUS_ERROR, refusal->text)"
-    assert code["fmi/instance.c"].count(speaking) == 1
-    quiet = "(void)instance, (void)refusal, done ? STATUS_OK : STATUS_ERROR"
-    code["fmi/instance.c"] = code["fmi/instance.c"].replace(speaking, quiet)
-    write_sources(code, silent)
-    library = tmp_path / "silent.so"
-    sources = [str(path) for path in sorted(silent.rglob("*.c"))]
-    flags = ["-fPIC", "-shared", "-Wno-error", f"-I{silent}", *sources[1:]]
-    compile_program(native_compiler(), Path(sources[0]), library, flags)
-    done = run([fuzzer, library, UNBUILT_GUID, 1, CALLS])
-    assert done.returncode == 1
-    assert "refused, but not logged" in done.stdout

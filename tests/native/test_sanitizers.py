@@ -1,7 +1,5 @@
 """AddressSanitizer, UndefinedBehaviorSanitizer, ThreadSanitizer and memcheck on the C sources."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
@@ -51,17 +49,6 @@ def memory_checked(tmp_path_factory: pytest.TempPathFactory) -> Binary:
 @pytest.fixture(scope="module")
 def memory_checked_driver(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return program(SOURCES / "driver.c", tmp_path_factory.mktemp("driver"), MEMORY)
-
-
-@pytest.mark.parametrize(
-    ("flags", "kind"), [(MEMORY, "block"), (MEMORY, "overflow"), (THREADS, "race")]
-)
-def test_the_sanitizers_report_what_is_wrong(
-    flags: tuple[str, ...], kind: str, tmp_path: Path
-) -> None:
-    faulty = program(PROGRAMS / "faulty.c", tmp_path, flags)
-    assert run([faulty, kind], environment=SPEAK_UP).returncode == FAULT
-    assert run([faulty, "none"], environment=SPEAK_UP).returncode == 0
 
 
 @pytest.mark.parametrize(("law", "fidelity"), CHOICES)

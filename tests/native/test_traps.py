@@ -1,7 +1,5 @@
 """Hosts that trap floating-point exceptions: resolved motion raises none that they trap."""
 
-from __future__ import annotations
-
 import pytest
 
 from studies.hosts.driver_host import native_driver

@@ -1,7 +1,5 @@
 """Compiling the C sources of the FMU, and C programs that call them, in ways that find faults."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

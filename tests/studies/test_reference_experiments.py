@@ -1,7 +1,5 @@
 """The experiments that FMUs carry: results of references, which a script writes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Builds compile what has changed since the last one."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

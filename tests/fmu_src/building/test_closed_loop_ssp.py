@@ -1,8 +1,5 @@
-from __future__ import annotations
-
 import zipfile
 from pathlib import Path
-from xml.etree import ElementTree as ET
 
 import pytest
 from fmpy.ssp.simulation import simulate_ssp
@@ -29,15 +26,6 @@ def test_the_package_is_valid_ssp_1_0(closed_loop_package: Path, with_connectors
         with zipfile.ZipFile(package) as archive:
             for component in system.elements:
                 assert component.source in archive.namelist(), component.name
-
-
-def test_each_structure_has_a_name_of_its_own(closed_loop_package: Path) -> None:
-    """OMSimulator lists them by name, and refuses the second of a name."""
-    with zipfile.ZipFile(closed_loop_package) as archive:
-        structures = [name for name in archive.namelist() if name.endswith(".ssd")]
-        names = [ET.fromstring(archive.read(name)).attrib["name"] for name in structures]
-    assert sorted(structures) == ["SystemStructure.ssd", "WithConnectors.ssd"]
-    assert sorted(names) == ["ClosedLoop", "ClosedLoopWithConnectors"]
 
 
 def test_the_first_structure_has_components_only(closed_loop_package: Path) -> None:

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import os
 import platform
 import re
@@ -11,14 +9,16 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from fmpy import simulate_fmu
+from fmpy import read_model_description, simulate_fmu
 
 from fmu_src.building.build_error import BuildError
 from fmu_src.building.c_sources import controller_sources, slider_sources, write_sources
 from fmu_src.building.compiling import FLAGS, Compiler, default_compiler
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST, host_platform
-from fmu_src.sources import C_SOURCES
+from fmu_src.controller.variables import VARIABLES
+from fmu_src.sources import C_SOURCES, CONTROLLER_SOURCES
+from tests.processes import run_command
 
 # Those of this machine, each once; the build's own is always there.
 _FOUND = {os.path.realpath(p): n for n in ("clang", "gcc", "cc") if (p := shutil.which(n))}
@@ -78,17 +78,6 @@ def test_every_source_is_inside_and_listed(native_fmu: Path, code: dict[str, str
     assert source_files(native_fmu) == sorted(n for n in code if n.endswith(".c"))
 
 
-def test_nothing_of_python_is_inside(native_fmu: Path) -> None:
-    assert {name.split("/")[0] for name in contents(native_fmu)} == {
-        "binaries",
-        "documentation",
-        "extra",
-        "model.png",
-        "modelDescription.xml",
-        "sources",
-    }
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "compiler",
@@ -135,20 +124,6 @@ def test_options_that_remove_the_checks_for_nan_do_not_compile(
     assert "compile without -ffast-math" in done.stderr
 
 
-@pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
-def test_reassociation_does_not_compile(written_sources: Path) -> None:
-    """It removes the rounding by which sines count quarter turns."""
-    flags = ("-fassociative-math", "-fno-signed-zeros", "-fno-trapping-math")
-    source, object_file = (
-        str(written_sources / "component/values.c"),
-        str(written_sources / "values.o"),
-    )
-    command = ["gcc", "-std=c99", *flags, "-c", source, "-o", object_file]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert done.returncode != 0
-    assert "-fassociative-math" in done.stderr
-
-
 X87_RUN = """
 #include <stdio.h>
 #include "device/contact.h"
@@ -183,15 +158,6 @@ def test_static_initializers_are_constants_for_every_compiler() -> None:
         assert not re.search("INFINITY|HUGE_VAL", sources["component/variables.c"])
 
 
-@pytest.mark.skipif(shutil.which("tcc") is None, reason="needs tcc")
-def test_tcc_compiles_the_sources(written_sources: Path) -> None:
-    sources = map(str, sorted(written_sources.rglob("*.c")))
-    library = str(written_sources / "tcc.so")
-    command = ["tcc", "-std=c99", "-shared", "-o", library, *sources, "-lm"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("compiler", COMPILERS)
 def test_a_compiler_of_the_user_gives_the_same_motion(
@@ -221,3 +187,51 @@ def test_a_function_that_is_missing_is_noticed(tmp_path: Path, code: dict[str, s
     code["friction/law.c"] = "int nothing;\n"
     with pytest.raises(BuildError, match="law_after"):
         build_native(tmp_path / "dist", platforms=[HOST], code=code)
+
+
+def test_the_description_is_that_of_the_table(controller_fmu: Path) -> None:
+    description = read_model_description(str(controller_fmu))
+    found = [(v.name, v.causality, v.unit) for v in description.modelVariables]
+    assert found == [(v.name, v.causality, v.unit) for v in VARIABLES]
+    with zipfile.ZipFile(controller_fmu) as archive:
+        page = archive.read("documentation/index.html").decode()
+    for variable in VARIABLES:
+        assert page.count(f"<td><code>{variable.name}</code></td>") == 1, variable.name
+
+
+def test_only_the_velocity_error_depends_on_the_inputs(controller_fmu: Path) -> None:
+    description = read_model_description(str(controller_fmu))
+    found = {u.variable.name: [d.name for d in u.dependencies] for u in description.outputs}
+    assert found == {
+        "phase": [],
+        "effort": [],
+        "velocity_error": ["velocity_reference", "measured_velocity"],
+    }, "with none at all, FMI Library takes each output to depend on each input"
+
+
+def test_fmi_functions_are_shared_and_the_model_is_not(controller_fmu: Path) -> None:
+    with zipfile.ZipFile(controller_fmu) as archive:
+        inside = {
+            name.removeprefix("sources/"): archive.read(name)
+            for name in archive.namelist()
+            if name.startswith("sources/")
+        }
+    slider = slider_sources()
+    own = {name for name, data in inside.items() if data.decode() != slider.get(name)}
+    generated = {"component/model_guid.h", "component/variables.c", "component/variables.h"}
+    assert own == generated | {
+        str(path.relative_to(CONTROLLER_SOURCES)) for path in CONTROLLER_SOURCES.rglob("*.[ch]")
+    }
+    assert not {"friction/coulomb.c", "friction/law.c", "device/device.h"} & set(inside)
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
+def test_sources_of_the_controller_compile_alone_without_a_warning(
+    controller_fmu: Path, tmp_path: Path
+) -> None:
+    with zipfile.ZipFile(controller_fmu) as archive:
+        archive.extractall(tmp_path)
+    sources = tmp_path / "sources"
+    files = [str(path.relative_to(sources)) for path in sources.rglob("*.c")]
+    done = run_command("gcc", *FLAGS, *WARNINGS, "-o", "alone.so", *files, "-lm", cwd=sources)
+    assert done.returncode == 0, done.stderr

@@ -1,7 +1,5 @@
 """The page as a file; what it does in a browser is tested with the other hosts."""
 
-from __future__ import annotations
-
 import json
 import re
 import zipfile

@@ -1,7 +1,5 @@
 """Verdicts, on stand-ins for the FMU so that every kind of wrong result can be made."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from contextlib import nullcontext
 from types import SimpleNamespace
@@ -17,7 +15,6 @@ from slider_resonator.checks.measures import Tube, no_tube
 from slider_resonator.checks.measuring import measure
 from slider_resonator.checks.natural_scale import smallest_reference
 from slider_resonator.checks.reference_side import ReferenceSide
-from slider_resonator.checks.steady_references import SteadyReferences
 from slider_resonator.checks.verdict import sentence
 from slider_resonator.device.device import Device
 from slider_resonator.errors import SceneError
@@ -31,7 +28,7 @@ WAVE = np.sin(np.linspace(0.0, 50.0, 1000))
 
 
 def fmu(**parts: Any) -> FmuSide:
-    scene = SimpleNamespace(name="scene", source="scene.toml", start_time=0.0)
+    scene = SimpleNamespace(name="scene", source="scene.toml", start_time=0.0, drive_period=0.5)
     instance = SimpleNamespace(explained=nullcontext)
     return cast(FmuSide, SimpleNamespace(scene=scene, instance=instance, **parts))
 
@@ -75,14 +72,6 @@ def judge_position(
     )
 
 
-@pytest.mark.parametrize(("velocity", "passed"), [(0.1 + 9e-9, True), (0.1 + 2e-7, False)])
-def test_a_number_may_deviate_by_the_relative_tolerance(velocity: float, passed: bool) -> None:
-    verdict = judge(steady(velocity), quantity="steady_velocity", value=0.1, relative=1e-6)
-    assert verdict.passed is passed
-    assert verdict.allowed == pytest.approx(1e-7)
-    assert verdict.deviation == pytest.approx(velocity - 0.1, rel=1e-6)
-
-
 @pytest.mark.parametrize("value", [0.0, 0.1])
 def test_with_a_tolerance_of_0_only_rounding_passes(value: float) -> None:
     expect: dict[str, Any] = {"quantity": "steady_velocity", "value": value, "absolute": 0.0}
@@ -96,13 +85,6 @@ def test_nan_fails(velocity: float | None) -> None:
     assert not verdict.passed
     assert verdict.severity == float("inf")
     assert verdict.note == ("because" if velocity is None else "")
-
-
-def test_a_reference_without_a_result_fails() -> None:
-    expect = {"quantity": "steady_velocity", "reference": "located_events", "relative": 1.0}
-    assert not judge(
-        steady(0.1), reference(steady=SimpleNamespace(steady_velocity=None)), STILL, **expect
-    ).passed
 
 
 def test_words_must_be_equal() -> None:
@@ -135,17 +117,6 @@ def test_a_signal_is_judged_by_its_largest_deviation(signal: np.ndarray, passed:
     verdict = judge_position(signal, WAVE, relative=1e-8)
     assert verdict.passed is passed
     assert verdict.allowed == 1e-8
-
-
-def test_a_comparison_that_makes_no_sense_could_not_run() -> None:
-    with pytest.raises(SceneError, match=r"scene.toml: steady_velocity cannot be compared"):
-        judge(
-            steady(0.1),
-            reference(steady=SteadyReferences(Device(), 0.0, 0.0, frequency_ratio=3.0)),
-            quantity="steady_velocity",
-            reference="closed_form",
-            relative=1e-6,
-        )
 
 
 def test_a_failed_signal_says_from_where_on_and_where_most() -> None:
@@ -205,16 +176,6 @@ def test_a_reference_near_zero_counts_as_a_share_of_its_natural_scale(
     assert large.allowed == pytest.approx(1e-7), "the natural scale loosens nothing else"
 
 
-@pytest.mark.parametrize(("share", "passed"), [(9e-9, True), (2e-8, False)])
-def test_a_signal_near_zero_counts_as_a_share_of_its_natural_scale(
-    share: float, passed: bool
-) -> None:
-    noise = share * smallest_reference("position", Device())
-    verdict = judge_position(np.full(1000, noise), np.zeros(1000), TABLE_1, relative=1e-8)
-    assert verdict.passed is passed
-    assert verdict.deviation == pytest.approx(share)
-
-
 def test_inside_a_tube_a_signal_may_be_late_but_no_larger() -> None:
     tube = Tube(WAVE, np.minimum(np.roll(WAVE, 1), WAVE), np.maximum(np.roll(WAVE, 1), WAVE))
     requested = []
@@ -246,7 +207,7 @@ def test_events_may_be_off_by_a_share_of_the_period(shift: float, passed: bool) 
     events = np.floor(np.linspace(0.0, 20.0, 1000))
     found = events.copy()
     found[600:620] += shift
-    side = fmu(record=RecordOf(last_event_time=0.5 * found), drive_period=0.5)
+    side = fmu(record=RecordOf(last_event_time=0.5 * found))
     verdict = judge(
         side,
         reference(in_run=lambda name, measure: no_tube(events)),

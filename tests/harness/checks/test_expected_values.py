@@ -1,7 +1,5 @@
 """Expected values from processes of their own, and verdicts that do not depend on their number."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 
@@ -49,16 +47,6 @@ def test_verdicts_do_not_depend_on_the_number_of_processes(
     for one, other in zip(shared, alone, strict=True):
         assert [len(o.times) for o in one.overviews] == [len(o.times) for o in other.overviews]
     assert [one.exit_code for one in shared] == [0, 2, 0]
-
-
-@pytest.mark.slow
-def test_progress_grows_to_the_end(native_fmu: Path) -> None:
-    reported: list[tuple[str, float]] = []
-    validate([native_fmu], SCENES[:2], lambda *one: reported.append(one), jobs=2)
-    shares = [share for _, share in reported]
-    assert shares == sorted(shares)
-    assert reported[0][0].startswith("1 of ")
-    assert reported[-1] == ("", 1.0)
 
 
 def test_a_value_that_does_not_exist_is_an_error_from_a_process_too() -> None:

@@ -1,21 +1,27 @@
-"""Measures of sampled signals, on signals that are known."""
+"""Measures of sampled signals, their natural scales and overviews."""
 
-from __future__ import annotations
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from slider_resonator.arrays import Array
+from slider_resonator.checks.curves import MAX_POINTS, Curves, curves_of, overview_of
 from slider_resonator.checks.measures import (
     Tube,
     dominant_frequency,
     last_step_velocity,
-    mismatch_share,
     no_tube,
     peak,
     ripple_amplitude,
     share_of,
     slow_displacement,
 )
+from slider_resonator.checks.measuring import Measurement
+from slider_resonator.checks.natural_scale import NEAR_ZERO, smallest_reference
+from slider_resonator.checks.steady_references import SteadyReferences
+from slider_resonator.device.device import Device
+from tests.harness.verdicts import SIGNAL
 
 PERIOD = 0.002
 
@@ -31,11 +37,6 @@ def test_a_signal_that_is_not_finite_never_passes() -> None:
         assert not share_of(peak(signal - reference), peak(reference)) <= 1e9
 
 
-def test_mismatch_counts_points() -> None:
-    error = np.array([0.0, 1.0, 0.0, np.nan])
-    assert mismatch_share(error) == 0.5
-
-
 @pytest.mark.parametrize("frequency", [11.140846, 3.3, 40.0])
 def test_a_frequency_between_the_lines_of_the_spectrum_is_found(frequency: float) -> None:
     times = np.linspace(0.0, 3.6, 2001)
@@ -43,12 +44,6 @@ def test_a_frequency_between_the_lines_of_the_spectrum_is_found(frequency: float
     signal = 0.1 + 0.02 * times + np.sin(angle + 0.3) + 0.3 * np.cos(3.0 * angle)
     found = dominant_frequency(times, signal)
     assert found == pytest.approx(frequency, rel=1e-8), "finer than 1 / duration = 0.28 Hz"
-
-
-def test_the_strongest_oscillation_wins() -> None:
-    times = np.linspace(0.0, 4.0, 4001)
-    signal = np.sin(2.0 * np.pi * 7.0 * times) + 2.0 * np.sin(2.0 * np.pi * 31.0 * times)
-    assert dominant_frequency(times, signal) == pytest.approx(31.0, rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -62,13 +57,6 @@ def test_the_strongest_oscillation_wins() -> None:
 def test_records_without_an_answer_are_refused(times: np.ndarray, signal: np.ndarray) -> None:
     with pytest.raises(ValueError, match=r"equal steps|does not oscillate"):
         dominant_frequency(times, signal)
-
-
-def test_the_amplitude_is_found_beside_drift_and_harmonics() -> None:
-    times = np.arange(0, 201) * PERIOD / 20
-    angle = 2.0 * np.pi * times / PERIOD
-    position = 0.13 * times + 6.76e-5 * np.sin(angle - 0.7) + 1e-5 * np.sin(3.0 * angle)
-    assert ripple_amplitude(times, position, PERIOD) == pytest.approx(6.76e-5, rel=5e-3)
 
 
 def test_without_harmonics_it_is_exact() -> None:
@@ -109,11 +97,6 @@ def test_only_what_is_outside_counts() -> None:
     assert np.allclose(TUBE.outside(np.array([0.1, 0.4, -0.05])), [0.1, 0.1, 0.0])
 
 
-def test_without_width_it_is_the_difference() -> None:
-    signal = np.array([0.3, 0.9, -0.2])
-    assert no_tube(MIDDLE).outside(signal).tolist() == np.abs(signal - MIDDLE).tolist()
-
-
 def test_what_is_no_number_is_never_inside() -> None:
     assert np.isnan(TUBE.outside(np.array([np.nan, 1.0, 0.0]))[0])
     assert TUBE.outside(np.array([0.0, np.inf, 0.0]))[1] == np.inf
@@ -122,3 +105,73 @@ def test_what_is_no_number_is_never_inside() -> None:
 def test_the_travel_of_the_last_step_alone_counts() -> None:
     times = np.array([0.0, 0.1, 0.3, 0.5])
     assert last_step_velocity(times, np.array([5.0, 1.0, 2.0, 2.5])) == pytest.approx(2.5)
+
+
+TABLE_1 = Device()
+
+
+def scale(quantity: str, device: Device = TABLE_1) -> float:
+    return smallest_reference(quantity, device) / NEAR_ZERO
+
+
+def test_scales_of_table_1_are_those_of_the_paper() -> None:
+    assert scale("steady_velocity") == pytest.approx(910.947 / (1.1 * 3500.0), rel=1e-5)
+    assert scale("position") == pytest.approx(67.603e-6, rel=1e-4)
+    assert scale("blocking_force") == pytest.approx(2 * 0.1 * (1.0 + 1.0))
+    assert scale("normal_force") == 2.0
+
+
+def test_quantities_without_a_scale_have_none() -> None:
+    assert scale("velocity", replace(TABLE_1, base_amplitude=0.0)) == 0.0
+    assert scale("beat_frequency") == 0.0, "a beat may be as slow as it likes"
+    undamped = replace(TABLE_1, damping_ratio=0.0, resonator_frequency=3500.0 * (1 / 1.1) ** 0.5)
+    assert scale("velocity", undamped) == 0.0, "at resonance the vibration grows for ever"
+
+
+def judged(quantity: str, count: int, *, tube: bool = False) -> Curves:
+    times = np.linspace(0.0, 1.0, count)
+    reference: Array = 2.0 * times
+    expected = no_tube(reference) if tube else reference
+    check = replace(SIGNAL, quantity=quantity)
+    found = curves_of(check, Measurement(times, times=times), expected)
+    assert found is not None
+    return found
+
+
+def test_the_slowest_signal_is_shown_whatever_the_order() -> None:
+    both = [judged("velocity", 9), judged("position", 9), judged("mean_velocity_in_run", 9)]
+    for order in (both, both[::-1]):
+        found = overview_of(order)
+        assert found is not None
+        assert found.check.quantity == "mean_velocity_in_run"
+        assert found.check.scene == SIGNAL.scene
+        assert np.array_equal(found.reference, 2.0 * found.fmu)
+
+
+def test_a_long_slow_signal_is_thinned_over_the_whole_run() -> None:
+    found = overview_of([judged("position", 10 * MAX_POINTS, tube=True)])
+    assert found is not None
+    assert len(found.times) == MAX_POINTS
+    assert (found.times[0], found.times[-1]) == (0.0, 1.0)
+    assert np.array_equal(found.times, found.fmu)
+
+
+def test_of_a_long_fast_signal_the_end_is_shown_in_full() -> None:
+    found = overview_of([judged("velocity", 10 * MAX_POINTS)])
+    assert found is not None
+    assert len(found.times) == MAX_POINTS
+    assert found.times[-1] == 1.0
+    assert np.ptp(np.diff(found.times)) < 1e-12
+    assert found.times[0] > 0.89
+
+
+@pytest.mark.parametrize("name", ["averaged_velocity", "averaged_blocking_force"])
+def test_closed_forms_hold_for_equal_frequencies_only(name: str) -> None:
+    with pytest.raises(ValueError, match=r"frequency_ratio = 3.0"):
+        getattr(SteadyReferences(Device(), 0.0, 0.0, frequency_ratio=3.0), name)
+
+
+@pytest.mark.parametrize("ratio", [1.02, 2.98])
+def test_the_difference_frequency_counts_from_the_nearest_multiple(ratio: float) -> None:
+    references = SteadyReferences(Device(), 0.0, 0.0, frequency_ratio=ratio)
+    assert references.difference_frequency == pytest.approx(11.1408460, rel=1e-7)

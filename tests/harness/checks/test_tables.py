@@ -1,7 +1,5 @@
 """The vocabulary of scene files and the functions behind it belong together."""
 
-from __future__ import annotations
-
 from slider_resonator.checks.expecting import EXPECTED
 from slider_resonator.checks.measuring import MEASURES
 from slider_resonator.scenes.vocabulary import QUANTITIES

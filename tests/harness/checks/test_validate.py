@@ -1,15 +1,18 @@
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
 
 from slider_resonator.checks.compare import Check
-from slider_resonator.checks.validate import validate, worst_of_sweeps
-from slider_resonator.errors import SceneError
+from slider_resonator.checks.fmu_side import PREDICTED, PREDICTIONS, FmuSide
+from slider_resonator.checks.measuring import MEASURES
+from slider_resonator.checks.validate import Validation, validate, worst_of_sweeps
+from slider_resonator.device.device import DEVIATIONS
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene_files import find_scene
+from slider_resonator.scenes.vocabulary import QUANTITIES
 from tests.harness import faulty_fmus
-from tests.harness.scene_text import read_scene, scene_read
+from tests.harness.foreign_fmus import foreign
+from tests.harness.scene_text import read_scene, scene_of, scene_read
 
 EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = {}\nrelative = 1e-6\nwhy = "test"\n'
 
@@ -29,18 +32,6 @@ def test_a_sweep_is_judged_at_every_point(python_fmu: Path, tmp_path: Path) -> N
     assert [check.passed for check in result.checks] == [True, False]
     ((worst, points),) = worst_of_sweeps(result.checks)
     assert (worst.at, points) == ({"phase": 0.4}, 2)
-
-
-def test_a_scene_that_expects_nothing_cannot_be_validated(python_fmu: Path, tmp_path: Path) -> None:
-    with pytest.raises(SceneError, match="expects nothing"):
-        validate([python_fmu], [scene_read(tmp_path, "")])
-
-
-def test_progress_names_the_scene_at_work(python_fmu: Path, tmp_path: Path) -> None:
-    reported: list[tuple[str, float]] = []
-    scene = scene_read(tmp_path, EXPECT.format(0.126667))
-    validate([python_fmu], [scene], lambda name, share: reported.append((name, share)))
-    assert reported == [("1 of 1: mine", 0.0), ("", 1.0)]
 
 
 def test_a_failure_is_worse_than_any_pass() -> None:
@@ -79,3 +70,147 @@ def test_a_refused_scene_does_not_keep_others_from_being_judged(
     assert run_failure.scene == "refused"
     assert "friction_coefficient = 0.0 refused" in run_failure.reason
     assert [(c.scene, c.passed) for c in validation.checks] == [("short", True)]
+
+
+STEADY = """
+[[expect]]
+quantity = "steady_velocity"
+value = 0.126667
+relative = 1e-6
+why = "table 1"
+
+[[expect]]
+quantity = "blocking_force"
+value = 0.0851861
+relative = 1e-5
+why = "table 1"
+
+[[expect]]
+quantity = "event_times"
+reference = "located_events"
+tube = 1e-9
+why = "no event is early or late"
+"""
+
+
+@pytest.fixture(scope="module")
+def stranger(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return foreign(native_fmu, tmp_path_factory.mktemp("foreign") / "foreign.fmu")
+
+
+def judged(fmu: Path, folder: Path, more: str) -> Validation:
+    scene = faulty_fmus.scene(folder)
+    scene.write_text(scene.read_text() + more)
+    (validation,) = validate([fmu], [read_scene(scene)])
+    return validation
+
+
+def test_references_order_and_missing_capabilities_do_not_matter(
+    stranger: Path, tmp_path: Path
+) -> None:
+    validation = judged(stranger, tmp_path, STEADY)
+    assert validation.exit_code == 0, [c for c in validation.checks if not c.passed]
+    assert len(validation.checks) == 4
+
+
+LIFE = """
+name = "life"
+title = "Life of an instance"
+
+[beside.inputs]
+phase = 1.0
+
+[run]
+drive_periods = 2
+steps_per_period = 8
+"""
+
+
+def test_what_it_does_not_offer_is_listed_and_what_it_does_is_judged(
+    stranger: Path, tmp_path: Path
+) -> None:
+    counts = [name for name in QUANTITIES if name.endswith(("_differences", "_faults"))]
+    expect = '[[expect]]\nquantity = "{}"\nvalue = 0\nwhy = "it must"\n'
+    path = tmp_path / "life.toml"
+    path.write_text(LIFE + "".join(map(expect.format, counts)))
+    (validation,) = validate([stranger], [read_scene(path)])
+    assert validation.exit_code == 0, [c for c in validation.checks if not c.passed]
+    reasons = {one.quantity: one.reason for one in validation.not_applied}
+    assert reasons == {
+        "restored_differences": "needs canGetAndSetFMUstate = true",
+        "transferred_differences": "needs canGetAndSetFMUstate = true",
+        "beside_differences": "needs canBeInstantiatedOnlyOncePerProcess = false",
+        "rate_differences": "needs canInterpolateInputs = true",
+        "state_faults": "needs canGetAndSetFMUstate = true",
+    }
+    assert {check.quantity for check in validation.checks} == set(counts) - set(reasons)
+
+
+def test_a_scene_that_needs_a_later_variable_does_not_apply(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    """An FMU of the first interface counts as one of order 1: it is judged on that."""
+    old = faulty_fmus.without_later_variables(native_fmu, tmp_path / "old.fmu")
+    scenes = []
+    for order in (1, 2):
+        path = faulty_fmus.scene(tmp_path, f"order_{order}")
+        device = f"\n[device]\nfidelity = 1\naveraging_order = {order}\n"
+        path.write_text(path.read_text() + device)
+        scenes.append(read_scene(path))
+    (validation,) = validate([old], scenes)
+    assert validation.exit_code == 0, validation.run_failures
+    assert [check.scene for check in validation.checks] == ["order_1"]
+    (missing,) = validation.not_applied
+    assert (missing.scene, missing.quantity) == ("order_2", "position")
+    assert missing.reason == "needs averaging_order = 2, which came with interface 0.2.0"
+    later = {
+        "averaging_order",
+        "prediction_valid",
+        "slow_motion_error",
+        "friction_power",
+        *DEVIATIONS,
+    }
+    assert set(validation.lacks) == later
+
+
+def test_a_run_with_unequal_steps_is_refused_where_the_fmu_takes_equal_ones(
+    stranger: Path, tmp_path: Path
+) -> None:
+    jump = "\n[inputs]\nload = { steps = [[0.0, 0.0], [0.001, 0.05]] }\n"
+    validation = judged(stranger, tmp_path, jump)
+    assert validation.exit_code == 2
+    (run_failure,) = validation.run_failures
+    assert "canHandleVariableCommunicationStepSize = false" in run_failure.reason
+    assert "must be one size" in run_failure.reason
+
+
+def test_the_blocking_force_does_not_depend_on_the_load_of_the_scene(instance: Instance) -> None:
+    loaded = FmuSide(instance, find_scene("table_1", {"load": 0.3}))
+    free = FmuSide(instance, find_scene("table_1"))
+    assert loaded.blocking.blocking_force == free.blocking.blocking_force
+
+
+RUN = "[run]\ndrive_periods = 4\nsteps_per_period = 2\n"
+SLOW = "[device]\nfidelity = 0\n" + RUN
+NUMBER = '[[expect]]\nquantity = "{}"\nat_most = 1.0\nwhy = "test"\n'
+SIGNAL = '[[expect]]\nquantity = "{}"\nreference = "averaged"\nrelative = 1.0\nwhy = "test"\n'
+
+
+@pytest.mark.parametrize("quantity", sorted(PREDICTED))
+def test_a_scene_that_expects_a_prediction_reads_it(instance: Instance, quantity: str) -> None:
+    side = FmuSide(instance, scene_of(SLOW))
+    assert not set(PREDICTIONS) & set(side.record.outputs), "what nobody asks for costs nothing"
+    expect = SIGNAL if quantity.endswith("_in_run") else NUMBER
+    expecting = FmuSide(instance, scene_of(SLOW + expect.format(quantity)))
+    MEASURES[quantity](expecting)
+    assert set(PREDICTIONS) <= set(expecting.record.outputs)
+
+
+def test_bent_bristles_need_unequal_steps(stranger: Path, tmp_path: Path) -> None:
+    lugre = '\n[[expect]]\nquantity = "steady_velocity"\nvalue = 0.1\nrelative = 0.5\nwhy = "x"\n'
+    device = "\n[device]\nfriction_law = 1\n"
+    scene = faulty_fmus.scene(tmp_path)
+    scene.write_text(scene.read_text().replace("located_events", "bristle_state") + lugre + device)
+    (validation,) = validate([stranger], [read_scene(scene)])
+    assert validation.exit_code == 2
+    assert "canHandleVariableCommunicationStepSize = false" in validation.run_failures[0].reason

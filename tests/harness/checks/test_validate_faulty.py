@@ -1,7 +1,5 @@
 """Whatever an FMU does, `validate` ends, names the cause and goes on with the others."""
 
-from __future__ import annotations
-
 import tempfile
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Scenes at random: devices that averaging suits and others, inputs and needs of every kind."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import ceil, pi
 from typing import Any

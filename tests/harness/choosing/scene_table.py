@@ -1,7 +1,5 @@
 """Scenes that are hard to choose for, each for a reason of its own."""
 
-from __future__ import annotations
-
 ALTERNATING = ", ".join(f"[{0.18 * i:.2f}, {i % 2}.0]" for i in range(60))
 WALK = ", ".join(f"[{0.2 * i:.1f}, {0.06 * ((7 * i) % 5 - 2):.2f}]" for i in range(26))
 

@@ -1,7 +1,5 @@
 """What the errors of a candidate are measured against, and its cost."""
 
-from __future__ import annotations
-
 from math import inf
 
 import pytest
@@ -44,21 +42,6 @@ def test_leaps_replace_a_resolved_run_where_they_serve(
     assert (probe.drive_periods < 1000.0) == (covers == "leaps")
 
 
-def test_leaps_and_the_resolved_run_say_the_same_of_a_candidate(
-    instance: Instance, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    load = "[inputs]\nload = { steps = [[0, 0], [30, 0.06]] }\n"
-    text = load + RUN.format(20_000, "position", 1e-3)
-    errors = []
-    for short in (1e-4, 100.0):
-        monkeypatch.setattr(reference, "SHORT", short)
-        probe = Probe(instance, scene_of(text))
-        errors.append(probe.measure(Candidate(AVERAGED.model, 1e-8, probe.scene.step_size)))
-    by_leaps, resolved = (measured.errors["position"] for measured in errors)
-    assert by_leaps.error == pytest.approx(resolved.error, rel=1e-3)
-    assert by_leaps.magnitude == pytest.approx(resolved.magnitude, rel=1e-6)
-
-
 @pytest.mark.usefixtures("stated_costs")
 def test_a_scene_that_cannot_be_resolved_as_a_whole_confirms_the_resolved_model_only(
     instance: Instance, monkeypatch: pytest.MonkeyPatch
@@ -91,11 +74,3 @@ def test_steps_that_make_no_difference_are_put_together(
     one, joined = (measured.errors["position"].error for measured in found)
     assert joined == pytest.approx(one, rel=0.1)
     assert found[1].seconds == pytest.approx(found[0].seconds, rel=0.1), "all steps cost"
-
-
-def test_the_resolved_periods_are_counted(instance: Instance) -> None:
-    probe = Probe(instance, scene_of(RUN.format(500, "mean_velocity", 0.1)))
-    for model in (AVERAGED.model, Model(1, 0), RESOLVED.model):
-        probe.measure(Candidate(model, 1e-8, probe.duration))
-    head = reference.HEAD_PERIODS
-    assert probe.drive_periods == pytest.approx(3 * 500.0 + head)

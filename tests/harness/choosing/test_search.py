@@ -1,11 +1,15 @@
-from __future__ import annotations
+"""Steps and tolerances that are tried."""
 
-from math import inf
+from itertools import pairwise
+from math import inf, log2, pi
 
 from hypothesis import given
 from hypothesis import strategies as st
 
 from slider_resonator.choosing.ladder import coarsest
+from slider_resonator.choosing.probe import Probe
+from slider_resonator.fmu.instance import Instance
+from tests.harness.scene_text import scene_of
 
 
 @given(st.integers(1, 30), st.floats(1e-8, 1e8))
@@ -42,3 +46,34 @@ def test_an_index_that_is_fine_enough_is_tried_before_the_search_gives_up() -> N
 
 def test_a_candidate_that_cannot_run_is_refined() -> None:
     assert coarsest(lambda index: inf if index < 4 else 0.5, 10) == 4
+
+
+PERIOD = 2.0 * pi / 3500.0
+RAMP = "[inputs]\nload = { ramp = [[0, 0], [0.1, 0.1]] }\n"
+
+
+def ladder(instance: Instance, text: str) -> tuple[float, ...]:
+    steps = Probe(instance, scene_of(text)).ladder
+    return tuple(step for step in steps if step is not None)
+
+
+def test_inputs_that_vary_leave_powers_of_two_of_the_step(
+    instance: Instance,
+) -> None:
+    run = f"{RAMP}[run]\nstop_time = 0.1\nstep_size = 0.003\n[need]\n"
+    signal = ladder(instance, f"{run}position = {{ rel = 0.1 }}\n")
+    number = ladder(instance, f"{run}mean_velocity = {{ rel = 0.1 }}\n")
+    assert signal[0] == 0.003
+    assert number[0] == 0.003 * 32
+    assert number[-len(signal) :] == signal
+    assert {log2(coarse / fine) for coarse, fine in pairwise(number)} == {1.0}
+    assert PERIOD / 64 <= number[-1] < PERIOD / 32
+
+
+def test_a_number_at_the_end_of_a_long_scene_is_tried_in_one_step_and_halves(
+    instance: Instance,
+) -> None:
+    """An FMU bounds the work of a step."""
+    run = "[run]\ndrive_periods = 70000\nsteps_per_period = 1\n[need]\n"
+    steps = ladder(instance, f"{run}mean_velocity = {{ rel = 0.1 }}\n")
+    assert [round(step / PERIOD) for step in steps] == [70_000, 35_000, 17_500, 8750]

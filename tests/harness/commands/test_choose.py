@@ -1,7 +1,5 @@
 """Output and exit codes of `choose` and `run --auto`."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -71,14 +69,6 @@ def test_a_scene_without_needs_cannot_be_chosen_for(native_fmu: Path) -> None:
     result = call("choose", "lift_off", "--fmu", native_fmu)
     assert result.exit_code == 2
     assert "has no [need]" in result.stderr
-
-
-def test_averaged_motion_meets_the_needs_of_the_built_in_example(native_fmu: Path) -> None:
-    answer = json.loads(call("choose", "feed_forward", "--fmu", native_fmu, "--json").stdout)
-    assert answer["meets"]
-    others = {(one["fidelity"], one["averaging_order"]): one["why"] for one in answer["ruled_out"]}
-    why = others.get((0, 1), "")
-    assert not why or why.startswith("meets the needs too"), "only the cost may speak against it"
 
 
 def test_a_run_uses_the_choice_and_reports_it(native_fmu: Path, tmp_path: Path) -> None:

@@ -1,6 +1,3 @@
-from __future__ import annotations
-
-import csv
 import json
 from pathlib import Path
 
@@ -67,38 +64,6 @@ def test_a_device_is_written_as_a_parameter_set_of_ssp(tmp_path: Path) -> None:
     expected = vars(sr.read_device("conveyor"))
     assert {name: float(value) for name, value in values.items()} == expected
     assert "must be with a device" in refused("device", "--ssv", path)
-
-
-def test_a_device_takes_the_whole_place_of_a_scene_s(tmp_path: Path, native_fmu: Path) -> None:
-    """What the file leaves out is table 1's, whatever law and averages the scene has."""
-    path = tmp_path / "heavy.toml"
-    path.write_text("[device]\nslider_mass = 2.0\n", encoding="utf-8")
-    out = tmp_path / "run.csv"
-    ran = call("run", native_fmu, "lugre", "--device", path, "--set", "fidelity=0", "--out", out)
-    assert "replaced" in ran.stdout
-    with out.open(encoding="utf-8", newline="") as file:
-        *_, ending = csv.DictReader(file)
-    with sr.open_fmu(native_fmu, device=path) as fmu:
-        record = fmu.run("lugre", fidelity=0)
-    with sr.open_fmu(native_fmu) as fmu:
-        expected = fmu.run("lugre", **vars(sr.Device(slider_mass=2.0, fidelity=0)))
-    assert record.final("position") == expected.final("position")
-    tuned = sr.read_scene("tuned_fidelity_1_lugre")
-    assert tuned.tuning
-    assert tuned.with_device({"slider_mass": 2.0}).tuning == tuned.tuning, "the scene's situation"
-    assert float(ending["position"]) == record.final("position")
-
-
-def test_settings_replace_the_device(native_fmu: Path) -> None:
-    named = call(
-        "steady", native_fmu, "--device", "ultrasonic_slider", "--set", "load=50 mN", "--json"
-    )
-    with sr.open_fmu(native_fmu, device="ultrasonic_slider") as fmu:
-        expected = fmu.steady(load="50 mN").steady_velocity
-        assert expected is not None
-        other = fmu.steady(load=0.05, friction_coefficient=0.1).steady_velocity
-    assert json.loads(named.stdout)["steady_velocity"] == expected
-    assert other != pytest.approx(expected, rel=1e-3)
 
 
 def test_other_files_are_named_as_what_they_are(native_fmu: Path) -> None:

@@ -1,7 +1,5 @@
 """The help of all commands, and the names of their options."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys
@@ -10,7 +8,11 @@ from pathlib import Path
 
 import click
 import pytest
+from click.testing import CliRunner
 
+from slider_resonator.commands import options
+from slider_resonator.errors import FmuError
+from slider_resonator.fmu import finished
 from studies import COMMANDS as STUDIES
 from studies.cli import main
 from tests.harness.calling import call, refused
@@ -38,14 +40,6 @@ def having(option: str) -> set[str]:
     return {name for name, options in OPTIONS.items() if option in options}
 
 
-@pytest.mark.parametrize("group", ["", "baseline"])
-def test_summaries_are_whole_at_80_columns(group: str) -> None:
-    printed = call(*group.split(), "--help", COLUMNS="80").stdout
-    rows = printed[printed.index("Commands:") :].splitlines()[1:]
-    assert len(rows) == len(main.summaries) if not group else 3
-    assert not [row for row in rows if row.endswith("...") or len(row) > 80]
-
-
 @pytest.mark.parametrize("width", [60, 80, 120])
 def test_no_help_is_wider_than_the_terminal(width: int) -> None:
     for name, command in EVERY.items():
@@ -61,16 +55,6 @@ def test_help_shows_examples(name: str) -> None:
     assert result.exit_code == 0
     program = "python -m harness" if name in STUDIES else "slider-resonator"
     assert f"{program} {name}" in result.stdout
-
-
-@pytest.mark.parametrize("name", EVERY)
-def test_an_example_on_several_lines_is_the_same_command(name: str) -> None:
-    def words(width: int) -> list[list[str]]:
-        context = click.Context(EVERY[name], info_name=name, terminal_width=width)
-        joined = re.sub(r" \\\n +", " ", EVERY[name].get_help(context))
-        return [line.split() for line in joined.splitlines() if "  slider-resonator " in line]
-
-    assert words(58) == words(400)
 
 
 def test_commands_that_take_an_fmu_take_it_by_the_same_option() -> None:
@@ -102,8 +86,8 @@ def test_every_command_has_the_common_options_that_make_sense_for_it() -> None:
     own = {"--python-fmu", "--fmi3-fmu"}  # further FMUs of `hosts`
     looks_alike = re.compile("fmu|job|worker|limit|timeout|json")
     common = {"--fmu", "--jobs", "--time-limit", "--json", "--workers", "--limit"}
-    for name, options in OPTIONS.items():
-        other = {option for option in options - common - own if looks_alike.search(option)}
+    for name, own_options in OPTIONS.items():
+        other = {option for option in own_options - common - own if looks_alike.search(option)}
         assert not other, f"{name}: another name for a common option"
 
 
@@ -127,16 +111,6 @@ def test_an_fmu_is_given_once(tmp_path: Path) -> None:
     assert "must be one FMU" in refused("steady", fmu, "--fmu", fmu)
 
 
-def test_who_names_no_fmu_is_told_where_one_is(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "dist").mkdir()
-    (tmp_path / "dist" / "SliderResonator.fmu").touch()
-    monkeypatch.chdir(tmp_path)
-    named = str(Path("dist") / "SliderResonator.fmu")
-    assert named in refused("baseline", "record", "--dir", "x")
-
-
 @pytest.mark.parametrize("arguments", [("steady",), ("blocking",), ("run", "table_1")])
 def test_the_default_is_the_native_fmu(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
@@ -154,3 +128,70 @@ def test_help_of_all_commands_loads_none_of_them() -> None:
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert "slider_resonator.cli" in done.stderr
     assert "slider_resonator.commands." not in done.stderr
+
+
+def test_fmus_built_here_are_preferred(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    package = tmp_path / "package"
+    monkeypatch.setattr(finished, "FOLDERS", (package,))
+    monkeypatch.setattr(finished, "COMMANDS_LOOK_IN", (Path("dist"), package))
+    assert options.default_fmu(Path("given.fmu")) == Path("given.fmu")
+    with pytest.raises(FmuError, match="make build"):
+        options.default_fmu(None)
+    native, python = (Path("dist") / finished.FMUS[build] for build in ("native", "python"))
+    in_package = package / python.name
+    package.mkdir()
+    in_package.touch()
+    assert options.default_fmus() == (in_package,)
+    python.parent.mkdir()
+    python.touch()
+    assert options.default_fmu(None) == python
+    native.touch()
+    assert options.default_fmus() == (native, python)
+    assert options.default_fmu(None) == native, "the native FMU comes first"
+
+
+@click.command("echo", cls=options.SettingsCommand)
+@click.argument("names", nargs=-1)
+@options.set_option
+@options.json_option
+def echo(names: tuple[str, ...], settings: dict[str, float], as_json: bool) -> None:
+    """Print what was given."""
+    click.echo((names, settings, as_json))
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["a.fmu", "--set", "phase=0.4", "load=0.05", "tolerance=1e-9", "--json"],
+        ["a.fmu", "--set=phase=0.4", "load=0.05", "--json", "--set", "tolerance=1e-9"],
+        ["--json", "--set", "phase=0.4", "--set", "load=0.05", "tolerance=1e-9", "a.fmu"],
+    ],
+)
+def test_several_settings_may_follow_one_option(arguments: list[str]) -> None:
+    result = CliRunner().invoke(echo, arguments)
+    assert result.exit_code == 0, result.output
+    settings = {"phase": 0.4, "load": 0.05, "tolerance": 1e-9}
+    assert result.output == f"{(('a.fmu',), settings, True)}\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reported"),
+    [
+        (["--set", "phase=1", "phse=1"], "did you mean 'phase'"),
+        (["--set", "phase=1", "load=x"], "must be a number"),
+        (["--set", "phase=1", "phase=2"], "must be one value"),
+        (["--set", "--json"], "is not NAME=VALUE"),
+        (["--set"], "requires an argument"),
+    ],
+)
+def test_every_setting_is_judged(arguments: list[str], reported: str) -> None:
+    result = CliRunner().invoke(echo, arguments)
+    assert result.exit_code == 2
+    assert reported in result.output
+
+
+@pytest.mark.parametrize("arguments", [["phase=1"], ["--", "phase=1"], ["--json", "phase=1"]])
+def test_only_what_follows_the_option_is_a_setting(arguments: list[str]) -> None:
+    result = CliRunner().invoke(echo, arguments)
+    assert result.output.startswith("(('phase=1',), {},"), "it may be the name of a file"

@@ -1,7 +1,5 @@
 """What the page does in a browser is tested with the other hosts."""
 
-from __future__ import annotations
-
 import zipfile
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Refusals of `run` before it runs, and the files that it reads and writes."""
 
-from __future__ import annotations
-
 import csv
 import json
 import shutil
@@ -20,25 +18,6 @@ def test_neither_the_fmu_nor_the_scene_is_overwritten(python_fmu: Path, tmp_path
         before = target.read_bytes()
         assert reported in refused("run", fmu, scene, "--out", target)
         assert target.read_bytes() == before
-
-
-def test_a_csv_that_the_scene_reads_is_not_overwritten(python_fmu: Path, tmp_path: Path) -> None:
-    points = tmp_path / "load.csv"
-    points.write_text("time,load\n0,0\n0.01,0\n")
-    scene = tmp_path / "mine.toml"
-    scene.write_text(
-        'name = "mine"\ntitle = "Mine"\n[inputs]\nload = { csv = "load.csv" }\n'
-        "[run]\nstop_time = 0.01\nstep_size = 0.001\n"
-    )
-    assert "is the scene's file" in refused("run", python_fmu, scene, "--out", points)
-    assert points.read_text().startswith("time,load\n0,0")
-
-
-def test_two_results_need_two_files(tmp_path: Path) -> None:
-    same = tmp_path / "a.png"
-    assert "is the file of --out" in refused(
-        "run", "no.fmu", "lift_off", "--out", same, "--plot", same
-    )
 
 
 @pytest.mark.parametrize(
@@ -61,37 +40,6 @@ def test_mistakes_are_named_by_their_option_before_the_fmu_is_opened(
     assert result.exit_code == 2
     assert reported in result.stderr
     assert ".toml" not in result.stderr, "the scene file is not to blame"
-
-
-LAWLESS = ("--set", "friction_law=1", "friction_coefficient=0")
-"""What only the FMU refuses: LuGre friction needs a coefficient above 0."""
-
-
-def test_a_refusal_of_the_fmu_is_reported_once_without_its_wrapping(python_fmu: Path) -> None:
-    result = call("run", python_fmu, "lift_off", *LAWLESS, "--json")
-    assert result.exit_code == 2
-    assert result.stdout.count("friction_coefficient = 0.0 refused") == 1
-    assert "Refusal(" not in result.output
-    assert "exception" not in result.output
-
-
-@pytest.mark.slow
-def test_a_picture_changes_no_digit_of_the_csv(python_fmu: Path, tmp_path: Path) -> None:
-    alone, beside = tmp_path / "alone.csv", tmp_path / "beside.csv"
-    assert call("run", python_fmu, "table_1", "--out", alone).exit_code == 0
-    drawn = call("run", python_fmu, "table_1", "--out", beside, "--plot", tmp_path / "run.png")
-    assert drawn.exit_code == 0
-    assert "in 1600 communication steps" in drawn.stdout
-    assert alone.read_bytes() == beside.read_bytes()
-    with alone.open() as file:
-        assert len(list(csv.reader(file))) == 1602
-
-
-def test_averaged_motion_has_no_reversals_to_report(python_fmu: Path) -> None:
-    averaged = call("run", python_fmu, "table_1", "--set", "fidelity=0").stdout
-    assert "reversals" not in averaged
-    assert "mean velocity" in averaged
-    assert "reversals" in call("run", python_fmu, "pushed_at_rest").stdout
 
 
 LINE = """
@@ -159,6 +107,41 @@ def test_the_deviations_of_a_scene_are_written_and_drawn(native_fmu: Path, tmp_p
     call("run", native_fmu, "burst", "--plot", chosen, "--signals", "amplitude_deviation")
     for picture in (usual, chosen):
         assert "amplitude deviation" in picture.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--window", "1"], "'1': must be FROM:TO, two times in s"),
+        (["--window", "a:b"], "'a:b': must be FROM:TO, two times in s"),
+        (["--window", "0:0.1"], "--signals, --window and --overlay need --plot"),
+        (["--signals", "load"], "--signals, --window and --overlay need --plot"),
+        (["--plot", "a.png", "--window", "1:2"], "--window 1:2: must be FROM:TO with 0 <= FROM"),
+        (["--plot", "a.png", "--signals", "x"], "unknown output or input 'x'"),
+        (["--plot", "a.png", "--overlay", "fidelty=1"], "did you mean 'fidelity'?"),
+        (["--plot", "a.png", "--overlay", "fidelity=x"], "fidelity = 'x': must be a number"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_before_anything_runs(
+    arguments: list[str], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    done = call("run", "no.fmu", "table_1", *arguments)
+    assert done.exit_code == 2
+    assert message in " ".join(done.stderr.split())
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_fidelities_and_fmus_are_overlaid(native_fmu: Path, tmp_path: Path) -> None:
+    picture = tmp_path / "a.svg"
+    overlays = ["--overlay", "fidelity=1", "--overlay", native_fmu]
+    window = ["--window", "0.1:0.105", "--signals", "velocity, friction_force"]
+    done = call("run", native_fmu, "table_1", "--plot", picture, *overlays, *window)
+    assert done.exit_code == 0, done.stderr
+    text = picture.read_text(encoding="utf-8")
+    assert "fidelity 1" in text
+    assert text.count(native_fmu.name) >= 2
+    assert "friction force" in text
 
 
 def test_a_run_of_another_device_has_its_title(native_fmu: Path) -> None:

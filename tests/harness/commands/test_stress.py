@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -16,8 +14,6 @@ from tests.harness.public_json import assert_public_keys
 HOLDS = (Hold(1e-4, 20),)
 GOOD = Case("steps", "few", Model(2, 0), {}, HOLDS)
 REFUSED = Case("mu", "0", Model(2, 1), {"friction_coefficient": 0.0}, HOLDS)
-FLIES = Limit("position", 1.0, 1e-9, "it flies")
-WRONG = Case("steps", "wrong", Model(1, 0), {}, HOLDS, limits=(FLIES,))
 DRAWN = "random device: seed 1, case 10"
 
 
@@ -95,12 +91,6 @@ def test_a_device_is_run_by_all_models_and_again_by_the_name_of_a_case(
     assert "must be only one" in " ".join(refusal.split())
 
 
-def test_a_failed_case_exits_with_1(native_fmu: Path, few_cases: list[Case]) -> None:
-    few_cases[:] = [WRONG]
-    text = text_of("stress", native_fmu, "--json", code=1)
-    assert "it flies" in json.loads(text)["fmus"][0]["verdicts"][0]["reason"]
-
-
 def test_what_cannot_run_exits_with_2_before_anything_runs(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -126,3 +116,15 @@ def test_an_fmu_to_which_no_case_applies_exits_with_2(
     command, *options = arguments
     text = text_of(command, older, *options, leaping.name, code=2)
     assert "no case applies to this FMU" in text
+
+
+FLIES = Limit("position", 1.0, 1e-9, "it flies")
+
+
+WRONG = Case("steps", "wrong", Model(1, 0), {}, HOLDS, limits=(FLIES,))
+
+
+def test_a_failed_case_exits_with_1(native_fmu: Path, few_cases: list[Case]) -> None:
+    few_cases[:] = [WRONG]
+    text = text_of("stress", native_fmu, "--json", code=1)
+    assert "it flies" in json.loads(text)["fmus"][0]["verdicts"][0]["reason"]

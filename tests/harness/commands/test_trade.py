@@ -1,7 +1,5 @@
 """Files and exit codes of `trade`."""
 
-from __future__ import annotations
-
 import csv
 import json
 import re
@@ -24,7 +22,7 @@ from tests.harness.in_process import InProcess
 from tests.harness.public_json import assert_public_keys
 from tests.harness.scene_text import HEAD
 from tests.harness.trading.problems import TABLE_1, problem
-from tests.harness.trading.test_needs import TRADE
+from tests.harness.trading.test_results import TRADE
 from tests.html_pages import Page
 
 
@@ -82,6 +80,38 @@ def test_every_method_is_a_row_or_an_omission_and_the_files_can_be_read(
     assert re.search(r"\| position \| 1e-09 \| fidelity (2|0, order 2), steps of", text)
 
 
+def test_measurements_before_a_failing_scene_are_kept(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def measure(problem: Problem, *_: object, **__: object) -> Trade:
+        if problem.name == "lugre":
+            raise HarnessError("the reference cannot follow it")
+        return TRADE
+
+    monkeypatch.setattr(measuring, "measure_trade", measure)
+    out = tmp_path / "out"
+    arguments = ["table_1", "lugre", "--out", out, "--fmu", native_fmu]
+    assert "the reference cannot follow it" in refused("trade", *arguments)
+    rows = list(csv.DictReader((out / "trade.csv").open(encoding="utf-8")))
+    assert [row["method"] for row in rows] == [row.method for row in TRADE.rows]
+
+
+def test_an_interruption_says_what_is_kept(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def measure(problem: Problem, *_: object, **__: object) -> Trade:
+        if problem.name == "lugre":
+            raise KeyboardInterrupt
+        return TRADE
+
+    monkeypatch.setattr(measuring, "measure_trade", measure)
+    out = tmp_path / "out"
+    result = call("trade", "table_1", "lugre", "--out", out, "--fmu", native_fmu)
+    assert result.exit_code == 130
+    assert f"interrupted\n  1 of 2 scenes are kept in {out}; not measured: lugre" in result.stderr
+    assert (out / "index.html").is_file()
+
+
 @pytest.mark.parametrize(
     ("arguments", "reported"),
     [
@@ -99,22 +129,6 @@ def test_missing_inputs_are_reported_and_nothing_is_written(
     assert not out.exists()
 
 
-def test_measurements_before_a_failing_scene_are_kept(
-    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def measure(problem: Problem, *_: object, **__: object) -> Trade:
-        if problem.name == "lugre":
-            raise HarnessError("the reference cannot follow it")
-        return TRADE
-
-    monkeypatch.setattr(measuring, "measure_trade", measure)
-    out = tmp_path / "out"
-    arguments = ["table_1", "lugre", "--out", out, "--fmu", native_fmu]
-    assert "the reference cannot follow it" in refused("trade", *arguments)
-    rows = list(csv.DictReader((out / "trade.csv").open(encoding="utf-8")))
-    assert [row["method"] for row in rows] == [row.method for row in TRADE.rows]
-
-
 def test_the_public_keys_stay(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -122,19 +136,3 @@ def test_the_public_keys_stay(
     monkeypatch.setattr(measuring, "measure_trade", lambda *_, **__: measured)
     arguments = ["--out", tmp_path, "--fmu", native_fmu, "--json"]
     assert_public_keys("trade", call("trade", *arguments).stdout)
-
-
-def test_an_interruption_says_what_is_kept(
-    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def measure(problem: Problem, *_: object, **__: object) -> Trade:
-        if problem.name == "lugre":
-            raise KeyboardInterrupt
-        return TRADE
-
-    monkeypatch.setattr(measuring, "measure_trade", measure)
-    out = tmp_path / "out"
-    result = call("trade", "table_1", "lugre", "--out", out, "--fmu", native_fmu)
-    assert result.exit_code == 130
-    assert f"interrupted\n  1 of 2 scenes are kept in {out}; not measured: lugre" in result.stderr
-    assert (out / "index.html").is_file()

@@ -1,7 +1,5 @@
 """`validate` as CI jobs use it: exit codes and report files in every case."""
 
-from __future__ import annotations
-
 import json
 import re
 from importlib import resources

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -7,22 +5,25 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs, check_contiguous
-from slider_resonator.device.schedule import MAX_STEPS, communication_points, schedule, step_count
-from slider_resonator.device.signal import Signal, constant, ramp, steps
+from slider_resonator.device.held_inputs import (
+    RATES,
+    HeldInputs,
+    TunedInputs,
+    check_contiguous,
+    check_times,
+    turning_apart,
+    with_steady_phase,
+)
+from slider_resonator.device.schedule import communication_points, schedule, step_count
+from slider_resonator.device.signal import Signal, ramp, steps
 
 
 def test_steps_hold_until_the_next_point() -> None:
     signal = steps([(0.0, 1.0), (0.5, 2.0)])
     assert [signal.at(t) for t in (-1.0, 0.0, 0.4999, 0.5, 9.0)] == [1.0, 1.0, 1.0, 2.0, 2.0]
     assert signal.jumps == (0.5,)
-
-
-def test_ramp_is_a_polyline_without_jumps() -> None:
-    signal = ramp([(0.0, 1.0), (1.0, 1.0), (2.0, 3.0)])
-    assert [signal.at(t) for t in (-1.0, 0.5, 1.5, 2.0, 5.0)] == [1.0, 1.0, 2.0, 3.0, 3.0]
-    assert signal.jumps == ()
 
 
 def test_sizes_of_steps_follow_each_other_and_the_last_step_ends_at_the_stop() -> None:
@@ -95,17 +96,6 @@ def test_invalid_signal_is_refused(
         Signal(times, values)
 
 
-def test_communication_points_end_exactly_at_the_stop_time() -> None:
-    points = communication_points(1.0, 0.3)
-    assert points.tolist() == pytest.approx([0.0, 0.3, 0.6, 0.9, 1.0])
-    assert points[-1] == 1.0
-
-
-def test_rounded_stop_time_adds_no_tiny_step() -> None:
-    points = communication_points(0.1 * 3, 0.1)
-    assert len(points) == 4, f"three steps of 0.1 make 0.3, got {points}"
-
-
 @given(
     stop=st.floats(0.1, 10.0),
     step=st.floats(0.01, 3.0),
@@ -122,31 +112,10 @@ def test_communication_points_contain_every_jump_inside(
     assert {t for t in jumps if 0.0 < t < stop} <= set(points.tolist())
 
 
-@pytest.mark.parametrize(("stop", "step"), [(1e9, 1e-4), (1.0, 1e-300), (float("inf"), 1.0)])
-def test_too_many_steps_are_refused_before_allocation(stop: float, step: float) -> None:
-    with pytest.raises(ValueError, match=f"communication steps; must be at most {MAX_STEPS}"):
-        communication_points(stop, step)
-
-
 @pytest.mark.parametrize(("stop", "step"), [(0.0, 1.0), (1.0, 0.0), (float("nan"), 1.0)])
 def test_times_that_are_not_positive_are_refused(stop: float, step: float) -> None:
     with pytest.raises(ValueError, match="must be positive"):
         step_count(stop, step)
-
-
-def test_many_jumps_and_points_fit_into_memory() -> None:
-    """All distances between them at once would take 24 GB."""
-    jumps = np.linspace(0.0, 1.0, 30_001)
-    points = communication_points(1.0, 1e-5, jumps.tolist())
-    assert len(points) == 120_001, "every third of the jumps is on the grid of 100 001 points"
-
-
-def test_refined_schedule_keeps_points_and_held_inputs() -> None:
-    made = schedule(1.0, 0.1, load=ramp([(0.0, 0.0), (1.0, 1.0)]), phase=steps([(0, 0), (0.77, 1)]))
-    fine = made.read_at(np.linspace(0.65, 1.0, 36), 1e-4)
-    assert set(made.times.tolist()) <= set(fine.times.tolist())
-    assert len(fine.times) == len(made.times) + 35 - 4, "35 points, of which 0.7 ... 0.9 were there"
-    assert fine.held() == made.held(), "more points must not make the ramp finer"
 
 
 def test_jump_replaces_a_grid_point_just_before_it() -> None:
@@ -156,19 +125,6 @@ def test_jump_replaces_a_grid_point_just_before_it() -> None:
     assert len(made.times) == 11
     assert jump in made.times
     assert made.sampled[3, 1] == 5.0
-
-
-def test_held_inputs_merge_equal_neighbours() -> None:
-    made = schedule(1.0, 0.1, phase=steps([(0.0, 0.2), (0.25, 0.7)]), load=constant(0.05))
-    held = made.held()
-    assert held == [HeldInputs(0.0, 0.25, 0.2, 0.05, 1.0), HeldInputs(0.25, 1.0, 0.7, 0.05, 1.0)]
-
-
-def test_ramp_is_sampled_and_held_over_each_step() -> None:
-    made = schedule(0.4, 0.1, frequency_ratio=ramp([(0.0, 1.0), (0.4, 2.0)]))
-    held = made.held()
-    check_contiguous(held)
-    assert [inputs.frequency_ratio for inputs in held] == pytest.approx([1.0, 1.25, 1.5, 1.75])
 
 
 def test_extra_readings_keep_the_held_inputs() -> None:
@@ -200,9 +156,88 @@ def test_lines_are_held_or_have_rates_and_corners() -> None:
     assert np.allclose(finer.rates[:, 1], np.where(finer.times < 0.35 - 1e-9, 2.0, 0.0))
 
 
-def test_more_points_leave_tuning_as_it_is_held_beside_lines() -> None:
-    tuning = {"friction_coefficient": ramp([(0.0, 0.1), (1.0, 0.3)])}
-    lines = schedule(1.0, 0.25, tuning, True, load=ramp([(0.0, 0.0), (1.0, 1.0)]))
-    fine = lines.read_at(np.arange(0.2, lines.times[-1], 0.01), 1e-4)
-    at = np.searchsorted(lines.times, fine.times, side="right") - 1
-    assert fine.tuned[:, 0].tolist() == lines.tuned[at, 0].tolist()
+HELD = [HeldInputs(0.0, 0.1), HeldInputs(0.1, 0.3, load=0.05)]
+
+
+@pytest.mark.parametrize(
+    ("held", "message"),
+    [
+        ([], "at least one"),
+        ([HeldInputs(0.0, 0.1), HeldInputs(0.2, 0.3)], r"inputs 1: start = 0\.2 s .* 0\.1 s"),
+        ([HeldInputs(0.0, 0.0)], "held inputs 0: stop"),
+        ([HeldInputs(0.0, -1.0)], "held inputs 0: stop"),
+        ([HeldInputs(0.0, float("nan"))], "held inputs 0: stop"),
+    ],
+)
+def test_gaps_and_empty_intervals_are_refused(held: list[HeldInputs], message: str) -> None:
+    check_contiguous(HELD)
+    with pytest.raises(ValueError, match=message):
+        check_contiguous(held)
+
+
+@pytest.mark.parametrize(
+    ("times", "message"),
+    [
+        ([0.1, 0.4], r"to 0\.4 s must lie within .* 0\.0 to 0\.3 s"),
+        ([0.2, 0.1], "ascending row"),
+        ([[0.1], [0.2]], "ascending row"),
+        ([0.1, float("nan")], "ascending row"),
+    ],
+)
+def test_times_outside_or_out_of_order_are_refused(times: list[float], message: str) -> None:
+    check_times(np.array([0.0, 0.1, 0.1, 0.3]), HELD)
+    check_times(np.empty(0), HELD)
+    with pytest.raises(ValueError, match=message):
+        check_times(np.array(times), HELD)
+
+
+LINE = HeldInputs(0.0, 0.2, 0.3, 0.1, 1.0, phase_rate=2.0, load_rate=-1.0, ratio_rate=0.5)
+
+
+@pytest.mark.parametrize("rate", RATES)
+def test_rates_are_refused_where_they_are_not_covered(rate: str) -> None:
+    with pytest.raises(ValueError, match=f"held inputs 0: {rate} = .*: must be 0"):
+        check_contiguous([LINE], rates=[name for name in RATES if name != rate])
+    check_contiguous([LINE], rates=RATES)
+
+
+def test_inputs_are_cut_where_the_load_turns_back() -> None:
+    line = HeldInputs(1.0, 1.5, 0.3, 0.1, 0.4, load_rate=2.0, ratio_rate=-2.0)
+    before, after = turning_apart([line])
+    assert (before.start, before.stop, after.start, after.stop) == (1.0, 1.2, 1.2, 1.5)
+    assert after.frequency_ratio == 0.0
+    assert after.load == pytest.approx(0.5)
+    unturned = [replace(line, stop=1.2), replace(line, frequency_ratio=0.0), *HELD]
+    assert turning_apart(unturned) == unturned
+
+
+def test_a_rate_of_the_phase_is_a_shift_of_the_ratio() -> None:
+    rise = HeldInputs(0.0, 0.1, 0.3, phase_rate=7.0)
+    jump = TunedInputs(0.1, 0.2, -0.5, phase_rate=3.0, tuned=(("drive_frequency", 3000.0),))
+    first, second = with_steady_phase([rise, jump], Device())
+    assert (first.phase, first.frequency_ratio, first.phase_rate) == (0.3, 1.0 + 0.002, 0.0)
+    assert second.frequency_ratio == 1.0 + 0.001
+    assert second.phase == pytest.approx(-0.5 - 0.7), "psi has gained what the ramp has added"
+    assert with_steady_phase(HELD, Device()) == HELD
+
+
+@pytest.mark.parametrize(
+    ("ratio", "count"),
+    [
+        (1.0, 1),
+        (3.0, 1),
+        (0.0, 1),
+        (-1.0, 1),
+        (1.5, 2),
+        (1.0 / 3.0, 3),
+        (-2.4, 5),
+        (19.0 / 20.0, 20),
+    ],
+)
+def test_rational_ratio_repeats_after_its_denominator(ratio: float, count: int) -> None:
+    assert common_period(ratio) == count
+
+
+@pytest.mark.parametrize("ratio", [1.001, 1.37, 2.0**0.5, 1.0 + 1e-9])
+def test_ratio_without_small_denominator_has_no_common_period(ratio: float) -> None:
+    assert common_period(ratio) is None

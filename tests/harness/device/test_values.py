@@ -1,12 +1,14 @@
-from __future__ import annotations
-
-from math import inf, nan
+import math
+from math import inf, nan, pi
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS, VARIABLES, Variable
-from slider_resonator.device.values import check_integer, check_value
+from slider_resonator.device.interface import INPUT_STARTS, INPUTS, PARAMETERS, VARIABLES, Variable
+from slider_resonator.device.values import check_value, si_value, with_unit
+from slider_resonator.fmu.opening import Fmu
 
 
 @pytest.mark.parametrize(
@@ -47,11 +49,84 @@ def test_bounds_are_inclusive(variable: Variable) -> None:
         check_value(variable.name, 1e300)
 
 
-def test_all_integers_of_fmi_are_allowed() -> None:
-    check_integer("n", -(2.0**31 - 1))
-    check_integer("n", 2.0**31 - 1)
+@pytest.mark.parametrize(
+    ("name", "text", "value"),
+    [
+        ("drive_frequency", "20 kHz", 2.0 * pi * 20e3),
+        ("drive_frequency", "3000 rpm", 2.0 * pi * 50.0),
+        ("drive_frequency", "3500 rad/s", 3500.0),
+        ("base_amplitude", "1 um", 1e-6),
+        ("base_amplitude", "1 µm", 1e-6),
+        ("resonator_mass", "5 g", 5e-3),
+        ("phase", "30 deg", pi / 6.0),
+        ("load", "0.2N", 0.2),
+        ("damping_ratio", "2 %", 0.02),
+        ("bristle_stiffness", "0.1 1/um", 1e5),
+        ("bristle_damping", "0.01 s/mm", 10.0),
+        ("initial_velocity", "-3 mm/s", -3e-3),
+        ("load", "1e-3", 1e-3),
+    ],
+)
+def test_text_becomes_si(name: str, text: str, value: float) -> None:
+    assert si_value(name, text) == pytest.approx(value, rel=1e-14)
 
 
-def test_integers_are_those_of_the_device() -> None:
+@pytest.mark.parametrize(
+    ("name", "text", "said"),
+    [
+        ("base_amplitude", "3 kg", "not in m; must be a number in m"),
+        ("drive_frequency", "20 khz", "unknown unit 'khz'"),
+        ("load", "0.2", ""),
+        ("load", "9**9**9 N", "such as '200 mN'"),
+        ("load", "", "such as '200 mN'"),
+        ("load", "1 N^2", "not in N"),
+        ("load", "__import__('os')", "such as '200 mN'"),
+    ],
+)
+def test_other_text_is_refused(name: str, text: str, said: str) -> None:
+    if not said:
+        assert si_value(name, text) == 0.2
+        return
+    with pytest.raises(ValueError, match=name) as error:
+        si_value(name, text)
+    assert said in str(error.value)
+    assert repr(text) in str(error.value)
+
+
+@given(st.sampled_from(sorted(PARAMETERS)), st.floats(1e-9, 1e9))
+def test_what_is_shown_is_read_back(name: str, value: float) -> None:
+    if VARIABLES[name].kind == "Integer":
+        return
+    assert si_value(name, with_unit(name, value)) == pytest.approx(value, rel=1e-5)
+
+
+def test_starts_are_table_1() -> None:
     device = Device()
-    assert {n for n in PARAMETERS if isinstance(getattr(device, n), int)} == INTEGERS
+    assert device.mass_ratio == pytest.approx(1.0 / 11.0), "r_m = m / (m + M) of table 1"
+    natural = math.sqrt(device.stiffness / device.resonator_mass)
+    assert natural == pytest.approx(3500.0), "table 1 gives (k/m)^(1/2) = 3500 rad/s"
+    factor = 0.5 * device.damping / math.sqrt(device.stiffness * device.resonator_mass)
+    assert factor == pytest.approx(0.05), "table 1 gives 0.5 c / (k m)^(1/2) = 0.05"
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("slider_mas", 0.5, r"slider_mas.*0\.5.*slider_mass"),
+        ("friction_faces", 1.5, r"friction_faces = 1\.5 must be an integer"),
+        ("friction_faces", math.nan, "friction_faces"),
+        ("friction_faces", math.inf, "friction_faces"),
+    ],
+)
+def test_wrong_parameter_is_refused_by_name(name: str, value: float, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        Device.from_mapping({name: value})
+
+
+def test_fmu_has_this_interface_and_these_starts(fmu: Fmu) -> None:
+    """The interface is written down twice, in the harness and in the component: both must agree."""
+    assert {*fmu.variables, *fmu.lacks} == set(VARIABLES)
+    starts = {**vars(Device()), **INPUT_STARTS}
+    for name in starts.keys() - set(fmu.lacks):
+        start = starts[name]
+        assert float(fmu.variables[name].start) == start, name

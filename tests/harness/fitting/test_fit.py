@@ -1,7 +1,5 @@
 """Fits of measurements that the FMU itself has made, with and without noise."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -124,14 +122,6 @@ def test_known_deviations_are_used(instance: Instance) -> None:
     assert widths[1] / widths[0] == pytest.approx(2.0, rel=0.1)
 
 
-def test_a_parameter_without_bounds_may_be_free(instance: Instance) -> None:
-    true = {**TRUE, "tangential_force": 40.0}
-    start = {**true, "tangential_force": 30.0}
-    free = ["tangential_force", "friction_coefficient"]
-    found = fitted(instance, measured(instance, true, POINTS), free, parameters=start)
-    assert found.parameters[0].value == pytest.approx(40.0, rel=1e-6)
-
-
 def test_slopes_at_a_bound_are_those_inside(instance: Instance) -> None:
     """A difference that the bound cuts off is over what is left, not half the slope."""
     data = measured(instance, TRUE, POINTS)
@@ -160,29 +150,6 @@ def test_what_cannot_be_free_is_refused(
     with pytest.raises(HarnessError) as error:
         free_parameters(free, {}, bounds)
     assert said in str(error.value)
-
-
-def test_fewer_numbers_than_parameters_are_refused(instance: Instance) -> None:
-    with pytest.raises(HarnessError, match="1 measured numbers for 2 free parameters"):
-        fitted(instance, datasheet(0.1, None, []), ["slider_mass", "damping_ratio"])
-
-
-def test_an_end_at_a_bound_of_the_search_is_none(instance: Instance) -> None:
-    """A small damping ratio is hardly seen in noise: nothing bounds it from below."""
-    points = [Point({"phase": 0.1 * i}, "steady_velocity", 0.0) for i in range(8)]
-    true = {"damping_ratio": 1e-3}
-    data = measured(instance, true, points, 0.08, seed=6)
-    found = fitted(instance, data, ["damping_ratio"], parameters=true, starts=1)
-    (one,) = found.parameters
-    assert one.low is None
-    assert one.high is not None
-    assert one.interval(2)[0] == ""
-    assert one.interval(2)[1].startswith("below ")
-    assert "95 % below " in str(found)
-    assert str(parameter_table(found).rows[0][3]).startswith("below ")
-    given = {"damping_ratio": (1e-7, 1.0)}
-    (one,) = fitted(instance, data, [*given], parameters=true, starts=1, bounds=given).parameters
-    assert one.low == pytest.approx(1e-7), "a bound that was asked for is an end"
 
 
 def test_numbers_that_no_device_has_are_not_met(instance: Instance) -> None:
@@ -242,19 +209,6 @@ def test_a_column_that_is_free_is_refused(instance: Instance) -> None:
         fitted(instance, data, ["damping_ratio"])
 
 
-def test_a_recording_cut_out_of_a_run_gives_the_parameters(instance: Instance) -> None:
-    schedule = Schedule(np.linspace(0.0, 0.4, 81), phase=constant(0.4))
-    whole = Run("run.csv", schedule, {"velocity": np.zeros(81)})
-    true = {"friction_coefficient": 0.17, "slider_mass": 1.3}
-    velocity = predict(instance, true, Measurements(runs=(whole,)))[30:]
-    times = schedule.times[30:]
-    data = measurements_from({"time": times, "phase": np.full(51, 0.4), "velocity": velocity})
-    found = fitted(instance, data, list(true), starts=1)
-    assert [one.value for one in found.parameters] == pytest.approx(list(true.values()), rel=1e-6)
-    assert found.notes == data.notes
-    assert "begins at 150 ms" in found.notes[0]
-
-
 @pytest.mark.nightly
 def test_intervals_cover_the_truth_in_90_to_99_of_100(instance: Instance) -> None:
     """Random devices and truths, 20 velocities with 1 % noise, three free parameters each."""
@@ -281,3 +235,47 @@ def test_intervals_cover_the_truth_in_90_to_99_of_100(instance: Instance) -> Non
     for name, count in covered.items():
         assert judged[name] >= 95, "few devices leave a parameter open"
         assert 0.90 <= count / judged[name] <= 0.99, name
+
+
+def test_a_parameter_without_bounds_may_be_free(instance: Instance) -> None:
+    true = {**TRUE, "tangential_force": 40.0}
+    start = {**true, "tangential_force": 30.0}
+    free = ["tangential_force", "friction_coefficient"]
+    found = fitted(instance, measured(instance, true, POINTS), free, parameters=start)
+    assert found.parameters[0].value == pytest.approx(40.0, rel=1e-6)
+
+
+def test_fewer_numbers_than_parameters_are_refused(instance: Instance) -> None:
+    with pytest.raises(HarnessError, match="1 measured numbers for 2 free parameters"):
+        fitted(instance, datasheet(0.1, None, []), ["slider_mass", "damping_ratio"])
+
+
+def test_an_end_at_a_bound_of_the_search_is_none(instance: Instance) -> None:
+    """A small damping ratio is hardly seen in noise: nothing bounds it from below."""
+    points = [Point({"phase": 0.1 * i}, "steady_velocity", 0.0) for i in range(8)]
+    true = {"damping_ratio": 1e-3}
+    data = measured(instance, true, points, 0.08, seed=6)
+    found = fitted(instance, data, ["damping_ratio"], parameters=true, starts=1)
+    (one,) = found.parameters
+    assert one.low is None
+    assert one.high is not None
+    assert one.interval(2)[0] == ""
+    assert one.interval(2)[1].startswith("below ")
+    assert "95 % below " in str(found)
+    assert str(parameter_table(found).rows[0][3]).startswith("below ")
+    given = {"damping_ratio": (1e-7, 1.0)}
+    (one,) = fitted(instance, data, [*given], parameters=true, starts=1, bounds=given).parameters
+    assert one.low == pytest.approx(1e-7), "a bound that was asked for is an end"
+
+
+def test_a_recording_cut_out_of_a_run_gives_the_parameters(instance: Instance) -> None:
+    schedule = Schedule(np.linspace(0.0, 0.4, 81), phase=constant(0.4))
+    whole = Run("run.csv", schedule, {"velocity": np.zeros(81)})
+    true = {"friction_coefficient": 0.17, "slider_mass": 1.3}
+    velocity = predict(instance, true, Measurements(runs=(whole,)))[30:]
+    times = schedule.times[30:]
+    data = measurements_from({"time": times, "phase": np.full(51, 0.4), "velocity": velocity})
+    found = fitted(instance, data, list(true), starts=1)
+    assert [one.value for one in found.parameters] == pytest.approx(list(true.values()), rel=1e-6)
+    assert found.notes == data.notes
+    assert "begins at 150 ms" in found.notes[0]

@@ -1,7 +1,5 @@
 """The harness drives FMUs of both versions of FMI, with the same numbers."""
 
-from __future__ import annotations
-
 import zipfile
 from pathlib import Path
 

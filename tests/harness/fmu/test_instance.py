@@ -1,13 +1,15 @@
-from __future__ import annotations
+"""One instance of either build: calls, refusals and runs."""
 
 from dataclasses import replace
 from math import pi
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from slider_resonator.device.schedule import schedule
-from slider_resonator.errors import FmuError, Refusal
+from slider_resonator.device.signal import ramp, steps
+from slider_resonator.errors import FmuError, NotApplicable, Refusal
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import Fmu
 from slider_resonator.fmu.run import run
@@ -26,14 +28,6 @@ def test_integers_are_set_as_integers(instance: Instance) -> None:
     for bad in (float("nan"), float("inf"), 2.0**32 + 2.0):
         with pytest.raises(FmuError, match=r"friction_law = .*: must be an integer"):
             instance.start({"friction_law": bad})
-
-
-def test_variables_of_both_types_are_read_together(instance: Instance) -> None:
-    instance.start({"friction_faces": 1, "phase": 0.3})
-    read = instance.read(["phase", "friction_faces", "blocking_force"])
-    assert read["phase"] == 0.3
-    assert read["friction_faces"] == instance.value("friction_faces") == 1.0
-    assert read["blocking_force"] == instance.value("blocking_force") > 0.0
 
 
 def test_reading_a_variable_does_not_make_it_settable(instance: Instance) -> None:
@@ -66,18 +60,6 @@ def test_unknown_names_suggest_the_nearest(instance: Instance) -> None:
         instance.block(["positon"])
 
 
-def test_two_instances_do_not_disturb_each_other(fmu: Fmu, instance: Instance) -> None:
-    alone = run(instance, {}, schedule(3 * PERIOD, PERIOD))
-    with instantiate(fmu) as other:
-        other.start({"phase": 1.0})
-        instance.start({})
-        for index in range(1, 4):
-            other.step_to(index * PERIOD)
-            instance.step_to(index * PERIOD)
-        assert instance.value("position") == alone.final("position")
-        assert other.value("position") != alone.final("position")
-
-
 def test_an_fmu_that_cannot_be_instantiated_is_reported(fmu: Fmu, tmp_path: Path) -> None:
     gutted = replace(fmu, folder=tmp_path)
     with (
@@ -103,3 +85,49 @@ def test_a_recreated_instance_is_as_new(fmu: Fmu) -> None:
         assert instance.time == 0.0
         instance.start({})
         assert instance.value("phase") == 0.0
+
+
+def test_a_run_records_every_output_at_every_point(instance: Instance) -> None:
+    record = run(instance, {}, schedule(10 * PERIOD, PERIOD))
+    assert record.times.shape == (11,)
+    assert record["position"].shape == (11,)
+    assert record["position"][0] == 0.0
+    assert record.final("reversals") == 19.0, "two reversals in each period but the first"
+    assert record.wall_time > 0.0
+    assert record.start_cpu > 0.0
+    assert record.step_cpu > 0.0
+
+
+def test_inputs_reach_the_fmu_at_their_time_and_not_before(instance: Instance) -> None:
+    at = 3.5 * PERIOD
+    loaded = schedule(6 * PERIOD, PERIOD, load=steps([(0.0, 0.0), (at, 0.5)]))
+    free = schedule(6 * PERIOD, PERIOD, load=steps([(0.0, 0.0), (at, 0.0)]))
+    one, two = run(instance, {}, loaded), run(instance, {}, free)
+    before = one.times <= at
+    assert np.array_equal(one["velocity"][before], two["velocity"][before])
+    assert np.all(one["velocity"][~before] < two["velocity"][~before]), "load opposes +X"
+
+
+def test_progress_is_reported(instance: Instance) -> None:
+    shares: list[float] = []
+    run(instance, {}, schedule(20 * PERIOD, PERIOD), progress=lambda _, share: shares.append(share))
+    assert shares[-1] == 1.0
+    assert shares == sorted(shares)
+
+
+@pytest.mark.slow
+def test_lines_are_passed_on_where_the_fmu_takes_derivatives(instance: Instance) -> None:
+    line = {"load": ramp([(0.0, 0.0), (10 * PERIOD, 2.0)])}
+    fine = run(instance, {}, schedule(10 * PERIOD, PERIOD / 200, **line))
+    plan = schedule(10 * PERIOD, 5 * PERIOD, None, True, **line)
+    if not instance.fmu.interpolates:
+        with pytest.raises(NotApplicable, match="needs canInterpolateInputs = true"):
+            run(instance, {}, plan)
+        with pytest.raises(NotApplicable):
+            instance.set_input_rates([0.0, 1.0, 0.0])
+        return
+    found = run(instance, {}, plan)
+    coarse = run(instance, {}, replace(plan, interpolates=False))
+    off, held = (abs(r.final("position") - fine.final("position")) for r in (found, coarse))
+    assert off < 2e-3 * abs(fine.final("position"))
+    assert off < 1e-2 * held

@@ -1,7 +1,5 @@
 """What a description may say differently from the interface, and what not."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,5 +1,6 @@
 import hashlib
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -8,10 +9,10 @@ import pytest
 
 import slider_resonator
 from slider_resonator.errors import HarnessError
+from slider_resonator.fmu import fmu_log
 from slider_resonator.fmu.provenance import (
     DATE_VARIABLE,
     FmuIdentity,
-    Provenance,
     identity_of,
     provenance_of,
 )
@@ -20,7 +21,7 @@ from slider_resonator.fmu.provenance_text import (
     provenance_markdown,
     provenance_properties,
 )
-from slider_resonator.output.json_output import to_json
+from tests.harness.golden import assert_as_before
 from tests.harness.known_provenance import PROVENANCE
 
 
@@ -77,35 +78,48 @@ def test_a_date_that_is_none_is_refused(monkeypatch: pytest.MonkeyPatch, date: s
         provenance_of()
 
 
-def test_every_fact_is_in_every_form() -> None:
-    facts = [*vars(PROVENANCE).values(), *vars(PROVENANCE.fmus[0]).values()]
-    shown = [fact for fact in facts if isinstance(fact, str) and fact != "folder/a.fmu"]
-    assert len(shown) == 10
-    page, text = provenance_html(PROVENANCE), provenance_markdown(PROVENANCE)
-    properties = provenance_properties(PROVENANCE, PROVENANCE.fmus[0])
-    for fact in shown:
-        assert fact in page
-        assert fact in text.replace("\\", "")
-        assert fact in properties.values()
-    assert properties["fmu"] == "folder/a.fmu"
-    assert "fmus" not in properties
-
-
-def test_properties_leave_out_what_is_unknown() -> None:
-    unknown = FmuIdentity("a.fmu", None, None, None, None)
-    assert "fmu_guid" not in provenance_properties(PROVENANCE, unknown)
+def test_every_fact_is_in_every_form_and_hostile_names_are_escaped() -> None:
+    hostile = FmuIdentity("<i>.fmu", "<script>", None, "a|b", "\x1b[31m")
+    both = replace(PROVENANCE, fmus=(*PROVENANCE.fmus, hostile))
+    assert_as_before("provenance.html", provenance_html(both))
+    assert_as_before("provenance.md", provenance_markdown(both))
+    properties = provenance_properties(both, hostile)
+    assert_as_before("provenance.txt", "".join(f"{k}: {v!r}\n" for k, v in properties.items()))
     assert "fmu" not in provenance_properties(PROVENANCE, None)
 
 
-def test_hostile_names_are_escaped() -> None:
-    hostile = FmuIdentity("<i>.fmu", "<script>", None, "a|b", "\x1b[31m")
-    known = Provenance(**{**vars(PROVENANCE), "fmus": (hostile,)})
-    assert "<script>" not in provenance_html(known)
-    assert "<i>" not in provenance_html(known)
-    assert "\x1b" not in provenance_html(known)
-    assert "a\\|b" in provenance_markdown(known)
+def test_messages_go_to_the_collector_of_their_instance() -> None:
+    one, callbacks = fmu_log.collect("one")
+    two, _ = fmu_log.collect("two")
+    callbacks.logger(None, b"one", 3, b"", b"mass refused")
+    callbacks.logger(None, b"two", 3, b"", "gr\u00f6\u00dfer".encode())
+    assert (one, two) == (["mass refused"], ["gr\u00f6\u00dfer"])
+    fmu_log.forget("one")
+    fmu_log.forget("two")
 
 
-def test_json_begins_with_it_in_every_object() -> None:
-    assert to_json([{"a": 1}], PROVENANCE).count('"provenance"') == 1
-    assert '"provenance"' not in to_json({"a": 1})
+@pytest.mark.parametrize("text", ["load = nan refused", "it's", "both ' and \"", "two\nlines"])
+def test_the_text_of_a_python_exception_is_extracted(text: str) -> None:
+    wrapped = f"Fatal py exception encountered: [setReal] PyObject_CallMethod\n{ValueError(text)!r}"
+    assert fmu_log.plain_words(wrapped) == text
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        "mass refused",
+        "Fatal py exception encountered: [setReal]\nKeyError(3)",
+        "Fatal py exception encountered: [setReal]\nValueError('cut \\')",
+        "",
+    ],
+)
+def test_other_messages_are_unchanged(message: str) -> None:
+    assert fmu_log.plain_words(message) == message
+
+
+def test_messages_of_foreign_instances_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    messages, callbacks = fmu_log.collect("mine")
+    callbacks.logger(None, b"theirs", 3, b"", b"not for the harness")
+    fmu_log.forget("mine")
+    assert messages == []
+    assert "not for the harness" in capsys.readouterr().out

@@ -1,15 +1,15 @@
-from __future__ import annotations
-
 import re
 from io import StringIO
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from rich.cells import cell_len
 
-from slider_resonator.output.console import output
 from slider_resonator.output.progress import counted, part_of
 from slider_resonator.output.progress_bar import progress_bar, shortened, time_left
 from slider_resonator.output.readable import readable
+from slider_resonator.output.terminal import fitting
 
 
 def test_progress_is_silent_without_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
@@ -48,19 +48,9 @@ def test_a_long_label_keeps_its_beginning_and_its_end() -> None:
     )
 
 
-def test_a_log_is_no_wider_than_a_page() -> None:
-    assert output().width == 120
-
-
 @pytest.mark.parametrize("value", [0.0, -0.0, -1.7e-14, 9e-13])
 def test_noise_and_minus_zero_are_0(value: float) -> None:
     assert readable(value, 10) == "0"
-
-
-def test_other_numbers_keep_their_digits_and_sign() -> None:
-    assert readable(0.12666699702, 10) == "0.126666997"
-    assert readable(-2e-12, 9) == "-2e-12"
-    assert readable(199, 8) == "199"
 
 
 def test_a_task_has_its_number() -> None:
@@ -88,3 +78,53 @@ def test_a_part_reports_its_share_of_all_work() -> None:
 )
 def test_the_time_left_follows_from_the_share_done(elapsed: float, share: float, text: str) -> None:
     assert time_left(elapsed, share) == text
+
+
+COST = "cost     43 drive periods in 3 iterations, a common period is 1 of them"
+SENTENCE = "  nearest to the bound: 0.36 of it in mean_velocity, case 5"
+
+
+def test_a_labelled_line_goes_on_under_its_text() -> None:
+    assert fitting(COST, 40).splitlines() == [
+        "cost     43 drive periods in 3",
+        "         iterations, a common period is",
+        "         1 of them",
+    ]
+
+
+def test_other_lines_go_on_indented() -> None:
+    assert fitting(f"short\n{SENTENCE}", 40).splitlines() == [
+        "short",
+        "  nearest to the bound: 0.36 of it in",
+        "    mean_velocity, case 5",
+    ]
+
+
+@given(st.text("ab_-. \n", max_size=80), st.integers(5, 40))
+def test_no_word_is_cut_or_lost(text: str, width: int) -> None:
+    fitted = fitting(text, width)
+    assert fitted.split() == text.split()
+    longest = max(map(len, text.split()), default=0)
+    assert all(len(line) <= width or longest + width // 2 >= width for line in fitted.splitlines())
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        "0.602 s",
+        "-0.5 mm/s",
+        "1e-9 N",
+        "35 rad/s",
+        "12 %",
+        "5 1/m",
+        "915 MB",
+        "0 um",
+        "9 drive periods",
+    ],
+)
+def test_a_number_stays_with_its_unit(value: str) -> None:
+    text = f"costs at least {value}, the other more; {value} or {value}"
+    for width in range(8, 40):
+        lines = fitting(text, width).splitlines()
+        assert sum(line.count(value) for line in lines) == 3, lines
+        assert " ".join(" ".join(lines).split()) == text

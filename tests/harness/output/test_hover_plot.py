@@ -1,12 +1,14 @@
-from __future__ import annotations
-
 import base64
 import hashlib
 import json
 import re
 from dataclasses import replace
+from math import pi
 from pathlib import Path
 from typing import Any
+
+import numpy as np
+import pytest
 
 from slider_resonator.output.hover_plot import (
     COLOURS,
@@ -19,6 +21,7 @@ from slider_resonator.output.hover_plot import (
     plot_html,
     write_plot_page,
 )
+from slider_resonator.output.plot_units import plot_unit
 from tests.html_pages import Page
 
 SERIES = Series("an FMU", [1.0, 2.0], [0.5, None], "#000", notes=["one", "two"])
@@ -70,15 +73,31 @@ def test_hostile_text_stays_text(tmp_path: Path) -> None:
     assert data_in(text)["x"]["label"] == HOSTILE.replace("\x1b", "\ufffd")
 
 
-def test_what_is_not_finite_is_a_gap(tmp_path: Path) -> None:
-    plot = replace(PLOT, series=[replace(SERIES, y=[float("nan"), float("inf")])])
-    text, _ = written(tmp_path, plot)
-    assert data_in(text)["series"][0]["y"] == [None, None]
-
-
 def test_series_differ_in_colour_marker_or_dash() -> None:
     looks = [look(index) for index in range(60)]
     assert len(set(looks)) == 60
     assert len({colour for colour, _, _ in looks[: len(COLOURS)]}) == len(COLOURS)
     assert len({marker for _, marker, _ in looks[: len(MARKERS)]}) == len(MARKERS)
     assert {dash for _, _, dash in looks} == set(DASHES)
+
+
+@pytest.mark.parametrize(
+    ("unit", "peak", "expected"),
+    [
+        ("m", 9e-5, (1e6, "um")),
+        ("m", -2e-4, (1e3, "mm")),
+        ("m", 30.0, (1.0, "m")),
+        ("m/s", 0.127, (1e3, "mm/s")),
+        ("m/s", 12.0, (1.0, "m/s")),
+        ("s", 0.2, (1e3, "ms")),
+        ("s", 4.0, (1.0, "s")),
+        ("N", 0.085, (1e3, "mN")),
+        ("N", 0.6, (1.0, "N")),
+        ("rad", 0.6, (180.0 / pi, "deg")),
+        ("rad/s", 3500.0, (0.5 / pi, "Hz")),
+        ("rad/s", 4e4 * pi, (5e-4 / pi, "kHz")),
+        ("1", 1e-3, (1.0, "1")),
+    ],
+)
+def test_the_unit_suits_the_peak(unit: str, peak: float, expected: tuple[float, str]) -> None:
+    assert plot_unit(unit, np.array([0.0, peak])) == expected

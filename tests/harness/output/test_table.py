@@ -1,14 +1,15 @@
-from __future__ import annotations
-
 import io
-from html.parser import HTMLParser
+import json
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 from rich.console import Console
 
 from slider_resonator.output import html_page, markdown, readable, terminal
+from slider_resonator.output.json_output import SCHEMA_VERSION, to_json
 from slider_resonator.output.table import Cell, Style, Table, numbers, texts, verdict
+from tests.harness.golden import assert_as_before
 
 HOSTILE = "a|b\n::error::x \x1b[31m<b>`c` *d* _e_ f_g ~h~ [i](j) \\"
 TABLE = Table(
@@ -22,31 +23,9 @@ TABLE = Table(
 )
 
 
-def printed(table: Table) -> list[str]:
-    console = Console(file=io.StringIO(), width=120, force_terminal=False)
-    console.print(terminal.rendered(table))
-    assert isinstance(console.file, io.StringIO)
-    return console.file.getvalue().splitlines()
-
-
 def test_a_row_of_another_length_is_refused() -> None:
     with pytest.raises(ValueError, match="2 cells in a table of 3 columns"):
         Table(texts("a", "b", "c"), [["1", "2"]])
-
-
-def test_the_terminal_aligns_numbers_to_the_right_and_keeps_brackets() -> None:
-    head, *_, last = [line for line in printed(TABLE) if line.strip()][:4]
-    assert head.rstrip().endswith("off by [m]")
-    assert last.rstrip().endswith("1e-9")
-    assert len(head.rstrip()) == len(last.rstrip())
-    assert "pass" in last
-
-
-def test_the_terminal_shows_foreign_text_without_control_characters_and_commands() -> None:
-    lines = printed(TABLE)
-    assert not any("\x1b" in line for line in lines)
-    assert not any(line.lstrip().startswith("::") for line in lines)
-    assert any(": :error::x" in line for line in lines)
 
 
 @pytest.mark.parametrize(
@@ -65,20 +44,6 @@ def test_text_for_a_terminal(text: str, shown: str) -> None:
     assert readable.escaped(text) == shown
 
 
-def test_markdown_keeps_each_row_on_its_line_with_all_cells() -> None:
-    lines = markdown.rendered(TABLE).splitlines()
-    assert lines[:4] == [
-        "| host |  | off by [m] |",
-        "| --- | --- | ---: |",
-        "| **here** |  |  |",
-        "| one | pass | 1e-9 |",
-    ]
-    assert lines[4].endswith("| **FAIL** | 0.1 |")
-    assert len(lines) == 6
-    for line in lines:
-        assert line.replace("\\|", "").count("|") == 4
-
-
 @pytest.mark.parametrize(
     ("text", "shown"),
     [
@@ -94,49 +59,6 @@ def test_markdown_keeps_each_row_on_its_line_with_all_cells() -> None:
 )
 def test_text_for_markdown(text: str, shown: str) -> None:
     assert markdown.escaped(text) == shown
-
-
-class Cells(HTMLParser):
-    """The tags of a table and the text in it."""
-
-    def __init__(self, page: str) -> None:
-        super().__init__()
-        self.tags: list[str] = []
-        self.text = ""
-        self.feed(page)
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.tags.append(tag)
-
-    def handle_data(self, data: str) -> None:
-        self.text += data
-
-
-def test_html_marks_numbers_and_styles_and_escapes_foreign_text() -> None:
-    page = html_page.rendered(TABLE)
-    assert '<th class="n">off by [m]</th>' in page
-    assert '<td class="n">1e-9</td>' in page
-    assert '<span class="fail">FAIL</span>' in page
-    assert '<td colspan="3"><span class="note">because</span></td>' in page
-    cells = Cells(page)
-    assert "b" not in cells.tags
-    assert cells.tags.count("tr") == 5
-    assert "::error::x �[31m<b>`c`" in cells.text
-
-
-def test_html_keeps_options_and_small_numbers_in_one_piece() -> None:
-    cells = [["4e-8 m of 5e-3 mm: run --cell 'a-b' my-file"]]
-    page = html_page.rendered(Table(texts("note"), cells))
-    assert page.count('<span class="lines">') == 2
-    assert '<span class="lines">--cell</span>' in page
-    assert '<span class="lines">5e-3</span>' in page
-
-
-def test_html_in_an_attribute_stays_there() -> None:
-    assert html_page.escaped("\" onload='x'") == "&quot; onload=&#x27;x&#x27;"
-    assert html_page.folded("<2 rows>", "<table></table>").startswith(
-        "<details><summary>&lt;2 rows&gt;</summary>"
-    )
 
 
 def test_a_page_has_its_title_and_parts_and_needs_nothing_beside_it(tmp_path: Path) -> None:
@@ -160,3 +82,43 @@ def test_rows_of_a_table_too_wide_for_a_phone_are_cards_with_headings() -> None:
     assert all(f'data-heading="{heading}"' in wide for heading in headings)
     long = html_page.rendered(Table(columns[:1], [["words that can be wrapped " * 9]]))
     assert "stacks" not in long, "words wrap"
+
+
+def test_a_table_in_every_form() -> None:
+    """Numbers to the right, a row on its line, and foreign text that passes for nothing else."""
+    console = Console(file=io.StringIO(), width=120, force_terminal=False)
+    console.print(terminal.rendered(TABLE))
+    assert isinstance(console.file, io.StringIO)
+    assert_as_before("table.txt", console.file.getvalue())
+    assert_as_before("table.md", markdown.rendered(TABLE))
+    note = Table(texts("note"), [["4e-8 m of 5e-3 mm: run --cell 'a-b' my-file"]])
+    assert_as_before("table.html", html_page.rendered(TABLE) + html_page.rendered(note))
+
+
+@dataclass(frozen=True)
+class Result:
+    value: float
+    multipliers: tuple[complex, ...]
+    note: str | None
+
+
+def test_numbers_that_json_does_not_know_become_null() -> None:
+    text = to_json({"a": float("nan"), "b": [float("inf"), 1.5], "c": True})
+    plain = {"schema_version": SCHEMA_VERSION, "a": None, "b": [None, 1.5], "c": True}
+    assert json.loads(text) == plain
+
+
+def test_dataclasses_and_complex_numbers_keep_all_digits() -> None:
+    plain = json.loads(to_json(Result(0.1266669970173598, (0.5 + 0.25j,), None)))
+    assert plain == {
+        "schema_version": SCHEMA_VERSION,
+        "value": 0.1266669970173598,
+        "multipliers": [[0.5, 0.25]],
+        "note": None,
+    }
+
+
+def test_each_object_at_the_top_and_no_other_has_the_version() -> None:
+    plain = json.loads(to_json([{"inner": [{}]}, Result(1.0, (), None)]))
+    assert [entry["schema_version"] for entry in plain] == [SCHEMA_VERSION] * 2
+    assert plain[0]["inner"] == [{}]

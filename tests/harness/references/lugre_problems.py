@@ -1,7 +1,5 @@
 """Motions on bristles that tests of references share."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -24,13 +22,6 @@ def test_table_1_figures() -> None:
     assert velocity == pytest.approx(0.126731, abs=5e-7), "steady velocity of (5) in m/s"
     blocking = blocking_force(TABLE_1, 0.0, 1.0)
     assert blocking == pytest.approx(0.085222, abs=5e-7), "blocking force of both faces in N"
-
-
-def test_one_face_blocks_at_half_the_force() -> None:
-    one = blocking_force(replace(TABLE_1, friction_faces=1), 0.3, 1.0)
-    force = equivalent_force(TABLE_1)
-    expected = 2.0 / math.pi * 0.1 * 1.0 * math.sin(0.3 + force.angle)
-    assert one == pytest.approx(expected), "(22) as printed holds for one face"
 
 
 @pytest.mark.parametrize(

@@ -1,19 +1,15 @@
 """The built-in scenes and the bundles of expectations that they take."""
 
-from __future__ import annotations
-
 import pickle
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
-from itertools import product
+from collections import defaultdict
+from collections.abc import Callable, Iterator
 
 import pytest
 
-from slider_resonator.device.device import Device
-from slider_resonator.device.interface import OUTPUTS
-from slider_resonator.scenes.device_file import example_devices, read_device
+from slider_resonator.device.interface import HELD, INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.scenes.expansion import bundles
 from slider_resonator.scenes.expect_table import ExpectTable
+from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import built_in_scenes, find_scene, find_scenes, is_core
 
 SCENES = {scene.name: scene for scene in find_scenes([])}
@@ -37,20 +33,6 @@ def test_table_1_and_the_core_come_first() -> None:
     assert 35 <= sum(core) <= 50
 
 
-@pytest.mark.parametrize("name", example_devices())
-def test_an_example_device_is_that_of_a_core_scene(name: str) -> None:
-    order = Device().averaging_order
-    core = [replace(s.device, averaging_order=order) for s in SCENES.values() if is_core(s)]
-    assert Device.from_mapping(read_device(name)) in core
-
-
-def test_the_scenes_that_the_paper_calls_for_are_built_in() -> None:
-    assert set(SCENES) >= {
-        *("table_1", "table_1_high_frequency", "phase_sweep", "load_speed", "blocking_force"),
-        *("ratio_3", "detuned_beat", "pushed_at_rest", "lift_off", "changing_inputs"),
-    }
-
-
 @pytest.mark.parametrize("name", bundles())
 def test_a_bundle_is_valid_and_taken_by_a_scene(name: str) -> None:
     expects = [ExpectTable.model_validate(table) for table in bundles()[name]["expect"]]
@@ -60,42 +42,47 @@ def test_a_bundle_is_valid_and_taken_by_a_scene(name: str) -> None:
     assert any(set(subjects) <= quantities for quantities in taken)
 
 
-MODELS = list(product((0, 1, 2), (0, 1)))
-"""Fidelity and friction law."""
-
-SHOWN_BY: Mapping[str, Sequence[str]] = {
-    **{
-        name: (name,)
-        for name in (
-            *("position", "velocity", "resonator_displacement", "resonator_velocity"),
-            *("normal_force", "friction_force", "contact_mode"),
-        )
-    },
-    "mean_velocity": ("mean_velocity_in_run",),
-    "reversals": ("reversals_in_run",),
-    "stick_fraction": ("stick_fraction_in_run", "stick_fraction"),
-    "last_event_time": ("event_times",),
-    "steady_velocity": ("predicted_velocity_in_run",),
-    "blocking_force": ("predicted_blocking_force_in_run",),
+MOTION = {"position", "velocity", "mean_velocity", "mean_velocity_in_run"}
+Model = tuple[int, int | str]
+"""Friction law, and fidelity or order of averages."""
+MODELS: dict[Model, set[str]] = {
+    (law, level): {
+        *({"bristle_stiffness", "bristle_damping"} if law == 0 else ()),
+        *({"initial_bristle_deflection"} if law == 0 or level == "order 1" else ()),
+        *({"tolerance"} if level == "order 1" or (law == 0 and level in (1, 2)) else ()),
+    }
+    for law in (0, 1)
+    for level in (1, 2, "order 1", "order 2")
 }
-"""Output to the quantities that compare it."""
+"""Models, and parameters that mean nothing to them."""
 
 
-@pytest.fixture(scope="module")
-def compared() -> dict[tuple[int, int], set[str]]:
-    """The quantities that built-in scenes compare, by fidelity and friction law."""
-    found: dict[tuple[int, int], set[str]] = {model: set() for model in MODELS}
-    for scene in SCENES.values():
+def tried(values: Callable[[Scene], Iterator[str]]) -> dict[Model, set[str]]:
+    """The names that `values` gives of scenes whose motion is compared with a reference."""
+    found: dict[Model, set[str]] = defaultdict(set)
+    for scene in find_scenes(list(built_in_scenes())):
         for point in scene.points():
             device = point.scene.device
-            model = device.fidelity, device.friction_law
-            found[model] |= {expect.quantity for expect in scene.expect}
+            if MOTION & {expect.quantity for expect in scene.expect if expect.reference}:
+                level = device.fidelity or f"order {device.averaging_order}"
+                found[device.friction_law, level] |= {*values(point.scene)}
+    assert set(found) == set(MODELS)
     return found
 
 
-@pytest.mark.parametrize(("fidelity", "law"), MODELS)
-def test_every_output_is_compared_at_each_fidelity_and_law(
-    compared: dict[tuple[int, int], set[str]], fidelity: int, law: int
-) -> None:
-    for output in OUTPUTS:
-        assert compared[fidelity, law] & set(SHOWN_BY[output]), output
+def test_every_value_changes_in_a_run_of_every_model() -> None:
+    def changed(scene: Scene) -> Iterator[str]:
+        signals = {**scene.signals, **scene.tuning}
+        return (name for name, signal in signals.items() if len(set(signal.values)) > 1)
+
+    missing = {model: {*HELD, *INPUTS} - names for model, names in tried(changed).items()}
+    assert not any(missing.values()), f"no scene changes {missing}"
+
+
+def test_no_parameter_keeps_its_start_in_all_scenes_of_a_model() -> None:
+    def other(scene: Scene) -> Iterator[str]:
+        return (name for name, value in scene.parameters.items() if value != VARIABLES[name].start)
+
+    chosen = {"fidelity", "averaging_order", "friction_law"}
+    missing = {m: {*PARAMETERS} - chosen - MODELS[m] - names for m, names in tried(other).items()}
+    assert not any(missing.values()), f"no scene has another value of {missing}"

@@ -1,7 +1,5 @@
 """Files of several scenes, bundles of expectations, and expectations of several quantities."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
@@ -72,20 +70,6 @@ def test_a_variant_is_found_by_file_and_name_or_with_all_others(tmp_path: Path) 
         find_scene(f"{path}#secnd")
 
 
-def test_the_text_of_a_variant_is_that_scene_alone(tmp_path: Path) -> None:
-    path = tmp_path / "shown.toml"
-    path.write_text(call("scenes", "--show", f"{family(tmp_path)}#second").stdout)
-    shown, second = read_scene(path), find_scene(f"{tmp_path / 'family.toml'}#second")
-    assert shown.expect == second.expect
-    assert (shown.parameters, shown.signals, shown.run) == (
-        *(second.parameters, second.signals, second.run),
-    )
-    assert (
-        toml_text({"name": "x", "run": {"stop_time": 1.0}})
-        == 'name = "x"\n\n[run]\nstop_time = 1.0\n'
-    )
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -128,3 +112,17 @@ def test_an_unknown_bundle_is_named_with_those_that_there_are(tmp_path: Path) ->
         scene_read(tmp_path, 'expect_bundles = ["motoin"]\n')
     with pytest.raises(SceneError, match=r"expect_bundles = 'motion': must be a list in brackets"):
         scene_read(tmp_path, 'expect_bundles = "motion"\n')
+
+
+def test_the_text_of_a_variant_is_that_scene_alone(tmp_path: Path) -> None:
+    path = tmp_path / "shown.toml"
+    path.write_text(call("scenes", "--show", f"{family(tmp_path)}#second").stdout)
+    shown, second = read_scene(path), find_scene(f"{tmp_path / 'family.toml'}#second")
+    assert shown.expect == second.expect
+    assert (shown.parameters, shown.signals, shown.run) == (
+        *(second.parameters, second.signals, second.run),
+    )
+    assert (
+        toml_text({"name": "x", "run": {"stop_time": 1.0}})
+        == 'name = "x"\n\n[run]\nstop_time = 1.0\n'
+    )

@@ -1,7 +1,5 @@
 """Typical mistakes in a scene file: each is one line with the file, the key and a remedy."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import NamedTuple
 
@@ -62,9 +60,6 @@ BELOW_THE_HEAD = {
         "[device]\nslider_mas = 1\n", "device", "did you mean 'slider_mass'"
     ),
     "unknown input": Mistake("[inputs]\nlod = 1\n", "inputs.lod", "did you mean 'load'"),
-    "number in quotes": Mistake(
-        '[device]\nslider_mass = "1.0"\n', "device.slider_mass", "must be a number"
-    ),
     "unit that does not fit": Mistake(
         '[inputs]\nload = { steps = [[0, 0], ["5 mm", "50 mN"]] }\n',
         "inputs.load.steps[2][1] = '5 mm'",
@@ -79,19 +74,6 @@ BELOW_THE_HEAD = {
         "device.fidelity = 3",
         "an integer from 0 to 2 (0 slow motion",
     ),
-    "no face with friction": Mistake(
-        "[device]\nfriction_faces = 0\n",
-        "device.friction_faces = 0",
-        "must be an integer from 1 to 2",
-    ),
-    "a negative friction coefficient": Mistake(
-        "[device]\nfriction_coefficient = -0.1\n",
-        "device.friction_coefficient = -0.1",
-        "must be a finite number of at least 0",
-    ),
-    "a tolerance that is too large": Mistake(
-        "[device]\ntolerance = 0.1\n", "device.tolerance = 0.1", "from 1e-14 to 0.01"
-    ),
     "a second instance out of bounds": Mistake(
         RUN + "[beside.device]\nfriction_law = 2\n",
         "beside.device.friction_law = 2",
@@ -101,11 +83,6 @@ BELOW_THE_HEAD = {
         RUN + "[tuning]\nnormal_preload = { steps = [[0, 1], [0.05, -1]] }\n",
         "tuning.normal_preload: normal_preload = -1.0",
         "at least 0 N",
-    ),
-    "tuned out of bounds by a CSV": Mistake(
-        RUN + '[tuning]\nfriction_coefficient = { csv = "negative.csv" }\n',
-        "tuning.friction_coefficient: friction_coefficient = -1.0",
-        "of at least 0",
     ),
     "swept out of bounds": Mistake(
         "[sweep]\nvariable = 'fidelity'\nvalues = [0, 3]\n", "sweep: fidelity = 3", "from 0 to 2"
@@ -117,9 +94,6 @@ BELOW_THE_HEAD = {
     ),
     "no length": Mistake(
         "[run]\nstep_size = 0.1\n", "run", "exactly one of stop_time or drive_periods"
-    ),
-    "two lengths": Mistake(
-        RUN + "drive_periods = 3\n", "run", "exactly one of stop_time or drive_periods"
     ),
     "step in ms": Mistake(
         "[run]\nstop_time = 1000\nstep_size = 1e-6\n", "run", "must be at most 3000000"
@@ -169,11 +143,6 @@ BELOW_THE_HEAD = {
         "expect[positon, located_events].quantity",
         "did you mean 'position'",
     ),
-    "unknown reference": Mistake(
-        expect('quantity = "position"', 'reference = "located_event"', "relative = 1e-6"),
-        "expect[position, located_event]",
-        "did you mean 'located_events'",
-    ),
     "reference of another quantity": Mistake(
         expect('quantity = "position"', 'reference = "closed_form"', "relative = 1e-6"),
         "expect[position, closed_form]",
@@ -183,11 +152,6 @@ BELOW_THE_HEAD = {
         expect('quantity = "position"', 'reference = "located_events"'),
         "expect[position, located_events]",
         "needs a tolerance",
-    ),
-    "negative tolerance": Mistake(
-        expect('quantity = "position"', 'reference = "located_events"', "relative = -1e-6"),
-        "expect[position, located_events].relative",
-        "must be a number not below 0",
     ),
     "no reason": Mistake(
         RUN + '[[expect]]\nquantity = "reversals"\nvalue = 0\n',
@@ -213,7 +177,6 @@ BELOW_THE_HEAD = {
     ),
     # What other notations allow:
     "comma after a value": Mistake("[run]\nstop_time = 0.1,\n", "stop_time", "delete the ,"),
-    "semicolon": Mistake("[run]\nstop_time = 0.1;\n", "stop_time", "delete the ;"),
     "a comment of C": Mistake("// a comment\n" + RUN, "line 3", "begins with #"),
     "typographic minus": Mistake("[inputs]\nphase = −0.4\n", "phase", "a minus sign is -"),
     "no digit before the point": Mistake("[inputs]\nphase = -.5\n", "phase", "write -0.5"),
@@ -223,7 +186,6 @@ BELOW_THE_HEAD = {
     ),
     "true in another spelling": Mistake(RUN + "read_twice = True\n", "read_twice", "write true"),
     "a power": Mistake("[run]\nstop_time = 10^-3\n", "stop_time", "nothing is computed"),
-    "a formula": Mistake("[inputs]\nphase = pi/2\n", "phase", "nothing is computed"),
     "a key of two words": Mistake("[run]\nstop time = 1\n", "stop time", "did you mean stop_time"),
     "braces over lines": Mistake(
         "[inputs]\nload = {\n steps = [[0, 0]]\n}\n", "load", "on one line"
@@ -248,7 +210,6 @@ BELOW_THE_HEAD = {
         "[device]\nbase_amplitude = 100µm\n", "base_amplitude", 'in quotes: write "100µm"'
     ),
     "a key without a value": Mistake("[inputs]\nload = null\n", "load", "delete the line"),
-    "pi": Mistake("[inputs]\nphase = pi\n", "phase", "nothing is computed"),
     "a colon in braces": Mistake(
         RUN + "[inputs]\nload = { steps: [[0, 1]] }\n", "load", "write { steps = ... }"
     ),
@@ -257,9 +218,6 @@ BELOW_THE_HEAD = {
     ),
     "no comma between pairs": Mistake(
         RUN + "[inputs]\nload = { steps = [[0, 1] [1, 2]] }\n", "load", "a comma must be"
-    ),
-    "no comma in a pair": Mistake(
-        RUN + "[inputs]\nload = { steps = [[0 1], [1, 2]] }\n", "load", "a comma must be"
     ),
     "open brace": Mistake(
         RUN + "[inputs]\nload = { steps = [[0, 1], [1, 2]]\n", "load", "close the brace"
@@ -286,18 +244,12 @@ BELOW_THE_HEAD = {
     "an input in the run": Mistake(RUN + "phase = 1\n", "run.phase", "must be in [inputs]"),
     "a length above the tables": Mistake("stop_time = 1\n", "stop_time", "must be in [run]"),
     # Values:
-    "an impossible parameter": Mistake(
-        "[device]\nslider_mass = -1\n", "device.slider_mass = -1.0", "of at least 1e-12 kg"
-    ),
     "a law by its name": Mistake(
         '[device]\nfriction_law = "lugre"\n', "device.friction_law", "0 Coulomb, 1 LuGre"
     ),
     "a date": Mistake("[inputs]\nload = 2020-01-01\n", "load = 2020-01-01", "a number"),
     "a bare list of points": Mistake(
         RUN + "[inputs]\nload = [[0, 0], [1, 1]]\n", "inputs.load", "such as { steps ="
-    ),
-    "points that are numbers": Mistake(
-        RUN + "[inputs]\nload = { steps = [0.0, 1.0] }\n", "steps[1]", "[time (s), value]"
     ),
     "a sweep of what changes": Mistake(
         RUN
@@ -346,7 +298,6 @@ def test_a_mistake_is_one_line_with_file_key_and_remedy(name: str, tmp_path: Pat
     text, key, remedy = MISTAKES[name]
     (tmp_path / "short.csv").write_text("time,load\n0,0\n0.05,1\n")
     (tmp_path / "bare.csv").write_text("0,0\n1,1\n")
-    (tmp_path / "negative.csv").write_text("time,value\n0,0.1\n0.1,-1\n")
     (tmp_path / "words.csv").write_text("time,load\n0,none\n")
     (tmp_path / "twice.csv").write_text("time,load,load\n0,0,1\n0.1,1,2\n")
     (tmp_path / "utf16.csv").write_text("time,load\n0,0\n1,1\n", encoding="utf-16")

@@ -1,7 +1,5 @@
 """Predictions that are proved are those of shooting; what the FMU gets wrong is not proved."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Mapping
 from dataclasses import replace
@@ -32,26 +30,23 @@ def devices(count: int) -> list[dict[str, float]]:
     ]
 
 
-def test_velocities_are_those_of_shooting(instance: Instance) -> None:
-    points = [{**one, "load": 0.01 * (n % 3)} for n, one in enumerate(devices(12))]
-    proved = proved_predictions(instance, "steady_velocity", points, 20)
-    assert sum(value is not None for value in proved) >= 8
-    for values, value in zip(points, proved, strict=True):
-        if value is not None:
+def test_they_are_those_of_shooting(instance: Instance) -> None:
+    free = devices(12)
+    loaded = [{**one, "load": 0.01 * (n % 3)} for n, one in enumerate(free)]
+    velocities = proved_predictions(instance, "steady_velocity", loaded, 20)
+    forces = proved_predictions(instance, "blocking_force", free, 20)
+    for proved in (velocities, forces):
+        assert sum(value is not None for value in proved) >= 8
+    for values, velocity in zip(loaded, velocities, strict=True):
+        if velocity is not None:
             found = find_steady(instance, values)
             assert found.status == "steady", values
-            assert value == pytest.approx(found.steady_velocity, abs=1e-10), values
-
-
-def test_forces_are_those_of_shooting(instance: Instance) -> None:
-    points = devices(12)
-    proved = proved_predictions(instance, "blocking_force", points, 20)
-    assert sum(value is not None for value in proved) >= 8
-    for values, value in zip(points, proved, strict=True):
-        if value is not None:
-            found = find_blocking(instance, values)
-            assert found.status == "blocked", values
-            assert value == pytest.approx(found.blocking_force, abs=1e-10), values
+            assert velocity == pytest.approx(found.steady_velocity, abs=1e-10), values
+    for values, force in zip(free, forces, strict=True):
+        if force is not None:
+            blocking = find_blocking(instance, values)
+            assert blocking.status == "blocked", values
+            assert force == pytest.approx(blocking.blocking_force, abs=1e-10), values
 
 
 @pytest.mark.parametrize(

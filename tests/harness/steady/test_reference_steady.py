@@ -1,12 +1,13 @@
-from __future__ import annotations
-
 import pytest
 
 from slider_resonator.device.device import Device
+from slider_resonator.references.averaged import device_average
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
     reference_steady_velocity,
 )
+from tests.harness.references.lugre_problems import unit_device
 
 TABLE_1 = Device()
 
@@ -35,13 +36,6 @@ def test_what_never_repeats_has_no_steady_motion() -> None:
         assert found is None, "a load above friction"
 
 
-def test_blocking_force_without_preload() -> None:
-    """The load then comes from the amplitude alone, and gives friction its scale."""
-    found = reference_blocking_force(Device(normal_preload=0.0), 0.4, 1.0)
-    assert found is not None
-    assert 0.0 < found < 0.2
-
-
 @pytest.mark.parametrize(
     ("stiffness", "fidelity", "velocity"),
     [
@@ -60,6 +54,44 @@ def test_lugre_steady_velocity_matches_taylor_integration(
     assert found == pytest.approx(velocity, abs=5e-8)
 
 
-def test_fidelity_1_has_a_single_state() -> None:
-    found = reference_steady_velocity(Device(fidelity=1), 0.0, 0.0, 1.0)
-    assert found == pytest.approx(0.126667, rel=1e-4)
+QUICK = (0.1, 10.0)
+KAPPAS = [
+    pytest.param(kappa, marks=() if kappa in QUICK else pytest.mark.slow)
+    for kappa in (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
+]
+
+
+def steady_velocity(
+    device: Device, phase: float, load: float = 0.0, ratio: float = 1.0, guess: float = 0.0
+) -> float:
+    found = reference_steady_velocity(device, phase, load, ratio, guess, simulate=simulate)
+    assert found is not None, "there is a steady motion"
+    return found
+
+
+def blocking_force(device: Device, phase: float, guess: float) -> float:
+    found = reference_blocking_force(device, phase, 1.0, guess, simulate=simulate)
+    assert found is not None, "there is a load that stops the device"
+    return found
+
+
+@pytest.mark.parametrize("amplitude_ratio", [0.8, 1.6])
+@pytest.mark.parametrize("kappa", KAPPAS)
+def test_uniform_average_errors_fall_with_the_frequency(
+    kappa: float, amplitude_ratio: float
+) -> None:
+    """Soft to hard bristles, closed and lifting: velocity and blocking force."""
+    errors = []
+    for frequency in (1000.0, 4000.0):
+        device = unit_device(kappa, frequency, amplitude_ratio)
+        velocity = device_average.steady_velocity(device, 1.0, 0.0, 1.0)
+        force = device_average.blocking_force(device, 1.0, 1.0)
+        errors.append(
+            (
+                velocity - steady_velocity(device, 1.0, guess=velocity),
+                force - blocking_force(device, 1.0, guess=force),
+            )
+        )
+    for coarse, fine in zip(*errors, strict=True):
+        assert abs(coarse) < 2e-3, "of v_q, or of N0"
+        assert coarse / fine == pytest.approx(4.0, rel=0.02), "averages err by 1 / Omega"

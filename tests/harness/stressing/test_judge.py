@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -105,14 +103,6 @@ def test_a_tolerance_is_a_bound(instance: Instance, tolerance: float) -> None:
     assert "reference" in verdict.reason, "twice the tolerance is too much"
 
 
-def test_the_phase_is_followed_through_changes_of_ratio(instance: Instance) -> None:
-    holds = (Hold(1e-4, 7, 0.4, 0.0, 3.0), Hold(1e-4, 7, 1.0, 0.0, -0.5), Hold(1e-4, 7))
-    case = Case("ratio", "changes", Model(1, 0), {}, holds)
-    verdict = judge(case, observe(instance, case))
-    assert verdict.verdict == PASSED, verdict.reason
-    assert np.isfinite(verdict.cost_ratio)
-
-
 AVERAGED = Case("table 1", "averaged", Model(0, 0, 1), {}, (Hold(0.01, 20, load=0.02),))
 LEAPS = Case("table 1", "order 2", Model(0, 0, 2), {}, (Hold(0.25, 4, load=0.02),))
 
@@ -145,13 +135,6 @@ def test_a_slow_motion_that_is_slightly_off_fails(
     assert "reference" in wrong.reason
 
 
-def test_averages_of_first_order_are_no_leaps(instance: Instance) -> None:
-    first = observe(instance, replace(LEAPS, model=Model(0, 0, 1)))
-    verdict = judge(LEAPS, replace(observe(instance, LEAPS), outputs=first.outputs))
-    assert verdict.verdict == FAILED
-    assert "reference: centre velocity" in verdict.reason
-
-
 @pytest.mark.parametrize(
     ("models", "share", "axes"),
     [
@@ -173,10 +156,3 @@ def test_most_averaged_cases_have_a_reference(
     cases = [case for case in axis_cases() if case.model in models]
     assert sum(map(has_reference, cases)) > share * len(cases)
     assert not {case.axis for case in cases if not has_reference(case)} & axes
-
-
-@pytest.mark.parametrize(
-    "name", ["friction_coefficient", "normal_preload", "base_amplitude", "resonator_mass"]
-)
-def test_cases_without_an_average_are_left_to_the_other_bounds(name: str) -> None:
-    assert not has_reference(replace(AVERAGED, parameters={name: 0.0}))

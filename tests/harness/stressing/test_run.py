@@ -1,17 +1,37 @@
-from __future__ import annotations
+"""Runs of cases, their random devices, and their page."""
 
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from slider_resonator.device.model import Model
 from slider_resonator.errors import FmuError
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.opening import Fmu
 from slider_resonator.output.progress import no_progress
-from slider_resonator.stressing.case import RANDOM, Case, Hold
-from slider_resonator.stressing.run import StressResult, applicable, run_cases
-from slider_resonator.stressing.verdict import FAILED, PASSED, REFUSED, Verdict
+from slider_resonator.stressing import comparisons
+from slider_resonator.stressing.case import RANDOM, Case, Hold, name_of
+from slider_resonator.stressing.observe import Observation, observe
+from slider_resonator.stressing.page import write_stress_page
+from slider_resonator.stressing.random_cases import IN_TURN, random_case
+from slider_resonator.stressing.run import StressResult, applicable, judge, run_cases
+from slider_resonator.stressing.verdict import (
+    FAILED,
+    NO_REFERENCE,
+    PASSED,
+    REFERENCE,
+    REFUSED,
+    SENSITIVE,
+    BoundCheck,
+    Verdict,
+)
+from tests.fmus import both_fmus
 from tests.harness.faulty_fmus import compiled, without_later_variables
+from tests.harness.known_provenance import PROVENANCE
+from tests.html_pages import Page, without_spans
 
 QUICK = Case("steps", "few", Model(2, 0), {}, (Hold(1e-4, 20),))
 ENDLESS = Case("steps", "far too many", Model(2, 0), {}, (Hold(1.0, 100_000),))
@@ -39,19 +59,6 @@ def test_an_fmu_that_crashes_in_every_case_fails_each(native_fmu: Path, tmp_path
     result = run_cases(crash, cases, no_progress, 20.0)
     assert [one.verdict for one in result.verdicts] == [FAILED] * 4
     assert all("crashed in fmi2DoStep" in one.reason for one in result.verdicts)
-
-
-def test_several_processes_give_the_same_verdicts(native_fmu: Path) -> None:
-    cases = [replace(QUICK, holds=(Hold(1e-4, n),), value=str(n)) for n in range(1, 9)]
-    alone = run_cases(native_fmu, cases, no_progress)
-    shared = run_cases(native_fmu, cases, no_progress, jobs=2)
-    assert [one.name for one in shared.verdicts] == [case.name for case in cases]
-    assert [one.nearest for one in shared.verdicts] == [one.nearest for one in alone.verdicts]
-
-
-def test_an_fmu_that_cannot_be_opened_is_no_verdict(tmp_path: Path) -> None:
-    with pytest.raises(FmuError, match="no such file"):
-        run_cases(tmp_path / "none.fmu", [QUICK], no_progress)
 
 
 def test_cases_that_an_fmu_lacks_variables_for_are_skipped(
@@ -87,3 +94,134 @@ def test_few_random_devices_may_be_refused() -> None:
     assert not StressResult("a.fmu", (good, refused, refused), 1.0).passed
     on_axis = replace(refused, axis="mu")
     assert StressResult("a.fmu", (on_axis, on_axis, on_axis), 1.0).passed
+
+
+RESOLVED, SLOW = name_of(Model(2, 0)), name_of(Model(0, 1, 2))
+CHECKS = (BoundCheck("momentum", 1e-3), BoundCheck(REFERENCE, 0.5))
+FAR = (BoundCheck(REFERENCE, float("inf"), "velocity off"),)
+VERDICTS = (
+    Verdict("q & r", "1e3", RESOLVED, PASSED, "", CHECKS, 1e-6, 1e-6),
+    Verdict("q & r", "1e6", RESOLVED, FAILED, "it <flies>"),
+    Verdict("q & r", "1e6", SLOW, REFUSED, "load refused"),
+    Verdict(RANDOM, "seed 3, case 4", SLOW, SENSITIVE, "the reference departs", FAR),
+    Verdict(RANDOM, "seed 3, case 5", SLOW, NO_REFERENCE, "gave up"),
+)
+RESULT = StressResult("some place/my.fmu", VERDICTS, 3.0)
+
+
+def text_of(tmp_path: Path, *results: StressResult) -> str:
+    page = tmp_path / "index.html"
+    write_stress_page(page, results, PROVENANCE)
+    found = Page.read(page)
+    assert "provenance" in found.ids
+    assert found.loaded == ["data:,"]
+    return page.read_text(encoding="utf-8")
+
+
+def test_each_case_of_an_axis_is_in_its_grid_with_its_checks(tmp_path: Path) -> None:
+    text = text_of(tmp_path, RESULT)
+    assert "reference: 0.5 of what is allowed\nmomentum: 0.001 of what is allowed" in text
+    assert '">F</td>' in text
+    assert '">r</td>' in text
+    assert text.count("<td></td>") == 1, "the case that the axis does not have"
+    assert "q &amp; r" in text
+    assert "3 cases checked by momentum, reference; nearest to its bound: reference, 0.5" in text
+
+
+def test_an_interrupted_run_without_failures_is_incomplete_and_has_not_failed(
+    tmp_path: Path,
+) -> None:
+    so_far = replace(RESULT, verdicts=VERDICTS[::2], not_run=1)
+    text = without_spans(text_of(tmp_path, so_far))
+    assert "incomplete</td>" in text
+    assert "FAIL" not in text
+    assert "1 not run: incomplete" in text
+    failed = without_spans(text_of(tmp_path, replace(RESULT, not_run=1)))
+    assert "FAIL</td>" in failed, "a failure stands, whatever the rest would have been"
+
+
+def test_cases_that_did_not_pass_are_listed_with_their_command(tmp_path: Path) -> None:
+    text = text_of(tmp_path, RESULT)
+    assert "it &lt;flies&gt;" in text
+    assert "it <flies>" not in text
+    assert without_spans(text).count("--case ") == 4
+    expected = (
+        "slider-resonator stress 'some place/my.fmu' --case 'q & r: 1e6: Coulomb, fidelity 2'"
+    )
+    assert VERDICTS[1].command(RESULT.fmu) == expected
+
+
+def test_failed_cases_are_open_and_the_others_folded(tmp_path: Path) -> None:
+    text = text_of(tmp_path, RESULT)
+    assert '<details id="failed-my.fmu" open><summary><h3>Failed</h3> 1 case' in text
+    assert '<details id="refused-by-name-my.fmu"><summary><h3>Refused by name</h3> 1 case' in text
+
+
+def test_a_case_without_a_deviation_is_drawn_without_a_height(tmp_path: Path) -> None:
+    text = text_of(tmp_path, RESULT)
+    assert '"x":[2.0],"y":[null]' in text
+    assert '"x":[3.0,4.0,5.0],"y":[null,1000000.0,null]' in text
+
+
+@both_fmus
+def test_the_first_cases_pass(fmu: Fmu) -> None:
+    reported: list[tuple[str, float]] = []
+    cases = [random_case(7, number) for number in range(2 * len(IN_TURN))]
+    result = run_cases(fmu.path, cases, lambda label, share: reported.append((label, share)))
+    assert result.passed, "\n".join(result.sentences())
+    assert [share for _, share in reported] == sorted(share for _, share in reported)
+    assert len(reported) == len(cases)
+    assert reported[-1][0].startswith(f"{len(cases)} of {len(cases)}: ")
+    assert {one.verdict for one in result.verdicts} == {PASSED}
+
+
+def test_cases_cover_what_they_should() -> None:
+    cases = [random_case(0, number) for number in range(600)]
+    assert Counter(case.model for case in cases).most_common()[-1][1] == 600 // len(IN_TURN)
+    drives = [case.device.drive_frequency for case in cases]
+    assert max(drives) / min(drives) > 1e3
+    assert len({name for case in cases for hold in case.holds for name, _ in hold.tuned}) == 6
+    assert any(case.device.normal_amplitude > case.device.normal_preload for case in cases)
+    assert any(case.start_time for case in cases)
+    assert all((case.sizes > 0.0).all() for case in cases)
+    assert (
+        sum(len(one.sizes) > 1 and np.ptp(one.sizes) > 1e-3 * one.duration for one in cases) > 300
+    )
+
+
+@pytest.mark.parametrize("number", range(len(IN_TURN)))
+def test_an_error_above_the_bound_fails(instance: Instance, number: int) -> None:
+    case = random_case(7, number)
+    seen = observe(instance, case)
+    assert judge(case, seen).verdict == PASSED
+    position = seen.outputs["position"]
+    off = position + 1e-2 * max(float(np.abs(position).max()), 1e-9)
+    verdict = judge(case, replace(seen, outputs={**seen.outputs, "position": off}))
+    assert verdict.verdict == FAILED
+    assert "reference: " in verdict.reason
+    for name, signal in seen.outputs.items():
+        no_number = {**seen.outputs, name: np.full_like(signal, np.nan)}
+        assert judge(case, replace(seen, outputs=no_number)).verdict == FAILED
+
+
+def test_a_device_without_reference_is_not_judged() -> None:
+    case = random_case(7, 2)
+    w = case.device.drive_frequency
+    undamped = {"damping_ratio": 0.0, "resonator_mass": 0.0, "resonator_frequency": w}
+    still = replace(
+        case,
+        parameters={**case.parameters, **undamped},
+        holds=tuple(replace(hold, tuned=()) for hold in case.holds),
+    )
+    assert judge(still, Observation()).verdict == NO_REFERENCE
+
+
+def test_a_motion_that_its_reference_leaves_as_fast_is_sensitive(
+    instance: Instance, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = random_case(7, 0)
+    seen = observe(instance, case)
+    wrong = replace(seen, outputs={name: 1.001 * one for name, one in seen.outputs.items()})
+    assert judge(case, wrong).verdict == FAILED
+    monkeypatch.setattr(comparisons, "CONDITIONING", 1e12)
+    assert judge(case, wrong).verdict == SENSITIVE

@@ -1,13 +1,25 @@
-from __future__ import annotations
+"""Grids, and the tables that sweeps write."""
 
+import csv
 import math
+from math import inf
 from pathlib import Path
 
 import numpy as np
 import pytest
+from pyarrow import parquet
 
 from slider_resonator.errors import HarnessError
+from slider_resonator.sweeping import table
 from slider_resonator.sweeping.grid import Sweep, read_grid
+from slider_resonator.sweeping.measures import Row, Run, Task
+from slider_resonator.sweeping.table import (
+    check_writer,
+    open_journal,
+    rows_of,
+    table_columns,
+    write_table,
+)
 
 
 def _read(tmp_path: Path, text: str) -> Sweep:
@@ -124,6 +136,58 @@ def test_an_invalid_grid_is_refused_with_name_value_and_requirement(
     assert "grid.toml: " in str(refusal.value)
 
 
-def test_a_missing_file_is_named(tmp_path: Path) -> None:
-    with pytest.raises(HarnessError, match=r"none\.toml: cannot be read"):
-        read_grid(tmp_path / "none.toml")
+TASK = Task(("fidelity", "phase"), (), ("steady_velocity",), 20, Run(1, 1, 0))
+POINTS = ((0.0, 0.1), (2.0, 0.1 + 0.2))
+ROWS: dict[int, Row] = {1: (1, [1.0 / 3.0, "steady"], None), 0: (0, [None, None], 'load, "x"')}
+
+
+def test_parquet_has_typed_columns_in_the_order_of_the_points(tmp_path: Path) -> None:
+    path = tmp_path / "a.parquet"
+    columns = table_columns(TASK, POINTS, ROWS)
+    write_table(path, TASK, columns)
+    read = parquet.read_table(path)
+    assert read.to_pydict() == columns
+    assert [str(kind) for kind in read.schema.types] == [
+        "int64",
+        "int64",
+        "double",
+        "double",
+        "string",
+        "string",
+    ]
+
+
+def test_csv_gives_back_the_same_numbers(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    write_table(path, TASK, table_columns(TASK, POINTS, ROWS))
+    with path.open(encoding="utf-8", newline="") as file:
+        first, second = csv.DictReader(file)
+    assert first["error"] == 'load, "x"'
+    assert first["steady_velocity"] == ""
+    assert second["fidelity"] == "2"
+    assert float(second["phase"]) == 0.1 + 0.2
+    assert float(second["steady_velocity"]) == 1.0 / 3.0
+
+
+def test_without_pyarrow_only_csv_is_possible(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(table, "find_spec", lambda name: None)
+    check_writer(Path("a.csv"))
+    with pytest.raises(HarnessError, match=r"pip install 'slider-resonator\[parquet\]'"):
+        check_writer(Path("a.parquet"))
+
+
+KEPT: list[Row] = [
+    (0, [0.1 + 0.2, "steady"], None),
+    (1, [None, None], "load = nan"),
+    (2, [inf], None),
+]
+
+
+def test_a_line_that_is_no_point_is_named(tmp_path: Path) -> None:
+    with open_journal(tmp_path / "b.csv", "a") as journal:
+        journal.add([KEPT, [{"point": 3}]])
+    with (
+        open_journal(tmp_path / "b.csv", "a") as journal,
+        pytest.raises(HarnessError, match=r"journal entry 2: is no point of a sweep"),
+    ):
+        rows_of(journal)

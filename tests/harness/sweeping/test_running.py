@@ -1,7 +1,5 @@
 """What a sweep makes of points that fail, hang or crash the FMU."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Whole sweeps: the table does not depend on workers, order or interruptions."""
 
-from __future__ import annotations
-
 import json
 import os
 import random
@@ -10,16 +8,18 @@ import sqlite3
 import subprocess
 import sys
 import time
+from collections.abc import Callable, Iterator
 from contextlib import closing
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
+from distributed import LocalCluster, Worker
 from pyarrow import parquet
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.instance import instantiate
-from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.sweeping import cluster, sweeping
 from slider_resonator.sweeping.grid import read_grid
 from slider_resonator.sweeping.sweeping import run_sweep
 from slider_resonator.sweeping.table import journal_path, open_journal
@@ -93,14 +93,6 @@ def test_points_of_another_grid_are_refused_unless_discarded(
     assert run_sweep(sweep, native_fmu, out, workers=1, restart=True).found == 0
 
 
-def test_an_invalid_fmu_is_refused_before_the_journal_is_written(
-    grid: Path, tmp_path: Path
-) -> None:
-    with pytest.raises(HarnessError, match=r"none\.fmu: no such file"):
-        run_sweep(read_grid(grid), tmp_path / "none.fmu", tmp_path / "a.csv", workers=1)
-    assert not journal_path(tmp_path / "a.csv").exists()
-
-
 def _start(grid: Path, fmu: Path, out: Path) -> subprocess.Popen[bytes]:
     command = [sys.executable, "-m", "harness", "sweep", str(grid), "--out", str(out)]
     return subprocess.Popen([*command, "--fmu", str(fmu), "--workers", "2"])
@@ -166,55 +158,6 @@ def test_a_sweep_killed_at_random_is_resumed_to_the_same_file(
     assert not journal_path(out).exists()
 
 
-@pytest.mark.slow
-def test_a_killed_worker_is_replaced(
-    long_grid: Path, undisturbed: Path, native_fmu: Path, tmp_path: Path
-) -> None:
-    out = tmp_path / "killed.parquet"
-    process = _start(long_grid, native_fmu, out)
-    _wait_for_points(process, out, 300)
-    os.kill(_children(process)[0], signal.SIGKILL)
-    assert process.wait(DEADLINE) == 0
-    assert out.read_bytes() == undisturbed.read_bytes()
-
-
-@pytest.mark.slow
-def test_velocities_are_those_of_the_command_steady_up_to_rounding(
-    wide_grid: Path, native_fmu: Path, tmp_path: Path
-) -> None:
-    result = run_sweep(read_grid(wide_grid), native_fmu, tmp_path / "a.csv", workers=2)
-    with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
-        for index in range(0, 1230, 97):
-            names = ("frequency_ratio", "phase")
-            values = {name: result.columns[name][index] for name in names}
-            alone = find_steady(instance, values)
-            found = result.columns["steady_velocity"][index]
-            assert found == pytest.approx(alone.steady_velocity, abs=1e-11), values
-            assert result.columns["steady_velocity_status"][index] == alone.status
-
-
-@pytest.mark.slow
-def test_the_table_of_another_grid_is_replaced_only_when_asked(
-    grid: Path, native_fmu: Path, tmp_path: Path
-) -> None:
-    other = tmp_path / "other.toml"
-    other.write_text("[grid]\nphase = [0.1, 0.2]\n", encoding="utf-8")
-    for name in ("a.csv", "a.parquet"):
-        out = tmp_path / name
-        run_sweep(read_grid(other), native_fmu, out, workers=1)
-        table = out.read_bytes()
-        run_sweep(read_grid(other), native_fmu, out, workers=1)
-        assert out.read_bytes() == table, "its own table is written again"
-        with pytest.raises(HarnessError, match=f"{name}: is not a table of this grid's points"):
-            run_sweep(read_grid(grid), native_fmu, out, workers=1)
-        assert out.read_bytes() == table
-        assert not journal_path(out).exists()
-    other.write_text("[grid]\nphase = [0.1, 0.3]\n", encoding="utf-8")
-    with pytest.raises(HarnessError, match="--overwrite"):
-        run_sweep(read_grid(other), native_fmu, out, workers=1)
-    assert run_sweep(read_grid(other), native_fmu, out, workers=1, overwrite=True).points == 2
-
-
 def test_columns_of_a_table_are_dropped_only_when_asked(native_fmu: Path, tmp_path: Path) -> None:
     grid, out = tmp_path / "grid.toml", tmp_path / "a.csv"
     points = "[grid]\nphase = [0.1]\n"
@@ -227,14 +170,6 @@ def test_columns_of_a_table_are_dropped_only_when_asked(native_fmu: Path, tmp_pa
     assert out.read_bytes() == table
     run_sweep(read_grid(grid), native_fmu, out, workers=1, overwrite=True)
     assert b"blocking_force" not in out.read_bytes()
-
-
-def test_points_without_an_answer_are_counted(native_fmu: Path, tmp_path: Path) -> None:
-    """No load below the friction of contact stops a slider that the vibration does not drive."""
-    away = tmp_path / "away.toml"
-    away.write_text("[grid]\nload = [0.0, 1.0]\n", encoding="utf-8")
-    result = run_sweep(read_grid(away), native_fmu, tmp_path / "a.csv", workers=1)
-    assert (result.points, result.failed, result.unanswered) == (2, 0, 1)
 
 
 @pytest.mark.slow
@@ -261,3 +196,64 @@ def test_a_damaged_entry_costs_its_points_only(
     assert result.damaged == [2]
     assert result.found == kept - len(json.loads(rows))
     assert out.read_bytes() == table
+
+
+@pytest.fixture
+def two_workers() -> Iterator[LocalCluster]:
+    start: Callable[..., LocalCluster] = LocalCluster
+    with start(n_workers=2, threads_per_worker=1, dashboard_address=None) as made:
+        yield made
+
+
+@pytest.mark.slow
+def test_a_cluster_writes_the_same_table_as_this_machine_also_when_a_worker_is_killed(
+    two_workers: LocalCluster, wide_grid: Path, grid: Path, native_fmu: Path, tmp_path: Path
+) -> None:
+    address = two_workers.scheduler_address
+    victims = [two_workers.workers[0].pid]
+
+    def kill_once(label: str, share: float) -> None:
+        if share > 0.3 and victims:
+            os.kill(victims.pop(), signal.SIGKILL)
+
+    for number, (file, progress) in enumerate([(grid, None), (wide_grid, kill_once)]):
+        sweep = read_grid(file)
+        here, there = tmp_path / f"here{number}.parquet", tmp_path / f"there{number}.parquet"
+        run_sweep(sweep, native_fmu, here, workers=2)
+        run_sweep(
+            sweep,
+            native_fmu,
+            there,
+            workers=1,
+            dask=address,
+            progress=progress or (lambda *_: None),
+        )
+        assert there.read_bytes() == here.read_bytes()
+    assert not victims, "the worker was killed in mid-sweep"
+
+
+def test_a_scheduler_that_is_not_there_is_named(
+    grid: Path, native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cluster, "CONNECT_SECONDS", 0.5)
+    for address in ("tcp://127.0.0.1:9", "no address"):
+        with pytest.raises(HarnessError, match=f"--dask {address}: no scheduler answers"):
+            run_sweep(read_grid(grid), native_fmu, tmp_path / "a.csv", workers=1, dask=address)
+
+
+def test_a_worker_of_another_version_refuses(native_fmu: Path, tmp_path: Path) -> None:
+    plugin = cluster.FmuPlugin("digest", native_fmu.name, native_fmu.read_bytes(), 60.0)
+    plugin.version = "0.0"
+    worker = SimpleNamespace(address="tcp://192.0.2.7:1", local_directory=str(tmp_path))
+    with pytest.raises(HarnessError, match=r"worker tcp://192\.0\.2\.7:1 has .*must be 0\.0"):
+        plugin.setup(cast(Worker, worker))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_distributed_the_extra_is_named(
+    grid: Path, native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sweeping, "find_spec", lambda name: None)
+    with pytest.raises(HarnessError, match=r"pip install 'slider-resonator\[cluster\]'"):
+        run_sweep(read_grid(grid), native_fmu, tmp_path / "a.csv", workers=1, dask="tcp://x:1")
+    assert not journal_path(tmp_path / "a.csv").exists(), "a sweep that cannot begin leaves nothing"

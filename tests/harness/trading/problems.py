@@ -1,7 +1,5 @@
 """Short problems that the tests of the trade share."""
 
-from __future__ import annotations
-
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trading.problem import Problem, problem_of
 from slider_resonator.trading.solution import WindowReadings, solution_of, windows
@@ -24,20 +22,6 @@ LUGRE = "[device]\nfriction_law = 1\nbristle_stiffness = 1e4\n"
 RAMP = """
 [inputs]
 load = { ramp = [[0.0, 0.0], [0.02, 0.1]] }
-[run]
-drive_periods = 16
-steps_per_period = 8
-"""
-TURNS_BACK = """
-[inputs]
-frequency_ratio = { ramp = [[0.0, 0.4], [0.02, -0.6]] }
-[run]
-drive_periods = 16
-steps_per_period = 8
-"""
-JUMPS = """
-[inputs]
-load = { steps = [[0.0, 0.0], [0.0101, 0.05]] }
 [run]
 drive_periods = 16
 steps_per_period = 8

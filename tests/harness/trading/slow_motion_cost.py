@@ -7,8 +7,6 @@ peak all along the run. Times of both are taken in turn; their ratio is the medi
 And over the steps of one run, 1000 drive periods each: what a step costs with either.
 """
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Callable, Mapping

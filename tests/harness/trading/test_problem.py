@@ -1,22 +1,21 @@
-"""The problem that every method solves."""
+"""The problem that every method solves, its reference, and errors of solutions."""
 
-from __future__ import annotations
-
-from math import pi
+from dataclasses import replace
+from math import inf, nan, pi
 
 import numpy as np
 import pytest
 
 from slider_resonator.references.resolved.simulate import simulate
-from slider_resonator.trading.problem import MIN_PERIODS
+from slider_resonator.trading.peer_methods import shoot
+from slider_resonator.trading.problem import MIN_PERIODS, Problem
+from slider_resonator.trading.reference import find_reference
+from slider_resonator.trading.solution import Solution, errors, windows
 from tests.harness.trading.problems import (
     BEAT,
-    JUMPS,
-    LUGRE,
     RAMP,
     SCAN,
     TABLE_1,
-    TURNS_BACK,
     problem,
 )
 
@@ -38,49 +37,12 @@ def test_the_full_device_is_the_reference_whatever_the_scene_asks_for() -> None:
     assert found.parameters == {}, "fidelity, law and tolerance are for the methods to set"
 
 
-def test_readings_are_windows_of_a_drive_period() -> None:
-    found = problem(LUGRE, max_periods=8)
-    assert found.horizons == (1, 2, 4, 8)
-    times = found.readings(4)
-    assert times[-1] == pytest.approx(4 * PERIOD)
-    assert found.windows(5) == (1, 2, 4)
-    assert not ((times > 2.001 * PERIOD) & (times < 2.999 * PERIOD)).any()
-
-
-def test_a_beat_is_at_the_difference_of_the_frequencies() -> None:
-    found = problem(BEAT)
-    assert found.beat == pytest.approx(0.05 * 3500.0 / (2.0 * pi))
-    assert found.steady, "21/20 repeats after twenty periods"
-
-
 def test_inputs_that_vary_allow_no_steady_motion() -> None:
     found = problem(RAMP)
     assert not found.constant
     assert not found.steady
     assert found.periods == 16, "the scene sets the duration of its inputs"
     assert found.lengths == (16,), "a method that stops earlier has not seen all of them"
-
-
-@pytest.mark.parametrize(
-    "device", ["friction_coefficient = 0.0", "normal_preload = 0.0\nnormal_amplitude = 0.0"]
-)
-def test_nothing_draws_a_slider_without_friction_into_a_steady_motion(device: str) -> None:
-    assert not problem(f"[device]\n{device}\n").steady
-
-
-def test_jumps_are_exact_for_every_method() -> None:
-    found = problem(JUMPS)
-    assert [(inputs.start, inputs.load) for inputs in found.lines(16)] == [
-        (0.0, 0.0),
-        (0.0101, 0.05),
-    ]
-
-
-def test_reference_and_peers_follow_ramps() -> None:
-    line, constant = problem(RAMP).lines(16)
-    assert (line.start, line.stop, line.load) == (0.0, 0.02, 0.0)
-    assert line.load_rate == pytest.approx(5.0)
-    assert (constant.load, constant.load_rate) == (0.1, 0.0), "from where the ramp ends"
 
 
 def test_a_drive_that_changes_is_held_over_the_steps_of_the_scene() -> None:
@@ -107,15 +69,76 @@ def test_a_window_is_a_period_of_the_drive_as_it_is() -> None:
     assert found.window(7)[[0, -1]] == pytest.approx(ends[6:8], rel=1e-12)
 
 
-def test_lines_that_turn_the_normal_load_back_are_the_limit_of_shorter_steps() -> None:
-    found = problem(TURNS_BACK)
-    times = np.array([16 * PERIOD])
-    (limit,) = simulate(found.device, found.lines(16), times).position
-    off = [
-        abs(
-            simulate(found.device, found.schedule(16, PERIOD / n).held(), times).position[0] - limit
-        )
-        for n in (16, 256)
-    ]
-    order = np.log(off[0] / off[1]) / np.log(16.0)
-    assert order == pytest.approx(1.0, abs=0.1), f"inputs held over steps are off by {off}"
+def test_table_1_by_a_run_and_by_shooting() -> None:
+    reference = find_reference(problem(TABLE_1, max_periods=2))
+    assert reference.steady_velocity == pytest.approx(0.12666700, rel=1e-7)
+    assert reference.blocking_force == pytest.approx(0.0851861, rel=1e-6)
+    assert not reference.sticks, "reversals follow each other without a stick"
+
+
+def test_any_integrator_can_be_shot_with() -> None:
+    table_1 = problem(TABLE_1)
+    _, found = shoot(table_1, "steady_velocity", simulate, 1e-9, inf)
+    assert found.value == pytest.approx(0.12666700, rel=1e-7)
+    assert 30 <= found.periods <= 100, "a long run needs thousands"
+    with pytest.raises(RuntimeError, match="more than its budget of 0 s"):
+        shoot(table_1, "steady_velocity", simulate, 1e-9, 0.0)
+
+
+@pytest.fixture
+def short() -> Problem:
+    return problem(TABLE_1, max_periods=4)
+
+
+def drifting(problem: Problem) -> Solution:
+    times = problem.readings(4)
+    wave = np.sin(problem.device.drive_frequency * times)
+    return Solution(times, 2.0 * times + 1e-6 * wave, 2.0 + 0.5 * wave, last_event=0.9 * times)
+
+
+def test_each_error_is_a_share_of_the_peak(short: Problem) -> None:
+    solution = drifting(short)
+    assert solution.last_event is not None
+    reference = windows(short, solution, 4)
+    late = replace(
+        solution,
+        position=1.01 * solution.position,
+        velocity=solution.velocity + 0.025,
+        last_event=solution.last_event + 1e-3 * short.period,
+    )
+    found = errors(short, late, reference, 4)
+    for name in ("position", "mean_velocity", "slow_displacement"):
+        assert found[name] == pytest.approx(0.01), name
+    assert found["velocity"] == pytest.approx(0.01)
+    assert found["event_times"] == pytest.approx(1e-3), "in drive periods"
+
+
+def test_a_shorter_run_is_compared_where_it_has_been(short: Problem) -> None:
+    solution = drifting(short)
+    early = solution.times <= 2.0001 * short.period
+    half = Solution(solution.times[early], solution.position[early], solution.velocity[early])
+    found = errors(short, half, windows(short, solution, 4), 2)
+    assert found["position"] == 0.0
+    assert "event_times" not in found, "a method that locates no events has no error of them"
+
+
+def test_values_that_are_not_finite_have_infinite_error(short: Problem) -> None:
+    solution = drifting(short)
+    broken = replace(solution, velocity=np.full_like(solution.velocity, nan))
+    assert errors(short, broken, windows(short, solution, 4), 4)["velocity"] == inf
+
+
+@pytest.mark.parametrize(("step", "reported"), [(1, True), (7, True), (10, False), (100, False)])
+def test_a_beat_needs_enough_samples(step: int, reported: bool) -> None:
+    beating = problem(BEAT)
+    assert beating.beat is not None
+    ends = beating.ends(1600)[::step]
+    history = (ends, np.sin(2.0 * np.pi * 1.001 * beating.beat * ends))
+    times = beating.readings(1600)
+    solution = Solution(times, times, np.ones_like(times), history=history)
+    found = errors(beating, solution, windows(beating, solution, 1600), 1600)
+    assert ("beat_frequency" in found) == reported, "twenty periods are a beat"
+    early = replace(solution, history=(history[0][:1], history[1][:1]))
+    assert "beat_frequency" not in errors(beating, early, windows(beating, solution, 1600), 1600)
+    if reported:
+        assert found["beat_frequency"] == pytest.approx(1e-3, rel=1e-3)

@@ -1,7 +1,5 @@
 """Second-order averages are far cheaper than resolved motion, all costs of a long run counted."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -15,11 +13,6 @@ def test_the_list_shows_names_and_diffs(python_fmu: Path) -> None:
     assert result.exit_code == 0, result.output
     assert result.output.count("--- budget.py") == 3
     assert "3 variants" in result.output
-
-
-def test_kinds_can_be_chosen(python_fmu: Path) -> None:
-    result = call("mutants", python_fmu, "--list", "--json", "--kind", "sign", "--kind", "unit")
-    assert {m["kind"] for m in json.loads(result.output)["mutants"]} == {"sign", "unit"}
 
 
 def test_the_list_as_json(python_fmu: Path) -> None:
@@ -51,16 +44,6 @@ def test_mutation_runs_that_cannot_start_are_refused(python_fmu: Path, tmp_path:
         ([python_fmu, "--file", "__init__.py"], "nothing to change"),
     ):
         assert reason in refused("mutants", *arguments)
-
-
-def test_native_changes_are_listed(native_fmu: Path) -> None:
-    result = call("mutants", native_fmu, "--native", "--list", "--file", "lugre.c")
-    assert result.exit_code == 0, result.output
-    assert "tolerance_ignored [fault]" in result.output
-    assert "tighter_series [harmless]" in result.output
-    result = call("mutants", native_fmu, "--native", "--list", "--json", "--sample", "5")
-    assert_public_keys("mutants --native --list", result.output)
-    assert len(json.loads(result.output)["changes"]) == 5
 
 
 @pytest.mark.isolated

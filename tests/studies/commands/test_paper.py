@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import json
 from contextlib import nullcontext
 from pathlib import Path
@@ -19,14 +17,6 @@ def test_figures_are_written_and_listed_as_json(native_fmu: Path, tmp_path: Path
     assert json.loads(result.stdout)["run"] == ["figure_7"]
     assert (tmp_path / "figure_7.svg").is_file()
     assert "figure_7" in (tmp_path / "FIGURES.md").read_text(encoding="utf-8")
-
-
-@pytest.mark.parametrize(
-    "arguments", [["--only", "figure_6"], ["--fmu", "missing.fmu", "--only", "figure_3"]]
-)
-def test_what_cannot_run_exits_with_2(arguments: list[str], tmp_path: Path) -> None:
-    result = call("paper", "--out", tmp_path, *arguments)
-    assert result.exit_code == 2
 
 
 def in_process(monkeypatch: pytest.MonkeyPatch) -> None:

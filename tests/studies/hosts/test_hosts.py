@@ -1,11 +1,53 @@
-from __future__ import annotations
+"""Hosts: what is missing is named, and their answers are compared."""
 
+import math
+import re
+import subprocess
+import sys
+import zipfile
 from pathlib import Path
 
 import pytest
 
+from slider_resonator.device.interface import INPUTS, OUTPUTS
 from slider_resonator.errors import HarnessError
-from studies.hosts.hosts import hosts, package_version, wine_version
+from slider_resonator.output import markdown
+from studies.hosts.compiler import (
+    SOURCES,
+    compile_program,
+    native_compiler,
+)
+from studies.hosts.hosts import Host, hosts, package_version
+from studies.hosts.job import (
+    HostAnswer,
+    Job,
+    Rows,
+    describe,
+    read_answers,
+    serve,
+    write_jobs,
+)
+from studies.hosts.runs import (
+    ALLOWED,
+    CASES,
+    FMI_3,
+    HostComparison,
+    HostResult,
+    compare,
+    coupled,
+    run_jobs,
+    table_1_jobs,
+)
+from studies.hosts.step_cost import (
+    LONG_STEP,
+    ONE_PERIOD,
+    STEPS,
+    StepCost,
+    measure_steps,
+    short_step_ratio,
+)
+from studies.hosts.table import BEGIN, COLUMNS, END, host_table
+from tests.processes import has_ended
 
 
 def test_a_package_that_is_missing_is_named_with_what_installs_it() -> None:
@@ -19,7 +61,200 @@ def test_an_environment_that_is_missing_is_named_with_what_creates_it(tmp_path: 
         cofmupy.version()
 
 
-def test_wine_that_is_missing_is_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(HarnessError, match=r"wine: not found.*`make hosts`"):
-        wine_version()
+def test_the_driver_compiles_without_warnings_and_prints_its_usage(tmp_path: Path) -> None:
+    driver = compile_program(native_compiler(), SOURCES / "driver.c", tmp_path / "driver")
+    done = subprocess.run([driver], capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert "usage: driver LIBRARY GUID RESOURCES" in done.stderr
+
+
+JOB = Job(
+    fmu="slider.fmu",
+    start={"fidelity": 2, "damping_ratio": 0.1},
+    inputs={"phase": [0.4, 0.9], "load": [0.0, 0.05]},
+    step=1e-3,
+    outputs=["velocity"],
+)
+
+
+def served(
+    run: object, jobs: list[Job], folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> list[HostAnswer]:
+    asked, answered = folder / "jobs.json", folder / "answers.jsonl"
+    write_jobs(asked, jobs)
+    monkeypatch.setattr(sys, "argv", ["host", str(asked), str(answered)])
+    serve(run)  # type: ignore[arg-type]
+    return read_answers(answered)
+
+
+def test_jobs_and_answers_survive_the_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen = []
+
+    def run(job: Job) -> Rows:
+        seen.append(job)
+        return [[0.1 + 0.2, -1e-300]]
+
+    assert (
+        served(run, [JOB, JOB], tmp_path, monkeypatch) == [HostAnswer([[0.1 + 0.2, -1e-300]])] * 2
+    )
+    assert seen == [JOB, JOB]
+    assert isinstance(seen[0].start["fidelity"], int), "Integers stay integers"
+
+
+def test_an_error_answers_its_own_job_only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    numbers = iter(range(2))
+
+    def run(job: Job) -> Rows:
+        if next(numbers) == 0:
+            raise ValueError("load = nan refused")
+        return [[1.0]]
+
+    assert served(run, [JOB, JOB], tmp_path, monkeypatch) == [
+        HostAnswer([], "ValueError: load = nan refused"),
+        HostAnswer([[1.0]]),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("version", "token", "tag"),
+    [("2.0", "guid", "ScalarVariable"), ("3.0", "instantiationToken", "Float64")],
+)
+def test_a_description_is_read_without_any_package(
+    tmp_path: Path, version: str, token: str, tag: str
+) -> None:
+    fmu = tmp_path / "some.fmu"
+    with zipfile.ZipFile(fmu, "w") as archive:
+        archive.writestr(
+            "modelDescription.xml",
+            f'<fmiModelDescription fmiVersion="{version}" {token}="g">'
+            '<CoSimulation modelIdentifier="i"/><ModelVariables>'
+            f'<{tag} name="a" valueReference="7"/>'
+            f'<{tag} name="b" valueReference="3"/></ModelVariables></fmiModelDescription>',
+        )
+    description = describe(str(fmu))
+    assert description.version == version
+    assert (description.guid, description.identifier) == ("g", "i")
+    assert description.refer(["b", "a"]) == [3, 7]
+
+
+FMU = Path("some.fmu")
+
+
+def host(folder: Path, script: str) -> Host:
+    """A host whose interpreter is a shell script with the arguments -P -m MODULE JOBS ANSWERS."""
+    program = folder / "host"
+    program.write_text(f"#!/bin/sh\n{script}\n")
+    program.chmod(0o755)
+    return Host("broken", "broken_host", lambda: "1", program)
+
+
+def test_every_case_is_run_and_every_input_changes() -> None:
+    jobs = table_1_jobs(FMU)
+    assert {(job.start["friction_law"], job.start["fidelity"]) for job in jobs} == {
+        (law, fidelity) for law in (0, 1) for fidelity in (0, 1, 2)
+    }
+    for job in jobs:
+        assert list(job.inputs) == list(INPUTS)
+        assert all(len(set(values)) == 2 for values in job.inputs.values())
+        assert {len(values) for values in job.inputs.values()} == {job.steps}
+        assert list(job.outputs) == list(OUTPUTS)
+
+
+def test_a_host_that_dies_leaves_the_answers_before(tmp_path: Path) -> None:
+    answer = '{"rows": [[1.0]], "error": null}'
+    broken = host(tmp_path, f"echo '{answer}' > \"$5\"; echo 'cannot go on' >&2; exit 3")
+    first, second, *_ = answers = run_jobs(broken, table_1_jobs(FMU))
+    assert len(answers) == len(CASES)
+    assert first == HostAnswer([[1.0]])
+    assert second.error == "the host ended with 3: cannot go on"
+
+
+def test_a_host_that_hangs_is_ended_with_all_it_started(tmp_path: Path) -> None:
+    pid_file = tmp_path / "pid"
+    hanging = host(tmp_path, f"sleep 600 & echo $! > {pid_file}; wait")
+    (answer,) = run_jobs(hanging, table_1_jobs(FMU)[:1], time_limit=2.0)
+    assert answer.error is not None
+    assert answer.error.startswith("the host was ended after 2 s")
+    assert has_ended(int(pid_file.read_text()))
+
+
+def test_deviations_count_in_shares_of_each_peak() -> None:
+    ours = [[2.0, 0.0], [-4.0, 0.0]]
+    assert compare(ours, HostAnswer(ours)).deviation == 0.0
+    other = compare(ours, HostAnswer([[2.0, 0.0], [-4.0, 1e-12]]))
+    assert other.deviation == 1e-12, "a signal without peak counts as it is"
+    assert other.passed
+    wrong = compare(ours, HostAnswer([[2.0 + 1e-9, 0.0], [-4.0, 0.0]]))
+    assert wrong.deviation == pytest.approx(2.5e-10)
+    assert not wrong.passed
+    assert ALLOWED == 1e-11
+
+
+def test_an_answer_that_cannot_be_compared_fails() -> None:
+    refused = compare([[1.0]], HostAnswer([], "load = nan refused"))
+    assert refused.error == "load = nan refused"
+    short = compare([[1.0], [2.0]], HostAnswer([[1.0]]))
+    assert short.error == "(1, 1) values, not (2, 1)"
+    not_a_number = compare([[1.0]], HostAnswer([[math.nan]]))
+    assert not any(found.passed for found in (refused, short, not_a_number))
+
+
+def test_the_leaders_blocking_force_becomes_the_load() -> None:
+    jobs = table_1_jobs(FMU)[:1]
+    row = [0.0] * len(OUTPUTS)
+    row[list(OUTPUTS).index("blocking_force")] = 0.07
+    (job,) = coupled(jobs, [[row] * jobs[0].steps])
+    assert set(job.inputs["load"]) == {0.07}
+    assert job.inputs["phase"] == jobs[0].inputs["phase"]
+
+
+PAGE = Path(__file__).parents[3] / "docs" / "hosts.md"
+RESULT = HostResult(
+    "a host",
+    "1.2",
+    "native",
+    dict.fromkeys(CASES, HostComparison(0.0)) | {CASES[1]: HostComparison(3e-14)},
+)
+
+
+def test_a_row_says_host_version_fmu_and_each_deviation() -> None:
+    assert markdown.rendered(host_table([RESULT])).splitlines() == [
+        "| host | version | FMU | "
+        "Coulomb 2 | Coulomb 1 | Coulomb 0 | LuGre 2 | LuGre 1 | LuGre 0 |",
+        "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |",
+        "| a host | 1.2 | native | 0 | 3e-14 | 0 | 0 | 0 | 0 |",
+    ]
+
+
+def test_the_table_of_the_page_is_one_that_this_code_writes() -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    between = text.partition(BEGIN)[2].partition(END)[0].strip().splitlines()
+    head, _, *rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in between]
+    assert head == [column.heading for column in COLUMNS]
+    found: dict[str, list[str]] = {}
+    for name, version, fmu, *deviations in rows:
+        assert version, f"the version of {name} is missing"
+        assert len(deviations) == len(CASES)
+        for deviation in deviations:
+            assert re.fullmatch(r"0|\de-\d\d", deviation), f"{name}: {deviation} is no agreement"
+        found.setdefault(name, []).append(fmu)
+    assert list(found) == [host.name for host in hosts()]
+    for host in hosts():
+        fmus = ["native", "Python"] if host.loads_python else ["native"]
+        fmus += [FMI_3] if host.loads_fmi_3 else []
+        assert found[host.name] == (["native behind Python"] if host.couples else fmus)
+
+
+@pytest.mark.slow
+def test_every_step_is_timed(native_fmu: Path) -> None:
+    costs = measure_steps(native_fmu, 1, lambda name, share: None, 60.0)
+    assert [cost.name for cost in costs] == [step.name for step in STEPS]
+    assert all(0.0 < cost.fastest <= cost.microseconds <= cost.slowest for cost in costs)
+
+
+def test_short_steps_are_compared_with_long_ones_per_period() -> None:
+    short = StepCost(ONE_PERIOD, 1, microseconds=0.9, fastest=0.6, slowest=2.0)
+    long = StepCost(LONG_STEP, 1, microseconds=70.0, fastest=50.0, slowest=90.0)
+    assert short_step_ratio([short, long]) == pytest.approx(1.2)

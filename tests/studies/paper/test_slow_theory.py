@@ -1,4 +1,4 @@
-from __future__ import annotations
+"""The averaged theory of the paper: against quadrature, its limits and its figures."""
 
 import math
 from collections.abc import Callable
@@ -39,15 +39,6 @@ def test_steady_velocity_balances_the_averaged_friction(
 
     mean = _mean(friction, math.acos(velocity / strength))
     assert mean == pytest.approx(-load, abs=1e-9), "(20): mean friction and load cancel"
-
-
-def test_velocity_is_largest_in_quadrature_and_odd_in_phase() -> None:
-    velocities = [
-        theory.steady_velocity(1.0, 1.0, phase) for phase in (0.0, 0.5, math.pi / 2, 2.5, -0.5)
-    ]
-    assert max(velocities) == velocities[2], "the paper finds the greatest velocity at phase pi/2"
-    assert velocities[0] == pytest.approx(0.0, abs=1e-12), "no phase, no direction"
-    assert velocities[4] == pytest.approx(-velocities[1]), "a negative phase moves backward"
 
 
 def test_linear_velocity_is_the_limit_of_the_steady_velocity() -> None:
@@ -105,26 +96,10 @@ def test_slow_manifold_friction_matches_quadrature(velocity: float) -> None:
     assert theory.slow_manifold_friction(velocity, CASE) == pytest.approx(expected, abs=1e-9)
 
 
-def test_friction_saturates_without_reversals() -> None:
-    for velocity in (-2.0, -0.8, 0.8, 2.0):
-        assert theory.slow_manifold_friction(velocity, CASE) == pytest.approx(
-            math.copysign(CASE.friction_coefficient, velocity), rel=1e-12
-        ), "all LuGre friction is mu N in steady sliding one way"
-
-
 def test_steady_velocity_of_the_paper_case() -> None:
     velocity = theory.lugre_steady_velocity(LugreCase())
     assert velocity == pytest.approx(0.50827, abs=5e-6)
     assert theory.slow_manifold_friction(velocity, LugreCase()) == pytest.approx(0.0, abs=1e-12)
-
-
-def test_lugre_friction_holds_loads_above_sliding_friction() -> None:
-    case = LugreCase()
-    load = 0.45
-    assert case.friction_coefficient < load < theory.lugre_blocking_load(case)
-    velocity = theory.lugre_steady_velocity(case, load)
-    assert 0.0 < velocity < 0.2, "below the blocking load the slider still moves ahead"
-    assert theory.slow_manifold_friction(velocity, case) + load == pytest.approx(0.0, abs=1e-12)
 
 
 def test_lugre_blocking_load_stops_the_motion() -> None:

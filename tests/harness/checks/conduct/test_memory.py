@@ -1,7 +1,5 @@
 """Memory that an FMU keeps is noticed."""
 
-from __future__ import annotations
-
 import ctypes
 import sys
 

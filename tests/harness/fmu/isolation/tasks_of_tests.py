@@ -1,7 +1,5 @@
 """Tasks that the tests run in the process of an FMU, which imports this module."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess
@@ -94,10 +92,6 @@ def start_daemon(instance: Instance, pid_file: Path) -> None:
             os._exit(0)
         time.sleep(600.0)
     os.wait()
-
-
-def working_folder(instance: Instance) -> str:
-    return os.getcwd()
 
 
 def print_much(instance: Instance) -> None:

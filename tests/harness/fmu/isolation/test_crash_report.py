@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import pytest
 
 from slider_resonator.fmu.isolation.crash_report import crash_report, missed_limit
@@ -40,12 +38,6 @@ def test_printed_text_is_not_taken_for_a_traceback() -> None:
     printed = TRACE.replace("Fatal Python error: Aborted", "Timeout (0:01:00)!")
     assert crash_report(printed, "", Ending(1), 60.0).startswith(
         "the FMU crashed: its process ended with exit code 1; it printed: Timeout"
-    )
-
-
-def test_an_ending_without_a_trace_is_reported_by_its_code() -> None:
-    assert crash_report("", "", Ending(3), 60.0) == (
-        "the FMU crashed: its process ended with exit code 3"
     )
 
 

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -9,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.errors import FmuError, Refusal
+from slider_resonator.errors import Refusal
 from slider_resonator.fmu.isolation import process
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from tests.harness.fmu.isolation import tasks_of_tests as tasks
@@ -31,12 +29,6 @@ def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def isolated(native_fmu: Path) -> Iterator[IsolatedFmu]:
     with IsolatedFmu(native_fmu, 60.0) as made:
         yield made
-
-
-def test_tasks_share_one_instance_and_return_results(isolated: IsolatedFmu) -> None:
-    first = isolated.run(partial(tasks.position_after, time=0.01))
-    assert first != 0.0
-    assert isolated.run(partial(tasks.position_after, time=0.01)) == first
 
 
 def test_an_error_keeps_its_type_and_the_process_goes_on(isolated: IsolatedFmu) -> None:
@@ -87,14 +79,6 @@ def test_a_crash_of_fmi_3_names_its_function(native_3_fmu: Path) -> None:
         isolated.run(tasks.crash_in_step_of_fmi_3)
 
 
-def test_a_task_has_a_time_limit(native_fmu: Path) -> None:
-    with (
-        pytest.raises(FmuDied, match="within the time limit of 1 s"),
-        IsolatedFmu(native_fmu, 1.0) as isolated,
-    ):
-        isolated.run(tasks.hang)
-
-
 def test_a_process_that_does_not_end_itself_is_killed(
     native_fmu: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -128,21 +112,7 @@ def test_a_process_that_has_left_the_session_is_ended(native_fmu: Path, tmp_path
     assert has_ended(int(pid_file.read_text()))
 
 
-def test_the_fmu_runs_in_a_folder_of_its_own(isolated: IsolatedFmu, temporary: Path) -> None:
-    folder = Path(isolated.run(tasks.working_folder))
-    assert folder != Path.cwd()
-    assert not list(folder.iterdir())
-    isolated.kill()
-    assert not folder.exists()
-
-
 def test_what_an_fmu_prints_is_limited(isolated: IsolatedFmu) -> None:
     with pytest.raises(RuntimeError, match="File too large"):
         isolated.run(tasks.print_much)
     assert isolated.run(partial(tasks.position_after, time=0.01)) != 0.0
-
-
-def test_an_fmu_that_cannot_be_used(tmp_path: Path, temporary: Path) -> None:
-    with pytest.raises(FmuError, match="no such file"):
-        IsolatedFmu(tmp_path / "none.fmu", 60.0)
-    assert not list(temporary.iterdir())

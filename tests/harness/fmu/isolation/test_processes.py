@@ -1,7 +1,5 @@
 """Tasks shared by several processes of an FMU, with the outcomes of one that runs them in turn."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from contextlib import closing
 from functools import partial
@@ -112,12 +110,3 @@ def test_a_run_that_is_left_ends_the_tasks_at_work(native_fmu: Path, opened: lis
         assert len(opened) == 2
         began = monotonic()
     assert monotonic() - began < 10.0
-
-
-def test_tasks_of_a_name_that_has_crashed_are_not_run(
-    native_fmu: Path, opened: list[float]
-) -> None:
-    given: list[tuple[str, Task]] = [("a", ABORT), *[("a", tasks_of_tests.hang)] * 3, ("b", MOVE)]
-    finished = list(run_tasks(native_fmu, given, 60.0, name=str))
-    assert [one.item for one in finished] == ["a", "b"]
-    assert len(opened) == 2

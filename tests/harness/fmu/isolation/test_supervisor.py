@@ -1,7 +1,5 @@
 """How soon the supervisor sees what a program has started."""
 
-from __future__ import annotations
-
 import select
 import socket
 import time

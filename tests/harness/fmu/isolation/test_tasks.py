@@ -1,7 +1,5 @@
 """Which tasks are run, and how often, where an FMU dies; the processes are tested beside this."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from functools import partial

@@ -1,16 +1,24 @@
-from __future__ import annotations
+"""Averaged motion: its order, its inputs and where it holds."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from numpy.polynomial import Polynomial
 
+from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
-from slider_resonator.references.averaged.device_average import steady_velocity
+from slider_resonator.references.averaged.averaged_motion import (
+    AveragedMotion,
+    simulate_averaged,
+)
+from slider_resonator.references.averaged.averaged_outputs import AveragedOutputs, averaged_outputs
+from slider_resonator.references.averaged.device_average import prediction_valid, stable_velocity
+from slider_resonator.references.averaged.slow_trajectory import slide_of_block, slow_trajectory
 from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
@@ -81,67 +89,12 @@ def test_error_falls_with_the_drive_frequency(name: str) -> None:
     assert errors[1] < 0.4 * errors[0], f"errors {errors} must fall as 1 / Omega"
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("device", [COULOMB, BRISTLES], ids=["Coulomb", "LuGre"])
-def test_input_changes_act_at_once(device: Device) -> None:
-    device = replace(
-        device,
-        friction_coefficient=STRONG_FRICTION,
-        initial_position=0.01,
-        initial_velocity=0.05,
-        initial_resonator_displacement=1e-3,
-        initial_resonator_velocity=-1.0,
-    )
-    held = [
-        HeldInputs(0.0, 40.3 * PERIOD, phase=0.3),
-        HeldInputs(40.3 * PERIOD, 70.9 * PERIOD, phase=0.3, load=0.5, frequency_ratio=3.02),
-        HeldInputs(70.9 * PERIOD, 120.0 * PERIOD, phase=-1.0, frequency_ratio=0.97),
-    ]
-    averaged, resolved = both(at_factor(device, 3.0), held, 240)
-    fast = equivalent_force(device).velocity_amplitude
-    deviation = np.abs(averaged.position - resolved.position).max()
-    assert deviation < 0.005 * fast * 120.0 * PERIOD, "the same way in each stretch of inputs"
-    late = averaged.time > 20.0 * PERIOD
-    deviation = np.abs(averaged.velocity - resolved.velocity)[late].max()
-    assert deviation < 0.02 * fast, "the fast motion is that of (34) once the resonator is steady"
-
-
-def test_averaged_motion_starts_with_the_momentum_of_the_drive() -> None:
-    device = replace(COULOMB, initial_position=0.2, initial_velocity=0.3)
-    motion = simulate_averaged(device, [HeldInputs(0.0, 1e-9)], np.array([0.0, 1e-9]))
-    assert (motion.position[0], motion.velocity[0]) == (0.2, 0.3)
-    assert motion.mean_velocity == pytest.approx(0.3 + 0.1 * 0.35 / 1.1, rel=1e-6), (
-        "V is the initial velocity plus m A w / (M + m)"
-    )
-
-
-@pytest.mark.parametrize("load", [0.0, 0.06])
-def test_averaged_motion_settles_at_the_steady_velocity(load: float) -> None:
-    held = [HeldInputs(0.0, 60.0, 0.4, load)]
-    for device, velocity in (
-        (COULOMB, steady_velocity(COULOMB, 0.4, load, 1.0)),
-        (BRISTLES, steady_velocity(BRISTLES, 0.4, load, 1.0)),
-    ):
-        motion = simulate_averaged(device, held, np.array([60.0]))
-        assert motion.mean_velocity[0] == pytest.approx(velocity, rel=1e-6)
-
-
 def test_phase_is_slow_up_to_a_detuning_of_one_tenth() -> None:
     held = [HeldInputs(0.0, 1.0, 0.4, frequency_ratio=ratio) for ratio in (1.0999, 1.1001)]
     times = np.linspace(0.0, 1.0, 400)
     beating, still = (simulate_averaged(COULOMB, [inputs], times) for inputs in held)
     assert (np.diff(still.mean_velocity) < 0.0).all(), "without a slow phase V only decays"
     assert (np.diff(beating.mean_velocity) > 0.0).any(), "with one it swings"
-
-
-def test_splitting_the_inputs_changes_nothing() -> None:
-    whole = [HeldInputs(0.0, 1.0, 0.4, frequency_ratio=1.004)]
-    cuts = np.linspace(0.0, 1.0, 12).tolist()
-    pieces = [replace(whole[0], start=start, stop=stop) for start, stop in pairwise(cuts)]
-    times = np.linspace(0.0, 1.0, 301)
-    one, other = (simulate_averaged(BRISTLES, held, times) for held in (whole, pieces))
-    for name in ("position", "velocity", "mean_velocity"):
-        assert getattr(other, name) == pytest.approx(getattr(one, name), abs=1e-7), name
 
 
 def test_invalid_averages_are_refused() -> None:
@@ -152,3 +105,161 @@ def test_invalid_averages_are_refused() -> None:
         simulate_averaged(COULOMB, held, np.array([2.0]))
     with pytest.raises(ValueError, match="at least one interval"):
         simulate_averaged(COULOMB, [], np.array([1.0]))
+
+
+DEVICE = Device(fidelity=0, normal_amplitude=1.3)
+HELD = [
+    HeldInputs(0.0, 20.3 * PERIOD, phase=0.4),
+    HeldInputs(20.3 * PERIOD, 40.0 * PERIOD, phase=2.0, load=0.02, frequency_ratio=2.0),
+]
+TIMES = np.linspace(0.0, 40.0 * PERIOD, 4001)
+
+
+def outputs_of(device: Device, held: list[HeldInputs] = HELD) -> AveragedOutputs:
+    return averaged_outputs(device, held, simulate_averaged(device, held, TIMES))
+
+
+@pytest.mark.parametrize("law", [0, 1])
+def test_friction_and_load_are_the_rate_of_momentum(law: int) -> None:
+    device = replace(DEVICE, friction_law=law, friction_faces=1)
+    held = HELD[:1]
+    times = np.linspace(0.0, held[0].stop, 201)
+    motion = simulate_averaged(device, held, times)
+    friction = averaged_outputs(device, held, motion).friction_force
+    impulse = np.sum(0.5 * (friction[1:] + friction[:-1]) * np.diff(times))
+    change = motion.mean_velocity[-1] - motion.mean_velocity[0]
+    assert device.total_mass * change == pytest.approx(-impulse, rel=1e-4)
+
+
+def test_a_block_is_held_by_what_the_load_needs() -> None:
+    block = replace(DEVICE, base_amplitude=0.0, normal_amplitude=0.5)
+    held = [HeldInputs(0.0, HELD[-1].stop, load=0.07)]
+    assert outputs_of(block, held).friction_force == pytest.approx(np.full(4001, -0.07))
+    sliding = replace(block, initial_velocity=-1.0)
+    assert outputs_of(sliding, held).friction_force == pytest.approx(np.full(4001, -0.2))
+
+
+STOP = 0.3
+RAMP_TIMES = np.linspace(0.0, STOP, 40)
+LINE = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, phase_rate=2.0, load_rate=0.3)
+LOAD = replace(LINE, phase_rate=0.0)
+CLOSED = Device(fidelity=0)
+FLIES = replace(CLOSED, normal_amplitude=1.4)
+LUGRE = replace(CLOSED, friction_law=1, bristle_stiffness=1e4)
+
+
+def first_order(device: Device, held: Sequence[HeldInputs], times: Array) -> Array:
+    return simulate_averaged(device, held, times).position
+
+
+def staircase(line: HeldInputs, count: int) -> list[HeldInputs]:
+    size = STOP / count
+    return [
+        replace(
+            line.later((i + 0.5) * size),
+            start=i * size,
+            stop=(i + 1) * size,
+            phase_rate=0.0,
+            load_rate=0.0,
+            ratio_rate=0.0,
+        )
+        for i in range(count)
+    ]
+
+
+@pytest.mark.parametrize("device", [CLOSED, LUGRE])
+def test_held_steps_tend_to_the_line(device: Device) -> None:
+    line = first_order(device, [LINE], RAMP_TIMES)
+    errors = [
+        np.abs(first_order(device, staircase(LINE, n), RAMP_TIMES) - line).max() for n in (10, 40)
+    ]
+    assert errors[1] < errors[0] / 10.0
+    assert errors[1] < 1e-4 * np.abs(line).max()
+
+
+@pytest.mark.parametrize(("device", "rate", "order"), [(CLOSED, 0.5, 1.8), (FLIES, 0.9, 0.0)])
+def test_held_steps_tend_to_a_ratio_that_grows(device: Device, rate: float, order: float) -> None:
+    """Of second order within a slow phase; at its edges friction jumps."""
+    growing = HeldInputs(0.0, STOP, 0.2, 0.01, 0.93, ratio_rate=rate)
+    line = first_order(device, [growing], RAMP_TIMES)
+    errors = [
+        np.abs(first_order(device, staircase(growing, n), RAMP_TIMES) - line).max()
+        for n in (100, 400)
+    ]
+    assert order == 0.0 or errors[1] < errors[0] / 4.0**order
+    assert errors[1] < 1e-3 * np.abs(line).max()
+
+
+def test_ramps_that_are_not_covered_are_refused() -> None:
+    block = replace(CLOSED, base_amplitude=0.0)
+    with pytest.raises(ValueError, match=r"load_rate = 0\.3: must be 0"):
+        simulate_averaged(block, [LOAD], RAMP_TIMES)
+
+
+BLOCK_TIMES = np.linspace(0.0, 1.0, 11)
+
+
+def test_it_slides_to_rest_and_stays() -> None:
+    moved, velocity = slide_of_block(0.2, 0.3, 0.1, 1.0, BLOCK_TIMES)
+    assert velocity == pytest.approx(np.maximum(0.0, 0.2 - 0.4 * BLOCK_TIMES))
+    assert moved[-1] == pytest.approx(0.5 * 0.2**2 / 0.4)
+
+
+@pytest.mark.parametrize("load", [0.3, -0.2, 0.0])
+def test_friction_holds_it_at_rest(load: float) -> None:
+    moved, velocity = slide_of_block(0.0, 0.3, load, 1.0, BLOCK_TIMES)
+    assert not moved.any()
+    assert not velocity.any()
+
+
+def test_monotonic_friction_has_one_velocity() -> None:
+    assert stable_velocity(lambda v: v - 0.2, 1.0, 0.1) == pytest.approx(0.1, abs=1e-12)
+
+
+def test_forward_one_of_two_stable_velocities_is_returned() -> None:
+    """v^3 - 0.25 v has its stable roots at +-0.5; the shift says where the slider sets off."""
+    for shift, side in ((-1e-6, 1.0), (1e-6, -1.0)):
+        cubic = Polynomial([shift, -0.25, 0.0, 1.0])
+        found = stable_velocity(cubic, 1.0, 0.0)
+        assert found == pytest.approx(side * 0.5, abs=1e-4)
+
+
+def test_trajectory_decays_toward_a_terminal_velocity() -> None:
+    times = np.linspace(0.0, 3.0, 7)
+    position, velocity = slow_trajectory(lambda time, v: 1.0 - v, times, velocity=0.5)
+    assert velocity == pytest.approx(1.0 - 0.5 * np.exp(-times), abs=1e-6)
+    assert position == pytest.approx(times - 0.5 * (1.0 - np.exp(-times)), abs=1e-6)
+
+
+TABLE_1 = Device()
+
+
+def test_a_load_of_full_friction_is_the_limit() -> None:
+    assert prediction_valid(TABLE_1, 0.0, 0.1999, 1.0)
+    assert not prediction_valid(TABLE_1, 0.0, 0.2001, 1.0)
+    lifting = replace(TABLE_1, normal_preload=0.0)
+    assert prediction_valid(lifting, 0.0, 0.199 / math.pi, 1.0), "its mean over a turn counts"
+    assert not prediction_valid(lifting, 0.0, 0.201 / math.pi, 1.0)
+    assert prediction_valid(TABLE_1, math.pi / 2.0, 0.39, 0.0), "at ratio 0 the load that stands"
+
+
+def test_no_vibration_no_prediction() -> None:
+    assert not prediction_valid(replace(TABLE_1, base_amplitude=0.0), 0.0, 0.0, 1.0)
+    free = math.sqrt(TABLE_1.slider_mass / TABLE_1.total_mass) * TABLE_1.drive_frequency
+    resonant = replace(TABLE_1, damping_ratio=0.0, resonator_frequency=free)
+    assert not prediction_valid(resonant, 0.0, 0.0, 1.0)
+    assert prediction_valid(replace(resonant, resonator_frequency=3500.0), 0.0, 0.0, 1.0)
+
+
+def test_a_load_beyond_friction_takes_the_slider_through_the_vibration() -> None:
+    """In one line or in many, though the integrator may step far where friction is constant."""
+    device = Device(fidelity=0, friction_coefficient=0.75948, initial_velocity=0.45596)
+    line = HeldInputs(0.0, 0.1394, -1.758, 4.3372, 1.0, load_rate=-60.69)
+    times = np.array([0.0, 0.1394])
+    cuts = np.linspace(0.0, 0.1394, 101)
+    parts = [
+        replace(line.later(float(start)), start=float(start), stop=float(stop))
+        for start, stop in pairwise(cuts)
+    ]
+    whole, fine = (first_order(device, held, times)[-1] for held in ([line], parts))
+    assert whole == pytest.approx(fine, rel=1e-8)

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -9,7 +7,7 @@ import pytest
 from slider_resonator.device.device import Device
 from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.contact import LIFTED, SLIP_FORWARD, STICK
-from slider_resonator.references.resolved.equations import Instant, equations_of, initial_state
+from slider_resonator.references.resolved.equations import Instant, equations_of
 
 TABLE_1 = Device()
 DIRECT = replace(TABLE_1, tangential_force=0.7)
@@ -47,17 +45,6 @@ def test_stuck_slider_leaves_the_resonator_its_own_equation() -> None:
     assert slopes[3] == pytest.approx(own), "(27) with X'' = 0"
 
 
-@pytest.mark.parametrize(
-    ("velocity", "direction"), [(0.1, 1.0), (-0.1, -1.0), (0.0, 0.0)], ids=["+", "-", "rest"]
-)
-def test_friction_without_a_mode_follows_the_sign_of_velocity(
-    velocity: float, direction: float
-) -> None:
-    state = np.array([0.0, velocity, 0.0, 0.0])
-    slopes = equations_of(TABLE_1).slopes(None, Instant(0.0, ANGLE, 0.0, 0.0, 1.0, 0.0))(0.0, state)
-    assert slopes[1] == pytest.approx(-direction * 0.2 * (1.0 + math.sin(ANGLE)))
-
-
 def test_contact_forces_of_each_mode() -> None:
     equations = equations_of(replace(DIRECT, normal_amplitude=2.0))
     theta, angle = np.array([THETA]), np.array([ANGLE])
@@ -84,35 +71,6 @@ def test_fidelity_1_has_the_equivalent_force_of_the_closed_forms(device: Device)
     assert displacement == pytest.approx(force.resonator_amplitude * np.sin(turned), rel=1e-9)
     assert velocity == pytest.approx(3500.0 * force.resonator_amplitude * np.cos(turned), rel=1e-9)
     assert equations.inertia == 1.1, "slider and resonator move as one in (33)"
-
-
-def test_initial_state_keeps_the_momentum_of_the_pair() -> None:
-    """In fidelity 1 the resonator vibrates at once, as it does in the end without friction."""
-    device = Device(
-        initial_position=1.0,
-        initial_velocity=2.0,
-        initial_resonator_displacement=3.0,
-        initial_resonator_velocity=4.0,
-    )
-    assert initial_state(device) == (1.0, 2.0, 3.0, 4.0)
-    force = equivalent_force(device)
-    rate = force.resonator_amplitude * 3500.0 * math.cos(force.resonator_angle)
-    position, velocity, *idle = initial_state(replace(device, fidelity=1))
-    assert (position, *idle) == (1.0, 0.0, 0.0)
-    assert 1.1 * velocity + 0.1 * rate == pytest.approx(1.1 * 2.0 + 0.1 * 4.0, rel=1e-13)
-
-
-@pytest.mark.parametrize(
-    ("damping_ratio", "rate"), [(0.0, 3500.0 * math.sqrt(11.0)), (2.0, None)], ids=["0", "over"]
-)
-def test_fastest_rate_is_that_of_the_resonator_on_a_free_slider(
-    damping_ratio: float, rate: float | None
-) -> None:
-    device = Device(slider_mass=0.01, damping_ratio=damping_ratio)
-    equations = equations_of(device)
-    roots = np.roots([1.0, 2.0 * damping_ratio * 3500.0 * 11.0, 3500.0**2 * 11.0])
-    assert equations.fastest_rate(1.0) == pytest.approx(rate or np.abs(roots).max())
-    assert equations.fastest_rate(-1e3) == pytest.approx(3.5e6), "or that of the normal load"
 
 
 @pytest.mark.parametrize(

@@ -1,11 +1,7 @@
 """Friction by sgn, by tanh and by a bristle, against motion with located events."""
 
-from __future__ import annotations
-
 import math
-from dataclasses import replace
 from functools import partial
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -14,10 +10,8 @@ from scipy.integrate import DOP853
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved import simulate as resolved
-from slider_resonator.trading.peers import located_scipy, moreau_jean
 from slider_resonator.trading.peers.event_free import simulate
 from tests.harness.references.comparing import deviation, until
-from tests.harness.references.lugre_problems import PROBLEMS, TIMES
 
 TABLE_1 = Device()
 PERIOD = 2.0 * math.pi / 3500.0
@@ -72,58 +66,3 @@ def test_sgn_agrees_with_located_events(
     assert fine.evaluations > 2 * coarse.evaluations
     assert fine.normal_force == pytest.approx(exact.normal_force, abs=1e-12), "psi is continuous"
     assert (fine.contact_mode == exact.contact_mode).mean() > 0.95
-
-
-def test_ramps_of_all_inputs_are_followed() -> None:
-    """By a slider that moves from the start: at rest sgn chatters, and its error is rounding's."""
-    device, times = replace(TABLE_1, initial_velocity=-0.02), np.linspace(0.0, 6 * PERIOD, 25)
-    reference = resolved.simulate(device, RAMPS, times)
-    followed = simulate(device, RAMPS, times, method=DOP853, rtol=1e-12, atol=1e-12)
-    stepped = moreau_jean.simulate(device, RAMPS, times, steps_per_period=4096)
-    still = [replace(one, phase_rate=0.0, load_rate=0.0, ratio_rate=0.0) for one in RAMPS]
-    held = resolved.simulate(device, still, times)
-    for run, allowed in ((followed, 1e-8), (stepped, 1e-4)):
-        assert max(deviation(reference, run, name) for name in SIGNALS) < allowed
-    assert max(deviation(reference, held, name) for name in SIGNALS) > 1e-3, "the ramps count"
-
-
-def test_tanh_is_coulomb_friction_in_the_limit_and_creeps() -> None:
-    held = until(6 * PERIOD, phase=0.4)
-    times = np.linspace(0.0, held[0].stop, 49)
-    exact = resolved.simulate(TABLE_1, held, times)
-    widths = np.array([1e-2, 1e-3, 1e-4, 1e-5])
-    runs = [simulate(TABLE_1, held, times, width=w, rtol=1e-9, atol=1e-11) for w in widths]
-    errors = [deviation(exact, run, "position") for run in runs]
-    assert (np.diff(errors) < 0.0).all(), f"a narrower tanh is nearer to sgn: {errors}"
-    assert np.polyfit(np.log(widths), np.log(errors), 1)[0] > 0.3, f"errors {errors}"
-    assert errors[-1] < 1e-3
-    slider = Device(resonator_mass=0.0, base_amplitude=0.0, normal_amplitude=0.0)
-    width, stop = 0.01, np.array([1.0])
-    run = simulate(slider, until(1.0, load=0.1), stop, width=width, rtol=1e-9, atol=1e-11)
-    creep = -width * math.atanh(0.1 / 0.2)
-    assert run.velocity[0] == pytest.approx(creep, rel=1e-5), "tanh(v / width) holds 0.1 of 0.2 N"
-    assert run.friction_force[0] == pytest.approx(-0.1, rel=1e-5)
-
-
-def test_the_error_of_a_bristle_falls_with_the_tolerance() -> None:
-    device, held = PROBLEMS["table 1"]
-    exact = resolved.simulate(device, held, TIMES)
-    errors = []
-    for rtol in (1e-4, 1e-7, 1e-10):
-        found = simulate(device, held, TIMES, rtol=rtol, atol=1e-2 * rtol)
-        errors.append(deviation(exact, found, "velocity"))
-    for coarse, fine in pairwise(errors):
-        assert fine < 0.1 * coarse, f"errors {errors} must fall towards the reference"
-
-
-def test_the_error_of_located_events_falls_with_the_tolerance() -> None:
-    times, held = np.linspace(0.0, 10 * PERIOD, 301), until(10 * PERIOD)
-    best = resolved.simulate(TABLE_1, held, times)
-
-    def error(rtol: float) -> float:
-        coarse = located_scipy.simulate(TABLE_1, held, times, rtol=rtol, atol=rtol / 100)
-        return deviation(best, coarse, "velocity")
-
-    assert error(1e-4) < 1e-8, "the bound on steps alone gives this, since no event costs an order"
-    assert error(1e-11) < 0.05 * error(1e-4), "below that the tolerance decides"
-    assert error(1e-12) < 1e-11

@@ -1,7 +1,5 @@
 """heyoka in one call, on motions without sticking."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -10,9 +8,8 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trading.peer_methods import peer_answers, peer_methods
-from slider_resonator.trading.peers.switching_taylor import device_at, simulate_sliding
+from slider_resonator.trading.peers.switching_taylor import simulate_sliding
 from tests.harness.trading.problems import RAMP, TABLE_1, problem
 
 MOVING = Device(
@@ -21,23 +18,6 @@ MOVING = Device(
     initial_resonator_velocity=1.5837,
 )
 PERIOD = 2.0 * math.pi / MOVING.drive_frequency
-
-
-@pytest.mark.parametrize(("law", "accuracy"), [(0, 1e-11), (1, 1e-10)])
-def test_it_agrees_with_the_reference_from_within_its_inputs_on(law: int, accuracy: float) -> None:
-    device = replace(MOVING, friction_law=law, bristle_stiffness=1e4)
-    held = HeldInputs(0.0, (20 - 15 * law) * PERIOD, phase=0.2, load=0.01, frequency_ratio=1.5)
-    times = np.linspace(0.0, held.stop, 21)
-    reference = simulate(device, [held], times)
-    assert reference.sticks == 0, "the peer covers no sticking"
-    whole = simulate_sliding(device, held, times, tolerance=1e-14)
-    assert whole.reversals == reference.reversals
-    later = device_at(device, reference, 8)
-    rest = simulate_sliding(later, held, times[8:], tolerance=1e-14, start=float(times[8]))
-    for column, name in enumerate(("position", "velocity", "resonator_displacement")):
-        expected = getattr(reference, name)
-        assert whole.samples[-1, column] == pytest.approx(expected[-1], rel=accuracy), name
-        assert rest.samples[:, column] == pytest.approx(expected[8:], rel=1e-9), name
 
 
 def test_what_it_does_not_cover_is_refused() -> None:

@@ -1,7 +1,5 @@
 """Every peer follows the same motion."""
 
-from __future__ import annotations
-
 import pytest
 
 from slider_resonator.trading.peer_methods import Peer, peers

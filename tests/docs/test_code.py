@@ -1,0 +1,123 @@
+"""Code of the documentation prints what it says."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.sweeping.grid import read_grid
+from slider_resonator.sweeping.picture import check_picture
+from tests.processes import ROOT, run_command
+
+
+def output_of(code: str, file: Path, folder: Path) -> tuple[list[str], str]:
+    """Run code beside `dist` with a file; return the lines printed and the one in its comment."""
+    (folder / "dist").mkdir()
+    shutil.copy(file, folder / "dist")
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=folder,
+        env={**os.environ, "LD_LIBRARY_PATH": f"{sys.prefix}/lib"},  # ecos needs the one of tbb
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    (expected,) = re.findall(r"^ *# (.*)$", code, re.MULTILINE)
+    return done.stdout.splitlines(), expected
+
+
+(API_EXAMPLE,) = re.findall(
+    r"```python\n(.*?)```", (ROOT / "docs" / "api.md").read_text("utf-8"), re.DOTALL
+)
+
+
+def test_the_example_of_the_page_runs(
+    native_fmu: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("slider_resonator.fmu.finished.FOLDERS", (native_fmu.parent,))
+    exec(compile(API_EXAMPLE, "docs/api.md", "exec"), {})
+    assert (tmp_path / "start.png").is_file()
+    assert (tmp_path / "curve.csv").read_text().count("\n") == 74
+    assert "points     73" in capsys.readouterr().out
+
+
+PAGE = Path(__file__).parents[2] / "docs" / "closed_loop.md"
+CODE = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+FMPY, VARIED, LIBCOSIMPY, ECOS = CODE
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        pytest.param(FMPY, id="fmpy"),
+        pytest.param(VARIED, id="inputs-that-vary"),
+        pytest.param(LIBCOSIMPY, id="libcosimpy", marks=pytest.mark.interop),
+        pytest.param(ECOS, id="ecos", marks=pytest.mark.interop),
+    ],
+)
+def test_documented_code_prints_the_documented_output(
+    code: str, closed_loop_package: Path, tmp_path: Path
+) -> None:
+    printed, expected = output_of(code, closed_loop_package, tmp_path)
+    assert printed[-1] == expected
+
+
+TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def script(number: int) -> str:
+    return str(re.findall(r"^```python\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)[number])
+
+
+def printed(code: str, folder: Path, native_fmu: Path) -> list[str]:
+    (folder / "dist").symlink_to(native_fmu.parent)
+    env = {**os.environ, "PYTHONPATH": str(ROOT / "harness")}
+    done = run_command(sys.executable, "-c", code, cwd=folder, env=env)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+def test_the_first_script_prints_what_it_says(native_fmu: Path, tmp_path: Path) -> None:
+    code = script(0)
+    said = re.findall(r"^print\(.*\)  # (.*)$", code, re.MULTILINE)
+    assert len(said) == 2
+    for line, end in zip(printed(code, tmp_path, native_fmu), said, strict=True):
+        assert line.endswith(f" {end}")
+
+
+def test_the_script_of_the_api_is_ten_lines_that_run(native_fmu: Path, tmp_path: Path) -> None:
+    code = script(1).replace("sr.open_fmu()", f"sr.open_fmu({str(native_fmu)!r})")
+    code = code.replace("sr.fmu_path()", repr(str(native_fmu)))
+    assert len(code.splitlines()) <= 10
+    _, run, steady = printed(code, tmp_path, native_fmu)
+    assert run == "0.094666 m/s after 4 s"
+    assert steady == "0.0986951 m/s in steady motion"
+
+
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+def test_the_map_has_40_000_points_that_all_repeat() -> None:
+    sweep = read_grid(DOCS / "steady_velocity.toml")
+    check_picture(sweep, "--plot")
+    assert len(sweep.points) == 40_000
+    ratios = {ratio for ratio, _ in sweep.points}
+    assert all(abs(20.0 * ratio - round(20.0 * ratio)) < 1e-9 for ratio in ratios)
+
+
+def test_the_grids_of_the_page_are_read(tmp_path: Path) -> None:
+    page = (DOCS / "sweeps.md").read_text(encoding="utf-8")
+    counts = []
+    for text in re.findall(r"```toml\n(.*?)```", page, re.DOTALL):
+        (tmp_path / "grid.toml").write_text(text, encoding="utf-8")
+        counts.append(len(read_grid(tmp_path / "grid.toml").points))
+    assert counts == [63 * 3 * 10, 3 * 41]

@@ -1,0 +1,199 @@
+"""First derivatives of inputs and outputs: refusals, bounded work, and a closed form."""
+
+import ctypes
+import math
+
+import numpy as np
+import pytest
+
+from fmu_src.python.slider_component.variables import VALUE_REFERENCE, VARIABLES
+from tests.fmu.host import OUTPUTS, Instance, Instantiate
+from tests.fmu.native_calls import ERROR, OK, call, reals, references
+from tests.fmus import native_fmu_only
+
+pytestmark = native_fmu_only
+
+STEP = 2.5e-3
+INPUTS = ("phase", "load", "frequency_ratio")
+FUNCTIONS = ("fmi2SetRealInputDerivatives", "fmi2GetRealOutputDerivatives")
+
+
+def orders(values: list[int]) -> ctypes.Array[ctypes.c_int]:
+    return (ctypes.c_int * len(values))(*values)
+
+
+def test_texts_name_the_derivative_and_what_it_must_be(instance: Instance) -> None:
+    load, tolerance, position = (VALUE_REFERENCE[n] for n in ("load", "tolerance", "position"))
+    set_derivative = instance.slave.setRealInputDerivatives
+    with instance.refuses("derivative of load of order 2 refused: the order must be 1"):
+        set_derivative([load], [2], [1.0])
+    with instance.refuses("derivative of position of order 2 refused: the order must be 1"):
+        instance.slave.getRealOutputDerivatives([position], [2])
+    with instance.refuses(
+        "derivative of tolerance = 1.0 refused: it is no input", "phase, load or"
+    ):
+        set_derivative([tolerance], [1], [1.0])
+    with instance.refuses("derivative of load = nan refused: must be a finite number"):
+        set_derivative([load], [1], [math.nan])
+
+
+@pytest.mark.parametrize("function", FUNCTIONS)
+def test_null_pointers_counts_and_types(instance: Instance, function: str) -> None:
+    null = ctypes.c_void_p()
+    one = references([VALUE_REFERENCE["load"]])
+    for arguments in ((null, 1, orders([1]), reals([1.0])), (one, 1, null, reals([1.0])),
+                      (one, 1, orders([1]), null)):  # fmt: skip
+        assert call(instance, function, *arguments) == ERROR
+        assert f"{function}: a null pointer refused" in instance.log[-1]
+    for count in (len(VARIABLES) + 1, 2**64 - 1):
+        assert call(instance, function, one, count, orders([1]), reals([1.0])) == ERROR
+        assert f"{function}: nvr = " in instance.log[-1]
+    choice = references([VALUE_REFERENCE["fidelity"]])
+    assert call(instance, function, choice, 1, orders([1]), reals([1.0])) == ERROR
+    assert "its type is Integer, not Real" in instance.log[-1]
+    assert call(instance, function, references([999]), 1, orders([1]), reals([1.0])) == ERROR
+    assert "valueReference = 999 refused" in instance.log[-1]
+    assert call(instance, function, null, 0, null, null) == OK, "nothing asked, nothing refused"
+
+
+@pytest.mark.parametrize("fidelity", [0, 1, 2])
+@pytest.mark.parametrize("name", INPUTS)
+def test_a_step_in_which_an_input_leaves_its_bounds_is_refused(
+    instantiate: Instantiate, name: str, fidelity: int
+) -> None:
+    instance = instantiate().initialize(fidelity=fidelity)
+    instance.ramp(**{name: 1.7e308})
+    with instance.refuses(f"with its derivative 1.7e+308, {name} reaches inf", "a finite number"):
+        instance.slave.doStep(instance.time, 10.0)
+    instance.ramp(**{name: 0.0})
+    instance.step(STEP)
+
+
+@pytest.mark.parametrize(
+    ("values", "derivatives", "text"),
+    [
+        (
+            {"fidelity": 2},
+            {"frequency_ratio": 1e15},
+            "the step must be at most 8000000 turns of it",
+        ),
+        ({"fidelity": 1}, {"phase": 1e300}, "the step must be at most 8000000 turns of it"),
+        (
+            {"fidelity": 0, "averaging_order": 1},
+            {"frequency_ratio": 1e9},
+            "it takes more work than 1000 slow phases of",
+        ),
+        (
+            {"fidelity": 0, "averaging_order": 2},
+            {"frequency_ratio": 1e9},
+            "it takes more work than 1000000 segments of motion",
+        ),
+    ],
+)
+def test_the_work_of_a_step_stays_bounded(
+    instantiate: Instantiate, values: dict[str, int], derivatives: dict[str, float], text: str
+) -> None:
+    instance = instantiate().initialize(**values)
+    instance.ramp(**derivatives)
+    with instance.refuses("doStep: communicationStepSize = 1.0 refused", text):
+        instance.slave.doStep(instance.time, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("values", "turns", "growth", "text"),
+    [
+        ({"averaging_order": 1}, 1e7, 50.0, "400000 steps of averaged motion; must be at most 1e3"),
+        ({"averaging_order": 1, "friction_law": 1}, 1e6, 90.0, "steps of averaged motion"),
+        ({"averaging_order": 2}, 1e7, 50.0, "1000000 segments of motion; must be at most 1e2 s"),
+    ],
+    ids=["Coulomb", "quadratures", "resolved where orbits are unknown"],
+)
+def test_all_slow_phases_of_a_step_draw_from_one_budget(
+    instantiate: Instantiate, values: dict[str, float], turns: float, growth: float, text: str
+) -> None:
+    """Each slow phase alone is within the bound."""
+    start = {"fidelity": 0, "normal_amplitude": 2.0, "phase": 0.4, **values}
+    instance, size = instantiate().initialize(**start), turns * math.tau / 3500.0
+    instance.ramp(frequency_ratio=growth / size)
+    before = instance.get(*OUTPUTS)
+    with instance.refuses(f"communicationStepSize = {size!r} refused: it takes more work", text):
+        instance.slave.doStep(instance.time, size)
+    assert instance.get(*OUTPUTS) == before, "a refusal leaves the state as it was"
+
+
+MOVING = ("position", "velocity", "resonator_displacement", "resonator_velocity", "normal_force")
+JUMPING = ("contact_mode", "reversals", "stick_fraction", "last_event_time", "prediction_valid")
+WITHOUT = (
+    *("friction_force", "steady_velocity", "blocking_force", "slow_motion_error"),
+    "friction_power",
+)
+
+
+def test_a_slider_at_rest_on_bristles_accelerates_at_once(instantiate: Instantiate) -> None:
+    instance = instantiate().initialize(friction_law=1, load=0.05)
+    (acceleration,) = instance.derivatives("velocity")
+    assert acceleration == pytest.approx(-0.05, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", WITHOUT)
+def test_those_that_are_not_provided_are_refused(instance: Instance, name: str) -> None:
+    with instance.refuses(f"derivative of {name} refused: this FMU does not provide it"):
+        instance.derivatives(name)
+
+
+@pytest.mark.parametrize("name", ["phase", "slider_mass"])
+def test_only_outputs_have_derivatives_to_get(instance: Instance, name: str) -> None:
+    with instance.refuses(f"derivative of {name} refused: it is no output"):
+        instance.slave.getRealOutputDerivatives([VALUE_REFERENCE[name]], [1])
+
+
+def test_every_output_is_given_or_refused(instance: Instance) -> None:
+    given = {*MOVING, *JUMPING, "mean_velocity"}
+    assert given | set(WITHOUT) == set(OUTPUTS)
+    assert all(map(math.isfinite, instance.derivatives(*given)))
+
+
+def test_a_resonator_of_any_kind_follows_a_growing_load(instantiate: Instantiate) -> None:
+    """Y'' + 2 d Y' + K Y = L t / M while the pair slides freely, without friction and drive."""
+    rate, stop = 3.0, 0.02
+    for frequency in (1e-3, 10.0, 100.0, 3500.0):
+        for damping in (0.0, 0.05, 0.95, 1.0, 3.0, 50.0):
+            parameters = {
+                "base_amplitude": 0.0,
+                "friction_coefficient": 0.0,
+                "resonator_frequency": frequency,
+                "damping_ratio": damping,
+            }
+            instance = instantiate().initialize(**parameters)
+            instance.ramp(load=rate)
+            instance.step(stop)
+            displacement, velocity, position, own = instance.get(
+                "resonator_displacement", "resonator_velocity", "position", "velocity"
+            )
+            decay, stiffness = damping * frequency * 1.1, frequency**2 * 1.1
+            expected, expected_rate = _response_to_ramp(decay, stiffness, rate, stop)
+            assert displacement == pytest.approx(expected, rel=1e-9), (frequency, damping)
+            assert velocity == pytest.approx(expected_rate, rel=1e-9), (frequency, damping)
+            centre = -rate * stop**3 / 6.6
+            assert position == pytest.approx(centre - displacement / 11.0, rel=1e-11)
+            assert own == pytest.approx(-rate * stop**2 / 2.2 - velocity / 11.0, rel=1e-11)
+
+
+def _response_to_ramp(
+    decay: float, stiffness: float, slope: float, t: float
+) -> tuple[float, float]:
+    """By the exponential of the matrix of (y, y', forcing, slope), scaled and squared."""
+    matrix = np.zeros((4, 4))
+    matrix[0, 1] = matrix[1, 2] = matrix[2, 3] = 1.0
+    matrix[1, :2] = -stiffness, -2.0 * decay
+    matrix *= t
+    halvings = max(0, math.ceil(math.log2(np.abs(matrix).sum(axis=1).max() + 1.0)) + 4)
+    # In long double: squaring a stiff matrix would lose the digits that are compared.
+    part = (matrix / 2.0**halvings).astype(np.longdouble)
+    power, total = np.eye(4, dtype=np.longdouble), np.eye(4, dtype=np.longdouble)
+    for k in range(1, 25):
+        power[:] = power @ part / k
+        total += power
+    for _ in range(halvings):
+        total[:] = total @ total
+    return float(slope * total[0, 3]), float(slope * total[1, 3])

@@ -1,0 +1,216 @@
+"""Motion at its limits: events next to others, no preload, and work that is bounded."""
+
+import math
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tests.fmu.host import OUTPUTS, Instance, Instantiate
+from tests.fmus import both_fmus
+
+pytestmark = both_fmus
+
+
+def test_a_release_by_an_input_is_the_last_event(
+    instantiate: Callable[[], Instance],
+) -> None:
+    """Where the parts of the step sum up to more than it by rounding, too."""
+    instance = instantiate().initialize(base_amplitude=0.0, resonator_mass=0.0)
+    instance.step(1e-3)
+    instance.set(load=5.0)
+    stuck, released = instance.state(), instance.time
+    for k in range(400):
+        instance.restore(stuck)
+        instance.time = released
+        instance.step(0.02 + 0.000471 * k)
+        mode, event = instance.get("contact_mode", "last_event_time")
+        assert mode == -1.0
+        assert event == pytest.approx(released, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    "device",
+    [
+        {
+            "normal_preload": 0.0,
+            "damping_ratio": 0.23416453451909713,
+            "resonator_mass": 0.01242897871348076,
+        },
+        {"phase": 3.895139822727085, "drive_frequency": 8.5, "resonator_frequency": 53769.0},
+        {"normal_preload": 0.0, "frequency_ratio": 0.0},
+        {"phase": -2.1758310349471994, "normal_preload": 0.0},
+    ],
+)
+@pytest.mark.parametrize("force", [-1.0, -0.3, 0.3, 1.0])
+def test_a_start_from_rest_in_flight_is_no_reversal(
+    instantiate: Callable[[], Instance], device: dict[str, float], force: float
+) -> None:
+    """The acceleration begins at zero, and rounding may give it either sign."""
+    flight = {"friction_law": 1, "normal_amplitude": 2.0, "phase": -math.pi / 2} | device
+    instance = instantiate().initialize(base_amplitude=0.0, tangential_force=force, **flight)
+    instance.step(1e-5)
+    velocity, *found = instance.get("velocity", "contact_mode", "reversals")
+    assert math.copysign(1.0, velocity) == math.copysign(1.0, force)
+    assert found == [2.0, 0.0]
+
+
+@pytest.mark.parametrize("before", [1e-9, 1e-11, 1e-12, 1e-13, 1e-14])
+def test_a_slide_just_before_the_contact_lifts_is_a_reversal(
+    instantiate: Callable[[], Instance], before: float
+) -> None:
+    """However short it is, and though its travel may be lost in rounding."""
+    instance = instantiate().initialize(
+        base_amplitude=0.0, initial_velocity=1e-5, normal_amplitude=2.0, resonator_mass=0.0
+    )
+    lifts = (math.pi + math.pi / 6.0) / 3500.0
+    instance.step(lifts - before)
+    assert instance.get("contact_mode", "reversals") == (0.0, 0.0)
+    instance.set(load=0.1)
+    instance.step(2.0 * before)
+    assert instance.get("contact_mode", "reversals") == (2.0, 1.0)
+
+
+@pytest.mark.parametrize("law", [0, 1])
+def test_a_first_slide_is_no_reversal_whatever_the_load_was_before(
+    instantiate: Callable[[], Instance], law: int
+) -> None:
+    """Some hosts set inputs only after initialization, which may end under one that pushes."""
+    still = {"base_amplitude": 0.0, "resonator_mass": 0.0, "friction_law": law}
+    instance = instantiate().initialize(load=10.0, **still)
+    instance.set(load=-10.0)
+    instance.step(1e-3)
+    assert instance.get("contact_mode", "reversals") == (1.0, 0.0)
+
+
+@pytest.mark.parametrize("preload", [0.0, 5e-324, 1e-17])
+@pytest.mark.parametrize("ratio", [1.0, -1.0, 0.75, 100.0])
+def test_friction_of_bristles_with_next_to_no_preload(
+    instantiate: Callable[[], Instance], preload: float, ratio: float
+) -> None:
+    """The kinks of the load are then an exact half turn apart, and meet where sliding turns."""
+    values = {
+        "fidelity": 0,
+        "averaging_order": 1,
+        "friction_law": 1,
+        "normal_amplitude": 1.0,
+        "frequency_ratio": ratio,
+    }
+    for phase in (0.0, math.pi, -math.pi, math.pi / 2.0, 0.3):
+        for velocity in (-0.144, -1.0, 0.2366097 - 0.0318182):
+            instance = instantiate().initialize(
+                normal_preload=preload, phase=phase, initial_velocity=velocity, **values
+            )
+            (force,) = instance.get("friction_force")
+            assert abs(force) <= 2.0 * (0.1 + 10.0 * 0.5) / math.pi
+
+
+W = 3500.0
+PERIOD = math.tau / W
+WEAK = {"fidelity": 0, "averaging_order": 1, "base_amplitude": 1e-10}
+"""The drive is some millionth of friction: slow motion settles a million times in ten periods."""
+
+LIGHT = {"friction_law": 1, "slider_mass": 1.1e-9, "resonator_mass": 1.1}
+"""Damper and bristles turn a slider of next to no mass within 1e-11 s."""
+
+
+MANY_WAVES = {"normal_amplitude": 2.0, "frequency_ratio": 100.05}
+
+
+@pytest.mark.parametrize("law", [0, 1])
+@pytest.mark.parametrize("ratio", [1.0, 3.0, math.pi])
+def test_weak_vibration_settles(instantiate: Instantiate, law: int, ratio: float) -> None:
+    values = {**WEAK, "friction_law": law, "phase": 0.4, "frequency_ratio": ratio}
+    whole = instantiate().initialize(**values)
+    whole.step(1000.0 * PERIOD)
+    mean, steady, far = whole.get("mean_velocity", "steady_velocity", "position")
+    fast = whole.get("resonator_velocity")[0]
+    assert mean == pytest.approx(steady, abs=1e-8 * abs(fast)), "it settles"
+    parts = instantiate().initialize(**values)
+    parts.run(10, 100.0 * PERIOD)
+    (near,) = parts.get("position")
+    assert near == pytest.approx(far, abs=1e-7 * abs(fast) * 1000.0 * PERIOD), "in any steps"
+
+
+@pytest.mark.parametrize(
+    ("values", "size", "work", "limit", "carried_out"),
+    [
+        # Near a whole ratio the slow velocity follows the phase, and never settles.
+        ({**WEAK, "frequency_ratio": 1.05}, 1e3, "00 steps of averaged motion", "1e", 1e-3),
+        (LIGHT, PERIOD / 32.0, " 20000 segments in a turn of the fastest", "1e-7 s", 1e-9),
+    ],
+    ids=["a beat", "a slider too light for its bristles"],
+)
+def test_a_step_of_too_much_work_is_refused(
+    instantiate: Instantiate,
+    values: dict[str, float],
+    size: float,
+    work: str,
+    limit: str,
+    carried_out: float,
+) -> None:
+    instance = instantiate().initialize(**values)
+    refused = f"communicationStepSize = {size!r} refused"
+    with instance.refuses(refused, "more work than", work, f"must be at most {limit}"):
+        instance.step(size)
+    instance.step(carried_out)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("values", "turns"),
+    [
+        ({}, 3e7),
+        ({"friction_law": 1}, 3e6),
+        ({"friction_law": 1}, 3e7),
+        ({"friction_law": 1, "fidelity": 0, **MANY_WAVES}, 3e7),
+        ({"normal_preload": 0.0, "normal_amplitude": 0.0}, 1e9),
+    ],
+    ids=["Coulomb", "bristles", "bristles, refused by turns", "quadratures", "no events"],
+)
+def test_no_step_takes_more_than_some_seconds(
+    instantiate: Instantiate, fmu: Path, values: dict[str, float], turns: float
+) -> None:
+    # Some seconds in Python; at most 2 in C, and a margin for a busy machine.
+    longest = 20.0 if fmu.stem == "SliderResonatorPy" else 3.0
+    instance = instantiate().initialize(phase=0.4, **values)
+    instance.step(1e-3)
+    before = instance.get(*OUTPUTS)
+    for size in (turns * PERIOD, 1e300):
+        began = time.process_time()
+        with instance.refuses(f"communicationStepSize = {size!r} refused", "at most"):
+            instance.step(size)
+        assert time.process_time() - began < longest
+        assert instance.get(*OUTPUTS) == before, "a refusal leaves the state as it was"
+    instance.step(1e-3)
+
+
+def test_motion_beyond_the_range_of_numbers_is_refused(instantiate: Instantiate) -> None:
+    instance = instantiate().initialize(initial_velocity=1e308)
+    with instance.refuses("leaves the range of floating point numbers"):
+        instance.step(10.0)
+
+
+@pytest.mark.parametrize(
+    ("values", "named"),
+    [
+        ({"drive_frequency": 1e300, "base_amplitude": 1e300}, "base_amplitude = 1e+300 refused"),
+        ({"drive_frequency": 1e200, "frequency_ratio": 1e190}, "drive_frequency = 1e+200 refused"),
+        ({"base_amplitude": 1e160}, "base_amplitude = 1e+160 refused"),
+        ({"resonator_frequency": 1e170}, "resonator_frequency = 1e+170 refused"),
+    ],
+)
+def test_values_that_leave_the_range_are_named(
+    instantiate: Instantiate, values: dict[str, float], named: str
+) -> None:
+    instance = instantiate().enter_initialization(**values)
+    with instance.refuses(named, "must be nearer to"):
+        instance.slave.exitInitializationMode()
+
+
+def test_a_prediction_that_takes_too_much_work_is_not_valid(instantiate: Instantiate) -> None:
+    """All maps of a search draw from one budget: a read takes no longer than a few steps may."""
+    for ratio, valid in ((1.0, 1.0), (9999.03125, 0.0)):
+        instance = instantiate().initialize(normal_amplitude=1.5, frequency_ratio=ratio)
+        assert instance.get("prediction_valid") == (valid,)

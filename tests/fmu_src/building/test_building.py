@@ -1,0 +1,206 @@
+"""Parts of a build: archive, cache, content, dates, platforms."""
+
+import platform
+import struct
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from fmu_src.building.archive import check_folder, write_archive
+from fmu_src.building.build_error import BuildError
+from fmu_src.building.cache import cache_folder, cached
+from fmu_src.building.compiling import Compiler, compile_binary
+from fmu_src.building.content import digest_of
+from fmu_src.building.dates import date_of_build, date_text
+from fmu_src.building.platforms import (
+    AARCH64_LINUX,
+    HOST,
+    PLATFORMS,
+    host_platform,
+    platforms_named,
+)
+from fmu_src.building.universal_binary import universal_binary
+
+FILES = {"b/two": b"2", "a": b"1" * 1000}
+
+
+def test_an_older_file_is_replaced_or_stays(tmp_path: Path) -> None:
+    older = write_archive(tmp_path, "Model", {"a": b"old"}).read_bytes()
+    with pytest.raises(TypeError):
+        write_archive(tmp_path, "Model", {"a": None})  # type: ignore[dict-item]
+    assert (tmp_path / "Model.fmu").read_bytes() == older
+    assert write_archive(tmp_path, "Model", FILES).read_bytes() != older
+    assert [p.name for p in tmp_path.iterdir()] == ["Model.fmu"], "no left-overs"
+
+
+def test_a_file_in_the_way_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    check_folder(tmp_path / "not" / "there")
+    with pytest.raises(BuildError, match="is a file; must be a folder"):
+        check_folder(tmp_path / "file" / "below")
+
+
+class Maker:
+    """Makes another content each time, and counts."""
+
+    def __init__(self) -> None:
+        self.made = 0
+
+    def __call__(self) -> bytes:
+        self.made += 1
+        return b"binary %d" % self.made
+
+
+@pytest.fixture
+def make() -> Maker:
+    return Maker()
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("HOME", str(tmp_path))
+    found = cache_folder()
+    assert found is not None
+    return found
+
+
+@pytest.mark.usefixtures("folder")
+def test_equal_origins_are_made_once(make: Maker) -> None:
+    assert cached("library.so", b"sources", make) == b"binary 1"
+    assert cached("library.so", b"sources", make) == b"binary 1"
+    assert cached("library.dll", b"sources", make) == b"binary 2"
+    assert cached("library.so", b"other sources", make) == b"binary 3"
+    assert cached("library.so", b"sources", make) == b"binary 1"
+
+
+@pytest.mark.parametrize(
+    "damage", [lambda kept: kept[:-1], lambda kept: kept[:-1] + b"x", lambda kept: b""]
+)
+def test_what_is_damaged_is_made_again(
+    folder: Path, make: Maker, damage: Callable[[bytes], bytes]
+) -> None:
+    cached("library.so", b"sources", make)
+    (path,) = folder.glob("library.so.*.made")
+    path.write_bytes(damage(path.read_bytes()))
+    assert cached("library.so", b"sources", make) == b"binary 2"
+
+
+def test_without_a_home_all_is_made_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, make: Maker
+) -> None:
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("HOME", str(tmp_path / "file"))
+    assert cache_folder() is None
+    assert [cached("library.so", b"sources", make) for _ in range(2)] == [b"binary 1", b"binary 2"]
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_failure_is_not_kept() -> None:
+    compiler = Compiler(("false",), "no compiler", crosses=True)
+    for _ in range(2):
+        with pytest.raises(BuildError, match="no compiler could not compile for some-target"):
+            compile_binary({"a.c": "int a;\n"}, "a.so", "some-target", [], compiler)
+
+
+CONTENT = {"a": b"1", "b": b"2"}
+
+
+@pytest.mark.parametrize(
+    "other", [{"a": b"1"}, {"a": b"1", "b": b"3"}, {"a": b"1", "c": b"2"}, {"a": b"1b", "": b"2"}]
+)
+def test_whatever_differs_gives_another_digest(other: dict[str, bytes]) -> None:
+    assert digest_of(other) != digest_of(CONTENT)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [
+        (None, "1980-01-01T00:00:00Z"),
+        ("0", "1970-01-01T00:00:00Z"),
+        ("1700000000", "2023-11-14T22:13:20Z"),
+    ],
+)
+def test_the_date_is_never_that_of_the_build(
+    monkeypatch: pytest.MonkeyPatch, seconds: str | None, text: str
+) -> None:
+    if seconds is None:
+        monkeypatch.delenv("SOURCE_DATE_EPOCH", raising=False)
+    else:
+        monkeypatch.setenv("SOURCE_DATE_EPOCH", seconds)
+    assert date_text(date_of_build()) == text
+
+
+@pytest.mark.parametrize("seconds", ["", "now", "1.5", "1e9", "-1", "1" * 40])
+def test_invalid_dates_are_refused(monkeypatch: pytest.MonkeyPatch, seconds: str) -> None:
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", seconds)
+    with pytest.raises(BuildError, match=f"SOURCE_DATE_EPOCH = '{seconds}' refused: must be"):
+        date_of_build()
+
+
+def test_fmi_3_has_a_name_for_arm_linux() -> None:
+    assert platforms_named([], "3.0") == [*PLATFORMS.values(), AARCH64_LINUX]
+    with pytest.raises(BuildError, match="'aarch64-linux' refused: must be one of linux64, win64"):
+        platforms_named(["aarch64-linux"])
+
+
+@pytest.mark.parametrize("machine", ["aarch64", "arm64"])
+def test_arm_linux_is_a_host_of_fmi_3(monkeypatch: pytest.MonkeyPatch, machine: str) -> None:
+    monkeypatch.setattr(sys, "platform", "linux")
+    monkeypatch.setattr(platform, "machine", lambda: machine)
+    assert host_platform("3.0") == AARCH64_LINUX
+
+
+def test_an_unknown_platform_is_refused_by_name() -> None:
+    with pytest.raises(BuildError, match=r"platform 'amiga' refused: must be one of linux64,"):
+        platforms_named(["linux64", "amiga"])
+
+
+@pytest.mark.parametrize(
+    ("system", "machine", "name"),
+    [
+        ("linux", "x86_64", "linux64"),
+        ("win32", "AMD64", "win64"),
+        ("darwin", "arm64", "darwin64"),
+        ("darwin", "x86_64", "darwin64"),
+        ("linux", "aarch64", None),
+        ("sunos5", "sun4u", None),
+        ("win32", "x86", None),
+    ],
+)
+def test_the_host_is_recognised_or_refused(
+    monkeypatch: pytest.MonkeyPatch, system: str, machine: str, name: str | None
+) -> None:
+    monkeypatch.setattr(sys, "platform", system)
+    monkeypatch.setattr(platform, "machine", lambda: machine)
+    if name:
+        assert [host_platform()] == platforms_named([HOST]) == [PLATFORMS[name]]
+    else:
+        with pytest.raises(BuildError, match=f"no name for {system} on {machine}"):
+            host_platform()
+
+
+X86_64, ARM64 = 0x01000007, 0x0100000C
+
+
+def library(processor: int, size: int) -> bytes:
+    return struct.pack("<III", 0xFEEDFACF, processor, 3).ljust(size, b"x")
+
+
+def test_every_library_is_at_its_offset_in_the_header() -> None:
+    libraries = [library(X86_64, 20_000), library(ARM64, 70_001)]
+    data = universal_binary(libraries)
+    magic, count = struct.unpack_from(">II", data)
+    assert (magic, count) == (0xCAFEBABE, 2), "the header is in big-endian order"
+    for k, (processor, expected) in enumerate(zip((X86_64, ARM64), libraries, strict=True)):
+        found = struct.unpack_from(">IIIII", data, 8 + 20 * k)
+        assert found[:2] == (processor, 3)
+        offset, size, alignment = found[2:]
+        assert data[offset : offset + size] == expected
+        assert offset % (1 << alignment) == 0, "a library begins on a page"
+
+
+def test_other_libraries_than_those_of_macos_are_refused() -> None:
+    with pytest.raises(ValueError, match="begins with 0x464c457f: must be 0xfeedfacf"):
+        universal_binary([b"\x7fELF" + bytes(60)])

@@ -1,0 +1,179 @@
+"""Golden results: in files, and compared with new ones."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from slider_resonator.baseline.judge import SIGNALS, compare_golden
+from slider_resonator.baseline.store import (
+    DIGITS,
+    Recorded,
+    key,
+    read_recorded,
+    recorded_scenes,
+    write_recorded,
+)
+from slider_resonator.checks.compare import Check
+from slider_resonator.checks.measuring import Measurement
+from slider_resonator.checks.verdict import sentence
+from slider_resonator.errors import HarnessError, SceneError
+from slider_resonator.scenes.scene import ScenePoint
+from slider_resonator.scenes.scene_files import find_scene
+
+TIMES = np.linspace(0.0, 0.1, 48)
+WAVE = 1e-3 * np.sin(500.0 * TIMES)
+
+
+@pytest.fixture(scope="module")
+def point() -> ScenePoint:
+    return ScenePoint(find_scene("table_1"))
+
+
+def judged(point: ScenePoint, name: str, golden: Any, now: Any, tolerance: float = 1e-8) -> Check:
+    def measured(value: Any) -> Mapping[str, Measurement]:
+        times = TIMES[: len(value)] if isinstance(value, np.ndarray) else None
+        return {name: Measurement(value, times=times)}
+
+    ((check, _),) = compare_golden(point, measured(golden), measured(now), tolerance)
+    return check
+
+
+@pytest.mark.parametrize(
+    ("name", "golden", "now", "passed"),
+    [
+        ("steady_velocity", 0.1, 0.1 * (1 + 9e-9), True),
+        ("steady_velocity", 0.1, 0.1 * (1 + 2e-8), False),
+        ("steady_velocity", 0.0, 1e-12, True),
+        ("steady_velocity", 0.0, 1e-9, False),
+        ("steady_velocity", None, None, True),
+        ("steady_velocity", 0.1, None, False),
+        ("steady_velocity", None, 0.1, False),
+        ("steady_status", "steady", "steady", True),
+        ("steady_status", "steady", "unstable", False),
+        ("reversals", 199.0, 199.0, True),
+        ("reversals", 199.0, 200.0, False),
+        ("position", WAVE, WAVE * (1 + 9e-9), True),
+        ("position", WAVE, WAVE * (1 + 2e-8), False),
+        ("position", WAVE, np.roll(WAVE, 1), False),
+        ("contact_mode", np.sign(WAVE), np.sign(WAVE), True),
+        ("contact_mode", np.sign(WAVE), -np.sign(WAVE), False),
+        ("event_times", 557.0 * TIMES, 557.0 * TIMES + 9e-9, True),
+        ("event_times", 557.0 * TIMES, 557.0 * TIMES + 2e-8, False),
+    ],
+)
+def test_changes_above_the_tolerance_are_reported(
+    point: ScenePoint, name: str, golden: Any, now: Any, passed: bool
+) -> None:
+    verdict = judged(point, name, golden, now)
+    assert verdict.passed is passed, sentence(verdict)
+    assert verdict.against == "baseline"
+
+
+def test_other_points_are_no_change_but_another_run(point: ScenePoint) -> None:
+    with pytest.raises(SceneError, match="has other points"):
+        judged(point, "position", WAVE, WAVE[:20])
+
+
+def test_new_and_missing_quantities_are_changes(point: ScenePoint) -> None:
+    golden = {"reversals": Measurement(199.0)}
+    ((new, _),) = compare_golden(point, {}, golden, 1e-8)
+    ((gone, _),) = compare_golden(point, golden, {}, 1e-8)
+    assert not new.passed
+    assert not gone.passed
+    assert "no longer allows it" in sentence(gone)
+
+
+STORED_TIMES = np.array([0.0, 0.1, 0.25])
+GOLDEN = {
+    "reversals": Measurement(23999.0),
+    "steady_velocity": Measurement(None, "slow beat"),
+    "steady_status": Measurement("slow_beat"),
+    **{
+        name: Measurement(STORED_TIMES * (1 + i), times=STORED_TIMES)
+        for i, name in enumerate(SIGNALS)
+    },
+}
+RECORDED = Recorded(
+    {key({"phase": 0.4}): GOLDEN, key({"phase": -1.5}): GOLDEN}, {"fmu": "my.fmu", "scene": "mine"}
+)
+
+
+def test_written_results_are_read_back(tmp_path: Path) -> None:
+    write_recorded(tmp_path / "mine", RECORDED)
+    read = read_recorded(tmp_path / "mine")
+    assert read.provenance == RECORDED.provenance
+    assert list(read.points) == list(RECORDED.points)
+    for golden in read.points.values():
+        assert golden["reversals"].value == 23999.0
+        assert golden["steady_velocity"].value is None
+        assert golden["steady_status"].value == "slow_beat"
+        for name in SIGNALS:
+            assert np.allclose(golden[name].value, GOLDEN[name].value, rtol=1e-12, atol=0.0)
+            times = golden[name].times
+            assert times is not None
+            assert np.array_equal(times, STORED_TIMES)
+
+
+@given(number=st.floats(allow_nan=False, allow_infinity=False))
+def test_numbers_keep_their_digits(number: float, tmp_path_factory: pytest.TempPathFactory) -> None:
+    folder = tmp_path_factory.mktemp("numbers") / "mine"
+    write_recorded(folder, Recorded({(): {"steady_velocity": Measurement(number)}}, {}))
+    (golden,) = read_recorded(folder).points.values()
+    assert golden["steady_velocity"].value == pytest.approx(number, rel=10.0 ** (1 - DIGITS))
+    assert not str(golden["steady_velocity"].value).startswith("-0.0")
+
+
+def test_writing_again_replaces_everything_and_leaves_nothing_behind(tmp_path: Path) -> None:
+    write_recorded(tmp_path / "mine", RECORDED)
+    numbers = {"reversals": Measurement(1.0)}
+    write_recorded(tmp_path / "mine", Recorded({(): numbers}, {"fmu": "other.fmu"}))
+    assert sorted(path.name for path in (tmp_path / "mine").iterdir()) == [
+        "numbers.csv",
+        "provenance.csv",
+    ]
+    assert [path.name for path in tmp_path.iterdir()] == ["mine"]
+    assert [path.name for path in recorded_scenes(tmp_path)] == ["mine"]
+
+
+@pytest.mark.parametrize("name", ["numbers.csv", "trajectory.csv", "provenance.csv"])
+def test_a_file_that_is_no_record_is_named_with_its_line(tmp_path: Path, name: str) -> None:
+    write_recorded(tmp_path / "mine", RECORDED)
+    file = tmp_path / "mine" / name
+    file.write_text(file.read_text() + "one,two,three\n")
+    line = len(file.read_text().splitlines())
+    with pytest.raises(HarnessError, match=rf"{name} line {line}: 3 cells"):
+        read_recorded(tmp_path / "mine")
+    file.write_text("")
+    with pytest.raises(HarnessError, match=rf"{name} line 1: ''; must be '(at|what),"):
+        read_recorded(tmp_path / "mine")
+    (tmp_path / "mine" / "numbers.csv").unlink()
+    with pytest.raises(HarnessError, match=r"numbers.csv: cannot be read"):
+        read_recorded(tmp_path / "mine")
+
+
+@pytest.mark.parametrize(
+    ("name", "row", "reason"),
+    [
+        ("numbers.csv", ",reversals,1,many", "'many': must be a number"),
+        ("numbers.csv", ",reversals,1,", "'': must be a number"),
+        ("numbers.csv", ",reversal,1,3", "did you mean 'reversals'"),
+        ("numbers.csv", ",position,m,3", "unknown quantity 'position'"),
+        ("numbers.csv", "phase,reversals,1,3", "'': must be a number"),
+        ("trajectory.csv", "phase=x" + ",0" * (1 + len(SIGNALS)), "'x': must be a number"),
+        ("trajectory.csv", ",0,?" + ",0" * (len(SIGNALS) - 1), r"'\?': must be a number"),
+    ],
+)
+def test_a_line_that_makes_no_sense_is_named(
+    tmp_path: Path, name: str, row: str, reason: str
+) -> None:
+    write_recorded(tmp_path / "mine", RECORDED)
+    file = tmp_path / "mine" / name
+    file.write_text(f"{file.read_text()}{row}\n")
+    line = len(file.read_text().splitlines())
+    with pytest.raises(HarnessError, match=rf"{name} line {line}: .*{reason}"):
+        read_recorded(tmp_path / "mine")

@@ -1,0 +1,166 @@
+"""The page of a validation, and what all reports say."""
+
+import hashlib
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+
+import slider_resonator
+from slider_resonator.checks.curves import Curves
+from slider_resonator.checks.reports.html_report import MAX_UNFOLDED, write_html
+from slider_resonator.checks.validate import Validation
+from slider_resonator.commands.reports import Reports
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.provenance import identity_of
+from tests.harness.verdicts import BAD, BROKEN, GOOD, LACKING, PASSED, SIGNAL, SLOWER, TIMES
+from tests.html_pages import Page
+
+
+def page(folder: Path, *validations: Validation) -> tuple[str, Page]:
+    path = folder / "report.html"
+    write_html(path, validations)
+    text = path.read_text(encoding="utf-8")
+    return text, Page(text)
+
+
+def plots_of(text: str) -> list[dict[str, Any]]:
+    found = re.findall(r'application/json">(.*?)</script>', text, re.DOTALL)
+    return [json.loads(data) for data in found]
+
+
+def test_deviations_are_drawn_and_the_page_loads_nothing(tmp_path: Path) -> None:
+    text, tags = page(tmp_path, GOOD, BAD)
+    assert all(one == "data:," or one[1:] in tags.ids for one in tags.loaded), "within the page"
+    plots = [one for one in plots_of(text) if one["title"].startswith("position")]
+    points = [len(one["series"][0]["x"]) for one in plots]
+    assert points == [len(TIMES), 25 + 64], "the whole run and the part at the first deviation"
+    assert plots[1]["title"].endswith("from 0.0125 s on")
+    assert "from 0.0125 s on, most at 0.05 s" in text
+    assert "off by 0.0067 m/s" in text
+    assert "good.fmu" in text
+    assert "bad.fmu" in text
+    sections = [name for name in tags.ids if name.startswith("scene-")]
+    assert sections == ["scene-0-0", "scene-1-0", "scene-1-1"]
+    rows = tags.tags.count("tr")
+    rows -= 2 * text.count("<h3>steady velocity: ")
+    assert rows == 2 + 3 + 3 + 4 + 5, "indices, heads and checks of the scenes, provenance"
+
+
+def test_of_many_scenes_those_that_fail_are_unfolded(tmp_path: Path) -> None:
+    good = [replace(PASSED, scene=f"scene_{number}") for number in range(MAX_UNFOLDED)]
+    text, tags = page(tmp_path, Validation("bad.fmu", (*good, SLOWER), 1.0))
+    assert re.findall(r'<details id="([^"]*)" open>', text) == ["scene-0-3"]
+    assert tags.tags.count("details") == 4
+    assert "<h3>phase_sweep</h3> 1 of 1 check failed" in text
+    few, _ = page(tmp_path, Validation("good.fmu", tuple(good), 1.0))
+    assert few.count('" open>') == MAX_UNFOLDED
+
+
+def test_a_passing_scene_shows_the_fmu_on_the_reference(tmp_path: Path) -> None:
+    times = np.array([0.0, 0.1, 0.2])
+    overview = Curves(SIGNAL, times, 1.0 + times, 1.0 + 2.0 * times)
+    passed = replace(SIGNAL, passed=True, first_time=None, worst_time=None)
+    good = Validation("good.fmu", (passed,), 1.0, overviews=(overview,))
+    plot, below = plots_of(page(tmp_path, good)[0])
+    assert (plot["x"]["label"], plot["y"]["label"]) == ("time [s]", "position [m]")
+    reference, fmu = plot["series"]
+    assert (reference["label"], reference["y"]) == ("reference", [1.0, 1.2, 1.4])
+    assert (fmu["label"], fmu["y"]) == ("FMU", [1.0, 1.1, 1.2])
+    assert below["y"]["label"] == "difference [m]"
+    assert below["series"][0]["y"] == [0.0, -0.1, -0.2]
+
+
+def test_a_start_far_outside_does_not_set_the_axis_and_is_named(tmp_path: Path) -> None:
+    times = np.linspace(0.0, 1.0, 101)
+    velocity = 0.1 * (1.0 - np.exp(-5.0 * times))
+    velocity[1:3] = 2.0, -1.0
+    signal = replace(SIGNAL, quantity="mean_velocity_in_run", unit="m/s")
+    overview = Curves(signal, times, velocity, velocity)
+    passed = replace(SIGNAL, passed=True)
+    text, _ = page(tmp_path, Validation("good.fmu", (passed,), 1.0, overviews=(overview,)))
+    low, high = plots_of(text)[0]["y"]["range"]
+    assert -0.02 < low < 0.0
+    assert 0.1 < high < 0.12
+    assert "start beyond the axis: -1 to 2" in text
+
+
+def test_numbers_are_shown_over_the_sweep(tmp_path: Path) -> None:
+    other = replace(PASSED, against="closed_form", reference=0.2)
+    validation = Validation("bad.fmu", (SLOWER, other, PASSED), 1.0)
+    plot, below = plots_of(page(tmp_path, validation)[0])
+    assert below["series"][0]["y"] == [0.0, -0.00667]
+    assert plot["x"]["label"] == "phase [rad]"
+    assert plot["y"]["label"] == "steady velocity [m/s]"
+    reference, fmu = plot["series"]
+    assert reference["x"] == fmu["x"] == [0.0, 0.4]
+    assert fmu["y"] == [0.126667, 0.12]
+    assert reference["y"] == [0.126667, 0.126667]
+
+
+def test_the_index_leads_to_each_scene_of_each_fmu(tmp_path: Path) -> None:
+    hostile = replace(PASSED, scene="<script>")
+    text, parsed = page(tmp_path, GOOD, replace(GOOD, checks=(hostile, SLOWER)))
+    targets = [one[1:] for one in parsed.loaded if one.startswith("#")]
+    assert targets == ["scene-0-0", "scene-1-0", "scene-1-1"]
+    assert set(targets) <= set(parsed.ids)
+    assert "&lt;script&gt;" in text
+
+
+def test_an_error_before_any_fmu_is_in_every_report(tmp_path: Path) -> None:
+    junit, html, written, summary = (
+        tmp_path / name for name in ("report.xml", "report.html", "report.json", "summary.md")
+    )
+    Reports("A title", junit, html, written, summary).write([], "my.fmu: corrupt")
+    (error,) = ET.parse(junit).getroot().iter("error")
+    assert error.get("message") == "my.fmu: corrupt"
+    for page in (html, summary):
+        assert "Could not run: my.fmu: corrupt" in page.read_text(encoding="utf-8")
+    expected = {"schema_version": 1, "passed": False, "error": "my.fmu: corrupt"}
+    document = json.loads(written.read_text())
+    assert document.pop("provenance")["fmus"] == []
+    assert document == expected
+
+
+def test_reports_are_written_even_where_the_summary_cannot_be(tmp_path: Path) -> None:
+    paths = [tmp_path / name for name in ("report.xml", "report.html", "report.json")]
+    junit, html, written = paths
+    reports = Reports("A title", junit, html, written, tmp_path / "none" / "summary.md")
+    with pytest.raises(HarnessError, match=r"GITHUB_STEP_SUMMARY .*cannot be written"):
+        reports.write([], "my.fmu: corrupt")
+    assert all(path.is_file() for path in paths)
+
+
+def test_every_report_says_what_it_judged(tmp_path: Path) -> None:
+    fmu = tmp_path / "a.fmu"
+    fmu.write_bytes(b"no archive, but a file")
+    digest = hashlib.sha256(fmu.read_bytes()).hexdigest()
+    judged = replace(GOOD, fmu=str(fmu), identity=identity_of(fmu))
+    fmu.write_bytes(b"another file since")
+    files = [tmp_path / name for name in ("report.xml", "report.html", "report.json", "summary.md")]
+    Reports("A title", *files).write([judged])
+    for file in files:
+        text = file.read_text(encoding="utf-8")
+        assert text.count(digest) == 1, file.name
+        for name in ("fmpy", "harness", "platform"):
+            assert name in text, file.name
+        assert slider_resonator.__version__ in text, file.name
+
+
+def test_what_does_not_apply_is_on_the_page_escaped(tmp_path: Path) -> None:
+    text, _ = page(tmp_path, LACKING)
+    assert "judged without averaging" in text
+    assert "that do not apply" in text
+    assert "<averaging_order>" not in text
+
+
+def test_output_of_an_fmu_is_escaped_in_markup(tmp_path: Path) -> None:
+    text, tags = page(tmp_path, BROKEN)
+    assert "b" not in tags.tags
+    assert "could not be run" in text
+    assert "lift_off at phase 0.4: the FMU crashed" in text

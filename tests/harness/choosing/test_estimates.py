@@ -1,0 +1,198 @@
+"""Errors of candidates, their scales, and the inputs that they are measured under."""
+
+from math import inf, pi
+
+import numpy as np
+import pytest
+
+from slider_resonator.arrays import Array
+from slider_resonator.choosing.choosing import choose_with
+from slider_resonator.choosing.errors import ErrorEstimate, Readings, unseen_beat
+from slider_resonator.choosing.reference import exact_schedule, must_hold
+from slider_resonator.choosing.scales import scales_of
+from slider_resonator.choosing.steady_need import SteadyValue, steady_error
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.record import Record
+from slider_resonator.scenes.need_table import AllowedTable
+from slider_resonator.scenes.scene import Scene
+from tests.harness.scene_text import scene_of
+
+POINTS = np.linspace(0.1, 1.0, 10)
+GRID = np.linspace(0.0, 1.0, 201)
+TIMES = np.union1d(POINTS, GRID)
+NAMES = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
+
+
+def record(**signals: float | Array) -> Record:
+    outputs = {name: np.zeros(TIMES.size) + signals.get(name, 0.0) for name in NAMES}
+    return Record(TIMES, np.zeros((TIMES.size, 3)), outputs, 0.0, 0.0, 0.0)
+
+
+def error(name: str, found: Record, reference: Record, law: int = 0) -> ErrorEstimate:
+    readings = Readings({name: AllowedTable(rel=0.1)}, POINTS, GRID, 0.01, law)
+    return readings.errors(found, reference)[name]
+
+
+def test_signals_are_judged_everywhere_and_numbers_at_the_end() -> None:
+    bump = np.where(TIMES < 0.35, 0.3, 0.0)
+    reference = record(position=TIMES, mean_velocity=2.0)
+    other = record(position=TIMES + bump, mean_velocity=2.0 + bump)
+    position, velocity, throughout = (
+        error(name, other, reference)
+        for name in ("position", "mean_velocity", "mean_velocity_throughout")
+    )
+    assert position.error == pytest.approx(0.3)
+    assert throughout.error == pytest.approx(0.3)
+    assert position.magnitude == 1.0
+    assert velocity.error < 1e-11
+    assert velocity.magnitude == throughout.magnitude == 2.0
+
+
+def test_events_are_the_nearest_true_ones() -> None:
+    """Also where the one that a run shows is not yet, or no longer, the last of the reference."""
+    events = 0.1 * np.floor(10.0 * TIMES) + 0.05
+    late = np.maximum(0.1 * np.floor(10.0 * TIMES - 1.0), 0.0) + 0.05 + 1e-4
+    reference = record(last_event_time=events)
+    near = error("event_times", record(last_event_time=late), reference)
+    assert near.error == pytest.approx(1e-4)
+    far = error("event_times", record(last_event_time=events + 0.03), reference)
+    assert far.error == pytest.approx(0.03)
+    missed = error("event_times", record(last_event_time=events, reversals=1), reference)
+    assert missed.error == inf
+    assert missed.reason == "1 reversals instead of 0"
+
+
+def test_beats_are_frequencies() -> None:
+    true, found = (record(mean_velocity=np.sin(2.0 * np.pi * f * TIMES)) for f in (20.0, 20.2))
+    estimate = error("beat", found, true)
+    assert estimate.error == pytest.approx(0.2, rel=1e-3)
+    assert estimate.magnitude == pytest.approx(20.0, rel=1e-3)
+
+
+def test_nothing_is_known_better_than_to_rounding() -> None:
+    same = record(position=TIMES)
+    for law, floor in ((0, 1e-12), (1, 1e-10)):
+        assert error("position", same, same, law).error == floor
+
+
+@pytest.mark.parametrize(
+    ("found", "shown"), [(1.0, True), (1.15, True), (2.1, True), (0.1, False), (1.5, False)]
+)
+def test_the_strongest_oscillation_is_the_beat_or_a_multiple_of_it(
+    found: float, shown: bool
+) -> None:
+    scales = scales_of(scene_of("[inputs]\nfrequency_ratio = 1.02\n"))
+    reason = unseen_beat(ErrorEstimate(0.0, found * scales.beat), scales)
+    assert (reason == "") == shown
+    assert shown or f"strongest oscillation has {found * scales.beat:.4g} Hz" in reason
+
+
+def test_a_slow_motion_that_does_not_beat_has_no_beat(instance: Instance) -> None:
+    """Without a vibrating load only the drift of the start is left in the mean velocity."""
+    scene = scene_of(
+        "[device]\nnormal_amplitude = 0.0\ninitial_velocity = 0.1\n"
+        "[inputs]\nfrequency_ratio = 1.01\n"
+        "[run]\ndrive_periods = 1000\nsteps_per_period = 1\n[need]\nbeat = { rel = 1e-2 }\n"
+    )
+    choice = choose_with(instance, scene)
+    assert not choice.meets
+    assert "in the resolved run" in choice.reason
+
+
+def test_table_1() -> None:
+    """Against the design's own figures: F_T* = 910.947 N on 1.1 kg, a transient of 2.05 s."""
+    scales = scales_of(scene_of("[device]\nfriction_law = 1\n"))
+    assert scales.period == pytest.approx(2.0 * pi / 3500.0)
+    assert scales.fast_velocity == pytest.approx(910.947 / (1.1 * 3500.0), rel=1e-6)
+    assert scales.relaxation == pytest.approx(2.05, rel=1e-2)
+    assert scales.slowness == pytest.approx(0.2 / 910.947, rel=1e-6)
+    assert scales.kappa == pytest.approx(1e5 * 910.947 / (1.1 * 3500.0) / 0.1 / 3500.0, rel=1e-6)
+    assert scales.mass_ratio == pytest.approx(1.0 / 11.0)
+    assert (scales.detuning, scales.beat, scales.saturation, scales.input_rate) == (0, 0, 0, 0)
+
+
+RAMP = (
+    "[inputs]\nload = { ramp = [[0, 0], [0.03, 0.3], [0.1, 0]] }\n"
+    "phase = { steps = [[0, 0.2], [0.051, 0.7]] }\n"
+    "frequency_ratio = { ramp = [[0, 1], [0.05, 1.5]] }\n"
+    "[run]\nstop_time = 0.1\nstep_size = 0.007\n"
+)
+ENDS = np.array([0.0, 0.1])
+
+
+@pytest.fixture
+def scene() -> Scene:
+    return scene_of(RAMP)
+
+
+@pytest.mark.parametrize("step", [0.011, 0.002])
+def test_held_inputs_give_their_impulse_exactly(scene: Scene, step: float) -> None:
+    schedule = exact_schedule(scene, ENDS, step, interpolates=False)
+    assert not schedule.ramps
+    load, ratio = (np.diff(schedule.times) @ schedule.sampled[:-1, i] for i in (1, 2))
+    assert load == pytest.approx(0.5 * 0.3 * 0.1, rel=1e-12)
+    assert ratio == pytest.approx(0.05 * 1.25 + 0.05 * 1.5, rel=1e-12)
+
+
+def test_lines_that_are_passed_on_need_their_corners_only(scene: Scene) -> None:
+    schedule = exact_schedule(scene, np.array([0.0, 0.0651, 0.1]), 0.001, interpolates=True)
+    assert schedule.times.tolist() == [0.0, 0.03, 0.05, 0.051, 0.0651, 0.1]
+    assert schedule.rates[:-1, 1] == pytest.approx([10.0, *4 * [-0.3 / 0.07]])
+    assert schedule.sampled[:, 1] == pytest.approx(scene.signals["load"].over(schedule.times))
+
+
+def test_tuned_parameters_are_held_at_their_means() -> None:
+    scene = scene_of(
+        "[tuning]\nfriction_coefficient = { ramp = [[0, 0.1], [0.1, 0.3]] }\n"
+        "base_amplitude = { steps = [[0, 1e-4], [0.033, 2e-4]] }\n"
+        "[run]\nstop_time = 0.1\nstep_size = 0.02\n"
+    )
+    schedule = exact_schedule(scene, ENDS, 0.02, interpolates=True)
+    tuned = dict(zip(schedule.tuning, schedule.tuned.T, strict=True))
+    lengths = np.diff(schedule.times)
+    assert lengths @ tuned["friction_coefficient"][:-1] == pytest.approx(0.1 * 0.2, rel=1e-12)
+    assert tuned["base_amplitude"][np.searchsorted(schedule.times, 0.033)] == 2e-4
+    assert must_hold(scene, interpolates=False)
+
+
+@pytest.mark.parametrize(
+    ("text", "varies"),
+    [
+        ("load = 1.0", False),
+        ("load = { steps = [[0, 0], [0.05, 1]] }", False),
+        ("load = { ramp = [[0, 0], [0.05, 1]] }", True),
+        ("load = { ramp = [[0.2, 0], [0.3, 1]] }", False),
+        ("load = { ramp = [[0.05, 2], [0.07, 2]] }", False),
+    ],
+)
+def test_only_inputs_that_change_other_than_by_jumps_vary(text: str, varies: bool) -> None:
+    scene = scene_of(f"[inputs]\n{text}\n[run]\nstop_time = 0.1\nstep_size = 0.01\n")
+    assert must_hold(scene, interpolates=False) is varies
+    assert not must_hold(scene, interpolates=True), "a line that is passed on is not held"
+
+
+def test_the_error_of_a_value_is_at_least_that_of_the_search() -> None:
+    reference, near, none = (
+        SteadyValue(2.0, "", 9, 0.1),
+        SteadyValue(2.5, "", 0, 0.1),
+        SteadyValue(None, "stuck: why", 0, 0.1),
+    )
+    assert steady_error(near, reference, 0).error == 0.5
+    assert steady_error(reference, reference, 0).error == pytest.approx(2e-10)
+    assert steady_error(none, reference, 0).error == inf
+    assert steady_error(near, none, 0).reason == "stuck: why"
+
+
+@pytest.mark.parametrize(
+    "device",
+    [
+        "friction_coefficient = 0.0",
+        "base_amplitude = 0.0",
+        "damping_ratio = 0.0\nresonator_mass = 1.0\nresonator_frequency = 2474.8737341529163",
+    ],
+)
+def test_without_vibration_or_friction_there_is_nothing_to_average(device: str) -> None:
+    scales = scales_of(scene_of(f"[device]\n{device}\n"))
+    assert scales.fast_velocity is None
+    assert scales.slowness is None
+    assert scales.relaxation == inf

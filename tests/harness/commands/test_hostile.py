@@ -1,0 +1,322 @@
+"""Hostile FMUs: commands outlive them, leave nothing behind, and print none of their text raw.
+
+One FMU does what the environment variable FAULT names, which also tells its processes from others.
+"""
+
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from slider_resonator.fmu.limits import DEFAULTS, MEMORY
+from slider_resonator.output.json_output import to_json
+from tests.harness import faulty_fmus
+from tests.harness.calling import call, refused
+from tests.processes import heed_interrupts
+
+pytestmark = [
+    pytest.mark.isolated,
+    pytest.mark.skipif(sys.platform != "linux", reason="reads /proc; adopts orphans"),
+]
+
+FAULTS: Mapping[str, tuple[int, str]] = {
+    "fork": (1, ""),
+    "fork_session": (1, ""),
+    "fork_twice": (1, ""),
+    "fork_many": (2, "processes; must be at most 250"),
+    "fork_and_exit": (2, "its process ended with exit code 0"),
+    "exit": (2, "its process ended with exit code 0"),
+    "crash": (2, "crashed in fmi2DoStep: its process ended with SIGABRT"),
+    "sleep": (2, "no answer within the time limit of"),
+    "stop": (2, "no answer within the time limit of"),
+    "spam": (2, "no answer within the time limit of"),
+    "spam_log": (2, "no answer within the time limit of"),
+    "eat": (2, "MiB in memory; must be at most 400 MiB"),
+    "kill_group": (2, "its process ended with SIGKILL"),
+    "kill_parent": (2, "has ended the process that watches it"),
+    "fork_and_kill_parent": (2, "has ended the process that watches it"),
+}
+"""What the FMU does in fmi2DoStep, with the exit code of `validate` and the reason."""
+QUICK = ("fork_twice", "fork_and_kill_parent")
+"""Run as processes of their own, and by default."""
+ENDED_SOON = ("fork_many", "eat")
+"""Ended once they have too much, which takes some seconds on a busy machine."""
+
+
+@pytest.fixture(scope="module")
+def hostile_fmu(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("hostile")
+    return faulty_fmus.compiled(native_fmu, folder / "hostile.fmu", "IN_STEP=FAULT", "VALUE=1.0")
+
+
+def processes_of(mark: str) -> list[str]:
+    """The processes that have inherited FAULT with this value; this one was started without."""
+    found = []
+    for environment in Path("/proc").glob("[0-9]*/environ"):
+        try:
+            if f"FAULT={mark}".encode() in environment.read_bytes().split(b"\0"):
+                found.append(environment.parent.name)
+        except OSError:
+            continue
+    return found
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a command ended: exit code, standard error and what it left in its folder."""
+
+    code: int
+    errors: str
+    left: list[Path]
+
+
+class Runner:
+    """Runs commands with a fault in `folder`, in this process unless `apart`.
+
+    A process of its own takes most of its time to load; this one sees all that a command leaves.
+    """
+
+    def __init__(self, folder: Path, patch: pytest.MonkeyPatch) -> None:
+        self._folder = folder
+        self._patch = patch
+
+    def run(self, fault: str, *arguments: object, apart: bool = False) -> Ended:
+        mark = f"{fault}:{self._folder}"
+        temporary, here = self._folder / "temporary", self._folder / "here"
+        temporary.mkdir()
+        here.mkdir()
+        self._patch.setenv("FAULT", mark)
+        self._patch.setenv("TMPDIR", str(temporary))
+        self._patch.setenv(MEMORY, str(DEFAULTS[MEMORY]))  # an option sets it for good
+        self._patch.setattr(tempfile, "tempdir", None)
+        self._patch.chdir(here)
+        code, errors = (_apart if apart else _here)(arguments)
+        assert not processes_of(mark), "no process is left"
+        assert not list(temporary.iterdir()), "no folder is left"
+        return Ended(code, errors, list(here.iterdir()))
+
+
+def _apart(arguments: Sequence[object]) -> tuple[int, str]:
+    command = [sys.executable, "-m", "slider_resonator", *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120.0, check=False)
+    return done.returncode, done.stderr
+
+
+def _here(arguments: Sequence[object]) -> tuple[int, str]:
+    done = call(*arguments)
+    return done.exit_code, done.stderr
+
+
+@pytest.fixture
+def runner(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Runner:
+    return Runner(tmp_path, monkeypatch)
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in FAULTS],
+)
+def test_validate_outlives_an_fmu(
+    hostile_fmu: Path, tmp_path: Path, runner: Runner, fault: str
+) -> None:
+    names = ("a", "b")
+    scenes = [argument for n in names for argument in ("--scene", faulty_fmus.scene(tmp_path, n))]
+    reports = [tmp_path / f"report.{kind}" for kind in ("json", "xml", "html")]
+    options = [word for r in reports for word in (f"--{r.suffix[1:]}".replace("xml", "junit"), r)]
+    limit = 30 if fault in ENDED_SOON else 2
+    validate = ("--max-memory", 400, "validate", hostile_fmu, "--time-limit", limit)
+    ran = runner.run(fault, *validate, *scenes, *options, apart=fault in QUICK)
+    code, reason = FAULTS[fault]
+    assert ran.code == code, ran.errors
+    assert reason in ran.errors
+    assert not ran.left, "the FMU does not run in the user's folder"
+    validation = json.loads(reports[0].read_text())
+    assert bool(validation["errors"]) == (code == 2)
+    (suite,) = ET.parse(reports[1]).getroot()
+    assert (suite.get("errors") != "0") == (code == 2)
+    assert reports[2].read_text().rstrip().endswith("</html>")
+    for report in reports:
+        assert "\x1b" not in report.read_text()
+
+
+NASTY = "x\x1b[31m\n::error::y##[warning]`z`<b>[k](http:q)"
+"""Of a file: what a terminal, the log of a workflow and Markdown could take for more than text."""
+TEXT = r"\x1b[31mred\n::error::spoofed\n##[error]spoofed `code` [link](https://e.org) <b>"
+"""The same as the C source of a log message."""
+REFUSES = f'log_message(NULL, "harness1", 3, "logStatusError", "{TEXT}"); return 3;'
+
+
+@pytest.fixture(scope="module")
+def nasty_fmu(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An FMU whose path, output and log are hostile, and which refuses every step."""
+    folder = tmp_path_factory.mktemp("nasty") / NASTY.replace("/", "")
+    folder.mkdir()
+    plain = folder.parent / "plain.fmu"
+    faulty_fmus.compiled(native_fmu, plain, f"IN_STEP=PRINT {REFUSES}", "VALUE=1.0")
+    return Path(shutil.copy(plain, folder / f"{NASTY.replace('/', '')}.fmu"))
+
+
+def assert_harmless(text: str) -> None:
+    assert not re.search(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", text), "no control characters"
+    assert not re.search(r"^\s*::", text, re.MULTILINE), "no commands to GitHub Actions"
+    assert "##[" not in text
+    assert not re.search(r"^(error|red|spoofed|y)", text.partition("\n")[2], re.MULTILINE), text
+
+
+COMMANDS: Mapping[str, Sequence[str]] = {
+    "validate": ["validate", "FMU", "--scene", "SCENE"],
+    "run": ["run", "FMU", "SCENE"],
+    "steady": ["steady", "FMU"],
+    "blocking": ["blocking", "FMU"],
+    "run --auto": ["run", "FMU", "NEED", "--auto"],
+    "choose": ["choose", "NEED", "--fmu", "FMU"],
+    "sweep": ["sweep", "GRID", "--fmu", "FMU", "--out", "OUT.csv"],
+    "trade": ["trade", "NEED", "--fmu", "FMU", "--out", "OUT", "--periods", "4"],
+    "paper": ["paper", "--fmu", "FMU", "--out", "OUT", "--only", "figure_2"],
+    "bench": ["bench", "FMU", "--repeats", "1"],
+    "hosts": ["hosts", "FMU", "--python-fmu", "FMU", "--host", "fmpy"],
+    "baseline": ["baseline", "record", "FMU", "--dir", "OUT", "--scene", "SCENE"],
+    "no such FMU": ["run", "FMU.no", "SCENE"],
+    "no such host FMU": ["hosts", "FMU.no"],
+    "no such scene": ["validate", "FMU", "--scene", "FMU.no"],
+    "no such grid": ["sweep", "FMU.no", "--out", "OUT.csv"],
+}
+
+
+"""What is given to commands; FMU, SCENE and so on stand for files."""
+
+
+def arguments(command: str, fmu: Path, folder: Path) -> list[str]:
+    """Return the words of a command, with files in a folder."""
+    scene = faulty_fmus.scene(folder)
+    need, grid = folder / "need.toml", folder / "grid.toml"
+    need.write_text(scene.read_text() + "[need]\nmean_velocity = { rel = 0.05 }\n")
+    grid.write_text(
+        'measures = ["velocity.rms"]\n[grid]\nphase = [0.0]\n[run]\ndrive_periods = 2\n'
+    )
+    out = folder / NASTY.replace("/", "")
+    places = {"FMU": fmu, "SCENE": scene, "NEED": need, "GRID": grid, "OUT": out}
+    words = (word.partition(".") for word in COMMANDS[command])
+    return [f"{places.get(name, name)}{point}{suffix}" for name, point, suffix in words]
+
+
+READ_QUICKLY = ("validate", "run", *(name for name in COMMANDS if name.startswith("no such")))
+CASES = [
+    pytest.param(
+        name, as_json, marks=() if name in READ_QUICKLY and not as_json else pytest.mark.slow
+    )
+    for name in COMMANDS
+    for as_json in (False, True)
+    if not as_json or name in ("validate", "steady", "sweep", "hosts", "no such FMU")
+]
+
+
+@pytest.mark.parametrize(("command", "as_json"), CASES)
+def test_no_command_prints_hostile_text(
+    nasty_fmu: Path,
+    tmp_path: Path,
+    command: str,
+    as_json: bool,
+) -> None:
+    summary = tmp_path / "summary.md"
+    words = [*arguments(command, nasty_fmu, tmp_path), *(["--json"] if as_json else [])]
+    result = call(*words, GITHUB_STEP_SUMMARY=str(summary))
+    assert result.exit_code in (1, 2), result.output
+    assert_harmless(result.stdout)
+    assert_harmless(result.stderr)
+    if command == "validate":
+        page = summary.read_text(encoding="utf-8")
+        assert "<b>" not in page
+        assert "](" not in page.replace("]\\(", "")
+        assert "://" not in page
+
+
+def test_json_holds_no_command_of_a_workflow() -> None:
+    assert "##[" not in to_json({"name": "##[error]x"})
+    assert "\\u0023#[error]x" in to_json({"name": "##[error]x"})
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fault", ["exit", "fork_and_kill_parent"])
+@pytest.mark.parametrize("command", [name for name in COMMANDS if "no such" not in name])
+def test_every_command_outlives_an_fmu(
+    hostile_fmu: Path, tmp_path: Path, runner: Runner, command: str, fault: str
+) -> None:
+    apart = command == "bench"  # which keeps what it has compiled to the end of its process
+    words = [*arguments(command, hostile_fmu, tmp_path), "--time-limit", "5"]
+    ran = runner.run(fault, *words, apart=apart)
+    # A point of a sweep that fails is a row with its error.
+    assert ran.code == (1 if command == "sweep" else 2), ran.errors
+    assert "Traceback" not in ran.errors
+    assert ran.errors or command == "sweep"
+    assert not ran.left
+
+
+@pytest.mark.parametrize("command", ["steady", "run"])
+def test_a_hang_ends_at_the_time_limit(native_fmu: Path, tmp_path: Path, command: str) -> None:
+    fmu = faulty_fmus.compiled(native_fmu, tmp_path / "faulty.fmu", "IN_STEP=LOOP", "VALUE=1.0")
+    arguments = ["table_1"] if command == "run" else []
+    reported = refused(command, fmu, *arguments, "--time-limit", "1")
+    assert "no answer within the time limit of 1 s in fmi2DoStep" in reported
+
+
+@pytest.mark.parametrize("command", ["steady", "blocking"])
+def test_a_drive_frequency_of_zero_is_an_error_of_the_fmu(
+    native_fmu: Path, tmp_path: Path, command: str
+) -> None:
+    fmu = faulty_fmus.compiled(native_fmu, tmp_path / "still.fmu", "VALUE=0.0")
+    result = call(command, fmu)
+    assert result.exit_code == 2
+    reported = (
+        "still.fmu reports drive_frequency = 0.0: must be a finite number of at least 1e-06 rad/s"
+    )
+    assert result.stderr == f"error: {reported}\n"
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGKILL])
+def test_an_ended_command_ends_the_fmu_and_leaves_nothing(
+    native_fmu: Path, tmp_path: Path, number: signal.Signals
+) -> None:
+    fmu = faulty_fmus.compiled(native_fmu, tmp_path / "loop.fmu", "IN_STEP=LOOP")
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    with subprocess.Popen(
+        [sys.executable, "-m", "slider_resonator", "run", str(fmu), "table_1"],
+        env={**os.environ, "TMPDIR": str(temporary)},
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=heed_interrupts,
+    ) as command:
+        wait_until(lambda: bool(list(temporary.glob("*/*/unpacked/binaries"))))
+        time.sleep(0.5)  # until it is in the loop
+        command.send_signal(number)
+        _, message = command.communicate(timeout=60.0)
+    if number != signal.SIGKILL:
+        assert (command.returncode, message.strip()) == (130, "interrupted")
+    wait_until(lambda: not list(temporary.iterdir()))
+    running = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True)
+    assert str(fmu) not in running.stdout
+
+
+def wait_until(condition: Callable[[], bool]) -> None:
+    for _ in range(600):
+        if condition():
+            return
+        time.sleep(0.05)
+    raise AssertionError("it takes too long")
+
+
+def test_a_crash_after_the_run_ends_with_2(native_fmu: Path, tmp_path: Path) -> None:
+    fmu = faulty_fmus.compiled(native_fmu, tmp_path / "faulty.fmu", "IN_FREE=CRASH")
+    assert "crashed in fmi2Terminate or fmi2FreeInstance" in refused("run", fmu, "table_1")

@@ -1,0 +1,171 @@
+"""Files that are written: whole, and where they may be."""
+
+import errno
+import os
+import stat
+from pathlib import Path
+
+import pytest
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.output import targets
+from slider_resonator.output.atomic import replacing, write_marked
+from slider_resonator.output.targets import distinct, make_folder, writable
+
+
+def test_the_file_appears_whole_with_usual_rights(tmp_path: Path) -> None:
+    path = tmp_path / "out.csv"
+    with replacing(path) as temporary:
+        temporary.write_text("done")
+        assert not path.exists()
+    assert path.read_text() == "done"
+    assert stat.S_IMODE(path.stat().st_mode) & 0o400
+    assert [p.name for p in path.parent.iterdir()] == ["out.csv"], "no temporary file stays behind"
+
+
+def test_a_failure_keeps_the_old_file(tmp_path: Path) -> None:
+    path = tmp_path / "out.csv"
+    path.write_text("old")
+    with pytest.raises(ZeroDivisionError), replacing(path) as temporary:
+        temporary.write_text(f"half {1 / 0}")
+    assert path.read_text() == "old"
+    assert [p.name for p in tmp_path.iterdir()] == ["out.csv"]
+
+
+def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(HarnessError, match="cannot be written"), replacing(tmp_path / "file" / "x"):
+        pass
+    with pytest.raises(HarnessError, match="cannot be written"), replacing(tmp_path / "no" / "x"):
+        pass
+    assert not (tmp_path / "no").exists(), "a folder is not made in passing"
+
+
+def test_a_place_that_cannot_be_taken_at_the_end_is_named_too(tmp_path: Path) -> None:
+    (tmp_path / "folder").mkdir()
+    with (
+        pytest.raises(HarnessError, match=r"folder: cannot be written: Is a directory"),
+        replacing(tmp_path / "folder") as temporary,
+    ):
+        temporary.write_text("done")
+    assert [p.name for p in tmp_path.iterdir()] == ["folder"]
+
+
+def test_a_write_that_fails_is_an_error_of_the_file(tmp_path: Path) -> None:
+    with (
+        pytest.raises(HarnessError, match=r"out.csv: cannot be written: No space left"),
+        replacing(tmp_path / "out.csv"),
+        open("/dev/full", "w") as full,
+    ):
+        full.write("done")
+    assert not list(tmp_path.iterdir())
+
+
+def test_targets_that_are_not_regular_files_are_refused_by_kind(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "link").symlink_to(tmp_path / "elsewhere")
+    for target, kind in (
+        (tmp_path, "a directory"),
+        (tmp_path / "pipe", "a pipe"),
+        (tmp_path / "link", "a symbolic link"),
+        (Path("/dev/null"), "a device"),
+    ):
+        with pytest.raises(HarnessError, match=f"is {kind}; must be a regular file"):
+            writable(str(target))
+
+
+def test_no_name_and_no_folder_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(HarnessError, match="names no file"):
+        writable("")
+    with pytest.raises(HarnessError, match=r"there is no folder .*missing"):
+        writable(str(tmp_path / "missing" / "out.csv"))
+    assert not (tmp_path / "missing").exists()
+    (tmp_path / "file").touch()
+    with pytest.raises(HarnessError, match="Not a directory"):
+        writable(str(tmp_path / "file" / "out.csv"))
+    with pytest.raises(HarnessError, match="name too long"):
+        writable(str(tmp_path / ("x" * 300)))
+
+
+def test_a_folder_that_cannot_be_written_to_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(os, "access", lambda path, mode: False)  # root may write everywhere
+    with pytest.raises(HarnessError, match="cannot be written to"):
+        writable(str(tmp_path / "out.csv"))
+
+
+def test_a_folder_in_which_no_file_can_be_created_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert writable(str(tmp_path / "out.csv")).name == "out.csv"
+    assert not list(tmp_path.iterdir()), "trying leaves nothing behind"
+
+    def read_only(*_: object, **__: object) -> None:
+        raise OSError(errno.EROFS, os.strerror(errno.EROFS))
+
+    monkeypatch.setattr(targets, "TemporaryFile", read_only)
+    with pytest.raises(HarnessError, match="cannot be written to: Read-only file system"):
+        writable(str(tmp_path / "out.csv"))
+
+
+def test_a_folder_for_results_is_made_unless_a_file_is_there(tmp_path: Path) -> None:
+    for _ in range(2):
+        make_folder(tmp_path / "paper" / "results")
+    assert (tmp_path / "paper" / "results").is_dir()
+    (tmp_path / "file").touch()
+    for folder in ("file", "file/results"):
+        with pytest.raises(HarnessError, match=f"{folder}: cannot be made a folder"):
+            make_folder(tmp_path / folder)
+
+
+def test_a_suffix_that_no_picture_has_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(HarnessError, match=r"'\.txt'; must be one of \.png, \.svg"):
+        writable(str(tmp_path / "p.txt"), (".png", ".svg"))
+    assert writable(str(tmp_path / "p.PNG"), (".png",)).name == "p.PNG"
+
+
+def test_a_target_that_is_read_from_is_refused_under_any_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    fmu = tmp_path / "my.fmu"
+    fmu.touch()
+    os.link(fmu, tmp_path / "second_name")
+    for target in (fmu, Path("my.fmu"), Path("second_name")):
+        with pytest.raises(HarnessError, match=r"--out .* is the FMU"):
+            distinct({"--out": target}, {"the FMU": fmu})
+
+
+def test_two_targets_must_differ_even_before_they_exist(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(HarnessError, match=r"--plot .* is the file of --out"):
+        distinct({"--out": Path("a.png"), "--plot": tmp_path / "a.png"}, {})
+    distinct({"--out": Path("a.csv"), "--plot": Path("a.png")}, {"the FMU": Path("my.fmu")})
+    distinct({"--out": None, "--plot": None}, {})
+
+
+BEGIN, END = "<!-- part -->", "<!-- end of part -->"
+
+
+def test_a_new_file_holds_the_text_alone(tmp_path: Path) -> None:
+    write_marked(tmp_path / "hosts.md", "the text", BEGIN, END)
+    assert (tmp_path / "hosts.md").read_text() == "the text\n"
+
+
+def test_a_file_with_marks_keeps_all_around_them(tmp_path: Path) -> None:
+    path = tmp_path / "README.md"
+    path.write_text(f"before\n{BEGIN}\nold\n{END}\nafter\n")
+    write_marked(path, "new", BEGIN, END)
+    assert path.read_text() == f"before\n{BEGIN}\nnew\n{END}\nafter\n"
+
+
+@pytest.mark.parametrize("text", [BEGIN, END, END + BEGIN, BEGIN + END + BEGIN])
+def test_marks_that_are_no_pair_are_refused(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "README.md"
+    path.write_text(text)
+    with pytest.raises(HarnessError, match="must have one"):
+        write_marked(path, "new", BEGIN, END)
+    assert path.read_text() == text

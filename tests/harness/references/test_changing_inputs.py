@@ -1,0 +1,206 @@
+"""References under inputs and parameters that change."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from slider_resonator.arrays import Array
+from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs, TunedInputs
+from slider_resonator.references.averaged.averaged_motion import simulate_averaged
+from slider_resonator.references.phase import Elapsed, advanced
+from slider_resonator.references.resolved.contact import LIFTED
+from slider_resonator.references.resolved.simulate import simulate
+from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.trading.peers import event_free, located_scipy
+
+STOP = 0.03
+TIMES = np.linspace(0.0, STOP, 200)
+DEVICE = Device()
+PHASE = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, phase_rate=2.0)
+LOAD = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, load_rate=3.0)
+CHIRP = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, ratio_rate=13.0)
+BACK = HeldInputs(0.0, STOP, 0.2, 0.01, frequency_ratio=0.4, ratio_rate=-40.0)
+"""The normal load turns back."""
+ALL = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, phase_rate=2.0, load_rate=3.0, ratio_rate=13.0)
+LIFTS = replace(DEVICE, normal_amplitude=1.6)
+STICKS = replace(DEVICE, friction_coefficient=30.0)
+RIGID = replace(LIFTS, fidelity=1)
+LUGRE = replace(DEVICE, friction_law=1, bristle_stiffness=1e4)
+LUGRE_LIFTS = replace(LUGRE, normal_amplitude=1.6)
+
+
+def staircase(inputs: HeldInputs, count: int) -> list[HeldInputs]:
+    """Return steps that hold the values in the middle of each."""
+    size = inputs.stop / count
+    still = {"phase_rate": 0.0, "load_rate": 0.0, "ratio_rate": 0.0}
+    return [
+        replace(inputs.later((i + 0.5) * size), start=i * size, stop=(i + 1) * size, **still)
+        for i in range(count)
+    ]
+
+
+def position(device: Device, held: Sequence[HeldInputs]) -> Array:
+    return simulate(device, held, TIMES).position
+
+
+def by_scipy(device: Device, held: Sequence[HeldInputs]) -> Array:
+    follow = event_free.simulate if device.friction_law else located_scipy.simulate
+    return follow(device, held, TIMES).position
+
+
+def off(one: Array, other: Array) -> float:
+    return float(np.abs(one - other).max() / np.abs(other).max())
+
+
+@pytest.mark.parametrize("inputs", [ALL, BACK])
+@pytest.mark.parametrize("device", [DEVICE, LIFTS, STICKS, RIGID, LUGRE, LUGRE_LIFTS])
+def test_scipy_agrees(device: Device, inputs: HeldInputs) -> None:
+    assert off(by_scipy(device, [inputs]), position(device, [inputs])) < 2e-9
+
+
+@pytest.mark.parametrize(
+    ("device", "inputs"),
+    [
+        (DEVICE, PHASE),
+        (DEVICE, CHIRP),
+        (LUGRE, LOAD),
+        (LIFTS, BACK),
+        (replace(LUGRE, normal_amplitude=1.6), BACK),
+    ],
+)
+def test_held_steps_tend_to_the_line_with_second_order(device: Device, inputs: HeldInputs) -> None:
+    line = position(device, [inputs])
+    coarse, fine = (off(position(device, staircase(inputs, n)), line) for n in (200, 800))
+    assert fine < 1e-4
+    assert fine < coarse / 8.0, "sixteen, but for where steps lie in a period"
+
+
+def test_contact_changes_of_a_chirp_are_exact() -> None:
+    run = simulate(LIFTS, [CHIRP], TIMES)
+    changes = run.event_times[np.flatnonzero(np.diff(run.modes == 2))]
+    assert len(changes) > 10
+    angle = 0.2 + 3500.0 * (changes + 0.5 * 13.0 * changes**2)
+    assert np.abs(1.0 + 1.6 * np.sin(angle)).max() < 1e-11
+
+
+def test_flight_under_a_chirp_that_fades_is_seen() -> None:
+    """1 + 3 sin(-1.1) < 0: the contact is open, though the chirp ends before it would touch."""
+    held = HeldInputs(0.0, 9e-5, phase=-1.1, frequency_ratio=0.1, ratio_rate=-1000.0)
+    motion = simulate(Device(normal_amplitude=3.0), [held], np.array([9e-5]))
+    assert motion.contact_mode[-1] == LIFTED
+
+
+SIGNALS = ("position", "velocity", "resonator_displacement", "normal_force", "friction_force")
+TUNED: tuple[tuple[tuple[str, float], ...], ...] = (
+    (("normal_preload", 1.0), ("base_amplitude", 1e-4), ("drive_frequency", 3500.0)),
+    (("normal_preload", 1.3), ("base_amplitude", 1e-4), ("drive_frequency", 3300.0)),
+    (("normal_preload", 1.3), ("base_amplitude", 6e-5), ("drive_frequency", 3600.0)),
+)
+MU = (0.2, 0.5, 0.3)
+EDGES = (0.0, 2.1e-3, 4.7e-3, 7e-3)
+
+
+def held(*tuned: tuple[tuple[str, float], ...]) -> list[HeldInputs]:
+    return [
+        TunedInputs(start, stop, phase=0.4, tuned=own)
+        for (start, stop), own in zip(pairwise(EDGES), tuned, strict=True)
+    ]
+
+
+def assert_equal(first: Trajectory, second: Trajectory, relative: float) -> None:
+    for name in SIGNALS:
+        one, other = getattr(first, name), getattr(second, name)
+        assert np.abs(one - other).max() <= relative * np.abs(other).max(), name
+
+
+@pytest.mark.parametrize("fidelity", [1, 2])
+def test_scipy_agrees_on_tuned_parameters(fidelity: int) -> None:
+    device = Device(fidelity=fidelity, friction_coefficient=0.4)
+    times = np.linspace(0.0, EDGES[-1], 50)
+    first = simulate(device, held(*TUNED), times)
+    second = located_scipy.simulate(device, held(*TUNED), times)
+    assert_equal(first, second, 1e-9)
+    assert first.event_times == pytest.approx(second.event_times, abs=1e-11)
+
+
+def test_scipy_agrees_with_bristles() -> None:
+    device = Device(friction_law=1, bristle_stiffness=1e4, initial_bristle_deflection=1e-5)
+    friction = [(("friction_coefficient", mu), *own[:2]) for mu, own in zip(MU, TUNED, strict=True)]
+    times = np.linspace(0.0, EDGES[-1], 50)
+    states = event_free.simulate(device, held(*friction), times)
+    assert_equal(simulate(device, held(*friction), times), states, 1e-7)
+    across = simulate(device, held(*friction), np.array([2.1e-3 - 1e-9, 2.1e-3 + 1e-9]))
+    jump = np.diff(across.bristle_deflection)
+    assert np.abs(jump) < 1e-8, "the bristle keeps its deflection when friction is tuned"
+
+
+def test_a_block_slows_down_by_the_friction_of_the_moment() -> None:
+    """M v' = -2 mu N0: 0.2 m/s^2 for one second, 0.6 m/s^2 from then on."""
+    block = Device(resonator_mass=0.0, base_amplitude=0.0, normal_amplitude=0.0)
+    block = replace(block, drive_frequency=1.0, initial_velocity=0.5)
+    inputs = [
+        TunedInputs(0.0, 1.0, tuned=(("friction_coefficient", 0.1),)),
+        TunedInputs(1.0, 2.0, tuned=(("friction_coefficient", 0.3),)),
+    ]
+    motion = simulate(block, inputs, np.array([0.5, 1.0, 1.25, 2.0]))
+    assert motion.velocity == pytest.approx([0.4, 0.3, 0.15, 0.0], abs=1e-12)
+    assert motion.event_times == pytest.approx([1.5]), "0.3 m/s at 0.6 m/s^2"
+
+
+def test_another_drive_frequency_changes_a_rate_and_no_phase() -> None:
+    """Without friction a rigid slider under F sin(theta) has M v = F (1 - cos theta) / w."""
+    slider = Device(resonator_mass=0.0, friction_coefficient=0.0, tangential_force=2.0)
+    inputs = [
+        TunedInputs(0.0, 0.3, tuned=(("drive_frequency", 10.0),)),
+        TunedInputs(0.3, 0.6, tuned=(("drive_frequency", 17.0),)),
+    ]
+    motion = simulate(slider, inputs, np.array([0.3, 0.6]))
+    first = 2.0 * (1.0 - math.cos(3.0)) / 10.0
+    second = first + 2.0 * (math.cos(3.0) - math.cos(3.0 + 17.0 * 0.3)) / 17.0
+    assert motion.velocity == pytest.approx([first, second], rel=1e-12)
+    angle = np.array([3.0, 3.0 + 17.0 * 0.3])
+    assert motion.normal_force == pytest.approx(np.maximum(0.0, 1.0 + np.sin(angle)))
+
+
+@pytest.mark.parametrize("at", [0.0501, 0.0504, 0.0507])
+def test_averaged_motion_takes_over_what_the_resolved_device_has(at: float) -> None:
+    """Whatever the angle at which the drive changes, the slow velocity must be that of the pair."""
+    device = Device(damping_ratio=0.2)
+    inputs = [
+        TunedInputs(0.0, at, tuned=(("base_amplitude", 1e-4), ("drive_frequency", 3500.0))),
+        TunedInputs(at, 0.15, tuned=(("base_amplitude", 5e-5), ("drive_frequency", 3200.0))),
+    ]
+    period = 2.0 * math.pi / 3200.0
+    times = 0.15 - np.array([1.0, 0.0]) * period
+    resolved = simulate(device, inputs, times)
+    mean = float(np.diff(resolved.position)[0]) / period
+    averaged = simulate_averaged(device, inputs, times)
+    jump = 0.1 * 3500.0 * 5e-5 / 1.1
+    assert float(averaged.mean_velocity.mean()) == pytest.approx(mean, abs=0.03 * jump)
+
+
+def test_many_steps_lose_no_digits() -> None:
+    turn = Fraction(2.0 * math.pi) + Fraction(2.4492935982947064e-16)
+    angle, plain = 0.0, 0.0
+    for _ in range(100_000):
+        angle = advanced(angle, 0.37)
+        plain += 0.37
+    exact = 100_000 * Fraction(0.37)
+    exact -= round(exact / turn) * turn
+    assert abs(Fraction(angle) - exact) < 1e-11, "rounding of single steps is all that adds up"
+    assert abs(math.remainder(plain, 2.0 * math.pi) - exact) > 1e-10, "a plain sum is far worse"
+
+
+def test_elapsed_time_keeps_the_rounding_of_its_steps() -> None:
+    elapsed = Elapsed()
+    for _ in range(100_000):
+        elapsed.add(1e-3 / 3.0)
+    exact = 100_000 * Fraction(1e-3 / 3.0)
+    found = Fraction(elapsed.seconds) + Fraction(elapsed.carry)
+    assert abs(found - exact) < Fraction(1e-17), "a plain sum is off by 1e-11 here"

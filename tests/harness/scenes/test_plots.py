@@ -1,0 +1,222 @@
+import re
+from dataclasses import replace
+from functools import cache
+from math import pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from matplotlib.image import imread
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.run import run
+from slider_resonator.output.plot_style import save
+from slider_resonator.scenes import signals_plot
+from slider_resonator.scenes.run_plot import (
+    run_figure,
+    schedule_to_plot,
+)
+from slider_resonator.scenes.scene import Scene, scene_from
+from slider_resonator.scenes.scene_files import find_scene
+from slider_resonator.scenes.signals_plot import (
+    COLUMNS,
+    SIGNALS,
+    Run,
+    check_signals,
+    check_window,
+    envelope,
+    plot_signals,
+    schedule_for_window,
+)
+
+
+@pytest.fixture
+def scene() -> Scene:
+    return find_scene("changing_inputs")
+
+
+def test_a_run_becomes_a_picture(instance: Instance, scene: Scene, tmp_path: Path) -> None:
+    record = run(instance, scene.parameters, scene.schedule())
+    for suffix in (".png", ".svg", ".pdf"):
+        save(run_figure(record, scene), tmp_path / f"run{suffix}")
+    picture = imread(tmp_path / "run.png")
+    assert picture.shape[1] == 1200
+    assert np.ptp(picture[..., :3]) > 0.5, "something must be drawn"
+    assert "velocity" in (tmp_path / "run.svg").read_text()
+
+
+def test_the_lines_and_constant_inputs_are_named(instance: Instance, tmp_path: Path) -> None:
+    scene = find_scene("table_1", {"load": 0.05, "phase": 0.4})
+    record = run(instance, scene.parameters, schedule_to_plot(scene))
+    save(run_figure(record, scene), tmp_path / "run.svg")
+    text = (tmp_path / "run.svg").read_text()
+    assert "steady, for these inputs" in text
+    assert "phase 22.92 deg, load 50 mN" in text
+    assert "frequency_ratio" not in text, "it is at its start"
+
+
+def test_a_prediction_is_drawn_where_it_is_valid(instance: Instance) -> None:
+    scene = find_scene("table_1", {"load": 0.5})  # above the friction of both faces
+    axes = run_figure(run(instance, scene.parameters, scene.schedule()), scene).axes[1]
+    assert [line.get_label() for line in axes.get_lines()] == ["mean velocity"]
+
+
+def test_a_start_far_outside_does_not_set_the_axis(instance: Instance) -> None:
+    scene = find_scene("table_1")
+    record = run(instance, scene.parameters, scene.schedule())
+    spike = np.where(record.times < 0.02 * record.times[-1], 5.0, record["mean_velocity"])
+    kicked = replace(record, outputs={**record.outputs, "mean_velocity": spike})
+    axes = run_figure(kicked, scene).axes[1]
+    assert axes.get_ylim()[1] < 0.2, "5 m/s is named, not drawn"
+    (words,) = [text.get_text() for text in axes.texts]
+    assert words == f"start beyond the axis: {spike.min():.3g} to 5"
+
+
+WINDOW = (0.02, 0.04)
+
+
+@cache
+def scene_called(name: str) -> Scene:
+    return find_scene(name)
+
+
+@pytest.fixture
+def drawn(monkeypatch: pytest.MonkeyPatch) -> list[Figure]:
+    """The figures, which are not rendered."""
+    figures: list[Figure] = []
+
+    def keep(figure: Figure, path: Path) -> None:
+        figures.append(figure)
+        path.write_text("drawn", encoding="utf-8")
+
+    monkeypatch.setattr(signals_plot, "save", keep)
+    return figures
+
+
+@pytest.mark.parametrize("periods", [60_000, 777.3, COLUMNS, 121])
+def test_a_long_vibration_is_drawn_as_its_envelope(periods: float) -> None:
+    """Every n-th point of 60 000 periods would show a beat that the vibration does not have."""
+    run = {"drive_periods": periods, "steps_per_period": 0.07}
+    content = {"name": "long", "title": "long", "run": run}
+    scene = scene_from(content, "long")
+    window = (0.0, float(scene.schedule().times[-1]))
+    times = schedule_for_window(scene, window).times
+    phase = 2.0 * pi / scene.drive_period * times
+    sampled = np.sin(2.0 * pi / scene.drive_period * np.linspace(*window, 8000))
+    assert np.ptp(sampled) > 1.9, "what would be drawn without an envelope"
+    drive = scene.drive_periods
+    start, lowest, mean, highest = envelope(times, 0.3 + np.sin(phase), window, drive)
+    assert len(start) == min(COLUMNS, int(periods))
+    assert np.abs(lowest + 0.7).max() < 2e-3
+    assert np.abs(highest - 1.3).max() < 2e-3
+    assert np.abs(mean - 0.3).max() < 1e-4
+    jumps = envelope(times, np.sign(np.sin(phase - 1.0)), window, drive)[2]
+    assert np.abs(jumps).max() < 0.02 * 2.0, "friction jumps twice in a period"
+    assert np.ptp(jumps) < 0.002, "what points miss of jumps is the same in all columns"
+
+
+def test_the_envelope_follows_a_drive_whose_frequency_changes() -> None:
+    """Columns of other periods than the drive has would show a beat, and a slow drive too low."""
+    changes = {"frequency_deviation": {"ramp": [[0.0, -0.6], [1.0, 0.7]]}}
+    run = {"stop_time": 1.0, "step_size": 0.05}
+    scene = scene_from({"name": "scan", "title": "scan", "inputs": changes, "run": run}, "scan")
+    window = (0.03, 0.97)
+    times = schedule_for_window(scene, window).times
+    drive = scene.drive_periods
+    phase = 2.0 * pi * drive.passed_by(times)
+    start, lowest, mean, highest = envelope(times, 0.3 + np.sin(phase), window, drive)
+    assert len(start) == COLUMNS
+    assert np.abs(lowest + 0.7).max() < 2e-3
+    assert np.abs(highest - 1.3).max() < 2e-3
+    off = np.abs(mean - 0.3) > 1e-4
+    assert np.count_nonzero(off) <= 20, "only periods in which the frequency changes are no sines"
+
+
+def test_each_signal_has_a_panel_with_its_unit_over_contact(
+    instance: Instance, tmp_path: Path, drawn: list[Figure]
+) -> None:
+    scene = scene_called("changing_inputs")
+    record = run(instance, scene.parameters, schedule_for_window(scene, WINDOW))
+    names = ("velocity", "load", "contact_mode")
+    plot_signals([Run("a", record)], scene, names, WINDOW, tmp_path / "a.png")
+    velocity, load, contact = drawn[0].axes
+    assert velocity.get_ylabel() == "velocity\n[mm/s]"
+    assert load.get_ylabel() == "load\n[mN]"
+    assert contact.get_xlabel() == "time [ms]"
+    assert [label.get_text() for label in contact.get_yticklabels()][1:3] == [
+        "sticks",
+        "slips forward",
+    ]
+    (line,) = velocity.get_lines()
+    inside = (record.times >= WINDOW[0]) & (record.times <= WINDOW[1])
+    assert np.array_equal(np.asarray(line.get_xdata()), 1e3 * record.times[inside])
+    assert np.array_equal(np.asarray(line.get_ydata()), 1e3 * record["velocity"][inside])
+    (legend,) = drawn[0].legends
+    assert {text.get_text() for text in legend.get_texts()} == {"slips backward", "slips forward"}
+
+
+def test_overlaid_runs_can_be_told_apart(
+    instance: Instance, tmp_path: Path, drawn: list[Figure]
+) -> None:
+    scene = scene_called("table_1")
+    runs = []
+    for fidelity in (2, 1, 0):
+        varied = scene.with_values({"fidelity": fidelity})
+        record = run(instance, varied.parameters, schedule_for_window(varied, WINDOW))
+        runs.append(Run(f"fidelity {fidelity}", record))
+    plot_signals(runs, scene, SIGNALS, WINDOW, tmp_path / "a.png")
+    lines = drawn[0].axes[0].get_lines()
+    assert len({(line.get_color(), line.get_linestyle()) for line in lines}) == 3
+    assert len({line.get_color() for line in lines}) == 3
+    (legend,) = drawn[0].legends
+    shown = [text.get_text() for text in legend.get_texts()]
+    assert shown == ["fidelity 2", "fidelity 1", "fidelity 0"]
+    ends = [np.asarray(line.get_ydata())[-1] for line in drawn[0].axes[1].get_lines()]
+    assert ends == [
+        1e3 * one.record["mean_velocity"][one.record.times <= WINDOW[1]][-1] for one in runs
+    ]
+    assert len(set(ends)) == 3, "each line is a run of its own"
+
+
+def test_differences_from_the_first_run_are_below(
+    instance: Instance, tmp_path: Path, drawn: list[Figure]
+) -> None:
+    scene = scene_called("table_1")
+    records = []
+    for fidelity in (2, 1):
+        varied = scene.with_values({"fidelity": fidelity})
+        records.append(run(instance, varied.parameters, schedule_for_window(varied, WINDOW)))
+    runs = [Run("a", records[0]), Run("b", records[1])]
+    signals = ("mean_velocity", "phase", "contact_mode")
+    plot_signals(runs, scene, signals, WINDOW, tmp_path / "a.png", differences=True)
+    labels = [axes.get_ylabel().split("\n")[0] for axes in drawn[0].axes]
+    assert labels == ["mean velocity", "difference", "phase", "contact"]
+    (line,) = drawn[0].axes[1].get_lines()
+    inside = (records[0].times >= WINDOW[0]) & (records[0].times <= WINDOW[1])
+    off = (records[1]["mean_velocity"] - records[0]["mean_velocity"])[inside]
+    assert np.abs(off).max() > 1e-6
+    factor = 1e3 if "mm/s" in drawn[0].axes[1].get_ylabel() else 1.0
+    assert np.asarray(line.get_ydata()) == pytest.approx(factor * off)
+
+
+@pytest.mark.parametrize(
+    ("names", "message"),
+    [
+        (["velocty"], "--signals: unknown output or input 'velocty'; did you mean 'velocity'?"),
+        (["tolerance"], "--signals: unknown output or input 'tolerance'"),
+        (["load", "load"], "--signals: load is given twice; must be given once"),
+    ],
+)
+def test_other_signals_are_refused(names: list[str], message: str) -> None:
+    with pytest.raises(HarnessError, match=re.escape(message)):
+        check_signals(names, find_scene("table_1"))
+
+
+@pytest.mark.parametrize(
+    "window", [(0.1, 0.1), (0.2, 0.1), (-0.1, 0.1), (0.0, 9.0), (float("nan"), 0.1)]
+)
+def test_a_window_outside_the_run_is_refused(window: tuple[float, float]) -> None:
+    with pytest.raises(HarnessError, match=r"must be FROM:TO with 0 <= FROM < TO <= 0\.17952 s"):
+        check_window(window, scene_called("table_1"))

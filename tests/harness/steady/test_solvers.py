@@ -1,0 +1,246 @@
+"""Newton, bracketing and shooting on functions and maps whose solutions are known."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from slider_resonator.steady.bracketing import bracketed_state
+from slider_resonator.steady.newton import Vector, solve
+from slider_resonator.steady.shooting import (
+    FixedPoint,
+    NoFixedPoint,
+    WarmedUp,
+    blocked_point,
+    blocking_point,
+    fixed_point,
+    steady_point,
+)
+
+
+@pytest.mark.parametrize("scales", [(1.0, 1.0), (1e-6, 1e3)])
+def test_scales_do_not_change_the_root_nor_the_work(scales: tuple[float, float]) -> None:
+    size = np.array(scales)
+
+    def function(x: Vector) -> Vector:
+        y = x / size
+        return np.asarray(size * [y[0] ** 2 + y[1] ** 2 - 5.0, y[0] * y[1] - 2.0])
+
+    root = solve(function, np.array([3.0, 0.5]) * size, size)
+    assert root.status == "converged"
+    assert root.x / size == pytest.approx([2.0, 1.0], rel=1e-9)
+    assert root.iterations < 10
+
+
+def test_damping_converges_where_full_steps_diverge() -> None:
+    root = solve(lambda x: np.arctan(x), np.array([5.0]), np.ones(1))
+    assert root.status == "converged"
+    assert abs(root.x[0]) < 1e-9
+
+
+def test_triple_root_converges() -> None:
+    """The averaged drift of a device with twice the frequency is nearly one of these."""
+    root = solve(lambda x: x**3, np.array([0.5]), np.ones(1), tolerance=1e-4)
+    assert root.status == "converged"
+    assert abs(root.x[0]) < 1e-3
+
+
+def test_singular_jacobian_has_a_residual_only_without_a_zero() -> None:
+    family = solve(lambda x: np.array([0.0, x[1] - 1.0]), np.array([0.3, 0.0]), np.ones(2))
+    assert family.status == "singular"
+    assert family.residual < 1e-12, "every (x, 1) is a zero"
+    none = solve(lambda x: np.array([0.5, x[1] - 1.0]), np.array([0.3, 0.0]), np.ones(2))
+    assert none.status == "singular"
+    assert none.residual == pytest.approx(0.5)
+
+
+def test_rounding_noise_does_not_prevent_convergence() -> None:
+    noise = iter(1e-11 * np.random.default_rng(0).standard_normal(1000))
+
+    def function(x: Vector) -> Vector:
+        return np.asarray(1e-2 * (x - 0.3) + next(noise))
+
+    root = solve(function, np.array([2.0]), np.ones(1), tolerance=1e-10)
+    assert root.status == "converged"
+    assert root.x[0] == pytest.approx(0.3, abs=1e-7)
+
+
+def saturated_map(state: Vector) -> tuple[Vector, float]:
+    """A drift that saturates outside |v| < 1 with vertical tangents, beside a fast oscillator."""
+    v, y, u = state
+    inside = float(np.clip(v + 0.1 * y, -1.0, 1.0))
+    drift = 0.97 - 2.0 / np.pi * np.arccos(inside)
+    fast = np.array([[0.4, 0.5], [-0.5, 0.4]]) @ np.array([y - 0.2, u + 0.1])
+    return np.array([v - 1e-3 * drift, 0.2 + fast[0], -0.1 + fast[1]]), v
+
+
+def test_bracketing_finds_a_root_out_of_reach_of_newton() -> None:
+    guess, scale = np.array([40.0, 1.0, 1.0]), np.ones(3)
+    state = bracketed_state(saturated_map, guess, scale)
+    assert state is not None
+    assert np.abs(saturated_map(state)[0] - state).max() < 1e-12
+    found = fixed_point(saturated_map, state, scale)
+    assert isinstance(found, FixedPoint), "Newton must accept what lies between the bounds"
+
+
+def test_one_sided_drift_has_no_bracket() -> None:
+    assert bracketed_state(lambda s: (s - 1e-3, 0.0), np.zeros(1), np.ones(1)) is None
+
+
+def test_bracketing_renews_its_jacobian_for_a_bristle_state() -> None:
+    """As a soft bristle does: one Jacobian does not serve for all velocities."""
+
+    def period_map(state: Vector) -> tuple[Vector, float]:
+        v, bend = state
+        held = np.exp(-abs(v))
+        return np.array([v + 1e-3 * (0.3 - np.tanh(v)), bend * held + (1.0 - held) * v]), v
+
+    state = bracketed_state(period_map, np.array([-0.05, 1.0]), np.array([3.0, 1.0]))
+    assert state is not None
+    assert state == pytest.approx(np.arctanh([0.3, 0.3]), abs=1e-9)
+
+
+ONES = np.ones(2)
+
+
+def linear_map(slow: float, fixed: Vector) -> tuple[np.ndarray, Vector]:
+    basis = np.array([[1.0, 0.3], [-0.2, 1.0]])
+    return basis @ np.diag([slow, 0.2]) @ np.linalg.inv(basis), fixed
+
+
+@pytest.mark.parametrize("slow", [0.5, 1.0 - 1.0 / 1140.0, 1.0 - 1e-6, -0.9])
+def test_linear_contraction_is_solved_by_one_jacobian(slow: float) -> None:
+    matrix, target = linear_map(slow, np.array([0.126667, -3.0]))
+    evaluations = []
+
+    def period_map(state: Vector) -> tuple[Vector, float]:
+        evaluations.append(state)
+        return target + matrix @ (state - target), 2.0 * state[0]
+
+    found = fixed_point(period_map, np.array([0.5, 1.0]), ONES)
+    assert isinstance(found, FixedPoint)
+    error = np.abs(found.state - target).max()
+    assert error < 1e-9, f"a near-neutral direction must not cost accuracy: error {error:.1e}"
+    assert found.displacement == pytest.approx(2.0 * target[0], rel=1e-8)
+    assert np.abs(np.sort(found.multipliers.real) - np.sort([slow, 0.2])).max() < 1e-9
+    assert found.stability == "stable"
+    assert len(evaluations) <= 20, "a linear map needs one Jacobian and both neighbours"
+
+
+def kinked(below: float, above: float) -> Callable[[Vector], tuple[Vector, float]]:
+    """A slow direction with one multiplier below the fixed point and one above, and a fast one."""
+    basis = np.array([[1.0, 0.3], [-0.2, 1.0]])
+
+    def period_map(state: Vector) -> tuple[Vector, float]:
+        slow, fast = np.linalg.solve(basis, state - 0.4)
+        end = np.array([slow * (above if slow > 0.0 else below), 0.2 * fast + 0.1 * slow**2])
+        return basis @ end + 0.4, 0.0
+
+    return period_map
+
+
+@pytest.mark.parametrize("sides", [(1.0, 0.99), (0.99, 1.0), (1.0, 1.0)])
+def test_an_end_of_a_family_is_no_steady_motion(sides: tuple[float, float]) -> None:
+    found = fixed_point(kinked(*sides), np.array([0.5, 0.3]), ONES)
+    assert isinstance(found, NoFixedPoint)
+    assert found.status == "not_unique"
+
+
+@pytest.mark.parametrize(
+    ("sides", "stability"), [((0.9, 0.99), "stable"), ((1.1, 0.8), "unstable")]
+)
+def test_the_weaker_side_of_a_kink_counts(sides: tuple[float, float], stability: str) -> None:
+    found = fixed_point(kinked(*sides), np.array([0.5, 0.3]), ONES)
+    assert isinstance(found, FixedPoint)
+    assert found.multipliers[0] == pytest.approx(max(sides), rel=1e-6)
+    assert found.stability == stability
+
+
+def test_saturating_map_converges_from_a_far_guess() -> None:
+    """The averaged slow motion of the paper, (4): vertical tangents at |V| = q."""
+
+    def period_map(state: Vector) -> tuple[Vector, float]:
+        v = float(np.clip(state[0], -1.0, 1.0))
+        theta = np.arccos(v)
+        drift = 1.0 - 2.0 / np.pi * theta - 2.0 / np.pi * np.sin(theta) * np.sin(0.7)
+        return np.array([state[0] - 1e-3 * drift]), state[0]
+
+    found = fixed_point(period_map, np.array([-0.97]), np.ones(1))
+    assert isinstance(found, FixedPoint)
+    theta = np.arccos(found.state[0])
+    balance = 1.0 - 2.0 / np.pi * theta - 2.0 / np.pi * np.sin(theta) * np.sin(0.7)
+    assert abs(balance) < 1e-9, f"the mean friction of (5) must vanish, is {balance:.1e}"
+
+
+def test_saturated_drift_has_no_fixed_point() -> None:
+    found = fixed_point(lambda s: (s - np.array([0.01, 0.0]), 0.0), np.zeros(2), ONES)
+    assert isinstance(found, NoFixedPoint)
+    assert found.status == "no_fixed_point"
+    assert "drifts" in found.reason
+
+
+@pytest.mark.parametrize(
+    ("multiplier", "stability"), [(0.999, "stable"), (1.2, "unstable"), (-1.0, "neutral")]
+)
+def test_stability_follows_the_largest_multiplier(multiplier: float, stability: str) -> None:
+    def period_map(state: Vector) -> tuple[Vector, float]:
+        return np.array([multiplier, 0.1]) * state, 0.0
+
+    found = fixed_point(period_map, np.array([0.5, 0.5]), ONES)
+    assert isinstance(found, FixedPoint)
+    assert found.stability == stability
+    assert found.multipliers[0] == pytest.approx(multiplier, abs=1e-9)
+
+
+def test_blocking_point_finds_the_load_that_stops_the_drift() -> None:
+    """A damped slow velocity pushed by (0.0852 - load), resonator decoupled."""
+
+    def period_map(state: Vector, load: float) -> tuple[Vector, float]:
+        velocity = state[0] + 1e-3 * (0.0852 - load) - 1e-3 * state[0]
+        return np.array([velocity, 0.3 * state[1]]), 1e-3 * (state[0] - 0.02 + state[1])
+
+    found = blocking_point(period_map, np.array([0.3, 1.0]), 0.0, ONES, 0.1, 1e-3)
+    assert isinstance(found, FixedPoint)
+    assert found.load == pytest.approx(0.0652, rel=1e-9), "velocity 0.02 must balance the offset"
+    assert abs(found.displacement) < 1e-15
+    assert found.multipliers[0] == pytest.approx(0.999, abs=1e-8)
+
+
+def test_blocking_point_of_a_map_without_motion_is_singular() -> None:
+    found = blocking_point(lambda s, f: (0.5 * s, 0.0), np.ones(2), 0.1, ONES, 1.0, 1.0)
+    assert isinstance(found, NoFixedPoint)
+
+
+class _Slider:
+    """A slow velocity that (0.1 - load) pushes, saturated as Coulomb friction is, and a swing."""
+
+    period = 2.0
+
+    def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
+        drift = 0.01 * (0.1 - load - np.clip(state[0], -0.5, 0.5))
+        return np.array([state[0] + drift, 0.3 * state[1]]), self.period * float(state[0])
+
+    def warm_up(self, velocity: float, load: float) -> WarmedUp:
+        return WarmedUp(np.array([velocity + 0.02, 0.1]), np.ones(2), velocity + 0.01)
+
+
+@pytest.mark.parametrize("velocity", [0.0, 0.3, 40.0])
+def test_steady_motion_is_found_from_any_guess(velocity: float) -> None:
+    found = steady_point(_Slider(), velocity, 0.03)
+    assert isinstance(found, FixedPoint)
+    assert found.load == 0.03
+    assert found.displacement / _Slider.period == pytest.approx(0.07, abs=1e-9)
+
+
+def test_blocking_load_is_found() -> None:
+    found = blocked_point(_Slider(), _Slider().warm_up(0.0, 0.0), 0.0, 0.2)
+    assert isinstance(found, FixedPoint)
+    assert found.load == pytest.approx(0.1, abs=1e-10)
+    assert found.displacement == pytest.approx(0.0, abs=1e-10)
+
+
+def test_growing_fast_state_has_no_bracket() -> None:
+    growing = bracketed_state(
+        lambda s: (np.array([-s[0], s[1] + 1.0]), 0.0), np.zeros(2), np.ones(2)
+    )
+    assert growing is None

@@ -1,0 +1,253 @@
+"""Steady motion and blocking force of the built FMU."""
+
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+
+from slider_resonator.device.device import Device
+from slider_resonator.device.interface import INPUT_STARTS
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.steady.blocking_force import find_blocking
+from slider_resonator.steady.periodic import (
+    Facts,
+    FmuPeriodMap,
+    Obstacle,
+    read_facts,
+    repeating_periods,
+)
+from slider_resonator.steady.reference_steady import (
+    reference_blocking_force,
+    reference_steady_velocity,
+)
+from slider_resonator.steady.steady_velocity import find_steady
+
+
+@pytest.mark.parametrize(
+    ("values", "velocity"),
+    [
+        ({}, 0.12666700),
+        ({"phase": 0.4, "load": 0.05}, 0.0986951),
+        ({"phase": 0.4, "frequency_ratio": 3.0}, -0.0362968),
+    ],
+)
+def test_steady_velocity_matches_taylor_integration_within_100_periods(
+    instance: Instance, values: dict[str, float], velocity: float
+) -> None:
+    motion = find_steady(instance, values)
+    assert motion.status == "steady"
+    assert motion.steady_velocity == pytest.approx(velocity, rel=1e-6)
+    assert motion.periods <= 100, "a long run needs 16 000 periods"
+    assert motion.stable
+
+
+@pytest.mark.parametrize(
+    ("ratio", "amplitude", "phase"),
+    [(2.0, 3.0, 0.3), (2.0, 2.0, 1.0), (4.0, 3.0, 2.5), (-2.0, 3.0, 2.5)],
+)
+def test_a_family_of_motions_has_no_steady_one(
+    instance: Instance, ratio: float, amplitude: float, phase: float
+) -> None:
+    """Even ratios with flight while sliding turns; the search begins at an end of the family."""
+    values = {"frequency_ratio": ratio, "normal_amplitude": amplitude, "phase": phase}
+    motion = find_steady(instance, values)
+    assert motion.status == "not_unique"
+    assert motion.steady_velocity is None
+    assert motion.predicted > 0.01
+
+
+def test_stuck_device_does_not_creep(instance: Instance) -> None:
+    motion = find_steady(instance, {"base_amplitude": 5e-9, "normal_amplitude": 0.5})
+    assert motion.status == "stuck"
+    assert motion.steady_velocity == 0.0
+
+
+def test_undamped_resonance_has_no_steady_motion(instance: Instance) -> None:
+    slipping_resonance = 3500.0 * sqrt(1.0 / 1.1)
+    motion = find_steady(
+        instance, {"damping_ratio": 0.0, "resonator_frequency": slipping_resonance}
+    )
+    assert motion.steady_velocity is None
+    assert "damping_ratio = 0" in motion.reason
+
+
+@pytest.mark.parametrize(
+    ("values", "status", "reasons"),
+    [
+        ({"load": 0.25}, "load_above_friction", ("0.25 N", "0.2 N")),
+        ({"frequency_ratio": 1.001}, "slow_beat", ("0.557042 Hz",)),
+        ({"frequency_ratio": 1.37}, "no_common_period", ()),
+        ({"friction_coefficient": 0.0}, "not_unique", ()),
+        # Near V = 0 the slips forward and backward keep their impulses, whatever V is.
+        (
+            {"frequency_ratio": 2.0, "normal_amplitude": 1.5, "phase": pi / 2.0 - 1.466},
+            "not_unique",
+            (),
+        ),
+    ],
+    ids=["load", "beat", "irrational ratio", "no friction", "reversals in flight"],
+)
+def test_missing_steady_motion_is_explained(
+    instance: Instance, values: dict[str, float], status: str, reasons: tuple[str, ...]
+) -> None:
+    motion = find_steady(instance, values)
+    assert motion.steady_velocity is None
+    assert motion.status == status
+    for reason in reasons:
+        assert reason in motion.reason
+
+
+@pytest.mark.parametrize("law", [{}, {"friction_law": 1.0}], ids=["Coulomb", "LuGre"])
+@pytest.mark.parametrize(
+    "values",
+    [{"phase": 0.4}, {"friction_faces": 1.0}, {"fidelity": 1.0}, {"bristle_stiffness": 50.0}],
+)
+def test_blocking_force_stops_the_device(
+    instance: Instance, values: dict[str, float], law: dict[str, float]
+) -> None:
+    values = {**values, **law}
+    blocking = find_blocking(instance, values)
+    assert blocking.blocking_force is not None
+    motion = find_steady(instance, {**values, "load": blocking.blocking_force})
+    assert motion.steady_velocity == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("values", "status"),
+    [
+        ({"base_amplitude": 0.0, "normal_amplitude": 0.5}, "stuck"),
+        ({"frequency_ratio": 1.001}, "slow_beat"),
+        ({"frequency_ratio": 1.37}, "no_common_period"),
+    ],
+)
+def test_missing_blocking_force_is_explained(
+    instance: Instance, values: dict[str, float], status: str
+) -> None:
+    blocking = find_blocking(instance, values)
+    assert blocking.blocking_force is None
+    assert blocking.status == status
+
+
+PERIOD = 2.0 * pi / 3500.0
+LUGRE = {"friction_law": 1.0}
+
+
+@pytest.mark.parametrize(("fidelity", "stiffness"), [(1.0, 1e4), (2.0, 50.0), (2.0, 1e6)])
+def test_soft_and_hard_bristles_match_the_reference(
+    instance: Instance, fidelity: float, stiffness: float
+) -> None:
+    changed = {**LUGRE, "fidelity": fidelity, "bristle_stiffness": stiffness, "tolerance": 1e-11}
+    device = Device.from_mapping(changed)
+    motion, blocking = find_steady(instance, changed), find_blocking(instance, changed)
+    assert (motion.status, blocking.status) == ("steady", "blocked")
+    assert motion.periods <= 100, "as few as with Coulomb friction"
+    assert blocking.periods <= 100, "as few as with Coulomb friction"
+    velocity = reference_steady_velocity(device, 0.0, 0.0, 1.0, motion.predicted)
+    force = reference_blocking_force(device, 0.0, 1.0, blocking.predicted)
+    assert motion.steady_velocity == pytest.approx(velocity, abs=1e-7), "the bristle as a state"
+    assert blocking.blocking_force == pytest.approx(force, abs=1e-7), "the bristle as a state"
+
+
+@pytest.mark.parametrize("stiffness", [50.0, 3e3, 1e6])
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"phase": -pi / 2.0},  # the normal force vanishes at the end of each period
+        {"phase": -1.2, "normal_amplitude": 3.0},  # lifted there
+        {"phase": 4.2, "normal_amplitude": 30.0, "frequency_ratio": -1.0},  # half the period
+        {"phase": -2.0, "normal_amplitude": 2.0, "frequency_ratio": 0.5},
+        {"phase": -1.5, "normal_amplitude": 1.5, "frequency_ratio": 1.5},
+        {"phase": 0.4, "frequency_ratio": 3.0},
+        {"phase": 0.4, "load": 0.05},
+        {"normal_preload": 0.0},
+    ],
+)
+def test_run_from_the_steady_state_stays_there(
+    instance: Instance, stiffness: float, changed: dict[str, float]
+) -> None:
+    values = {**LUGRE, "bristle_stiffness": stiffness, "tolerance": 1e-11, **changed}
+    motion = find_steady(instance, values)
+    assert motion.status == "steady"
+    assert motion.common_period is not None
+    instance.start({**values, **{f"initial_{name}": x for name, x in motion.state.items()}})
+    begin = instance.value("position")
+    for period in range(1, 51):
+        instance.step_to(period * motion.common_period * PERIOD)
+    mean = (instance.value("position") - begin) / instance.time
+    assert mean == pytest.approx(motion.steady_velocity, abs=1e-9)
+    assert instance.value("velocity") == pytest.approx(motion.state["velocity"], abs=1e-9)
+
+
+def test_damped_bristles_hold_loads_above_sliding_friction(instance: Instance) -> None:
+    """(24) can exceed mu N0: a load above full sliding friction is no obstacle of its own."""
+    soft = {**LUGRE, "bristle_stiffness": 50.0}
+    motion = find_steady(instance, {**soft, "load": 0.5})
+    assert motion.status == "steady"
+    assert motion.steady_velocity is not None
+    assert motion.steady_velocity > 0.1
+    over = find_steady(instance, {**soft, "load": 2.5})
+    assert over.steady_velocity is None
+    assert over.status == "load_above_friction"
+
+
+def facts(**values: float) -> Facts:
+    return Facts({**vars(Device()), **INPUT_STARTS, **values}, 0.0, 0.0, None)
+
+
+@pytest.mark.parametrize("amplitude", [0.0, 0.5, 1.0, 1.5, 4.0])
+def test_mean_normal_force_is_that_of_the_clipped_sine(amplitude: float) -> None:
+    angle = (np.arange(200_000) + 0.5) / 200_000 * 2.0 * pi
+    mean = np.maximum(0.0, 1.0 + amplitude * np.sin(angle)).mean()
+    assert facts(normal_amplitude=amplitude).mean_normal_force == pytest.approx(mean, rel=1e-9)
+
+
+def test_slow_beat_reports_its_frequency() -> None:
+    found = repeating_periods(facts(frequency_ratio=1.001), 20)
+    assert isinstance(found, Obstacle)
+    assert found.status == "slow_beat"
+    assert "slow beat at 0.557042 Hz" in found.reason
+    assert repeating_periods(facts(frequency_ratio=1.5), 20) == 2
+
+
+@pytest.mark.parametrize(
+    ("ratio", "status"),
+    [
+        (1.0999, "slow_beat"),
+        (2.9001, "slow_beat"),
+        (-0.9871, "slow_beat"),
+        (1.1001, "no_common_period"),
+        (1.37, "no_common_period"),
+        (-2.4567, "no_common_period"),
+    ],
+)
+def test_slow_beat_needs_a_ratio_near_an_integer(ratio: float, status: str) -> None:
+    found = repeating_periods(facts(frequency_ratio=ratio), 20)
+    assert isinstance(found, Obstacle)
+    assert found.status == status
+    assert f"frequency_ratio = {ratio!r} is no p/q with q <= 20" in found.reason
+    assert ("Hz" in found.reason) == (status == "slow_beat"), "a fast beat is none"
+
+
+@pytest.mark.parametrize("stiffness", [None, 50.0, 1e5])
+def test_maps_can_be_chained(instance: Instance, stiffness: float | None) -> None:
+    """What is read at the end of a period must start the next one as if there were no end."""
+    values, start = {"tolerance": 1e-12}, np.array([0.1, 1e-4, -0.2])
+    if stiffness:
+        values |= {"friction_law": 1.0, "bristle_stiffness": stiffness}
+        start = np.append(start, 0.3 / stiffness * 0.1)
+    facts = read_facts(instance, values)
+    period_map = FmuPeriodMap(instance, values, facts, 2)
+    assert ("bristle_deflection" in period_map.names) == bool(stiffness)
+    first, moved = period_map(start, 0.01)
+    second, further = period_map(first, 0.01)
+    assert period_map.periods == 4
+    end, displacement = FmuPeriodMap(instance, values, facts, 4)(start, 0.01)
+    allowed = 1e-9 if stiffness else 1e-11
+    assert end == pytest.approx(second, rel=allowed)
+    assert displacement == pytest.approx(moved + further, rel=allowed)
+
+
+def test_normal_force_at_ratio_0_is_constant() -> None:
+    still = facts(frequency_ratio=0.0, phase=-pi / 6.0)
+    assert still.mean_normal_force == pytest.approx(0.5)
+    assert facts(frequency_ratio=0.0, phase=-2.0, normal_amplitude=3.0).mean_normal_force == 0.0

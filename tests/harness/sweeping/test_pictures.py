@@ -1,0 +1,146 @@
+"""Page and picture of a sweep."""
+
+import json
+import re
+from math import pi
+from pathlib import Path
+from typing import Any
+
+import pytest
+from matplotlib.axes import Axes
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.sweeping.grid import grid_from, read_grid
+from slider_resonator.sweeping.measures import Row
+from slider_resonator.sweeping.page import MAX_POINTS, check_page, write_sweep_page
+from slider_resonator.sweeping.picture import check_picture, sweep_figure
+from slider_resonator.sweeping.table import table_columns
+from tests.harness.known_provenance import PROVENANCE
+from tests.html_pages import Page
+
+AXIS = {"from": 0.0, "to": 1.0, "count": 8}
+LOGARITHMIC = {"from": 0.1, "to": 10.0, "count": 8, "spacing": "log"}
+
+
+def plots(path: Path, content: dict[str, Any], *, answered: bool = True) -> list[dict[str, Any]]:
+    """The data of the plots of a sweep whose second point is refused, or all of them."""
+    sweep = grid_from(content, "grid.toml")
+    rows: dict[int, Row] = {
+        n: (n, [float(n) - 3.0, "steady"] if answered else [None, "beat"], None)
+        for n in range(len(sweep.points))
+    }
+    rows[1] = (1, [None, None], "<refused>")
+    columns = table_columns(sweep.task, sweep.points, rows)
+    write_sweep_page(path, sweep, columns, PROVENANCE)
+    text = path.read_text(encoding="utf-8")
+    page = Page(text)
+    assert page.loaded == ["data:,"]
+    assert page.ids == ["provenance"]
+    assert "0123abcd" in text
+    return [
+        json.loads(data)
+        for data in re.findall(r'application/json">(.*?)</script>', text, re.DOTALL)
+    ]
+
+
+def test_a_line_has_every_point_with_what_it_is(tmp_path: Path) -> None:
+    (plot,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS}, "title": "<i>"})
+    line, missing = plot["series"]
+    assert plot["x"]["label"] == "phase [deg]"
+    assert plot["y"]["label"] == "steady velocity [m/s]"
+    assert line["y"] == [-3.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.0]
+    assert line["notes"][0] == "steady velocity [m/s]: -3\nsteady"
+    assert missing["x"] == [pytest.approx(180.0 / pi / 7.0)]
+    assert missing["y"] == [None]
+    assert missing["notes"] == ["no answer\n<refused>"]
+
+
+def test_few_values_are_lines_that_differ_and_many_are_cells(tmp_path: Path) -> None:
+    (lines,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS, "load": [0.0, 0.1]}})
+    drawn = [one for one in lines["series"] if one["width"] > 0]
+    assert [one["label"] for one in drawn] == ["load 0 mN", "load 100 mN"]
+    assert drawn[0]["colour"] != drawn[1]["colour"]
+    assert drawn[0]["marker"] != drawn[1]["marker"]
+    (cells,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS, "load": AXIS}})
+    assert cells["series"][0]["cells"]
+    assert len(cells["series"][0]["colours"]) == 63
+    assert cells["y"]["label"] == "load [N]"
+
+
+def test_axes_are_logarithmic_where_the_grid_is(tmp_path: Path) -> None:
+    grid = {"friction_coefficient": LOGARITHMIC, "phase": AXIS}
+    (plot,) = plots(tmp_path / "a.html", {"grid": grid})
+    assert (plot["x"]["log"], plot["y"]["log"]) == (True, False)
+    content = {"random": {"count": 9, "seed": 1, "friction_coefficient": LOGARITHMIC_RANGE}}
+    (plot,) = plots(tmp_path / "a.html", content)
+    assert plot["x"]["log"]
+
+
+LOGARITHMIC_RANGE = {key: value for key, value in LOGARITHMIC.items() if key != "count"}
+
+
+def test_a_sweep_without_any_answer_has_a_page(tmp_path: Path) -> None:
+    (plot,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS, "load": AXIS}}, answered=False)
+    assert [one["label"] for one in plot["series"]] == ["no answer"]
+
+
+def test_too_many_points_are_refused() -> None:
+    axis = {"from": 0.0, "to": 1.0, "count": MAX_POINTS + 1}
+    with pytest.raises(HarnessError, match=f"--html: {MAX_POINTS + 1} points; must be at most"):
+        check_page(grid_from({"grid": {"phase": axis}}, "a"), "--html")
+
+
+AXIS_TEXT = "{ from = 0.0, to = 1.0, count = 8 }"
+
+
+@pytest.mark.parametrize(
+    ("text", "drawn"),
+    [
+        (f"[grid]\nphase = {AXIS_TEXT}", "line"),
+        (f"[grid]\nphase = {AXIS_TEXT}\nload = [0.0, 0.1]", "line"),
+        (f"[grid]\nphase = {AXIS_TEXT}\nload = {AXIS_TEXT}", "pcolormesh"),
+        ("[list]\nphase = [0.0, 0.1]\nload = [0.0, 0.1]", "scatter"),
+    ],
+)
+def test_lines_maps_and_samples_are_drawn_with_gaps_for_failures(
+    text: str, drawn: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    used: list[str] = []
+    methods = {"line": "plot", "pcolormesh": "pcolormesh", "scatter": "scatter"}
+    for kind, method in methods.items():
+        original = getattr(Axes, method)
+
+        def noted(
+            *args: object, _kind: str = kind, _do: object = original, **more: object
+        ) -> object:
+            used.append(_kind)
+            return _do(*args, **more)  # type: ignore[operator]
+
+        monkeypatch.setattr(Axes, method, noted)
+    (tmp_path / "grid.toml").write_text(text, encoding="utf-8")
+    sweep = read_grid(tmp_path / "grid.toml")
+    rows: dict[int, Row] = {
+        n: (n, [float(n) - 3.0, "steady"], None) for n in range(len(sweep.points))
+    }
+    rows[1] = (1, [None, None], "refused")
+    sweep_figure(sweep, table_columns(sweep.task, sweep.points, rows))
+    assert used[0] == drawn, "a colour bar may follow"
+
+
+def test_three_variables_have_no_picture(tmp_path: Path) -> None:
+    path = tmp_path / "grid.toml"
+    path.write_text("[grid]\nphase = [0]\nload = [0]\nfriction_law = [0]", encoding="utf-8")
+    with pytest.raises(HarnessError, match=r"3 variables.*must be one"):
+        check_picture(read_grid(path), "--plot")
+
+
+def test_axes_of_the_picture_are_logarithmic_where_the_grid_is() -> None:
+    scales: list[tuple[str, str]] = []
+    log = {"from": 0.1, "to": 10.0, "count": 8, "spacing": "log"}
+    for names in (["friction_coefficient"], ["friction_coefficient", "load"]):
+        grid = {name: log for name in names}
+        sweep = grid_from({"grid": grid}, "grid.toml")
+        rows: dict[int, Row] = {n: (n, [1.0, ""], None) for n in range(len(sweep.points))}
+        axes = sweep_figure(sweep, table_columns(sweep.task, sweep.points, rows)).axes[0]
+        scales.append((axes.get_xscale(), axes.get_yscale()))
+    assert scales == [("log", "linear"), ("log", "log")]

@@ -1,0 +1,101 @@
+"""Points of a sweep: what is measured, proved or an error."""
+
+from math import tau
+
+import numpy as np
+import pytest
+
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.sweeping.measures import (
+    FEW,
+    STATISTICS,
+    Run,
+    Task,
+    measure,
+    measure_point,
+    prove_points,
+)
+
+TURN = np.linspace(0.0, tau, 65)
+
+
+@pytest.mark.parametrize(
+    ("statistic", "expected"),
+    [
+        ("mean", 3.0),
+        ("rms", (9.0 + 2.0) ** 0.5),
+        ("minimum", 1.0),
+        ("maximum", 5.0),
+        ("peak_to_peak", 4.0),
+        ("last", 3.0),
+    ],
+)
+def test_statistics_of_an_offset_sine(statistic: str, expected: float) -> None:
+    assert STATISTICS[statistic](3.0 + 2.0 * np.sin(TURN)) == pytest.approx(expected, rel=1e-12)
+
+
+def _task(*measures: str, names: tuple[str, ...] = ("phase",), run: Run | None = None) -> Task:
+    return Task(names, (("load", 0.01),), measures, 20, run or Run(10, 16, 0))
+
+
+def test_measures_by_shooting_are_those_of_the_commands(instance: Instance) -> None:
+    velocity, status = measure(instance, _task("steady_velocity"), (0.4,), {})
+    alone = find_steady(instance, {"phase": 0.4, "load": 0.01})
+    assert (velocity, status) == (alone.steady_velocity, "steady")
+    force, status = measure(instance, _task("blocking_force"), (0.0,), {})
+    assert force == pytest.approx(0.0851861, rel=1e-5), "measured for table 1"
+    assert status == "blocked"
+
+
+def test_statistics_are_those_of_the_run_that_was_asked_for(instance: Instance) -> None:
+    task = _task(
+        "position.last",
+        "velocity.mean",
+        "normal_force.mean",
+        names=("drive_frequency",),
+        run=Run(40, 64, 20),
+    )
+    position, velocity, force = measure(instance, task, (7000.0,), {})
+    period = tau / 7000.0
+    instance.start({"load": 0.01, "drive_frequency": 7000.0})
+    instance.step_to(20 * period)
+    before = instance.value("position")
+    instance.step_to(40 * period)
+    assert position == pytest.approx(instance.value("position"), rel=1e-9)
+    travelled = instance.value("position") - before
+    assert velocity == pytest.approx(travelled / (20 * period), rel=1e-2)
+    assert force == pytest.approx(1.0, rel=1e-9), "the preload, over whole periods"
+
+
+TASK = Task(("friction_coefficient",), (), ("steady_velocity",), 20, Run(1, 1, 0))
+BOTH = Task(("phase",), (), ("blocking_force", "velocity.rms"), 20, Run(2, 16, 0))
+
+
+def test_a_point_that_fails_is_a_row_with_its_error_and_the_next_is_sound(
+    instance: Instance,
+) -> None:
+    failed = measure_point(instance, TASK, (0, (-1.0,)), {})
+    sound = measure_point(instance, TASK, (1, (0.1,)), {})
+    assert failed[:2] == (0, [None, None])
+    assert "friction_coefficient = -1" in str(failed[2])
+    assert sound[1][1] == "steady"
+
+
+def test_what_is_proved_is_not_searched(instance: Instance) -> None:
+    point = (7, (0.4,))
+    (proved,) = prove_points(instance, BOTH, [point])
+    assert isinstance(proved, dict), "a run is to be made"
+    number, cells, error = measure_point(instance, BOTH, point, proved)
+    assert (number, cells[:2], error) == (7, [proved["blocking_force"], "blocked"], None)
+    assert cells[2] == pytest.approx(measure_point(instance, BOTH, point, {})[1][2], rel=0)
+
+
+def test_few_points_that_are_not_proved_are_searched_at_once(instance: Instance) -> None:
+    points = [(0, (-1.0,)), (1, (0.1,))]
+    refused, sound = prove_points(instance, TASK, points)
+    assert refused == measure_point(instance, TASK, points[0], {})
+    assert sound[2] is None  # type: ignore[index]
+    law = Task(("friction_law",), (), ("steady_velocity",), 20, Run(1, 1, 0))
+    many = [(number, (1.0,)) for number in range(FEW + 1)]
+    assert prove_points(instance, law, many) == [{}] * len(many)

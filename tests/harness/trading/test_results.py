@@ -1,0 +1,231 @@
+"""Results of a trade: fronts, the cheapest, tables and pages."""
+
+import re
+from dataclasses import replace
+from html import unescape
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.trading.page import write_trades
+from slider_resonator.trading.plots import draw_picture
+from slider_resonator.trading.result import (
+    AVERAGED,
+    PEER,
+    RESOLVED,
+    Omission,
+    Row,
+    Trade,
+    cheapest,
+    front,
+)
+from slider_resonator.trading.summary import (
+    BEGIN,
+    COLUMNS,
+    END,
+    NEEDS,
+    choices,
+    duration,
+    heading,
+    sentence,
+    standings,
+    write_choices,
+)
+from tests.harness.known_provenance import PROVENANCE
+from tests.html_pages import Page
+
+
+def row(cost: float, error: float, kind: str = RESOLVED, quantity: str = "position") -> Row:
+    return Row(
+        scene="s",
+        answer="run",
+        kind=kind,
+        family=f"{kind} family",
+        method=f"{kind} at {cost:g}",
+        fidelity=None,
+        friction_law=0,
+        step=None,
+        tolerance=None,
+        periods=10,
+        cpu=(0.9 * cost, cost, 1.2 * cost),
+        start_cpu=None,
+        steps=None,
+        evaluations=None,
+        events=None,
+        errors={quantity: error},
+    )
+
+
+sizes = st.floats(1e-11, 1e3)
+
+
+@given(st.lists(st.tuples(sizes, sizes), min_size=1, max_size=12))
+def test_no_row_beats_the_front(points: list[tuple[float, float]]) -> None:
+    rows = [row(*point) for point in points]
+    best = front(rows, "position")
+    for one in rows:
+        in_front = any(
+            b.cost <= one.cost and b.errors["position"] <= one.errors["position"] for b in best
+        )
+        assert in_front, "each row is on the front or beaten by one that is"
+    costs = [b.cost for b in best]
+    wrong = [b.errors["position"] for b in best]
+    assert costs == sorted(costs)
+    assert wrong == sorted(wrong, reverse=True)
+    assert len(set(wrong)) == len(wrong)
+
+
+def test_the_cheapest_that_is_exact_enough() -> None:
+    rows = [row(1.0, 1e-2), row(3.0, 1e-9), row(9.0, 1e-12)]
+    assert cheapest(rows, "position", 1e-9) is rows[1]
+    assert cheapest(rows, "position", 1e-13) is None
+    assert cheapest(rows, "velocity", 1.0) is None, "none of them has a velocity"
+
+
+def test_classes_are_compared_where_they_reach_the_error() -> None:
+    rows = (
+        row(1e-5, 1e-3, AVERAGED, "mean_velocity"),
+        row(3e-4, 1e-13, RESOLVED, "mean_velocity"),
+        row(6e-3, 1e-10, PEER, "mean_velocity"),
+        row(1e-5, 1e-3, AVERAGED),
+        row(3e-4, 1e-13, RESOLVED),
+        row(6e-3, 1e-8, PEER),
+    )
+    found = standings(Trade("s", "S", 0, 10, 1.0, rows, ()))
+    reported = {(s.quantity, s.kind): s for s in found}
+    assert reported["mean_velocity", AVERAGED].ratio == pytest.approx((1 / 30,) * 3)
+    assert reported["mean_velocity", PEER].ratio == pytest.approx((20.0,) * 3)
+    assert sentence(reported["position", AVERAGED]) == "averages and leaps: not reached"
+    assert sentence(reported["position", PEER]) == "peers: not reached"
+    assert sentence(reported["position", RESOLVED]).startswith(
+        "resolved: 300 us a simulated second"
+    )
+    assert "20 times the cost of resolved" in sentence(reported["mean_velocity", PEER])
+    assert "30 times cheaper than resolved" in sentence(reported["mean_velocity", AVERAGED])
+    assert heading("mean_velocity", 1e-2) == "at an error of 1 % in mean velocity"
+    assert heading("position", 1e-9) == "at an error of 1e-09 in position"
+
+
+def test_another_friction_law_is_no_candidate() -> None:
+    lucky = replace(row(1e-6, 1e-12), friction_law=1)
+    trade = Trade("s", "S", 0, 10, 1.0, (row(3e-4, 1e-13), lucky), ())
+    (found,) = [s.row for s in standings(trade) if s.quantity == "position" and s.row is not None]
+    assert found.friction_law == 0
+    assert lucky in trade.having("position"), "its error is shown all the same"
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [
+        (2.0, "2 s"),
+        (1.5e-3, "1.5 ms"),
+        (0.9996e-3, "1 ms"),
+        (0.9994e-3, "999 us"),
+        (3e-6, "3 us"),
+        (4.2e-8, "42 ns"),
+    ],
+)
+def test_durations_are_readable(seconds: float, words: str) -> None:
+    assert duration(seconds) == words
+
+
+REPOSITORY = Path(__file__).parents[3]
+PAGE = REPOSITORY / "docs" / "how-to-choose.md"
+HEAD = tuple(column.heading for column in COLUMNS)
+DOCUMENTATION = REPOSITORY / "fmu_src" / "assets" / "choosing.html"
+
+
+def named(row: Row, family: str, setting: str) -> Row:
+    return replace(row, family=family, method=f"{family}, {setting}")
+
+
+TRADE = Trade(
+    scene="s",
+    title="S",
+    friction_law=0,
+    periods=10,
+    simulated=1.0,
+    rows=(
+        named(row(2e-5, 3e-3, AVERAGED), "native FMU, fidelity 0", "steps of 10 periods"),
+        named(row(3e-4, 1e-13, RESOLVED), "native FMU, fidelity 2", "steps of 10 periods"),
+        named(row(1e-2, 1e-13, RESOLVED), "Python FMU, fidelity 2", "steps of 10 periods"),
+        named(row(1e-9, 1e-13, RESOLVED), "Python FMU, fidelity 1", "steps of 10 periods"),
+        named(row(4e-3, 1e-6, PEER), "heyoka", "tol 1e-06"),
+    ),
+    omissions=(),
+)
+
+
+def test_the_native_fmu_decides_the_model() -> None:
+    found = {row[:2]: row for row in choices(TRADE)}
+    assert found["position", "1e-02"] == (
+        *("position", "1e-02", "fidelity 0, steps of 10 periods", "3e-03", "20 us / s"),
+        *("not reached", "4 ms / s (heyoka, tol 1e-06)"),
+    )
+    assert found["position", "1e-09"] == (
+        *("position", "1e-09", "fidelity 2, steps of 10 periods", "1e-13", "300 us / s"),
+        *("10 ms / s", "not reached"),
+    )
+    assert {quantity for quantity, _ in found} == {"position"}, "the scene has nothing else"
+
+
+def test_markdown_and_html_hold_the_same(tmp_path: Path) -> None:
+    paths = [tmp_path / "page.md", tmp_path / "page.html"]
+    for path in paths:
+        path.write_text(f"before\n{BEGIN}\nold\n{END}\nafter\n")
+        write_choices(path, [TRADE])
+    assert tables(paths[0]) == tables(paths[1])
+    assert all("old" not in path.read_text() for path in paths)
+    with pytest.raises(HarnessError, match=r"the suffix is '\.txt'; must be \.md or \.html"):
+        write_choices(tmp_path / "page.txt", [TRADE])
+
+
+def tables(path: Path) -> list[list[str]]:
+    """Return the rows between the marks, without heads."""
+    text = path.read_text(encoding="utf-8").partition(BEGIN)[2].partition(END)[0]
+    if path.suffix == ".md":
+        lines = [line for line in text.splitlines() if line.startswith("| ")]
+        rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    else:
+        lines = re.findall(r"<tr>(.*?)</tr>", text)
+        rows = [
+            [unescape(cell) for cell in re.findall(r"<t[hd].*?>(.*?)</t[hd]>", line)]
+            for line in lines
+        ]
+    return [row for row in rows if tuple(row) != HEAD and row[0] != "---"]
+
+
+def test_committed_tables_were_written_by_this_code() -> None:
+    rows = tables(PAGE)
+    assert rows == tables(DOCUMENTATION), "the page and the FMU's documentation agree"
+    needs = {(quantity.replace("_", " "), f"{error:.0e}") for quantity, error in NEEDS}
+    assert needs == {(row[0], row[1]) for row in rows}, "each need is met in some scene, or not"
+    assert all(len(row) == len(HEAD) for row in rows)
+
+
+def test_a_page_stands_alone(tmp_path: Path) -> None:
+    gone = Omission("s", "slow <method>", "all", "more than its budget")
+    trade = replace(TRADE, title="A & B", omissions=(gone,))
+    write_trades(tmp_path / "index.html", [trade], PROVENANCE)
+    text = (tmp_path / "index.html").read_text(encoding="utf-8")
+    page = Page(text)
+    assert page.loaded == ["data:,"], "nothing is fetched"
+    assert text.index("at an error of 1e-09 in position") < text.index('class="plot"')
+    assert page.ids == ["provenance"]
+    assert "A &amp; B" in text
+    assert "slow &lt;method&gt;" in text
+    assert "averages and leaps: not reached" in text
+
+
+def test_the_picture_is_drawn_where_a_quantity_is_missing_too(tmp_path: Path) -> None:
+    draw_picture(TRADE, tmp_path / "trade.png")
+    assert (tmp_path / "trade.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_need_that_no_method_meets_is_shown() -> None:
+    rough = replace(TRADE, rows=TRADE.rows[:1])
+    (_, _, exact) = choices(rough)
+    assert exact[2:] == ("none", "", "not reached", "not reached", "not reached")

@@ -1,0 +1,224 @@
+"""Mutants: how they are made, judged and listed."""
+
+from collections import Counter
+from io import StringIO
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+from fmu_src.building.c_sources import slider_sources
+from slider_resonator.errors import HarnessError
+from slider_resonator.scenes.scene_files import find_scene
+from studies.mutants import judging
+from studies.mutants.archive import DESCRIPTION, PythonFmu, read_python_fmu
+from studies.mutants.bench import Judging
+from studies.mutants.changes import Change, hand_written_faults, harmless_variants
+from studies.mutants.enumerate_fmu import fmu_mutants, sample
+from studies.mutants.enumerate_source import source_mutants
+from studies.mutants.listing import print_run, summary
+from studies.mutants.mutant import KINDS, Mutant
+from studies.mutants.runs import run_changes, run_mutants
+from studies.mutants.verdict import EQUIVALENT, REJECTED, SURVIVED, MutationRun, Verdict
+from tests.harness import faulty_fmus
+from tests.harness.scene_text import read_scene
+
+FAULTS, VARIANTS = hand_written_faults(), harmless_variants()
+NO_FAULTS = {
+    *("component/parameter_values.c", "component/variables.c"),
+    *("fmi/fmi2_version.c", "device/budget.c"),
+}
+"""Sources that are generated, only name, or only choose between texts."""
+
+
+@pytest.fixture(scope="module")
+def sources() -> dict[str, str]:
+    return slider_sources()
+
+
+def test_each_change_fits_the_sources(sources: dict[str, str]) -> None:
+    for change in (*FAULTS, *VARIANTS):
+        assert change.applied(sources) != sources[change.file]
+        assert change.meaning
+
+
+def test_names_are_unique_and_faults_are_in_each_file(sources: dict[str, str]) -> None:
+    names = Counter(change.name for change in (*FAULTS, *VARIANTS))
+    assert [name for name, count in names.items() if count > 1] == []
+    units = {name for name in sources if name.endswith(".c")} - NO_FAULTS
+    assert units - {change.file for change in FAULTS} == set()
+
+
+def test_a_text_that_is_gone_or_ambiguous_is_refused_by_name() -> None:
+    change = Change("some_fault", "a.c", "x", "y", "nothing")
+    with pytest.raises(HarnessError, match=r"some_fault: 'x' occurs 0 times in a\.c; must be once"):
+        change.applied({"a.c": "z"})
+    with pytest.raises(HarnessError, match=r"some_fault: 'x' occurs 2 times"):
+        change.applied({"a.c": "x x"})
+    with pytest.raises(HarnessError, match=r"some_fault: a\.c is not among the C sources"):
+        change.applied({})
+
+
+@pytest.fixture(scope="module")
+def fmu(python_fmu: Path) -> PythonFmu:
+    return read_python_fmu(python_fmu)
+
+
+@pytest.fixture(scope="module")
+def mutants(fmu: PythonFmu) -> list[Mutant]:
+    return fmu_mutants(fmu)
+
+
+def test_all_kinds_are_made_in_all_files_that_compute(
+    fmu: PythonFmu, mutants: list[Mutant]
+) -> None:
+    assert {m.kind for m in mutants} == set(KINDS)
+    assert {m.file for m in mutants} == {*fmu.modules, DESCRIPTION} - {
+        "__init__.py",
+        "refusal_texts.py",
+    }
+
+
+def test_a_sample_keeps_the_order_and_is_drawn_by_its_seed(mutants: list[Mutant]) -> None:
+    some = sample(mutants, 20, seed=3)
+    assert some == sample(mutants, 20, seed=3)
+    assert some != sample(mutants, 20, seed=4)
+    places = [mutants.index(m) for m in some]
+    assert places == sorted(set(places))
+    assert sample(mutants, 10**6, seed=0) == mutants
+
+
+MODULE = '''"""A module."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+LIMIT = 2.0
+
+
+@dataclass(frozen=True)
+class Thing:
+    size: float = 1.0
+
+    def grown(self, by: float | None = None, times: int = 3) -> float:
+        """Return 1 + 1."""
+        result = self.size
+        if by is not None and by > LIMIT:
+            raise ValueError(f"{by + 1} is above {LIMIT}")
+        while times:
+            times -= 1
+            result = result * 2.0
+            if result > 100.0:
+                break
+        note(result)
+        return result
+'''
+
+
+def changes() -> list[tuple[int, str]]:
+    return [(m.line, m.change) for m in source_mutants("module.py", "p/module.py", MODULE)]
+
+
+def test_every_change_of_a_module() -> None:
+    assert changes() == [
+        (7, "2.0 becomes 2.02"),
+        (7, "2.0 becomes 3.0"),
+        (12, "1.0 becomes 1.01"),
+        (12, "1.0 becomes 2.0"),
+        (14, "3 becomes 4"),
+        (17, "test becomes its negation"),
+        (17, "is not becomes is"),
+        (17, "and becomes or"),
+        (17, "> becomes <="),
+        (17, "> becomes >="),
+        (18, '"raise ValueError(f\'{by + 1} is above {LI..." is removed'),
+        (19, "test becomes its negation"),
+        (20, "'times -= 1' is removed"),
+        (20, "- becomes +"),
+        (20, "1 becomes 2"),
+        (21, "'result = result * 2.0' is removed"),
+        (21, "* becomes /"),
+        (21, "2.0 becomes 2.02"),
+        (21, "2.0 becomes 3.0"),
+        (22, "> becomes <="),
+        (22, "> becomes >="),
+        (22, "100.0 becomes 101.0"),
+        (23, "'break' is removed"),
+        (24, "'note(result)' is removed"),
+    ]
+
+
+def test_annotations_decorators_texts_and_first_definitions_are_left_alone() -> None:
+    lines = Counter(line for line, _ in changes())
+    described = (1, 3, 5, 10, 11, 15)
+    assert not [line for line in described if lines[line]]
+    assert not lines[16], "without it the next line would fail: that shows nothing"
+    assert not lines[25], "the last return cannot go"
+
+
+MUTANTS = source_mutants("a.py", "p/a.py", "def f(a, b):\n    return a < b * 2.0 + 1\n")
+SEEN = (REJECTED, "stuck", "velocity", "off")
+VERDICTS = (*([SEEN] * 3), (SURVIVED,), (EQUIVALENT,))
+FAULT = Change("seen", "a.c", "x", "y", "breaks it")
+HARMLESS = Change("fine", "b.c", "x", "[y]", "harmless", harmless=True)
+
+
+@pytest.fixture
+def run() -> MutationRun[Mutant]:
+    verdicts = tuple(Verdict(m, *v) for m, v in zip(MUTANTS, VERDICTS, strict=False))
+    return MutationRun("my.fmu", 100, verdicts, 2.0)
+
+
+@pytest.mark.isolated
+@pytest.mark.slow
+def test_mutants_are_judged_once_and_kept(
+    python_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fmu, scene = read_python_fmu(python_fmu), read_scene(faulty_fmus.scene(tmp_path))
+    made = fmu_mutants(fmu, ["device.py", "values.py"])
+    wrong = next(m for m in made if m.file == "device.py" and m.change == "+ becomes -")
+    unseen = next(m for m in made if "raise Refusal" in m.change)
+
+    def run_kept() -> MutationRun[Mutant]:
+        tried, journal = [wrong, unseen], tmp_path / "verdicts"
+        return run_mutants(python_fmu, fmu, tried, 9, Judging([scene], 2, journal=journal))
+
+    run = run_kept()
+    assert [verdict.status for verdict in run.verdicts] == [REJECTED, EQUIVALENT]
+    assert run.rate == 1.0
+    monkeypatch.delattr(judging, "trial")  # nothing is left to be judged
+    assert run_kept().verdicts == run.verdicts
+
+
+@pytest.mark.isolated
+@pytest.mark.slow
+def test_faults_are_rejected_and_variants_accepted(native_fmu: Path) -> None:
+    names = ("mean_before_first_period", "first_bristle_sign", "split_merges_mirror", "longer_arcs")
+    changes = [c for c in (*hand_written_faults(), *harmless_variants()) if c.name in names]
+    scenes = ("less_than_a_period", "lugre_less_than_a_period", "averaged_short_run")
+    run = run_changes(native_fmu, changes, Judging([find_scene(scene) for scene in scenes]))
+    assert [verdict.variant.name for verdict in run.survivors] == ["split_merges_mirror"]
+    assert run.false_alarms == []
+    assert run.rate == pytest.approx(2.0 / 3.0)
+    assert all(verdict.quantity for verdict in run.verdicts if verdict.rejected)
+
+
+def test_the_rate_counts_only_what_changes_a_result(run: MutationRun[Mutant]) -> None:
+    assert run.rate == 0.75
+    assert "rejected 3 of the 4 faults that change a result: 75.00%" in summary(run)
+    assert MutationRun[Mutant]("my.fmu", 1, (), 0.0).rate is None
+    assert run.tally("file")["a.py"] == run.counts
+    assert run.rejections() == [("stuck: velocity", 3)]
+
+
+def test_survivors_and_false_alarms_are_printed_with_reasons() -> None:
+    survived = Verdict(FAULT, SURVIVED, reason="passes")
+    alarm = Verdict(HARMLESS, REJECTED, "scene", "position", "off")
+    run = MutationRun("x.fmu", 2, (Verdict(FAULT, *SEEN), survived), 12.3, (alarm,))
+    text = StringIO()
+    print_run(Console(file=text, width=100), run)
+    printed = text.getvalue()
+    assert "SURVIVED seen\n     passes\na.c: breaks it\n-x\n+y" in printed
+    assert "FALSE ALARM fine\n     scene: position: off" in printed
+    assert "rejected 1 of 1 harmless variants" in printed
