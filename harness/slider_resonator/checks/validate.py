@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, fields
@@ -18,6 +19,7 @@ from slider_resonator.checks.measuring import measure_all
 from slider_resonator.checks.verdict import place, sentence, title
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
+from slider_resonator.fmu.isolation.tasks import Finished
 from slider_resonator.fmu.opening import lacking
 from slider_resonator.fmu.provenance import FmuIdentity, Provenance, identity_of, provenance_of
 from slider_resonator.output.progress import Progress, counted, no_progress
@@ -132,8 +134,8 @@ def validate(
     """
     points = [point for scene in scenes for point in points_to_check(scene)]
     with ExpectedValues(points, jobs) as expected:
-        validations = tuple(
-            _validate(
+        judging = [
+            _measure(
                 path,
                 points,
                 expected,
@@ -142,7 +144,8 @@ def validate(
                 jobs,
             )
             for number, path in enumerate(fmu_paths)
-        )
+        ]
+        validations = tuple(finish() for finish in judging)
     progress("", 1.0)
     return validations
 
@@ -161,59 +164,75 @@ def points_to_check(scene: Scene) -> tuple[ScenePoint, ...]:
     return scene.points()
 
 
-def _validate(
+def _measure(
     path: Path,
     points: Sequence[ScenePoint],
     expected: ExpectedValues,
     report: Callable[[ScenePoint, int], None],
     time_limit: float,
     jobs: int,
-) -> Validation:
-    """Return the verdicts on an FMU at all points, in order."""
+) -> Callable[[], Validation]:
+    """Run an FMU at all points, and return what gives the verdicts, in order.
+
+    References that take longer than the FMU do not keep the next one waiting.
+    """
     began, identity = perf_counter(), identity_of(path)
     checks, curves = list[Check](), list[Curves]()
     failures, not_applied = list[RunFailure](), list[NotApplied]()
     overviews: dict[str, Curves | None] = {}
+    waiting: deque[Finished[ScenePoint]] = deque()
     judged = 0
 
     def meanwhile(point: ScenePoint) -> None:
         report(point, judged)
         expected.prepare(point)
 
+    def judge(one: Finished[ScenePoint]) -> None:
+        nonlocal judged
+        judged += 1
+        point = one.item
+        if one.error is not None or point is None:
+            failures.append(RunFailure.of(path, point, one.error))
+            return
+        signals: list[Curves] = []
+        values = expected.at(point)
+        for expect, measured, value in zip(point.scene.expect, one.result, values, strict=True):
+            if not measured.applicable:
+                where = (point.scene.name, expect.quantity, measured.note, point.at)
+                not_applied.append(NotApplied(*where))
+            elif isinstance(value, SceneError):
+                failures.append(RunFailure.of(path, point, value))
+            else:
+                checks.append(compare(Comparison.of(expect), measured, value, point))
+                if shown := curves_of(checks[-1], measured, value):
+                    signals.append(shown)
+        curves.extend(shown for shown in signals if not shown.check.passed)
+        if point.scene.name not in overviews:
+            overviews[point.scene.name] = overview_of(signals)
+
     runs = measure_points(path, points, measure_all, time_limit, meanwhile, jobs)
     with closing(runs) as finished:
         for one in finished:
-            judged += 1
-            point = one.item
-            if one.error is not None or point is None:
-                failures.append(RunFailure.of(path, point, one.error))
-                continue
-            signals: list[Curves] = []
-            values = expected.at(point)
-            for expect, measured, value in zip(point.scene.expect, one.result, values, strict=True):
-                if not measured.applicable:
-                    where = (point.scene.name, expect.quantity, measured.note, point.at)
-                    not_applied.append(NotApplied(*where))
-                elif isinstance(value, SceneError):
-                    failures.append(RunFailure.of(path, point, value))
-                else:
-                    checks.append(compare(Comparison.of(expect), measured, value, point))
-                    if shown := curves_of(checks[-1], measured, value):
-                        signals.append(shown)
-            curves += [shown for shown in signals if not shown.check.passed]
-            if point.scene.name not in overviews:
-                overviews[point.scene.name] = overview_of(signals)
-    return Validation(
-        str(path),
-        tuple(checks),
-        perf_counter() - began,
-        tuple(failures),
-        tuple(curves),
-        lacking(path),
-        tuple(not_applied),
-        identity,
-        tuple(overview for overview in overviews.values() if overview is not None),
-    )
+            waiting.append(one)
+            while waiting and (waiting[0].item is None or expected.ready(waiting[0].item)):
+                judge(waiting.popleft())
+
+    def finish() -> Validation:
+        for one in waiting:
+            judge(one)
+        return Validation(
+            str(path),
+            tuple(checks),
+            perf_counter() - began,
+            tuple(failures),
+            tuple(curves),
+            lacking(path),
+            tuple(not_applied),
+            identity,
+            tuple(overview for overview in overviews.values() if overview is not None),
+        )
+
+    return finish
 
 
 def provenance_of_all(validations: Sequence[Validation]) -> Provenance:
