@@ -80,7 +80,7 @@ def _section(number: int, validation: Validation) -> list[str]:
     if validation.not_applied:
         columns = texts("scene", "quantity", "not applicable because")
         table = Table(columns, not_applied(validation))
-        label = number_of(len(validation.not_applied), "check") + " that do not apply"
+        label = "not applicable: " + number_of(len(validation.not_applied), "check")
         parts.append(folded(label, rendered(table)))
     return parts
 

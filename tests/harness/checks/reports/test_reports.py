@@ -155,7 +155,7 @@ def test_every_report_says_what_it_judged(tmp_path: Path) -> None:
 def test_what_does_not_apply_is_on_the_page_escaped(tmp_path: Path) -> None:
     text, _ = page(tmp_path, LACKING)
     assert "judged without averaging" in text
-    assert "that do not apply" in text
+    assert "not applicable: " in text
     assert "<averaging_order>" not in text
 
 
