@@ -28,7 +28,7 @@ static void double_specials(const char *text, char *format, size_t size) {
 }
 
 static void log_message(const Host *host, const char *instance_name, Status status, const char *category,
-              const char *text) {
+                        const char *text) {
     char format[2 * REFUSAL_SIZE];
     double_specials(text, format, sizeof format);
     fmi2CallbackLogger logger = (fmi2CallbackLogger)host->logger;

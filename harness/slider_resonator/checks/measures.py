@@ -110,8 +110,8 @@ def dominant_frequency(times: Array, signal: Array) -> float:
     """Return the frequency (Hz) of the strongest oscillation around the trend of a signal (n,).
 
     The highest line of a windowed spectrum starts a least squares fit of a wave with harmonics and
-    a straight trend. Raises ValueError for unequal steps and for fewer
-    than 16 points, and NoOscillation for a signal that is constant or not finite.
+    a straight trend. Raises ValueError for unequal steps and for fewer than 16 points, and
+    NoOscillation for a signal that is constant or not finite.
     """
     steps = np.diff(times)
     if len(times) < 16 or np.ptp(steps) > 1e-6 * steps.mean():
@@ -133,10 +133,10 @@ def dominant_frequency(times: Array, signal: Array) -> float:
         waves = np.linalg.lstsq(basis, signal, rcond=None)[0]
         return np.asarray(basis @ waves - signal)
 
-    fit = scipy.optimize.least_squares(
+    found = scipy.optimize.least_squares(
         misfit, line * resolution, bounds=bounds, x_scale=resolution, xtol=1e-12, gtol=1e-15
     )
-    return float(fit.x[0])
+    return float(found.x[0])
 
 
 def _basis(times: Array, frequency: float) -> Array:

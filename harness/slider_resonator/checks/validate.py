@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, fields
-from functools import partial
+from itertools import count
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -127,32 +127,24 @@ def validate(
 
     Expected values are computed once for all FMUs, while they run: by `jobs` processes, or with 1
     by this one; an FMU that shows no fault runs in up to `jobs` processes. The verdicts and their
-    order are those with 1. `progress` gets the scene at work and the share of the points done. An
+    order are those with 1. `progress` gets the scene at work and the share of the work done. An
     FMU that does not answer within `time_limit` (s) for a point is stopped. Raises SceneError for a
     scene that expects nothing; what is wrong with an FMU is among the run failures of its
     validation.
     """
     points = [point for scene in scenes for point in points_to_check(scene)]
+    total, steps = len(fmu_paths) * len(points), count()
+
+    def report(point: ScenePoint) -> None:
+        """Report a point when it is run and when it is judged, which count as equal work."""
+        done = min(next(steps), 2 * total)
+        progress(counted(point.scene.name, done // 2, total), done / (2 * total))
+
     with ExpectedValues(points, jobs) as expected:
-        judging = [
-            _measure(
-                path,
-                points,
-                expected,
-                partial(_report, progress, number * len(points), len(fmu_paths) * len(points)),
-                time_limit,
-                jobs,
-            )
-            for number, path in enumerate(fmu_paths)
-        ]
+        judging = [_measure(path, points, expected, report, time_limit, jobs) for path in fmu_paths]
         validations = tuple(finish() for finish in judging)
     progress("", 1.0)
     return validations
-
-
-def _report(progress: Progress, before: int, count: int, point: ScenePoint, done: int) -> None:
-    """Report a point at work, of so many of all FMUs, where `done` of this FMU are judged."""
-    progress(counted(point.scene.name, before + done, count), (before + done) / count)
 
 
 def points_to_check(scene: Scene) -> tuple[ScenePoint, ...]:
@@ -168,7 +160,7 @@ def _measure(
     path: Path,
     points: Sequence[ScenePoint],
     expected: ExpectedValues,
-    report: Callable[[ScenePoint, int], None],
+    report: Callable[[ScenePoint], None],
     time_limit: float,
     jobs: int,
 ) -> Callable[[], Validation]:
@@ -181,16 +173,15 @@ def _measure(
     failures, not_applied = list[RunFailure](), list[NotApplied]()
     overviews: dict[str, Curves | None] = {}
     waiting: deque[Finished[ScenePoint]] = deque()
-    judged = 0
 
     def meanwhile(point: ScenePoint) -> None:
-        report(point, judged)
+        report(point)
         expected.prepare(point)
 
     def judge(one: Finished[ScenePoint]) -> None:
-        nonlocal judged
-        judged += 1
         point = one.item
+        if point is not None:
+            report(point)
         if one.error is not None or point is None:
             failures.append(RunFailure.of(path, point, one.error))
             return

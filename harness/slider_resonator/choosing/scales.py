@@ -68,7 +68,7 @@ def scales_of(scene: Scene) -> Scales:
     friction = device.mean_friction
     ratio = scene.signals["frequency_ratio"].at(0.0)
     detuning = abs(ratio - round(ratio))
-    fast = fast_velocity(device) or None if friction > 0.0 else None
+    fast = (fast_velocity(device) or None) if friction > 0.0 else None
     damping = device.damping_ratio * device.resonator_frequency / (1.0 - device.mass_ratio)
     load = max(map(abs, scene.signals["load"].values))
     sizes = {"phase": 1.0, "load": friction or 1.0, "frequency_ratio": 1.0}
