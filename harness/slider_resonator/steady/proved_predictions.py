@@ -3,8 +3,10 @@
 An FMU with `averaging_order` 2 finds the periodic motion itself. To prove what it says, some common
 periods are run from the vibration without friction on, at the mean velocity in question. Near a
 periodic motion the map of a period is linear: its matrix follows from the changes over successive
-periods (dynamic mode decomposition), and the limit of the sequence from the matrix. The mean
-velocity of the limit must be the one that was predicted, and the motion must be stable.
+periods (dynamic mode decomposition), and the limit of the sequence from the matrix. From there the
+next run begins, and improves the matrix: where friction changes the velocity slowly, one run alone
+tells little of it. The mean velocity of the limit must be the one that was predicted, and the
+motion must be stable.
 """
 
 from __future__ import annotations
@@ -90,27 +92,30 @@ def proved_predictions(
         for index, point in enumerate(points)
         if (candidate := _candidate(instance, quantity, index, point, defaults, max_denominator))
     ]
-    matrices: Array | None = None
+    before: Array | None = None
     for _ in range(1 + RESTARTS):
         runs = np.array([_run(instance, one) for one in left]).reshape(-1, PERIODS + 1, 5)
         seen = _seen(left, runs)
         good = np.isfinite(runs).all(axis=(1, 2)) & (runs[:, -1, 4] < 1.0)
-        if matrices is None:
-            matrices = _matrices(np.where(good[:, None, None], seen, 0.0))
-            good &= np.abs(np.linalg.eigvals(matrices)).max(axis=1) < 1.0 - NEUTRAL
         left = [one for one, is_good in zip(left, good, strict=True) if is_good]
-        seen, matrices = seen[good], matrices[good]
+        seen = seen[good]
+        if before is None:
+            matrices = _matrices(seen)
+        else:
+            matrices = _improved(matrices[good], before[good], seen)
         rest = _rest(matrices, seen)
         limits = seen[:, -1] + rest
         aim = np.array([one.velocity / one.scale[0] for one in left])
-        is_proved = (np.abs(limits[:, 3] - aim) <= PROVEN) & (np.abs(rest).max(axis=1) <= NEAR)
+        is_stable = np.abs(np.linalg.eigvals(matrices)).max(axis=1, initial=0.0) < 1.0 - NEUTRAL
+        is_near = (np.abs(limits[:, 3] - aim) <= PROVEN) & (np.abs(rest).max(axis=1) <= NEAR)
+        is_proved = is_near & is_stable
         further = []
         for one, limit, is_done in zip(left, limits, is_proved, strict=True):
             if is_done:
                 proved[one.index] = one.prediction
             else:
                 further.append(replace(one, start=tuple((limit[:3] * one.scale).tolist())))
-        left, matrices = further, matrices[~is_proved]
+        left, matrices, before = further, matrices[~is_proved], seen[~is_proved]
     return proved
 
 
@@ -207,7 +212,21 @@ def _matrices(seen: Array) -> Array:
     return np.asarray(changes[:, :, 1:] @ inverse, dtype=np.float64)
 
 
+def _improved(matrices: Array, before: Array, seen: Array) -> Array:
+    """Return matrices that also map the difference of two runs (Broyden's update, 1965).
+
+    Both are `seen` (n, PERIODS, 4), the last but one period of the former and the first of the next
+    one are close to each other.
+    """
+    change = seen[:, 0] - before[:, -2]
+    mapped = (matrices @ change[:, :, None])[:, :, 0]
+    missing = seen[:, 1] - before[:, -1] - mapped
+    size = np.maximum(np.sum(change**2, axis=1), np.finfo(np.float64).tiny)
+    return np.asarray(matrices + missing[:, :, None] * (change / size[:, None])[:, None, :])
+
+
 def _rest(matrices: Array, seen: Array) -> Array:
     """Return what is missing to the limits (n, 4) after runs (n, PERIODS, 4)."""
     changes = matrices @ (seen[:, -1] - seen[:, -2])[:, :, None]
-    return np.asarray(np.linalg.solve(np.eye(4) - matrices, changes)[:, :, 0], dtype=np.float64)
+    inverse = np.linalg.pinv(np.eye(4) - matrices)
+    return np.asarray((inverse @ changes)[:, :, 0], dtype=np.float64)

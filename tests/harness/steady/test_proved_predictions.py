@@ -84,3 +84,11 @@ def test_a_wrong_prediction_is_not_proved(
 
     monkeypatch.setattr(module, "_candidate", wrong)
     assert proved_predictions(instance, "steady_velocity", [{}, {"phase": 0.4}], 20) == [None] * 2
+
+
+def test_slow_motions_are_proved_too(instance: Instance) -> None:
+    """Where a period changes the slow velocity by less than a thousandth of what it is off by."""
+    slow = [{"frequency_ratio": 2.0, "phase": phase} for phase in (0.142, 0.268, 0.394, 0.52)]
+    proved = proved_predictions(instance, "steady_velocity", slow, 20)
+    for values, velocity in zip(slow, proved, strict=True):
+        assert velocity == pytest.approx(0.0, abs=1e-9), f"by symmetry, {values}"
