@@ -4,8 +4,6 @@ Besides these it writes the native FMU for FMI 3.0, a velocity controller, slide
 a closed loop, and a web page that runs the native slider.
 """
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 import sys

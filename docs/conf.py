@@ -1,7 +1,5 @@
 """The documentation site: `make docs` writes it to build/docs."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from pathlib import Path

@@ -3,8 +3,6 @@
 python docs/draw_leap_error.py [FMU [PICTURE]]
 """
 
-from __future__ import annotations
-
 import sys
 from math import pi
 from pathlib import Path

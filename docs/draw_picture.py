@@ -3,8 +3,6 @@
 python docs/draw_picture.py [FMU [PICTURE]]
 """
 
-from __future__ import annotations
-
 import sys
 from dataclasses import dataclass
 from math import pi

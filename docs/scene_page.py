@@ -3,8 +3,6 @@
 python docs/scene_page.py [PAGE]
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Mapping, Sequence
 from itertools import groupby

@@ -5,8 +5,6 @@ header and the C file of its name count as one file. Generated headers are known
 alone; that they exist is for the compiler to say.
 """
 
-from __future__ import annotations
-
 import posixpath
 import re
 import sys

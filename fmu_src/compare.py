@@ -4,8 +4,6 @@ Exit code 0 where all files inside are equal, 1 otherwise. Binaries for macOS ar
 linker leaves random padding in them.
 """
 
-from __future__ import annotations
-
 import argparse
 import zipfile
 from pathlib import Path

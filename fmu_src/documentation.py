@@ -4,8 +4,6 @@ The tables that help to choose a model are measurements by the harness's command
 committed, so that equal sources give equal bytes.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from html import escape

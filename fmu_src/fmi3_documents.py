@@ -1,7 +1,5 @@
 """The other XML documents of an FMI 3.0 FMU: its terminal and icon, and how to build it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from xml.etree import ElementTree as ET
 

@@ -5,8 +5,6 @@ current. `python -m fmu_src.generate FOLDER` also writes all C sources, as a bui
 to FOLDER/slider, FOLDER/slider_3 (FMI 3.0) and FOLDER/controller.
 """
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

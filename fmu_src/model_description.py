@@ -1,7 +1,5 @@
 """modelDescription.xml of FMI 2.0, from the table of variables."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from xml.etree import ElementTree as ET
 

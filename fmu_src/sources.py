@@ -1,7 +1,5 @@
 """Folders with the sources of the FMUs."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 _HERE = Path(__file__).resolve().parent

@@ -6,8 +6,6 @@ OMSimulator needs another name for each structure. So `SystemStructure.ssd`, whi
 has components alone, with their parameters, and a second structure has the connectors too.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from xml.etree import ElementTree as ET

@@ -1,7 +1,5 @@
 """Units of the interface in SI base units, and the display units for hosts."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 

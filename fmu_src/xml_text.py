@@ -1,7 +1,5 @@
 """XML documents as bytes that do not depend on the machine."""
 
-from __future__ import annotations
-
 from xml.etree import ElementTree as ET
 
 

@@ -1,7 +1,5 @@
 """FMU and SSP files: zip archives whose bytes depend on names and contents only."""
 
-from __future__ import annotations
-
 import os
 import zipfile
 from collections.abc import Mapping

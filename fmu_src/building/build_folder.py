@@ -4,8 +4,6 @@ zig finds a compiled file in its cache only where folder and times are the same.
 a folder, and a build compiles what differs from the last one, whichever FMU that was.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager

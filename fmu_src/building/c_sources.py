@@ -4,8 +4,6 @@ A file is named by its path below the root of the sources, as leap/leap.c. It in
 their path from its own folder, so that hosts that compile the sources of an FMU need no option.
 """
 
-from __future__ import annotations
-
 import importlib.util
 from collections.abc import Iterable, Mapping
 from fnmatch import fnmatch

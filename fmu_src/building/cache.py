@@ -1,7 +1,5 @@
 """What builds keep in the user's home folder for the next one; `make distclean` removes it."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable
 from contextlib import suppress

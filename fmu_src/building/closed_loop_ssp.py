@@ -1,7 +1,5 @@
 """The closed loop as an SSP 1.0 package: slider, velocity controller, and their connections."""
 
-from __future__ import annotations
-
 from functools import partial
 from pathlib import Path
 

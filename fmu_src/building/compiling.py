@@ -1,7 +1,5 @@
 """Compile the C sources to the binaries of a native FMU."""
 
-from __future__ import annotations
-
 import importlib.util
 import os
 import shutil

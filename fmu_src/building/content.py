@@ -1,7 +1,5 @@
 """Content of an FMU, and the names that follow from it."""
 
-from __future__ import annotations
-
 import hashlib
 import uuid
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """The velocity controller's FMU: its own law behind the FMI functions of the slider."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The date in a model description: SOURCE_DATE_EPOCH, never the time of the build."""
 
-from __future__ import annotations
-
 import os
 from datetime import UTC, datetime
 

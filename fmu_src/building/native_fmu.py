@@ -1,7 +1,5 @@
 """Native FMUs: binaries for every platform, with their source code."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime

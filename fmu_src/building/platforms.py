@@ -1,7 +1,5 @@
 """The platforms for which native FMUs have binaries, by their names in each version of FMI."""
 
-from __future__ import annotations
-
 import platform
 import sys
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """The Python FMU, packaged by pythonfmu."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import tempfile

@@ -1,7 +1,5 @@
 """One macOS library for several processors: a header, then a library for each."""
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """The page that runs the component: one HTML file with the C kernel inside as WebAssembly."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import json

@@ -5,8 +5,6 @@
 An editable installation packs nothing: it uses the folder `dist` of the checkout.
 """
 
-from __future__ import annotations
-
 import shutil
 import tomllib
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """The table of the controller's variables: names, units, bounds and start values."""
 
-from __future__ import annotations
-
 from functools import partial
 
 from fmu_src.python.slider_component.variable import Variable

@@ -1,7 +1,5 @@
 """The frame of every generated header in C."""
 
-from __future__ import annotations
-
 
 def c_header(about: str, source: str, body: str) -> str:
     """Return a header that counts once; `source` is a path below `fmu_src`."""

@@ -1,7 +1,5 @@
 """The constants of the twins as macros of C, from the Python module that defines them."""
 
-from __future__ import annotations
-
 from fmu_src.generators.c_header import c_header
 from fmu_src.python.slider_component import constants
 

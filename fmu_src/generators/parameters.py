@@ -1,7 +1,5 @@
 """Parameters and inputs of the slider by name: structs in C, data classes in Python."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from fmu_src.generators.c_header import c_header, generated_from
@@ -53,8 +51,6 @@ _PYTHON = '''\
 {origin}
 Then run `python -m fmu_src.generate`.
 """
-
-from __future__ import annotations
 
 from dataclasses import dataclass
 

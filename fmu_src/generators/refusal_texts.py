@@ -5,8 +5,6 @@ with the fewest digits that read back as the same number, as repr does; an integ
 long long, and a text {x} a text.
 """
 
-from __future__ import annotations
-
 import json
 from string import Formatter
 

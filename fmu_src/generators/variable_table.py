@@ -1,7 +1,5 @@
 """The table of variables of an FMU in C."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 

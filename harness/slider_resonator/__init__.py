@@ -7,8 +7,6 @@ Scripts use the names of `slider_resonator.api`, from here: `slider_resonator.fm
 `slider_resonator.open_fmu()`. They are loaded when they are used: the command line starts faster.
 """
 
-from __future__ import annotations
-
 import importlib
 from typing import TYPE_CHECKING, Any
 

@@ -1,7 +1,5 @@
 """`python -m slider_resonator`."""
 
-from __future__ import annotations
-
 from slider_resonator.cli import main
 
 if __name__ == "__main__":

@@ -18,8 +18,6 @@ The `repr` of a result says what was found, on a screen at most. `to_pandas()` g
 `plot()` its picture.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial, wraps
@@ -101,7 +99,7 @@ class SceneRecord(Record, Drawable):
 
     scene: Scene
 
-    def figure(self) -> Figure:
+    def figure(self) -> "Figure":
         """Draw position and mean velocity over time, and inputs that vary.
 
         Where the communication points resolve them, the last drive periods follow in full.
@@ -124,7 +122,7 @@ class OpenFmu:
         self._device = parameters
         self._isolated = IsolatedFmu(fmu, time_limit)
 
-    def __enter__(self) -> OpenFmu:
+    def __enter__(self) -> "OpenFmu":
         """Return the open FMU."""
         return self
 

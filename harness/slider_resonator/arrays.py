@@ -1,7 +1,5 @@
 """The type of an array of numbers; docstrings say its shape and unit."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """The command line: exit code 0 (pass), 1 (fail), 2 (could not run) or 130 (interrupted)."""
 
-from __future__ import annotations
-
 import importlib
 import os
 import signal

@@ -1,7 +1,5 @@
 """Errors that stop a command before a verdict; their messages are shown to the user."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from difflib import get_close_matches
 

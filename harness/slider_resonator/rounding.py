@@ -1,7 +1,5 @@
 """Differences that rounding explains: nothing may depend on bits that nobody needs."""
 
-from __future__ import annotations
-
 from math import isclose
 
 import numpy as np

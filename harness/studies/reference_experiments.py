@@ -4,8 +4,6 @@
 fmu_src/assets/reference_experiments. No result comes from an FMU.
 """
 
-from __future__ import annotations
-
 import csv
 import io
 import sys

@@ -1,7 +1,5 @@
 """The work and the time of one communication step."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import floor, log10
 

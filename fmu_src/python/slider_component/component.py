@@ -1,7 +1,5 @@
 """The component between numerics and FMI: values by name, lifecycle, steps, outputs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, replace
 from math import inf, isfinite, log10, nan, remainder, tau, ulp

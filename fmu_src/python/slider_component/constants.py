@@ -3,8 +3,6 @@
 The C constants in constants.h are generated from these, with the same names.
 """
 
-from __future__ import annotations
-
 MAX_STEP_SEGMENTS = 1_000_000
 """Segments in one step up to which its work is accepted: 0.4 to 2 s, longer with LuGre friction."""
 

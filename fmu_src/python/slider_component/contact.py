@@ -1,7 +1,5 @@
 """When the contact lifts and touches down: N = max(0, N0 + dN sin(chi)) with dN > N0."""
 
-from __future__ import annotations
-
 from math import inf, tau
 from typing import NamedTuple
 

@@ -4,8 +4,6 @@ Events are a stop of the slider (then it sticks if friction can hold it, and rev
 release, and the lift-off and touchdown of the contact.
 """
 
-from __future__ import annotations
-
 from math import cos, sin
 
 from .contact import BACKWARD, FORWARD, LIFTED, STICK, direction_of

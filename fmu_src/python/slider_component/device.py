@@ -10,8 +10,6 @@ sliding (0 in flight) and Y the resonator relative to the slider:
 where e = -i exp(i theta). At fidelity 1 the resonator acts through its steady force (34) alone.
 """
 
-from __future__ import annotations
-
 from cmath import phase as argument
 from dataclasses import dataclass
 from math import asin, cos, hypot, inf, pi, sin, tau

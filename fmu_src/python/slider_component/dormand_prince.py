@@ -1,7 +1,5 @@
 """Steps of a velocity and its travel: Dormand and Prince's pair 5(4), and one near a balance."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import exp, expm1
 from typing import NamedTuple

@@ -5,8 +5,6 @@ of what it watches (a stop of the slider, or a release), at the latest where the
 touches down. Another contact mode succeeds it. There is no step size.
 """
 
-from __future__ import annotations
-
 from math import floor, inf, tau
 
 from .budget import Budget, Clock

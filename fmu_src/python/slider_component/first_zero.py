@@ -9,8 +9,6 @@ A zero that is expected at some time is looked for there at once. It is the firs
 parabola from the start and that from the zero backwards leave no gap between them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import inf, sqrt
 from typing import NamedTuple

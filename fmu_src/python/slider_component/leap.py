@@ -9,8 +9,6 @@ slow manifold, where the fast states follow V smoothly: their differences of hig
 periods vanish (Gear, Kaper, Kevrekidis, Zagaris 2005).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from contextlib import suppress
 from itertools import pairwise

@@ -12,8 +12,6 @@ friction is Coulomb's, and closed forms take over. The cost does not grow with t
 is no sticking: presliding is resolved as an oscillation on the bristles.
 """
 
-from __future__ import annotations
-
 from math import copysign, expm1
 
 from .contact import BACKWARD, FORWARD, LIFTED, direction_of

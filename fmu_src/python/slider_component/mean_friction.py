@@ -7,8 +7,6 @@ explicit in the path between the two reversals: what friction differs by from Co
 quadrature. Soft bristles give the paper's slow manifold (17), hard ones Coulomb friction (5).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
@@ -109,7 +107,7 @@ class MeanFriction:
         total = sum(load.at(angle) * (swing + beyond) * force for angle, swing, force in nodes)
         return total / tau
 
-    def _arcs(self, turning: float) -> tuple[_Arc, _Arc]:
+    def _arcs(self, turning: float) -> tuple["_Arc", "_Arc"]:
         """Sliding forward and backward."""
         reach, sine, cosine = self.fast / self.frequency, sin(turning), cos(turning)
         forward = _Arc(reach, 1, turning, tau - 2.0 * turning, sine, cosine)

@@ -1,7 +1,5 @@
 """A moment of a motion: all that the motion carries from one step to the next."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import inf
 from operator import attrgetter
@@ -52,7 +50,7 @@ class Moment:
     stick_fraction: float = 0.0
     leap_error: float = 0.0
 
-    def copied(self) -> Moment:
+    def copied(self) -> "Moment":
         """The same moment, to be changed."""
         return Moment(*_entries(self))
 

@@ -1,7 +1,5 @@
 """Resolved motion of a device under held inputs; other motions have the same methods."""
 
-from __future__ import annotations
-
 from .budget import Budget
 from .device import System, steady_swing
 from .events import advance, law_of

@@ -1,7 +1,5 @@
 """A damped oscillator y'' + 2 decay y' + stiffness y = g(t)."""
 
-from __future__ import annotations
-
 from cmath import exp
 from cmath import sqrt as complex_sqrt
 from dataclasses import dataclass

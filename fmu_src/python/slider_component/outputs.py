@@ -1,7 +1,5 @@
 """The outputs of the interface, each from the present moment and the present inputs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import remainder, sin, tau
 from typing import NamedTuple

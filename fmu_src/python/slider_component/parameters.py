@@ -4,8 +4,6 @@ Generated from fmu_src/python/slider_component/variables.py: edit that file inst
 Then run `python -m fmu_src.generate`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 

@@ -7,8 +7,6 @@ state is the resonator's Y and Y' and, with LuGre friction, the bristle. From pe
 change slowly and smoothly (stroboscopic averaging: Calvo, Chartier, Murua, Sanz-Serna 2011).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import replace
@@ -70,7 +68,7 @@ class PeriodMap:
         if not (self.decay < 1.0 and self._determinant != 0.0):
             raise NoMapError
 
-    def under_load(self, load: float) -> PeriodMap:
+    def under_load(self, load: float) -> "PeriodMap":
         """The same under another load [N]."""
         other = copy(self)
         other.system = System(self.system.device, replace(self.system.inputs, load=load))

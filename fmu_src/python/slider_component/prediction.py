@@ -6,8 +6,6 @@ friction: the mean friction of `mean_friction` balances the load. At any other r
 met and the mean load counts.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace

@@ -4,8 +4,6 @@ The C functions in refusal_texts.h are generated from these. So each shows each 
 once: a number as {x!r}, an integer as {x:d}, and a text, also that of a value of any type, as {x}.
 """
 
-from __future__ import annotations
-
 OUT_OF_BOUNDS = "{name} = {value} refused: must be {requirement}"
 
 OUTPUT_SET = "{name} = {value} refused: it is an output and cannot be set"

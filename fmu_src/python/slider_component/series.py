@@ -4,8 +4,6 @@ That is sliding while a LuGre bristle bends, and all motion where steady respons
 near resonance without damping, near critical damping, on soft resonators, under slow normal loads.
 """
 
-from __future__ import annotations
-
 from cmath import rect
 from functools import cached_property
 from math import inf

@@ -6,8 +6,6 @@ reference each to class, instance and message list that it never took, which wou
 while the host uses it: `outlive` takes these references beforehand.
 """
 
-from __future__ import annotations
-
 import atexit
 import contextlib
 import ctypes

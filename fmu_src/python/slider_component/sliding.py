@@ -8,8 +8,6 @@ of drive, normal load and free resonator, and friction s (F0 + F1 sin(chi)),
 `series` has the same motions where the steady responses do not split off without losing digits.
 """
 
-from __future__ import annotations
-
 from cmath import exp, rect, sinh
 from cmath import phase as argument
 from math import acos, inf, sin, tau

@@ -5,8 +5,6 @@ The normal load counts with its phase near integer frequency ratios n, where tha
 harmonics, and counts with its phase near fractions too.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import inf, pi, tau
 

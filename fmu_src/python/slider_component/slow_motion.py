@@ -8,8 +8,6 @@ fast parts of all outputs are the steady vibration (32)-(33), added in closed fo
 The bristle follows the motion periodically; it has no state here.
 """
 
-from __future__ import annotations
-
 from math import ceil, copysign, cos, hypot, inf, isfinite, pi, sin, tau
 
 from .budget import Budget

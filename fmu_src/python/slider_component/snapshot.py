@@ -1,7 +1,5 @@
 """The complete state of a component as plain numbers and names, which JSON keeps exactly."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Iterable, Mapping
@@ -37,18 +35,18 @@ LIMITS: dict[str, tuple[float, float]] = {
 """Least and largest value of entries that are not any finite number."""
 
 
-def number(name: str, value: object, kind: str = "float") -> Any:
+def number(name: str, value: object, kind: object = float) -> Any:
     """Return a number of a stored state, of type `kind`. Raises Refusal for anything else."""
     low, high = LIMITS.get(name, (-float_info.max, float_info.max))
     if isinstance(value, (int, float)) and low <= value <= high:
-        if kind == "float" and (is_finite_number(value) or value == inf):
+        if kind is float and (is_finite_number(value) or value == inf):
             return float(value)
-        if type(value).__name__ == kind:
+        if type(value) is kind:
             return value
     shown = {"name": name, "value": repr(value)}
-    if kind == "bool":
+    if kind is bool:
         raise Refusal("FMU state refused: {name} = {value}; must be true or false", **shown)
-    if kind == "int":
+    if kind is int:
         limits = {"minimum": int(low), "maximum": int(high)}
         raise Refusal(refusal_texts.OUT_OF_RANGE_IN_STATE, **shown, **limits)
     is_phase = (low, high) == PHASE
@@ -60,7 +58,7 @@ def number(name: str, value: object, kind: str = "float") -> Any:
 def moment_from_plain(plain: object) -> Moment:
     """The moment of which `asdict` made `plain`. Raises Refusal for odd or unknown entries."""
     stored = entries("moment", plain, [field.name for field in fields(Moment)])
-    return Moment(*[number(f.name, stored[f.name], str(f.type)) for f in fields(Moment)])
+    return Moment(*[number(f.name, stored[f.name], f.type) for f in fields(Moment)])
 
 
 def entries(name: str, plain: object, names: Iterable[str]) -> Mapping[str, Any]:

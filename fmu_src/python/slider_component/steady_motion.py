@@ -4,8 +4,6 @@ Steady motion is one under the given load, blocked motion one without travel und
 looked for. Newton's method finds both, from first-order averages on.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import inf
 

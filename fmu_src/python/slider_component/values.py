@@ -1,7 +1,5 @@
 """What a call must respect: the states of FMI, and the bounds of values."""
 
-from __future__ import annotations
-
 from enum import StrEnum
 from math import isfinite
 from typing import TypeGuard

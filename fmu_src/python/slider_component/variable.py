@@ -1,7 +1,5 @@
 """A variable of an FMU: name, unit, bounds and start value (SI units)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Literal
 

@@ -13,8 +13,6 @@ Each row is: kind, name, unit (display unit), then what is not its default; an i
 and the inputs and parameters that an output depends on. Words in capitals are groups of those.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

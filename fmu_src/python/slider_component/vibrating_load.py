@@ -1,7 +1,5 @@
 """The normal load as a function of the drive angle, for averages over a turn of it."""
 
-from __future__ import annotations
-
 from copy import copy
 from math import asin, ceil, cos, floor, pi, sin, tau
 
@@ -48,7 +46,7 @@ class VibratingLoad:
         if turns is None:
             self._constant = self._per_turn / tau
 
-    def flattened(self) -> VibratingLoad:
+    def flattened(self) -> "VibratingLoad":
         """The same load with its mean alone, for ratios other than 0."""
         flat = copy(self)
         flat._constant = self._per_turn / tau

@@ -1,7 +1,5 @@
 """The golden results of an FMU in a scene, and the changes since they were recorded."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """The CSV files of a scene's golden results, and their provenance: FMU, scene, host and tools."""
 
-from __future__ import annotations
-
 import csv
 import hashlib
 import os

@@ -1,7 +1,5 @@
 """The three commands of a baseline: record golden results, check an FMU, accept changes."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Sequence
 from contextlib import closing

@@ -1,7 +1,5 @@
 """Compare the measurement of one quantity with its expected value."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isfinite
@@ -34,7 +32,7 @@ class Tolerance:
     tube: float | None = None
 
     @classmethod
-    def of(cls, expect: ExpectTable) -> Tolerance:
+    def of(cls, expect: ExpectTable) -> "Tolerance":
         """Return the tolerance that a scene file gives."""
         given = "absolute" in expect.model_fields_set
         return cls(expect.absolute if given else None, expect.relative, expect.tube)
@@ -96,7 +94,7 @@ class Comparison:
     why: str
 
     @classmethod
-    def of(cls, expect: ExpectTable) -> Comparison:
+    def of(cls, expect: ExpectTable) -> "Comparison":
         """Return the comparison of an expectation in a scene file."""
         bounds = {AT_MOST: expect.at_most, AT_LEAST: expect.at_least}
         bound = next((name for name, value in bounds.items() if value is not None), "value")

@@ -1,7 +1,5 @@
 """Signals of FMU and reference for reports: those that differ, and one that shows a scene."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -30,12 +28,12 @@ class Curves:
     fmu: Array
     reference: Array
 
-    def part(self, kept: slice | NDArray[np.intp]) -> Curves:
+    def part(self, kept: slice | NDArray[np.intp]) -> "Curves":
         """Return some of the points, as copies."""
         signals = (self.times, self.fmu, self.reference)
         return Curves(self.check, *(np.array(signal[kept]) for signal in signals))
 
-    def thinned(self) -> Curves:
+    def thinned(self) -> "Curves":
         """Return evenly spaced points, at most `MAX_POINTS`, and the one that is farthest off."""
         count = len(self.times)
         if count <= MAX_POINTS:

@@ -1,7 +1,5 @@
 """Expected values of scenes: on demand in this process, or ahead in processes of their own."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from concurrent.futures import Future
@@ -40,7 +38,7 @@ class ExpectedValues:
                 task = partial(_values_ahead, scene=point.scene)
                 self._ahead[point] = self._processes.submit(task)
 
-    def __enter__(self) -> ExpectedValues:
+    def __enter__(self) -> "ExpectedValues":
         """Return this."""
         return self
 

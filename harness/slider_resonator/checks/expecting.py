@@ -1,7 +1,5 @@
 """The expected value of each quantity by each reference."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from operator import attrgetter, methodcaller
 from typing import Any

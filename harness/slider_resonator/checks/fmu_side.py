@@ -1,7 +1,5 @@
 """The FMU in a scene: run, steady motion and blocking force, each computed once on first use."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Generator, Sequence
 from functools import cached_property, partial
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Measures of sampled signals: deviation, tubes, slow displacement, ripple, dominant frequency."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

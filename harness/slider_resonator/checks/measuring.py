@@ -1,7 +1,5 @@
 """Measure each quantity of the vocabulary in an FMU."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any

@@ -5,8 +5,6 @@ by the velocity and position of slider and resonator as one mass, X' + r Y' and 
 left of a transient of the resonator does not move them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from math import pi
 

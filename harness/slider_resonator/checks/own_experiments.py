@@ -1,7 +1,5 @@
 """The experiments that an FMU carries (FMI-LS-REF): run them and compare with their results."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Means over whole drive periods, and counts, at every communication point of a trajectory."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from slider_resonator.arrays import Array

@@ -1,7 +1,5 @@
 """The references in a scene: trajectories, averaged motion, steady motion, each computed once."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property

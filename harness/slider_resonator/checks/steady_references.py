@@ -1,7 +1,5 @@
 """The references for constant inputs: steady motion, predictions, the paper's closed forms."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi
@@ -47,7 +45,7 @@ class SteadyReferences:
         return reference_blocking_force(self.device, self.phase, self.frequency_ratio)
 
     @cached_property
-    def full_device(self) -> SteadyReferences:
+    def full_device(self) -> "SteadyReferences":
         """The same for the full device, whatever the fidelity."""
         return replace(self, device=replace(self.device, fidelity=FULL))
 

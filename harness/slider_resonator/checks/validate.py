@@ -1,7 +1,5 @@
 """Run scenes on isolated FMUs and compare the results with the references."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
@@ -37,7 +35,7 @@ class RunFailure:
     at: Mapping[str, float]
 
     @classmethod
-    def of(cls, fmu: Path, point: ScenePoint | None, error: Exception | None) -> RunFailure:
+    def of(cls, fmu: Path, point: ScenePoint | None, error: Exception | None) -> "RunFailure":
         """Return the failure at a point; without a point that of the FMU, with its file name."""
         text = str(error)
         if point is not None:

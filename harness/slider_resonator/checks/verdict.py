@@ -1,7 +1,5 @@
 """The verdict of a check in a sentence: deviation, tolerance and time."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from slider_resonator.checks.compare import AT_LEAST, AT_MOST, Check, Value

@@ -1,7 +1,5 @@
 """The candidates: fidelity, averaging order, friction law, tolerance and communication step."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Candidates against the allowed errors, and the answer: the chosen one, and those ruled out."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite

@@ -1,7 +1,5 @@
 """Choose the cheapest model for a scene: by the errors and the cost of its runs."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Errors of a run in the needed quantities, and whether it shows a beat."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf

@@ -1,7 +1,5 @@
 """The communication steps to choose from, and the search for the coarsest that meets the need."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection
 from math import ceil, floor, inf, isfinite, log2
 

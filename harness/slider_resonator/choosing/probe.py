@@ -1,7 +1,5 @@
 """The errors and the cost of candidates, measured in runs of the scene."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import ceil, inf

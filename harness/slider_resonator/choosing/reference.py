@@ -3,8 +3,6 @@
 Its inputs are without the error of holding them.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The scales that determine the error of cheaper models, from device and inputs alone."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 from math import inf, pi
 

@@ -1,7 +1,5 @@
 """What a candidate gives and costs: its run of a scene, its steady velocity and blocking force."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """`baseline`: record, check and accept golden results."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

@@ -1,7 +1,5 @@
 """`blocking`: the blocking force by shooting."""
 
-from __future__ import annotations
-
 from slider_resonator.commands.searching import search_command
 from slider_resonator.steady.blocking_force import find_blocking
 

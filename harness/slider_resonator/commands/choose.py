@@ -1,7 +1,5 @@
 """`choose`: find the cheapest model that meets a scene's needs, by runs in the FMU."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

@@ -1,7 +1,5 @@
 """`device`: examples of device files, and what such a file means."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

@@ -1,7 +1,5 @@
 """`fit`: parameters of a device from measurements."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from functools import partial

@@ -1,7 +1,5 @@
 """`page`: the component in a browser, started at a device of one's own."""
 
-from __future__ import annotations
-
 import json
 import re
 import zipfile

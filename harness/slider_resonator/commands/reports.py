@@ -1,7 +1,5 @@
 """Write the verdicts of a command to the terminal and to report files."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

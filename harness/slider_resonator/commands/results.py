@@ -1,7 +1,5 @@
 """Print a command's result as JSON or as text."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import click

@@ -1,7 +1,5 @@
 """`run`: run one scene, write CSV and picture, report the cost."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from functools import partial
 from operator import attrgetter
@@ -236,7 +234,7 @@ def _summary(
     record: Record,
     out: Path | None,
     plot: Path | None,
-    choice: Choice | None,
+    choice: "Choice | None",
     how: str | None,
 ) -> dict[str, Any]:
     """Return a run and its cost; times in s, positions in m, velocities in m/s.

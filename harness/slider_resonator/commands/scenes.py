@@ -1,7 +1,5 @@
 """`scenes`: list the built-in scenes; template, check and schema of scene files."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from typing import Any

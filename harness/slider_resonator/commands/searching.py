@@ -1,7 +1,5 @@
 """The commands that search by shooting."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`steady`: the steady velocity by shooting."""
 
-from __future__ import annotations
-
 from slider_resonator.commands.searching import search_command
 from slider_resonator.steady.steady_velocity import find_steady
 

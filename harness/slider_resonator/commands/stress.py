@@ -1,7 +1,5 @@
 """`stress`, once `extremes` and `campaign`: run FMUs at extremes and with random devices."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Sequence
 from difflib import get_close_matches

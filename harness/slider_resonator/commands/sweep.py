@@ -1,7 +1,5 @@
 """`sweep`: collect thousands of runs in one table."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`trade`: measure error over cost of the FMUs' models and of other methods."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path

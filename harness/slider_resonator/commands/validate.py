@@ -1,7 +1,5 @@
 """`validate`: compare FMUs with the references, and write reports for terminals and CI servers."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

@@ -1,7 +1,5 @@
 """Number of drive periods after which drive and normal force repeat together."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from functools import lru_cache
 

@@ -1,7 +1,5 @@
 """The device parameters of the contract: SI units, and table 1 of the paper as start values."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
@@ -82,12 +80,12 @@ class Device:
         return f"Device({', '.join(differing)})"
 
     @classmethod
-    def from_mapping(cls, values: Mapping[str, float]) -> Device:
+    def from_mapping(cls, values: Mapping[str, float]) -> "Device":
         """Return table 1 with the given parameters replaced, its drive under given deviations.
 
         Raises ValueError naming an unknown parameter, or an Integer parameter that got a fraction.
         """
-        integer_names = {field.name for field in fields(cls) if field.type == "int"}
+        integer_names = {field.name for field in fields(cls) if field.type is int}
         known = {field.name for field in fields(cls)}
         arguments: dict[str, Any] = {}
         for name, value in values.items():
@@ -106,7 +104,7 @@ class Device:
                 arguments[name] = float(value)
         return cls(**arguments).deviating(values)
 
-    def deviating(self, values: Mapping[str, float]) -> Device:
+    def deviating(self, values: Mapping[str, float]) -> "Device":
         """Return the device whose drive has the `DEVIATIONS` among the values."""
         amplitude, frequency = (1.0 + values.get(name, 0.0) for name in DEVIATIONS)
         return replace(

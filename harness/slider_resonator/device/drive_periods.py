@@ -1,7 +1,5 @@
 """The periods of a drive whose frequency may change over a run."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import tau

@@ -1,7 +1,5 @@
 """Inputs over an interval: held, or straight lines, as an FMU has them in a communication step."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self

@@ -4,8 +4,6 @@ Repeated here on purpose: an FMU whose own table is wrong must not agree with it
 that came after version `FIRST` of the interface may be missing; the FMU is judged on the rest.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import partial

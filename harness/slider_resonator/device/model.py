@@ -1,7 +1,5 @@
 """A model: what is resolved of a device, and its friction law."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 COULOMB, LUGRE = 0, 1

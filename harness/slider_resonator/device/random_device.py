@@ -1,7 +1,5 @@
 """Random devices over decades, the same on all platforms for the same generator."""
 
-from __future__ import annotations
-
 from random import Random
 
 

@@ -1,7 +1,5 @@
 """Communication points, and the inputs that an FMU gets at them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
 from functools import cached_property
@@ -162,7 +160,7 @@ class Schedule:
         after = np.nextafter(self.times[self.changes], np.inf)
         return np.sort(np.concatenate([self.times, after]))
 
-    def read_at(self, times: Array, distance: float) -> Schedule:
+    def read_at(self, times: Array, distance: float) -> "Schedule":
         """Return the same held inputs with more points, at `times` (s), shape (m,).
 
         Those within `distance` (s) of a point of this schedule are left out; all of these stay.

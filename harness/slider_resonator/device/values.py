@@ -1,7 +1,5 @@
 """Values of parameters and inputs: what the interface allows, and text with a unit."""
 
-from __future__ import annotations
-
 import re
 import sys
 from functools import cache
@@ -64,7 +62,7 @@ _EXAMPLES = {
 
 
 @cache
-def _registry() -> pint.UnitRegistry[Any]:
+def _registry() -> "pint.UnitRegistry[Any]":
     import pint  # takes half a second: only where a text is read or shown
 
     registry: pint.UnitRegistry[Any] = pint.UnitRegistry()

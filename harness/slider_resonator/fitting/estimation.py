@@ -4,8 +4,6 @@ Positive parameters are estimated by their logarithm, so that steps and scales a
 terms are those of nonlinear regression: Seber and Wild, Nonlinear Regression (1989), 5.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache, partial
@@ -129,7 +127,7 @@ class Problem:
 
         return at
 
-    def without(self, index: int, value: float) -> Problem:
+    def without(self, index: int, value: float) -> "Problem":
         """Return the problem in which a free parameter is fixed to a value in SI units."""
         fixed = {**self.parameters, self.free[index].name: value}
         return Problem(fixed, (*self.free[:index], *self.free[index + 1 :]), self.measurements)

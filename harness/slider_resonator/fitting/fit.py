@@ -1,7 +1,5 @@
 """Fit parameters of a device to measurements, on isolated FMUs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -117,7 +115,7 @@ class Fit(Shown, Tabular, Drawable):
         values = [None if one.is_open else one.value for one in self.parameters]
         return {"parameter": columns.pop("name"), "value": values, **columns}
 
-    def figure(self) -> Figure:
+    def figure(self) -> "Figure":
         """Draw data and fit, with the residuals below."""
         # Imported here: drawing takes longer to load than many fits to run.
         from slider_resonator.fitting.picture import fit_figure

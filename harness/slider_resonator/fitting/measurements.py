@@ -1,7 +1,5 @@
 """Measurements of a device: steady velocities and blocking forces, and runs over time."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -157,12 +155,12 @@ class Measurements:
         """
         return self.deviations if self.knows_deviations else self.sizes
 
-    def under(self, inputs: Mapping[str, float]) -> Measurements:
+    def under(self, inputs: Mapping[str, float]) -> "Measurements":
         """Return the same with inputs of the points that do not say them."""
         points = (replace(point, values={**inputs, **point.values}) for point in self.points)
         return replace(self, points=tuple(points))
 
-    def __add__(self, other: Measurements) -> Measurements:
+    def __add__(self, other: "Measurements") -> "Measurements":
         """Return both together."""
         return Measurements(
             self.points + other.points,

@@ -1,7 +1,5 @@
 """What a report notes about measurements and their residuals."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

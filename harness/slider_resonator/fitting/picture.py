@@ -1,7 +1,5 @@
 """The picture of a fit: data, fit and residuals."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

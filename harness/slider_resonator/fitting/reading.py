@@ -1,7 +1,5 @@
 """Read measurements from columns with headings: of CSV files, or of arrays."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -123,7 +121,7 @@ class _Allowed:
     aliases: Mapping[str, str]
 
     @classmethod
-    def by(cls, headings: Iterable[str]) -> _Allowed:
+    def by(cls, headings: Iterable[str]) -> "_Allowed":
         """Return those of a run where a heading says `time`, else those of a table."""
         run = cls([*INPUTS, *HELD, *ALL_OUTPUTS, "time"], [*ALL_OUTPUTS], _ALIASES)
         if any(run.parts(heading)[0] == "time" for heading in headings):

@@ -1,7 +1,5 @@
 """What a fit says: text, table, picture, page, and the device file to go on with."""
 
-from __future__ import annotations
-
 from html import escape
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Calls of FMI functions through ctypes, and fixed sets of variables that they read and write."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from ctypes import c_double
 from functools import partial

@@ -1,7 +1,5 @@
 """The finished files that an installation brings, or that a build in a checkout has made."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal

@@ -4,8 +4,6 @@ Without event mode steps run through events, as in FMI 2.0. FMI 3.0 takes and ch
 experiment when initialisation mode begins; FMI 2.0 does so before.
 """
 
-from __future__ import annotations
-
 from ctypes import byref, c_bool, c_double
 from typing import Any
 
@@ -58,7 +56,7 @@ class Fmi3Slave:
         self._messages.append((message or b"").decode("utf-8", errors="replace").strip())
 
     @property
-    def dll(self) -> Fmi3Slave:
+    def dll(self) -> "Fmi3Slave":
         """Where the functions of FMI 2.0 are found."""
         return self
 

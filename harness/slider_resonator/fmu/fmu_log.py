@@ -5,8 +5,6 @@ to the function that was registered last. So there is one function here, registe
 every instantiation, and it finds the collector by the instance name.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterable

@@ -1,7 +1,5 @@
 """Checking that a model description has the interface that the harness needs, with its units."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence, Set
 from math import isclose, isfinite, pi
 

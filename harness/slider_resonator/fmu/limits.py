@@ -1,7 +1,5 @@
 """What an FMU may use; the environment passes the limits on to the process of the FMU."""
 
-from __future__ import annotations
-
 import os
 
 from slider_resonator.errors import HarnessError

@@ -1,7 +1,5 @@
 """Open an FMU: unpack the archive, read its description and check its interface."""
 
-from __future__ import annotations
-
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """Provenance of a report: the FMUs, the versions of the tools, the machine and the date."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import platform

@@ -1,7 +1,5 @@
 """Provenance as part of a report: HTML, Markdown, and properties for JUnit."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from slider_resonator.fmu.provenance import FmuIdentity, Provenance

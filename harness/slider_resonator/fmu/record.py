@@ -1,7 +1,5 @@
 """The record of a run, and its CSV file."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Running an FMU over a schedule of inputs and communication points."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping, Sequence
 

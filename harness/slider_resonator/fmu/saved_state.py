@@ -1,7 +1,5 @@
 """Saving the state of an instance, and taking it over into another one."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,7 +15,7 @@ class SavedState:
     handle: Any
 
     @classmethod
-    def of(cls, instance: Instance) -> SavedState:
+    def of(cls, instance: Instance) -> "SavedState":
         """Save the present state; NotApplicable where the FMU does not offer that."""
         instance.fmu.require("canGetAndSetFMUstate")
         return cls(instance, instance.time, instance.slave.getFMUstate())

@@ -1,7 +1,5 @@
 """Files that are written in one piece."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """Where results go: to stdout, whole or not at all."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """The help of commands, with examples that fit the terminal and can still be copied."""
 
-from __future__ import annotations
-
 import re
 import textwrap
 from collections.abc import Iterable

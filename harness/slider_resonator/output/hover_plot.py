@@ -3,8 +3,6 @@
 A mouse or a finger near a point, or the arrow keys on a plot in focus, show its text.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass

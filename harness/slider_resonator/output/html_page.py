@@ -1,7 +1,5 @@
 """Tables, foreign text and whole pages in HTML; a page needs no other file."""
 
-from __future__ import annotations
-
 import base64
 import re
 from collections.abc import Sequence

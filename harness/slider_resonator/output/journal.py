@@ -1,7 +1,5 @@
 """What long work has finished, kept in a file, so that it can go on after it was stopped."""
 
-from __future__ import annotations
-
 import json
 import sqlite3
 import zlib
@@ -71,7 +69,7 @@ class Journal:
         self._file.close()
         self.path.unlink(missing_ok=True)
 
-    def __enter__(self) -> Journal:
+    def __enter__(self) -> "Journal":
         """Return this."""
         return self
 

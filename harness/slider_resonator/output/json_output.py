@@ -4,8 +4,6 @@ The keys are a public interface, pinned in tests/harness/public_json.toml. A ren
 public key; a key that goes or changes its meaning raises the schema version.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass

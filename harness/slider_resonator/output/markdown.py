@@ -1,7 +1,5 @@
 """Tables and foreign text in Markdown, as GitHub renders it."""
 
-from __future__ import annotations
-
 import re
 
 from slider_resonator.output.readable import printable

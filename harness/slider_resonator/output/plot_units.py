@@ -1,7 +1,5 @@
 """The units in which curves are drawn: the same for a single run and for several."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, pi

@@ -1,7 +1,5 @@
 """How long work reports what it does; without a listener nothing is shown."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 Progress = Callable[[str, float], None]

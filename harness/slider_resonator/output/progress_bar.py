@@ -1,7 +1,5 @@
 """Progress of long work: on stderr, and only on a terminal."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """Numbers and foreign text, such as the log of an FMU, as they are shown."""
 
-from __future__ import annotations
-
 import re
 
 NOISE = 1e-12

@@ -1,7 +1,5 @@
 """What results have in common in a script: a text that fits a screen, a table, a picture."""
 
-from __future__ import annotations
-
 import importlib
 from abc import abstractmethod
 from collections.abc import Mapping
@@ -55,10 +53,10 @@ class Drawable:
     """A result with a picture."""
 
     @abstractmethod
-    def figure(self) -> Figure:
+    def figure(self) -> "Figure":
         """Return the picture as a new matplotlib figure."""
 
-    def plot(self, path: str | Path | None = None) -> Figure:
+    def plot(self, path: str | Path | None = None) -> "Figure":
         """Return the picture, and write it to `path`, if given: PNG, SVG or PDF.
 
         Raises HarnessError where that cannot be written.

@@ -1,7 +1,5 @@
 """The range of a curve over time whose start is far outside what follows."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 

@@ -1,7 +1,5 @@
 """Tables as data: written once, rendered for a terminal, in Markdown and in HTML."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum

@@ -1,7 +1,5 @@
 """Check output paths before anything runs."""
 
-from __future__ import annotations
-
 import os
 import stat
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """Temporary folders, removed with their process or, after a crash, by the next process."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import sys

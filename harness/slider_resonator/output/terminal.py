@@ -1,7 +1,5 @@
 """Tables and foreign text that fit a terminal, or the log of a CI job: no name is split."""
 
-from __future__ import annotations
-
 import os
 import re
 import sys

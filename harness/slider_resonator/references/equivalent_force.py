@@ -1,7 +1,5 @@
 """The single tangential force that stands for the resonator, (30)-(34)."""
 
-from __future__ import annotations
-
 import cmath
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Angles and elapsed times that do not lose digits over many additions."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import TypeVar

@@ -1,7 +1,5 @@
 """Read CSV files: their rows, and a column over time."""
 
-from __future__ import annotations
-
 import codecs
 import csv
 import io

@@ -1,7 +1,5 @@
 """Device files: a TOML table [device], values in SI units or as text with a unit."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import resources

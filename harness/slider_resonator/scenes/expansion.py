@@ -4,8 +4,6 @@ The content is that of parsed TOML, before it is checked: what has another form 
 passed on, for the schema to refuse.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections import Counter
 from collections.abc import Mapping, Sequence

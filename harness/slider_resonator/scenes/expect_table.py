@@ -1,7 +1,5 @@
 """The table [[expect]] of a scene file."""
 
-from __future__ import annotations
-
 from math import isfinite
 from typing import Annotated, ClassVar
 
@@ -78,7 +76,7 @@ class ExpectTable(KeyTable):
         return value
 
     @model_validator(mode="after")
-    def _comparable(self) -> ExpectTable:
+    def _comparable(self) -> "ExpectTable":
         kinds = ("reference", "value", "at_most", "at_least")
         given = [*self.given(kinds)]
         exactly_one("expect", given, ", ".join(kinds))

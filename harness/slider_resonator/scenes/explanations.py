@@ -1,7 +1,5 @@
 """Explain the errors of a scene or grid file: file, key, value and requirement."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from datetime import date, time
 from typing import Any, get_args

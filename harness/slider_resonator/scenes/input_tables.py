@@ -1,7 +1,5 @@
 """The tables of a scene file with values over time: inputs, tuning, a second instance."""
 
-from __future__ import annotations
-
 from typing import ClassVar, Literal
 
 from pydantic import model_validator
@@ -56,7 +54,7 @@ class InputTable(KeyTable):
         return value if isinstance(value, dict) else {"constant": value}
 
     @model_validator(mode="after")
-    def _one_kind(self) -> InputTable:
+    def _one_kind(self) -> "InputTable":
         kinds = ("constant", "steps", "ramp", "csv")
         exactly_one("an input", [*self.given(kinds)], "a number, steps, ramp, csv")
         if self.csv is None and self.model_fields_set & {"column", "between"}:

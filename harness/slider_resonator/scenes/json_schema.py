@@ -1,7 +1,5 @@
 """The JSON schema of scene files, with which editors complete and check them."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from typing import Any

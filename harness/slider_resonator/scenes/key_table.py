@@ -1,7 +1,5 @@
 """What all tables of a scene file have in common: keys, numbers, devices."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Annotated, Any, ClassVar
 

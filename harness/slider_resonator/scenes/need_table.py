@@ -1,7 +1,5 @@
 """The table [need] of a scene file."""
 
-from __future__ import annotations
-
 from typing import ClassVar, Literal
 
 from pydantic import model_validator
@@ -42,7 +40,7 @@ class AllowedTable(KeyTable):
         return value
 
     @model_validator(mode="after")
-    def _some_tolerance(self) -> AllowedTable:
+    def _some_tolerance(self) -> "AllowedTable":
         if self.abs is None and self.rel is None:
             raise ValueError("needs a tolerance: abs, rel or both")
         return self
@@ -90,7 +88,7 @@ class NeedTable(KeyTable):
     )
 
     @model_validator(mode="after")
-    def _some_need(self) -> NeedTable:
+    def _some_need(self) -> "NeedTable":
         if not self.needs:
             raise ValueError(f"needs at least one of {', '.join((*STEADY_NEEDS, *RUN_NEEDS))}")
         return self

@@ -1,7 +1,5 @@
 """Plot a run: position and mean velocity over time, and the last drive periods in full."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Scenes as data: what is run and what is expected; read from TOML files."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -163,7 +161,7 @@ class Scene(Shown):
         )
         return replace(plan, start_time=self.start_time, reads_twice=self.run.read_twice)
 
-    def with_values(self, values: Mapping[str, float]) -> Scene:
+    def with_values(self, values: Mapping[str, float]) -> "Scene":
         """Return the scene with parameters replaced, and inputs by a constant.
 
         The values must be ones that `check_value` accepts.
@@ -180,7 +178,7 @@ class Scene(Shown):
             tuning=tuning,
         )
 
-    def with_device(self, device: Mapping[str, float]) -> Scene:
+    def with_device(self, device: Mapping[str, float]) -> "Scene":
         """Return the scene with another device, or as it is if `device` states nothing.
 
         What `device` leaves out is that of table 1, but the state at the start, fidelity, tolerance
@@ -195,7 +193,7 @@ class Scene(Shown):
         }
         return replace(self.with_values(device), parameters={**kept, **device})
 
-    def with_step(self, step_size: float) -> Scene:
+    def with_step(self, step_size: float) -> "Scene":
         """Return the scene, which must have a run, with communication steps of a size in s."""
         assert self.run is not None
         step = {"step_size": step_size, "steps_per_period": None, "step_sizes": None}
@@ -206,7 +204,7 @@ class Scene(Shown):
         """Whether it passes straight lines of inputs on as derivatives, and has any."""
         return self.run is not None and self.run.interpolate and self.schedule().ramps
 
-    def interpolating(self, interpolate: bool) -> Scene:
+    def interpolating(self, interpolate: bool) -> "Scene":
         """Return the scene with straight lines of inputs passed on as derivatives, or held."""
         if self.run is None:
             return self
@@ -223,7 +221,7 @@ class Scene(Shown):
             return "held"
         return "interpolated" if interpolates else "cannot"
 
-    def points(self) -> tuple[ScenePoint, ...]:
+    def points(self) -> tuple["ScenePoint", ...]:
         """Return the points of the sweep, or without a sweep the scene as its only point."""
         if self.sweep is None:
             return (ScenePoint(self),)

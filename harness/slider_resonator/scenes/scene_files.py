@@ -1,7 +1,5 @@
 """Find scenes: built-in ones by name, others by their file, as `FILE#NAME` where it has several."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace

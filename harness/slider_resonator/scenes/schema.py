@@ -1,7 +1,5 @@
 """The schema of a scene file. Every key is listed in its tables; any other is refused."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar
 
@@ -71,7 +69,7 @@ class RunTable(KeyTable):
     )
 
     @model_validator(mode="after")
-    def _one_of_each(self) -> RunTable:
+    def _one_of_each(self) -> "RunTable":
         lengths = ("stop_time", "drive_periods")
         for names in (lengths, ("step_size", "steps_per_period", "step_sizes")):
             exactly_one("run", [*self.given(names)], " or ".join(names))
@@ -107,7 +105,7 @@ class SweepTable(KeyTable):
         return values
 
     @model_validator(mode="after")
-    def _possible(self) -> SweepTable:
+    def _possible(self) -> "SweepTable":
         for value in self.values:
             check_value(self.variable, value)
         return self
@@ -171,7 +169,7 @@ class SceneTable(KeyTable):
         return with_bundles(content)
 
     @model_validator(mode="after")
-    def _runnable(self) -> SceneTable:
+    def _runnable(self) -> "SceneTable":
         for name in self.tuning.tuned:
             if name in self.device:
                 raise ValueError(

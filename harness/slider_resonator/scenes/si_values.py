@@ -1,7 +1,5 @@
 """Texts with a unit in scene, grid and device files, as numbers in SI units."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from typing import Any

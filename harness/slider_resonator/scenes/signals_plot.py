@@ -1,7 +1,5 @@
 """Plot chosen signals of one or several runs of a scene over a window of time."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

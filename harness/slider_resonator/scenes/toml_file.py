@@ -1,7 +1,5 @@
 """TOML: files, their mistakes explained with line and remedy, and values as text."""
 
-from __future__ import annotations
-
 import json
 import re
 import tomllib

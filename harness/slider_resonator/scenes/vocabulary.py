@@ -4,8 +4,6 @@ How a quantity is measured in an FMU is in `slider_resonator.checks.measuring`, 
 gives for it in `slider_resonator.checks.expecting`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial

@@ -1,7 +1,5 @@
 """Blocking force of an FMU by shooting: the load under which the steady displacement vanishes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isfinite

@@ -7,8 +7,6 @@ entry 0 a Newton iteration with a Jacobian that is seldom renewed makes the fast
 equation in one unknown remains, whose sign changes between the bounds.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import scipy
 

@@ -5,8 +5,6 @@ the contact is closed and the bracket depends on z. Where that fails at the end 
 read shortly before and followed along the path, on which alone its change depends.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import asin, copysign, expm1, pi, sin, sqrt, tau

@@ -6,8 +6,6 @@ direction is a thousand times softer than the others. A Jacobian that still cont
 because a new one costs 2 n evaluations.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal

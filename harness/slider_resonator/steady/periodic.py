@@ -1,7 +1,5 @@
 """The map of an FMU over one common period, and the conditions for a periodic motion."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import asin, ceil, pi, sin, sqrt

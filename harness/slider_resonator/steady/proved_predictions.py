@@ -9,8 +9,6 @@ tells little of it. The mean velocity of the limit must be the one that was pred
 motion must be stable.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """Steady velocity and blocking force of the references, by the same shooting."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import ceil, pi

@@ -1,7 +1,5 @@
 """The result of a search by shooting, for a velocity or a load."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from dataclasses import dataclass
 from typing import Any

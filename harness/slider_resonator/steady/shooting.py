@@ -5,8 +5,6 @@ for an accuracy of 1e-6. The fixed point of the map over a single period is foun
 few dozen.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial

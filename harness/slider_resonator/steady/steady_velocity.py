@@ -1,7 +1,5 @@
 """Find the steady velocity of an FMU by shooting, without a long run."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isfinite

@@ -1,7 +1,5 @@
 """The axes: what is taken to its extremes around table 1, as tables of values."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain

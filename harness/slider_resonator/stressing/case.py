@@ -1,7 +1,5 @@
 """A case: a device, what it gets in a run, and the model that follows it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise
@@ -46,7 +44,7 @@ class Hold:
         """Phase, load, frequency_ratio."""
         return self.phase, self.load, self.frequency_ratio
 
-    def under(self, inputs: Mapping[str, float]) -> Hold:
+    def under(self, inputs: Mapping[str, float]) -> "Hold":
         """Return the same steps with some inputs, by name, replaced."""
         changed: dict[str, Any] = dict(inputs)
         return replace(self, **changed)

@@ -1,7 +1,5 @@
 """Runs that must agree: in other steps, from another start time, with the reference."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace

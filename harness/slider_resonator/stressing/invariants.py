@@ -1,7 +1,5 @@
 """Bounds that hold for every motion of the device, whatever the parameters."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

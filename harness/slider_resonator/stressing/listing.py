@@ -1,7 +1,5 @@
 """The result in words, as plain data and as files."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate

@@ -1,7 +1,5 @@
 """Running a case in an FMU and recording outputs and costs."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace

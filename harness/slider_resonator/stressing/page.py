@@ -1,7 +1,5 @@
 """The result as a page of HTML: every case over its bound, and a grid for each axis."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import log10
 from pathlib import Path

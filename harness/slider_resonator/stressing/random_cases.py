@@ -4,8 +4,6 @@ A case depends on seed and number alone, by the generator of the standard librar
 on all platforms and versions of Python.
 """
 
-from __future__ import annotations
-
 from bisect import bisect_right
 from collections.abc import Mapping
 from itertools import pairwise

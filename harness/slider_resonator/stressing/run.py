@@ -1,7 +1,5 @@
 """Running and judging cases in an FMU, which runs in processes of its own."""
 
-from __future__ import annotations
-
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """The verdict on a case and the bounds behind it."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from dataclasses import dataclass

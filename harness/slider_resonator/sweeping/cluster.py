@@ -1,7 +1,5 @@
 """Workers of a dask cluster, on any number of machines."""
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Iterator
 from concurrent.futures import CancelledError as FutureCancelled

@@ -1,7 +1,5 @@
 """What a sweep computes, read from a TOML file: the points, the measures, and how to run them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import chain, product
@@ -48,7 +46,7 @@ class RangeTable(KeyTable):
     spacing: Literal["linear", "log"] = "linear"
 
     @model_validator(mode="after")
-    def _has_logarithms(self) -> RangeTable:
+    def _has_logarithms(self) -> "RangeTable":
         if self.spacing == "log" and not (self.first > 0.0 and self.last > 0.0):
             raise ValueError(f"from {self.first!r} to {self.last!r}: must be above 0 for log")
         return self
@@ -89,7 +87,7 @@ class RandomTable(KeyTable):
     seed: Annotated[int, Field(strict=True, ge=0, examples=[1])]
 
     @model_validator(mode="after")
-    def _some_variable(self) -> RandomTable:
+    def _some_variable(self) -> "RandomTable":
         if not self.__pydantic_extra__:
             example = "load = { from = 0, to = 0.05 }"
             raise ValueError(f"no variable; must have some, such as {example}")
@@ -109,7 +107,7 @@ class RunTable(KeyTable):
     skip_periods: Annotated[int, Field(strict=True, ge=0)] = 0
 
     @model_validator(mode="after")
-    def _some_left(self) -> RunTable:
+    def _some_left(self) -> "RunTable":
         if self.skip_periods >= self.drive_periods:
             raise ValueError(
                 f"skip_periods = {self.skip_periods}: must be a whole number below "
@@ -141,7 +139,7 @@ class GridTable(KeyTable):
         return names
 
     @model_validator(mode="after")
-    def _possible(self) -> GridTable:
+    def _possible(self) -> "GridTable":
         if not self.names:
             raise ValueError("nothing is varied; must have any of [grid], [list] and [random]")
         names = [*self.names, *self.fixed]

@@ -1,7 +1,5 @@
 """The measures of a sweep at its points, in the process of the FMU: points in, rows out."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import tau

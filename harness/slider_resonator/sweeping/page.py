@@ -1,7 +1,5 @@
 """A sweep as a page of HTML: every measure over what was varied, each point to be hovered."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any

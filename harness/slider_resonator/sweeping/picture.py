@@ -1,7 +1,5 @@
 """Pictures of a sweep: lines over one variable, maps over two."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

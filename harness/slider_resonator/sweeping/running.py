@@ -1,7 +1,5 @@
 """Hands the points of a sweep to processes of the FMU, and keeps what they return."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
 from dataclasses import dataclass

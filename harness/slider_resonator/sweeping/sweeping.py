@@ -1,7 +1,5 @@
 """A sweep from grid file to table, going on where an earlier attempt ended."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Sequence
@@ -58,7 +56,7 @@ class SweepResult(Shown, Tabular, Drawable):
         """Return the columns of the table."""
         return self.columns
 
-    def figure(self) -> Figure:
+    def figure(self) -> "Figure":
         """Draw every measure over what was varied: lines or a map.
 
         Raises HarnessError where more than two variables were varied.

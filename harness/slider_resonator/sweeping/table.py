@@ -3,8 +3,6 @@
 A journal beside it keeps the finished points until it is written.
 """
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Mapping, Sequence
 from importlib.util import find_spec

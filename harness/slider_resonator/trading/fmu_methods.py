@@ -1,7 +1,5 @@
 """Our FMUs as methods: every fidelity, friction law, communication step and tolerance."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import cached_property, partial

@@ -3,8 +3,6 @@
 Methods are timed in turn, so that a busy moment of the machine affects all of them.
 """
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager

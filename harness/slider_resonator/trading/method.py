@@ -1,7 +1,5 @@
 """The measured methods: those that follow a motion, and those that find an answer without."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """The HTML page: ratios, work-precision plots, all rows and the omissions."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path

@@ -3,8 +3,6 @@
 As methods on a problem they have runs, CPU times, and searches by shooting.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial

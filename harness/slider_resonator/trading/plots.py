@@ -1,7 +1,5 @@
 """The picture of the README: error over CPU time by family, with the Pareto front of all."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any

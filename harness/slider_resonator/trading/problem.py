@@ -1,7 +1,5 @@
 """The problem that every method solves: the full device of a scene under its inputs."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 

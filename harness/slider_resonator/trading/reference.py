@@ -1,7 +1,5 @@
 """The reference of all errors: Taylor series with located events, and shooting with it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import inf
 

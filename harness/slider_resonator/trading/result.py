@@ -1,7 +1,5 @@
 """The data of a trade: rows, omissions, the cheapest method at an error; and its CSV files."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path

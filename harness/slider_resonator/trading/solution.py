@@ -1,7 +1,5 @@
 """Solutions of a problem, sampled at its readings, and their errors against the reference."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The figures at the top, and the tables that lead from need to model to cost."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

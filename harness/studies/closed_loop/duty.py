@@ -1,7 +1,5 @@
 """The task of the loop: a velocity to hold while the load steps."""
 
-from __future__ import annotations
-
 from bisect import bisect_right
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Whether the velocity was held, and whether design and proof agree."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """One run of the closed loop in a host, at one fidelity."""
 
-from __future__ import annotations
-
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path

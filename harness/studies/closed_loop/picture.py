@@ -1,7 +1,5 @@
 """The picture of the closed loop: load, velocity, phase, and how far design and proof differ."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from pathlib import Path
 

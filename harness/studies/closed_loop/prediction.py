@@ -1,7 +1,5 @@
 """Errors that the probe of `choose` predicts for averaged motion in the loop."""
 
-from __future__ import annotations
-
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager

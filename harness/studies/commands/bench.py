@@ -1,7 +1,5 @@
 """`bench`: the cost of a communication step in a C host."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`build`: build the FMUs of a checkout."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`closed-loop`: run the slider in a system where a controller holds its velocity."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path

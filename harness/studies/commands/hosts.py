@@ -1,7 +1,5 @@
 """`hosts`: run table 1 in other simulators and write the table of docs/hosts.md."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

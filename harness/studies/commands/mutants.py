@@ -1,7 +1,5 @@
 """`mutants`: make faulty FMUs and count how many `validate` rejects."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path, PurePosixPath

@@ -1,7 +1,5 @@
 """`paper`: reproduce every figure and statement of the paper with the FMU, and more tables."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

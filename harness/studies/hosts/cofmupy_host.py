@@ -1,7 +1,5 @@
 """CoFmuPy: couples FMUs by a configuration; runs in a separate environment."""
 
-from __future__ import annotations
-
 from cofmupy import Coordinator
 
 from studies.hosts.job import Job, Rows, serve

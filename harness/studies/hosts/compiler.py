@@ -1,7 +1,5 @@
 """A C compiler for the driver: the system's for this machine, ziglang for Windows."""
 
-from __future__ import annotations
-
 import os
 import shlex
 import shutil

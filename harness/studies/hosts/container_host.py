@@ -4,8 +4,6 @@ The `partner` of a job leads: its blocking force is the load of the job's FMU. P
 other inputs are the same for both.
 """
 
-from __future__ import annotations
-
 import json
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """The C driver: a process with the driver and the FMU's binary only."""
 
-from __future__ import annotations
-
 import atexit
 import platform
 import shutil

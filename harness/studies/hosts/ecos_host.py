@@ -1,7 +1,5 @@
 """ecos: a C++ master behind a Python interface; loads FMUs of FMI 2.0 and 3.0."""
 
-from __future__ import annotations
-
 import ctypes
 import sys
 from pathlib import Path

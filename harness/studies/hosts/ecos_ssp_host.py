@@ -1,7 +1,5 @@
 """ecos with an SSP package; what comes from outside is set in the components, by name."""
 
-from __future__ import annotations
-
 from studies.hosts.ecos_host import preload_tbb
 from studies.hosts.job import Job, Rows, serve
 from studies.hosts.ssp_package import system_inputs

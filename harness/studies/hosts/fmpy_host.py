@@ -1,7 +1,5 @@
 """fmpy: the host that all others are compared with."""
 
-from __future__ import annotations
-
 import shutil
 
 from fmpy import extract

@@ -3,8 +3,6 @@
 It takes inputs that vary from connectors of the system only, and reads the first structure only.
 """
 
-from __future__ import annotations
-
 import tempfile
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """fmuloader: thin bindings of all FMI functions, model exchange included."""
 
-from __future__ import annotations
-
 from fmuloader.fmi2 import Fmi2Slave, Fmi2Type
 
 from studies.hosts.job import Job, Rows, describe, serve

@@ -1,7 +1,5 @@
 """The hosts, where each is found, and which FMUs it can load."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys

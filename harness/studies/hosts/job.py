@@ -1,7 +1,5 @@
 """Jobs and answers of a host, as files that any Python environment reads."""
 
-from __future__ import annotations
-
 import json
 import sys
 import zipfile

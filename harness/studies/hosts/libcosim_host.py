@@ -1,7 +1,5 @@
 """libcosimpy: the C++ co-simulation library of the Open Simulation Platform."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from libcosimpy.CosimExecution import CosimExecution

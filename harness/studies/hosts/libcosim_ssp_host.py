@@ -3,8 +3,6 @@
 What comes from outside is set in the components, by an override manipulator.
 """
 
-from __future__ import annotations
-
 import tempfile
 import zipfile
 from collections.abc import Iterable

@@ -1,7 +1,5 @@
 """pathsim with its block for co-simulation FMUs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 from pathsim import Connection, Simulation

@@ -1,7 +1,5 @@
 """Programs of hosts, which load FMUs: supervised, with a time limit."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 from collections.abc import Sequence

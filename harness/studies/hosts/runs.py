@@ -1,7 +1,5 @@
 """Table 1 in a host, at each fidelity and with each friction law, compared with fmpy."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """The two structures in an SSP package, for hosts that read one or the other."""
 
-from __future__ import annotations
-
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The cost of a communication step in a C host: set an input, step, get outputs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import tau

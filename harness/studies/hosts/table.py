@@ -1,7 +1,5 @@
 """The host table: Markdown that a page holds between two marks."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The C driver for Windows, cross-compiled, with the FMU's Windows binary under Wine."""
 
-from __future__ import annotations
-
 import fcntl
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """The Python FMU as files that can be changed one at a time and packed again."""
 
-from __future__ import annotations
-
 import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The scene points at which variants of an FMU are judged, and what the unchanged one gives."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Sequence
 from contextlib import closing

@@ -1,7 +1,5 @@
 """Changes of the C sources, as data: faults that scenes must reject, variants they must accept."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass

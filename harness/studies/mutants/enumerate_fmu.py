@@ -1,7 +1,5 @@
 """All mutants of a Python FMU, and samples of them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from random import Random
 from typing import TypeVar

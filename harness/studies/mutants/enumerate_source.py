@@ -1,7 +1,5 @@
 """All mutants of a Python module, in the order of its lines."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Iterator, Sequence
 

@@ -1,7 +1,5 @@
 """Judge the variants of an FMU, each in a process of its own, some at a time."""
 
-from __future__ import annotations
-
 import hashlib
 import pickle
 import threading

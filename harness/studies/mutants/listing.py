@@ -1,7 +1,5 @@
 """Variants of an FMU and their verdicts as text and as plain data for JSON."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A faulty FMU: the change and its place."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import unified_diff

@@ -5,8 +5,6 @@ comparisons, constants that are a little off or one too large, signs. Beside the
 functions whose confusion is a slip that happens in formulas.
 """
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass

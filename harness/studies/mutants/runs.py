@@ -1,7 +1,5 @@
 """Make faulty variants of an FMU and count how many are rejected."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Judge an FMU at scene points, as `validate` does, up to the first check that fails."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Sequence
 from contextlib import closing

@@ -1,7 +1,5 @@
 """Mutants of the model description: units that differ from those of the values."""
 
-from __future__ import annotations
-
 import re
 
 from studies.mutants.archive import DESCRIPTION

@@ -1,7 +1,5 @@
 """The verdict on a variant of an FMU, and on all variants of a run."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Build native FMUs from changed C sources, compiling only what a change touches."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """How fast averages become right: error of the steady velocity over the drive frequency."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.figure import Figure as Drawing
 

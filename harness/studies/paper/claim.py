@@ -1,7 +1,5 @@
 """Statements of the paper, from claims.toml, and the measurements of each."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass

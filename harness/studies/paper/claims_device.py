@@ -1,7 +1,5 @@
 """Statements of section 4: the device of table 1 and its variant with ten times the frequency."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import pi

@@ -1,7 +1,5 @@
 """Statements on the fundamental model with LuGre friction."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import pi
 

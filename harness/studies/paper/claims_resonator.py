@@ -1,7 +1,5 @@
 """Statements on the device with its resonator, and on frequencies that differ."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import ceil, pi
 

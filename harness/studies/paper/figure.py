@@ -1,7 +1,5 @@
 """A figure of the report and the style of its panels."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial

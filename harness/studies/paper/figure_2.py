@@ -1,7 +1,5 @@
 """Figure 2: displacement from rest, Coulomb and LuGre, at a low and at a high frequency."""
 
-from __future__ import annotations
-
 from math import pi
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Figure 3: steady velocity with Coulomb friction over phase, amplitude ratio and strength."""
 
-from __future__ import annotations
-
 from math import pi
 
 import numpy as np

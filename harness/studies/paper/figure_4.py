@@ -1,7 +1,5 @@
 """Figure 4: velocity against load, Coulomb and LuGre."""
 
-from __future__ import annotations
-
 from math import pi
 
 import numpy as np

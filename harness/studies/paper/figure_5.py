@@ -1,7 +1,5 @@
 """Figure 5: steady velocity with LuGre friction over phase, q, alpha and mu."""
 
-from __future__ import annotations
-
 from math import pi
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Figure 7: the device with its resonator against the single-degree-of-freedom model."""
 
-from __future__ import annotations
-
 from math import pi
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Figure 8: normal and tangential frequencies that differ."""
 
-from __future__ import annotations
-
 from math import pi
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Labels of axes, with the scales that make their quantities dimensionless, or 1."""
 
-from __future__ import annotations
-
 TIME = "time $\\tau$ [$1 / \\omega_0$]"
 DISPLACEMENT = "displacement [$x_0$]"
 STEADY_VELOCITY = "steady velocity $V$ [$x_0 \\omega_0$]"

@@ -1,7 +1,5 @@
 """The texts of the report: captions of the figures, tables and claims."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path

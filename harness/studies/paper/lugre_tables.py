@@ -1,7 +1,5 @@
 """Tables of LuGre friction from soft to hard bristles: the blocking force, and table 1's device."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from slider_resonator.device.device import Device

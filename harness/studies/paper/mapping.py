@@ -11,8 +11,6 @@ newtons are then the paper's dimensionless units, and results need no conversion
   x0 = 2 mu N0 / ((M + m) w0^2) = 1.
 """
 
-from __future__ import annotations
-
 from math import pi
 
 from slider_resonator.references.averaged.uniform_average import LugreCase

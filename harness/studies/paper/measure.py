@@ -1,7 +1,5 @@
 """Measurements for the report: records of short runs, velocities and forces by shooting."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from slider_resonator.device.interface import INPUTS

@@ -1,7 +1,5 @@
 """The whole paper: every figure, table and claim."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial

@@ -4,8 +4,6 @@ Velocities are in ``x0 w0``, time in ``1 / w0``, forces in the mean friction ``f
 with LuGre friction in ``N0``. ``strength`` is q, ``amplitude_ratio`` alpha, ``phase`` phi in rad.
 """
 
-from __future__ import annotations
-
 from math import acos, hypot, pi, sin
 
 from slider_resonator.device.device import Device

@@ -1,7 +1,5 @@
 """Where (17) holds: steady LuGre velocity and blocking load over the stiffness number kappa."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from math import pi
 

@@ -1,7 +1,5 @@
 """Steady velocity of the device of table 1 over frequency ratio and phase."""
 
-from __future__ import annotations
-
 from math import pi
 
 import numpy as np

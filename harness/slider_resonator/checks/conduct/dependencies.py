@@ -1,7 +1,5 @@
 """What acts on an output at once, against the dependencies that the FMU declares."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 
 from fmpy.model_description import Unknown

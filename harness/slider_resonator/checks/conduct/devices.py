@@ -1,7 +1,5 @@
 """Devices without a meaning, which an FMU must refuse before or in a run, and the same with one."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass

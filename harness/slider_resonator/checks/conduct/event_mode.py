@@ -1,7 +1,5 @@
 """Event mode of FMI 3.0: steps that end at events, what they answer, and the time in between."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from ctypes import c_double, c_uint

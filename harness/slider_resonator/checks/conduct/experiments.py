@@ -1,7 +1,5 @@
 """Experiments as hosts set them up: sums of steps, a tolerance, outputs read at the end."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from math import sqrt
 

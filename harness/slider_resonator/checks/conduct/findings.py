@@ -1,7 +1,5 @@
 """What is found wrong with the conduct of an FMU, and other values to try it with."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 

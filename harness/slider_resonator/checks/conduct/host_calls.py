@@ -1,7 +1,5 @@
 """Answers of an FMU that belong to no run: what it is, whom it serves, and what it logs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from contextlib import suppress

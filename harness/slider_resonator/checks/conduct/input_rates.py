@@ -1,7 +1,5 @@
 """The same ramps set in other ways, each of which must give the same outputs to the last bit."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 
 import numpy as np

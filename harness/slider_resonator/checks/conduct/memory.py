@@ -1,7 +1,5 @@
 """Memory that an FMU takes and does not give back, where the C library counts it, as glibc does."""
 
-from __future__ import annotations
-
 import ctypes
 import gc
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """First derivatives of outputs, where an FMU offers them, against two short steps."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from ctypes import byref, c_double, c_int
 from math import tau

@@ -1,7 +1,5 @@
 """Values and calls that an FMU must refuse, by name and without a trace in its run."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """The same run in other ways, each of which must give the same outputs to the last bit."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress

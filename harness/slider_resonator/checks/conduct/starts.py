@@ -1,7 +1,5 @@
 """What the variables of an FMU are before a run, and whether they keep what is set."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 
 from slider_resonator.checks.conduct.findings import other_value

@@ -1,7 +1,5 @@
 """States of an FMU in the hands of a host: got again, freed, and damaged on their way."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from ctypes import byref, c_char, c_void_p

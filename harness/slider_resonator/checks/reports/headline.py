@@ -1,7 +1,5 @@
 """What is asked first: the steady velocity and the blocking force, in physical units."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 
 from slider_resonator.checks.compare import Check, Value

@@ -1,7 +1,5 @@
 """Verdicts as one HTML file that needs no other, with pictures of what differs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Verdicts as one JSON document."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Verdicts as JUnit XML, the format that CI servers read."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Verdicts as a Markdown table on the page of a GitHub Actions run."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Verdicts as a table on a terminal or in a log."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 
 from rich.console import Console

@@ -7,8 +7,6 @@ error. A call that takes longer than SECONDS ends the process, also inside nativ
 traceback in FOLDER.
 """
 
-from __future__ import annotations
-
 import faulthandler
 import os
 import pickle

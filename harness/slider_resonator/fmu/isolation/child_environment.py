@@ -1,7 +1,5 @@
 """Environment and temporary folder of the processes that the harness starts."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

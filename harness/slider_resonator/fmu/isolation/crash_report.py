@@ -1,7 +1,5 @@
 """Describing how the process of an FMU ended, and in which call."""
 
-from __future__ import annotations
-
 import re
 import signal
 from collections.abc import Mapping

@@ -4,8 +4,6 @@ A request is a task, a function of the instance, and whether it reports progress
 with a keyword argument `progress`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

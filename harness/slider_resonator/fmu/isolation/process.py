@@ -1,7 +1,5 @@
 """An FMU in a process of its own, where it may crash or hang."""
 
-from __future__ import annotations
-
 import os
 import pickle
 import queue
@@ -108,7 +106,7 @@ class IsolatedFmu:
     def _log(self) -> Path:
         return self._folder / PRINTED
 
-    def __enter__(self) -> IsolatedFmu:
+    def __enter__(self) -> "IsolatedFmu":
         """Return the isolated FMU."""
         return self
 

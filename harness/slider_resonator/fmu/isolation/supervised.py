@@ -1,7 +1,5 @@
 """Programs with foreign code, run so that they and all that they start end together."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal

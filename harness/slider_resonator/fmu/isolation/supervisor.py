@@ -9,8 +9,6 @@ how the program ended; if nobody listens any more, it removes FOLDER. Standard l
 starts in some milliseconds.
 """
 
-from __future__ import annotations
-
 import ctypes
 import json
 import os

@@ -1,7 +1,5 @@
 """Many tasks on an isolated FMU, in processes that are replaced after crashes or missed limits."""
 
-from __future__ import annotations
-
 import os
 from collections import deque
 from collections.abc import Callable, Generator, Sequence

@@ -6,8 +6,6 @@ of the drive, and ``phase`` the phase of the normal load when the tangential for
 zero upward. The contact may lift (``amplitude_ratio`` > 1).
 """
 
-from __future__ import annotations
-
 import math
 
 from slider_resonator.references.averaged.vibrating_contact import (

@@ -7,8 +7,6 @@ A of the paper for every n; a clipped load does so near fractions too; elsewhere
 counts. The fast motion is that of (32)-(34).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace

@@ -4,8 +4,6 @@ The resonator vibrates steadily, (32); the normal load is the instantaneous one;
 mean over the fast motion at the present slow velocity.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

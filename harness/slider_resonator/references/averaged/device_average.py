@@ -1,7 +1,5 @@
 """Averages of a device, dimensional: friction, steady velocity, blocking force; if they hold."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

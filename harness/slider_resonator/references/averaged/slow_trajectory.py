@@ -1,7 +1,5 @@
 """Trajectories of slow motion: from an averaged acceleration, and of a block without vibration."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -7,8 +7,6 @@ is the slow manifold of the paper, (16), for large ones Coulomb friction, (4). E
 O(1 / Omega). The contact may lift (``amplitude_ratio`` > 1).
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import lru_cache

@@ -4,8 +4,6 @@ The load is ``max(0, 1 + amplitude_ratio sin(ratio theta + phase))`` in units of
 the angle of the drive. Angles are in rad.
 """
 
-from __future__ import annotations
-
 import math
 
 MAX_TURNS = 4

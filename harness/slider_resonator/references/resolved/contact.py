@@ -1,7 +1,5 @@
 """Contact modes of a rigid Coulomb slider, and the instants at which its contact lifts."""
 
-from __future__ import annotations
-
 import math
 
 SLIP_BACKWARD = -1

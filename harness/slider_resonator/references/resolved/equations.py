@@ -1,7 +1,5 @@
 """The dimensional equations of motion (26)-(27) of one device, and of its fidelity 1 form."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Callable

@@ -3,8 +3,6 @@
 Bristles never stick: the modes of LuGre friction are the directions of the motion, and flight.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

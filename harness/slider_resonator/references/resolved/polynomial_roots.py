@@ -5,8 +5,6 @@ polynomial does there, so an interval without such changes has no root and one w
 has exactly one. Halving the rest misses no pair of roots however close, down to rounding.
 """
 
-from __future__ import annotations
-
 from functools import cache
 from math import comb
 

@@ -1,7 +1,5 @@
 """The samples, contact modes and counts of a run, for every integrator."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

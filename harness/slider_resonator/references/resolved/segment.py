@@ -1,7 +1,5 @@
 """A segment of motion in one contact mode: argument and result of an integrator."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

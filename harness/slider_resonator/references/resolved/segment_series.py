@@ -1,7 +1,5 @@
 """A contact mode followed by Taylor series to its first event, to rounding."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import accumulate, repeat
 from operator import mul

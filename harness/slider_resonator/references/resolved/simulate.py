@@ -1,7 +1,5 @@
 """The resolved motion of a device: the full equations with every event located, to rounding."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from slider_resonator.arrays import Array

@@ -9,8 +9,6 @@ g = s with Coulomb friction; with LuGre friction g = W + damping |X'| (s - W), w
 the stretch of the bristle, obeys W' = rate |X'| (s - W). |X'| = s X' is analytic up to a reversal.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 from math import cos, factorial, sin

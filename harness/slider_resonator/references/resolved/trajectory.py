@@ -1,7 +1,5 @@
 """The sampled motion that every reference integrator returns, of either friction law."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

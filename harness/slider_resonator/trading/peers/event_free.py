@@ -7,8 +7,6 @@ the smaller the error and the stiffer the equations; where friction should hold 
 creeps. The bristle of LuGre friction is a fifth state.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
@@ -82,7 +80,7 @@ class RunWithoutEvents:
         self.friction = 0.0
 
     def run(
-        self, held: Sequence[HeldInputs], follow: Callable[[RunWithoutEvents, HeldInputs], None]
+        self, held: Sequence[HeldInputs], follow: Callable[["RunWithoutEvents", HeldInputs], None]
     ) -> Trajectory:
         """Return the motion through the held inputs, or ones with rates.
 

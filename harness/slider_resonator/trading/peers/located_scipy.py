@@ -4,8 +4,6 @@ Within one contact mode the equations are smooth, so that DOP853 keeps its order
 by a fraction of the fastest period, and each is searched on a finer grid.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from functools import partial

@@ -6,8 +6,6 @@ exact, reversals cost the order: the error falls with the first power of the ste
 Moreau (Unilateral contact and dry friction in finite freedom dynamics, 1988) and Jean (1999).
 """
 
-from __future__ import annotations
-
 from array import array
 from collections.abc import Sequence
 from functools import partial

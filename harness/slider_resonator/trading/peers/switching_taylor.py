@@ -6,8 +6,6 @@ follows from the path since the last reversal. It covers neither sticking nor fl
 `simulate_sliding` refuses devices that lift, and a start at rest.
 """
 
-from __future__ import annotations
-
 import importlib
 import math
 from collections.abc import Sequence
