@@ -112,6 +112,7 @@ class HarnessGroup(click.Group):
         arguments = list(sys.argv[1:] if args is None else args)
         open_closed_streams()
         if args is None:
+            os.environ["MPLBACKEND"] = "agg"  # that of a notebook need not be installed here
             # As for Ctrl-C: the processes of FMUs must be ended and temporary files removed.
             signal.signal(signal.SIGTERM, signal.default_int_handler)
         try:

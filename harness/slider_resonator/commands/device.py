@@ -10,7 +10,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.values import with_unit
 from slider_resonator.output.atomic import write_text
-from slider_resonator.output.readable import escaped, number_of
+from slider_resonator.output.readable import escaped, number_of, one_line
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.output.targets import distinct
 from slider_resonator.scenes.device_file import (
@@ -104,6 +104,7 @@ def _explain(name_or_file: str, ssv: Path | None, as_json: bool) -> None:
     print_text(read.title)
     print_table(Table(columns, cells))
     notes = [f"note: {one}" for one in (*read.slips, *without_drive(read.values))]
+    notes += [] if ssv is None else [f"written {one_line(str(ssv))}"]
     print_text("\n".join([*_derived(device), *notes]))
 
 

@@ -3,6 +3,7 @@
 import json
 import re
 import zipfile
+import zlib
 from pathlib import Path
 
 import click
@@ -17,7 +18,7 @@ from slider_resonator.output.readable import one_line
 from slider_resonator.scenes.device_file import to_toml
 
 PAGE = "documentation/slider-resonator.html"
-"""The page in a native FMU that was built for all platforms."""
+"""The page in a native FMU that was built for all platforms; it is beside such an FMU, too."""
 _DEVICES = re.compile(r'(?<=<script type="application/json" id="devices">).*?(?=</script>)', re.S)
 
 
@@ -50,14 +51,22 @@ def page_of(fmu: Path) -> str:
         with zipfile.ZipFile(fmu) as archive:
             text = archive.read(PAGE).decode()
     except KeyError:
-        raise FmuError(
-            f"{fmu}: has no {PAGE}; must be a native FMU for all platforms, as `make build` and "
-            "the wheel have it"
-        ) from None
-    except (OSError, ValueError, zipfile.BadZipFile) as error:
+        beside = fmu.with_name(Path(PAGE).name)
+        if not beside.is_file():
+            raise FmuError(
+                f"{fmu}: has no {PAGE}, nor is {beside} there; must be a native FMU for all "
+                "platforms, as `make build` writes it"
+            ) from None
+        text = beside.read_text(encoding="utf-8", errors="replace")
+    except (OSError, ValueError, RuntimeError, EOFError, zlib.error, zipfile.BadZipFile) as error:
         raise FmuError(f"{fmu}: its page cannot be read: {error}") from error
-    if _DEVICES.search(text) is None:
-        raise FmuError(f"{fmu}: {PAGE} has no list of devices; must be of version 0.2.0 or later")
+    found = _DEVICES.search(text)
+    try:
+        json.loads(found[0] if found else "")
+    except ValueError:
+        raise FmuError(
+            f"{fmu}: {PAGE} has no list of devices; must be of version 0.2.0 or later"
+        ) from None
     return text
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from functools import partial
+from math import inf
 from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,6 +12,7 @@ import click
 from slider_resonator.commands import options
 from slider_resonator.commands.results import print_result
 from slider_resonator.device.schedule import Schedule
+from slider_resonator.device.values import si_number
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.fmu.record import Record, write_csv
@@ -43,6 +45,14 @@ def _window(text: str) -> tuple[float, float]:
         raise ValueError(f"{text!r}: must be FROM:TO, two times in s, such as 0.1:0.11") from error
 
 
+def _duration(text: str) -> float:
+    """Return a time in s above 0; ValueError for another text."""
+    seconds = si_number("time", text, "s")
+    if not 0.0 < seconds < inf:
+        raise ValueError(f"time = {text!r}: must be above 0 s, and finite")
+    return seconds
+
+
 def _overlay(text: str) -> tuple[str, float] | Path:
     """Return the setting NAME=VALUE, or the path of an FMU; ValueError for a wrong setting."""
     return options.setting(text) if "=" in text and not Path(text).is_file() else Path(text)
@@ -51,6 +61,12 @@ def _overlay(text: str) -> tuple[str, float] | Path:
 @click.command("run", cls=options.SettingsCommand)
 @options.native_fmu_argument
 @click.argument("scene", required=False)
+@click.option(
+    "--time",
+    "stop_time",
+    type=options.Parsed("TIME", _duration),
+    help="How long to run, in s or with a unit, in place of what the scene says.",
+)
 @click.option("--out", type=options.target(), help="CSV file of the run.")
 @click.option(
     "--plot",
@@ -100,6 +116,7 @@ def run_command(
     context: click.Context,
     fmu: Path,
     scene: str,
+    stop_time: float | None,
     out: Path | None,
     plot: Path | None,
     signals: str | None,
@@ -121,7 +138,7 @@ def run_command(
 
     \b
     Examples:
-      slider-resonator run --device mine.toml --plot start.png
+      slider-resonator run --device mine.toml --time "50 ms" --plot start.png
       slider-resonator run table_1
       slider-resonator run my.fmu table_1 --out table_1.csv --plot table_1.png
       slider-resonator run my.fmu feed_forward --auto
@@ -131,6 +148,8 @@ def run_command(
     """
     own = options.device_file(device)
     read = find_scene(scene, settings, own)
+    if stop_time is not None:
+        read = read.lasting(stop_time)
     if interpolate is not None:
         read = read.interpolating(interpolate)
     files = {f"the scene's file {file}": file for file in read.files}

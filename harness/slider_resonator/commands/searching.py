@@ -9,6 +9,7 @@ import click
 from slider_resonator.commands import options
 from slider_resonator.commands.results import print_result
 from slider_resonator.device.device import Device
+from slider_resonator.device.interface import INPUT_STARTS, VARIABLES
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
@@ -42,8 +43,14 @@ def search_command(
             progress(f"searching the {what}", 0.0)
             result: SearchResult = isolated.run(search, progress)
         faces = int(settings.get("friction_faces", Device().friction_faces))
+        inputs = (
+            f"{name} {settings.get(name, start):g} {VARIABLES[name].unit}".removesuffix(" 1")
+            for name, start in INPUT_STARTS.items()
+            if (name, what) != ("load", "blocking force")
+        )
         lines = [
             *result.describe(),
+            f"inputs           {', '.join(inputs)}",
             f"friction         on {number_of(faces, 'face')} (friction_faces)",
             f"FMU              {one_line(str(fmu))}",
         ]

@@ -120,6 +120,10 @@ def sweep_command(
     sources = {"the grid": grid, "the FMU": fmu}
     given = {name: path for name, path in sources.items() if path is not None}
     distinct({"--out": out, "--plot": plot, "--html": html}, given)
+    names = [name for name, _ in axes]
+    for name in names:
+        if names.count(name) > 1:
+            raise click.UsageError(f"--over {name}: given twice; must be once")
     if grid is not None:
         sweep = read_grid(grid, options.device_named(device), settings)
     else:

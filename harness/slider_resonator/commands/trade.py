@@ -131,7 +131,9 @@ def trade_command(
     else:
         for trade in trades:
             _print(trade)
-        print_text(f"written {one_line(str(out / 'index.html'))}")
+        tables = (out / name for name in ("index.html", "trade.csv", "omissions.csv"))
+        written = [*tables, *([] if picture is None else [picture]), *pages]
+        print_text(f"written {one_line(', '.join(map(str, written)))}")
 
 
 def _kept(trades: Sequence[Trade], problems: Sequence[Problem], out: Path) -> str:

@@ -81,7 +81,11 @@ def is_number(text: str) -> bool:
 
 def si_value(name: str, text: str) -> float:
     """Return the value of a parameter or input in its SI unit, as `si_number` does."""
-    return si_number(name, text, VARIABLES[name].unit)
+    variable = VARIABLES[name]
+    if variable.kind == "Integer" and not is_number(text):
+        allowed = f"{variable.minimum:.0f} to {variable.maximum:.0f}"
+        raise ValueError(f"{name} = {text!r}: must be an integer, {allowed}")
+    return si_number(name, text, variable.unit)
 
 
 def si_number(name: str, text: str, unit: str) -> float:
@@ -93,10 +97,10 @@ def si_number(name: str, text: str, unit: str) -> float:
         return float(text)
     except ValueError:
         match = _TEXT.fullmatch(text)
-    must = f"must be a number in {unit}, or a text with a unit such as {_EXAMPLES.get(unit, '1')!r}"
+    number = "number" if unit == "1" else f"number in {unit}"
+    must = f"must be a {number}, or a text with a unit such as {_EXAMPLES.get(unit, '1')!r}"
     if match is None:
         raise ValueError(f"{name} = {text!r}: {must}")
-    number = float(match["number"])
     import pint
 
     try:
@@ -108,7 +112,8 @@ def si_number(name: str, text: str, unit: str) -> float:
         raise ValueError(f"{name} = {text!r}: not in {unit}; {must}") from error
     # So that "10 us" is 1e-5, to the last bit.
     parts = round(1.0 / factor)
-    return number / parts if isclose(parts * factor, 1.0, rel_tol=1e-12) else number * factor
+    given = float(match["number"])
+    return given / parts if isclose(parts * factor, 1.0, rel_tol=1e-12) else given * factor
 
 
 def with_unit(name: str, value: float) -> str:

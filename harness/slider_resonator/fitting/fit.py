@@ -139,7 +139,8 @@ class Fit(Shown, Tabular, Drawable):
     def sentences(self) -> list[str]:
         """Return what there is to say beside the estimates."""
         lines = [
-            f"{len(self.measured)} numbers, {len(self.parameters)} free parameters",
+            f"{number_of(len(self.measured), 'number')}, "
+            f"{number_of(len(self.parameters), 'free parameter')}",
             f"friction on {number_of(self.device.friction_faces, 'face')} (friction_faces)",
         ]
         if self.scale is None:
@@ -195,7 +196,9 @@ def free_parameters(
             raise HarnessError(
                 f"{name} is an integer; must be a parameter that varies continuously"
             )
-    if not names or len(set(names)) < len(names):
+    if not any(names):
+        raise HarnessError("free: names nothing; must be one parameter or more")
+    if len(set(names)) < len(names):
         raise HarnessError(f"free = {', '.join(names)!r}: must be different parameters")
     found = []
     for name in names:

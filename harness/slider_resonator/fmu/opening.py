@@ -233,4 +233,5 @@ def _platform_problems(path: Path, description: ModelDescription) -> list[str]:
         platforms = sorted({p[1] for p in parts if p[0] == "binaries" and len(p) > 2})
     if ours in platforms:
         return []
-    return [f"no binary for {ours}, only for {', '.join(platforms) or 'none'}"]
+    only = f", only for {', '.join(platforms)}" if platforms else ", nor for another platform"
+    return [f"no binary for {ours}{only}"]

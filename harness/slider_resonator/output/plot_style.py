@@ -51,8 +51,14 @@ _STYLE: dict[Any, Any] = {
 
 
 def style() -> AbstractContextManager[None]:
-    """Return what applies the common style to figures made in its block."""
-    return mpl.rc_context(_STYLE)
+    """Return what applies the common style to figures made in its block.
+
+    The settings of a user's own matplotlibrc do not show, nor does the backend change.
+    """
+    defaults: dict[Any, Any] = {
+        key: mpl.rcParamsDefault[key] for key in mpl.rcParamsDefault if key != "backend"
+    }
+    return mpl.rc_context({**defaults, **_STYLE})
 
 
 def save(figure: Figure, path: Path) -> None:
@@ -73,7 +79,8 @@ def png_data_uri(figure: Figure) -> str:
 def _png(figure: Figure) -> bytes:
     FigureCanvasAgg(figure)
     buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=100)
+    with style():
+        figure.savefig(buffer, format="png", dpi=100)
     return buffer.getvalue()
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.interface import PARAMETERS, VARIABLES
+from slider_resonator.device.interface import INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.device.values import check_value, si_value, with_unit
 from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.scenes.si_values import with_si_values
@@ -54,7 +54,7 @@ def find_device(name_or_file: str, folder: Path = Path()) -> Path:
     if name_or_file in examples:
         return examples[name_or_file]
     path = folder / name_or_file
-    if not path.suffix and len(Path(name_or_file).parts) == 1 and not path.is_file():
+    if not path.suffix and len(Path(name_or_file).parts) <= 1 and not path.exists():
         raise SceneError(
             f"{unknown_name('device', name_or_file, examples)}; or a device file, written by "
             "`slider-resonator device --example table_1 > device.toml`"
@@ -117,7 +117,7 @@ def device_values(content: Mapping[str, Any], source: str) -> dict[str, float]:
     table = with_si_values({"device": content.get("device", {})}, source)["device"]
     for name, value in table.items():
         if name not in PARAMETERS:
-            raise SceneError(f"{source}: device: {unknown_name('parameter', name, PARAMETERS)}")
+            raise SceneError(f"{source}: device: {_no_parameter(name)}")
         try:
             if isinstance(value, bool):
                 raise ValueError(f"{name} = {str(value).lower()}: must be a number")
@@ -126,6 +126,15 @@ def device_values(content: Mapping[str, Any], source: str) -> dict[str, float]:
             raise SceneError(f"{source}: device.{error}") from error
         values[name] = value
     return values
+
+
+def _no_parameter(name: str) -> str:
+    """Return what is wrong with a key of [device] that is no parameter."""
+    if name in INPUTS:
+        return f"{name} is an input; must be given by --set, or in [inputs] of a scene"
+    if name in _TEXTS:
+        return f"{name} must be above [device]"
+    return unknown_name("parameter", name, PARAMETERS)
 
 
 FREQUENCIES = ("drive_frequency", "resonator_frequency")
@@ -187,7 +196,11 @@ def to_ssv(device: Device, name: str) -> str:
 
 
 def to_toml(device: Device, title: str = "") -> str:
-    """Return the text of a device file: what differs from table 1, and the number of faces."""
+    """Return the text of a device file: what differs from table 1, and the number of faces.
+
+    Raises SceneError for a device that no device file could state.
+    """
+    device_values({"device": vars(device)}, "the device")
     start = Device()
     lines = [f"title = {toml_value(title)}", ""] if title else []
     lines.append("[device]")

@@ -199,6 +199,16 @@ class Scene(Shown):
         step = {"step_size": step_size, "steps_per_period": None, "step_sizes": None}
         return replace(self, run=self.run.model_copy(update=step))
 
+    def lasting(self, stop_time: float) -> "Scene":
+        """Return the scene with a run of another length in s, in steps of the same size.
+
+        Raises SceneError for a scene without a run, and as a scene does.
+        """
+        if self.run is None:
+            raise SceneError(f"{self.source}: scene {self.name} has no [run] that could last")
+        last = {"stop_time": stop_time, "drive_periods": None}
+        return replace(self, run=self.run.model_copy(update=last))
+
     @property
     def interpolates(self) -> bool:
         """Whether it passes straight lines of inputs on as derivatives, and has any."""

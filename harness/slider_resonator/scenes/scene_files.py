@@ -46,12 +46,14 @@ def find_scene(
     scene = only_scene(_scenes_of(name_or_file), name_or_file)
     if not values and not (device and device.values):
         return scene
-    varied = scene.with_device(device.values if device else {}).with_values(values or {})
-    before, after = vars(scene.device), vars(varied.device)
+    own = scene.with_device(device.values if device else {})
+    varied = own.with_values(values or {})
+    before, after = vars(own.device), vars(varied.device)
     changed = sum(before[name] != after[name] for name in before)
     changed += len((values or {}).keys() - PARAMETERS)
-    title = f"{scene.title}, {number_of(changed, 'value')} replaced"
-    return replace(varied, title=f"{device.title} ({title})" if device else title)
+    title = f"{device.title}, in {scene.name}" if device else scene.title
+    replaced = f", {number_of(changed, 'value')} replaced" if changed else ""
+    return replace(varied, title=title + replaced)
 
 
 def find_scenes(names_or_files: Sequence[str]) -> list[Scene]:

@@ -153,3 +153,5 @@ def read_toml(path: Path) -> dict[str, Any]:
         ) from error
     except tomllib.TOMLDecodeError as error:
         raise SceneError(f"{path}: {toml_mistake(text, str(error))}") from error
+    except RecursionError as error:
+        raise SceneError(f"{path}: nested too deeply; must be tables of values") from error

@@ -23,6 +23,7 @@ from slider_resonator.sweeping.measures import Row, unit
 from slider_resonator.sweeping.running import Workers, run_points
 from slider_resonator.sweeping.table import (
     Columns,
+    check_nothing_lost,
     check_replaceable,
     check_writer,
     open_journal,
@@ -109,8 +110,8 @@ def run_sweep(
 
     `workers` is the number of processes here, unless `dask` is the address of a scheduler. A point
     that takes longer than `time_limit` (s) fails. Raises HarnessError where the sweep cannot be run
-    or, without `overwrite`, `out` is the table of other points or measures; finished points stay in
-    the journal.
+    or, without `overwrite`, `out` is the table of other points, measures or results; finished
+    points stay in the journal.
     """
     check_writer(out)
     if dask is not None and find_spec("distributed") is None:
@@ -149,6 +150,8 @@ def run_sweep(
             with noting_on_interrupt(note), there as at_work:
                 run_points(at_work, sweep.task, left, keep)
         columns = table_columns(sweep.task, sweep.points, rows)
+        if not overwrite:
+            check_nothing_lost(out, columns)
         write_table(out, sweep.task, columns)
         journal.remove()
     errors = [error for error in columns["error"] if error is not None]

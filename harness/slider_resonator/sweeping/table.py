@@ -76,6 +76,23 @@ def _read(path: Path) -> Columns:
     return {name: [row[index] for row in rows] for index, name in enumerate(names)}
 
 
+def check_nothing_lost(path: Path, columns: Columns) -> None:
+    """Raise HarnessError for a table that has other results of these points than `columns`.
+
+    They can be of another device: a table does not tell.
+    """
+    for name, before in (_read(path) if path.exists() else {}).items():
+        is_text = path.suffix.lower() == ".csv"
+        now = map(str, columns[name]) if is_text else columns[name]
+        for number, (old, new) in enumerate(zip(before, now, strict=True)):
+            if name != "error" and old not in (None, "", new):
+                raise HarnessError(
+                    f"{path}: has {name} = {old} at point {number}, now {new}, of another device, "
+                    "FMU or version; must be a new file, or --overwrite to replace it; what was "
+                    f"computed is kept in {journal_path(path)}"
+                )
+
+
 def write_table(path: Path, task: Task, columns: Columns) -> None:
     """Write the table; the suffix chooses the format. Numbers come back to the last digit."""
     if path.suffix.lower() == ".csv":

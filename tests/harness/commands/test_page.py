@@ -1,5 +1,6 @@
 """What the page does in a browser is tested with the other hosts."""
 
+import shutil
 import zipfile
 from pathlib import Path
 
@@ -35,6 +36,17 @@ def test_device_and_inputs_are_those_to_start_from(tmp_path: Path) -> None:
 def test_an_fmu_without_a_page_is_refused(native_fmu: Path, tmp_path: Path) -> None:
     out = tmp_path / "page.html"
     assert "must be a native FMU for all platforms" in refused("page", native_fmu, "--out", out)
-    old = fmu_with("<html></html>", tmp_path)
-    assert "has no list of devices" in refused("page", old, "--out", out)
+    for page in ("<html></html>", PAGE.replace("}", "")):
+        old = fmu_with(page, tmp_path)
+        assert "has no list of devices" in refused("page", old, "--out", out)
+    damaged = old.read_bytes()
+    old.write_bytes(damaged.replace(b"<head>", b"<hand>"))
+    assert "its page cannot be read" in refused("page", old, "--out", out)
     assert not out.exists()
+
+
+def test_the_page_beside_an_fmu_serves_too(native_fmu: Path, tmp_path: Path) -> None:
+    fmu = shutil.copy(native_fmu, tmp_path)
+    (tmp_path / "slider-resonator.html").write_text(PAGE, encoding="utf-8")
+    assert call("page", fmu, "--out", tmp_path / "out.html").exit_code == 0
+    assert (tmp_path / "out.html").read_text(encoding="utf-8") == PAGE

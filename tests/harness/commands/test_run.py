@@ -2,7 +2,10 @@
 
 import csv
 import json
+import os
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -119,7 +122,8 @@ def test_the_deviations_of_a_scene_are_written_and_drawn(native_fmu: Path, tmp_p
         (["--plot", "a.png", "--window", "1:2"], "--window 1:2: must be FROM:TO with 0 <= FROM"),
         (["--plot", "a.png", "--signals", "x"], "unknown output or input 'x'"),
         (["--plot", "a.png", "--overlay", "fidelty=1"], "did you mean 'fidelity'?"),
-        (["--plot", "a.png", "--overlay", "fidelity=x"], "fidelity = 'x': must be a number"),
+        (["--plot", "a.png", "--overlay", "fidelity=x"], "fidelity = 'x': must be an integer"),
+        (["--time", "-1 ms"], "time = '-1 ms': must be above 0 s"),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_before_anything_runs(
@@ -146,4 +150,32 @@ def test_fidelities_and_fmus_are_overlaid(native_fmu: Path, tmp_path: Path) -> N
 
 def test_a_run_of_another_device_has_its_title(native_fmu: Path) -> None:
     result = call("run", native_fmu, "--device", "conveyor", "--set", "load=0.01")
-    assert "table_1: A part on a vibratory conveyor (The device of table 1, 11" in result.stdout
+    title = "A part on a vibratory conveyor, in table_1, 1 value replaced"
+    assert f"table_1: {title}" in result.stdout
+
+
+def test_a_run_lasts_as_long_as_is_asked(native_fmu: Path) -> None:
+    usual, longer = (
+        json.loads(call("run", native_fmu, "table_1", *arguments, "--json").stdout)
+        for arguments in ((), ("--time", "359.03916 ms"))
+    )
+    assert longer["simulated_time"] == pytest.approx(0.35903916)
+    steps = longer["communication_steps"] / usual["communication_steps"]
+    assert steps == pytest.approx(longer["simulated_time"] / usual["simulated_time"], rel=1e-3)
+
+
+def test_pictures_do_not_depend_on_settings_of_matplotlib(native_fmu: Path, tmp_path: Path) -> None:
+    (tmp_path / "matplotlibrc").write_text("axes.facecolor: black\ntext.usetex: True\n")
+    settings = {"MPLBACKEND": "module://nowhere", "MATPLOTLIBRC": str(tmp_path)}
+    pictures = []
+    for name, environment in (("plain.png", {}), ("own.png", settings)):
+        path = tmp_path / name
+        command = [sys.executable, "-m", "slider_resonator", "run", str(native_fmu)]
+        subprocess.run(
+            [*command, "--plot", str(path)],
+            check=True,
+            capture_output=True,
+            env={**os.environ, **environment},
+        )
+        pictures.append(path.read_bytes())
+    assert pictures[0] == pictures[1]

@@ -56,11 +56,27 @@ def test_ranges_may_be_options(native_fmu: Path, tmp_path: Path) -> None:
         (["--over", "phse=0:1:3"], "did you mean 'phase'?"),
         (["--over", "phase=0:1:1"], "grid.phase.count = 1: must be"),
         (["--over", "phase=0 kg:1:3"], "phase = '0 kg': not in rad"),
+        (["--over", "phase=0:1:3", "--over", "phase=0:2:3"], "--over phase: given twice"),
     ],
 )
 def test_ranges_that_are_wrong_are_named(tmp_path: Path, arguments: list[str], text: str) -> None:
     said = refused("sweep", *arguments, "--out", tmp_path / "a.csv")
     assert text in " ".join(said.split())
+
+
+def test_results_of_another_device_are_not_replaced(native_fmu: Path, tmp_path: Path) -> None:
+    out = tmp_path / "a.csv"
+    sweep = ("sweep", "--over", "phase=0:1:3", "--out", out, "--fmu", native_fmu)
+    assert call(*sweep).exit_code == 0
+    first = out.read_bytes()
+    assert call(*sweep).exit_code == 0, "the same again is the same"
+    said = refused(*sweep, "--set", "friction_coefficient=0.2")
+    assert "has steady_velocity = 0.126666997" in said
+    assert out.read_bytes() == first
+    again = call(*sweep, "--set", "friction_coefficient=0.2", "--overwrite")
+    assert again.exit_code == 0
+    assert "found      3 of them" in again.stdout, "what was computed is kept"
+    assert out.read_bytes() != first
 
 
 def test_all_written_files_and_points_without_answer_are_reported(

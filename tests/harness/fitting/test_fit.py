@@ -139,7 +139,7 @@ def test_slopes_at_a_bound_are_those_inside(instance: Instance) -> None:
         (["friction_coeff"], {}, "did you mean 'friction_coefficient'?"),
         (["friction_faces"], {}, "friction_faces is an integer"),
         (["slider_mass", "slider_mass"], {}, "must be different parameters"),
-        ([], {}, "must be different parameters"),
+        ([], {}, "must be one parameter or more"),
         (["slider_mass"], {"slider_mass": (2.0, 1.0)}, "must be ascending"),
         (["slider_mass"], {"slider_mass": (-1.0, 1.0)}, "slider_mass = -1.0: must be a finite"),
     ],
