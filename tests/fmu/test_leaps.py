@@ -29,10 +29,7 @@ class Found:
 
 
 def compared(
-    instantiate: Instantiate,
-    values: Mapping[str, float],
-    size: float,
-    steps: int,
+    instantiate: Instantiate, values: Mapping[str, float], size: float, steps: int
 ) -> Found:
     """Errors over steps of a size in s."""
     leaping = instantiate().initialize(**{**values, "fidelity": 0})

@@ -14,10 +14,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.output.plot_style import save
 from slider_resonator.scenes import signals_plot
-from slider_resonator.scenes.run_plot import (
-    run_figure,
-    schedule_to_plot,
-)
+from slider_resonator.scenes.run_plot import run_figure, schedule_to_plot
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.signals_plot import (

@@ -267,10 +267,7 @@ def test_a_csv_that_a_run_goes_beyond_is_refused(tmp_path: Path, text: str) -> N
         ("[inputs]\nphse = 1.0\nlod = 2.0\n", ["inputs.phse", "inputs.lod"]),
         (f"{STEPS}[[expect]]\n{STEADY}", ["needs constant inputs"]),
         *((f"{RUN}[need]\n{need}\n", parts) for need, parts in NEEDS.items()),
-        (
-            "[need]\nbeat = { rel = 0.1 }\n",
-            ["need.beat is measured in a run: [run] is missing"],
-        ),
+        ("[need]\nbeat = { rel = 0.1 }\n", ["need.beat is measured in a run: [run] is missing"]),
         (
             f"{STEPS}[need]\nblocking_force = {{ rel = 0.1 }}\n",
             ["need.blocking_force needs constant inputs"],
@@ -307,10 +304,7 @@ def test_a_mistake_is_named_with_key_value_and_requirement(
             'quantity = "steady_velocity"\nvalue = true',
             ["[steady_velocity].value = True", "finite"],
         ),
-        (
-            'quantity = "steady_velocity"\nvalue = nan',
-            ["[steady_velocity].value = nan", "finite"],
-        ),
+        ('quantity = "steady_velocity"\nvalue = nan', ["[steady_velocity].value = nan", "finite"]),
         ('quantity = "steady_velocity"\nvalue = 0.1', ["steady_velocity", "needs a tolerance"]),
         (
             'quantity = "velocity"\nreference = "located_events"',

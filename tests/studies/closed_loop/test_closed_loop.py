@@ -122,10 +122,7 @@ def test_averaged_motion_that_does_not_do_has_no_error(
     closed_loop_package: Path, tmp_path: Path
 ) -> None:
     strict = Duty(
-        loads=BRIEF_DUTY.loads,
-        end=BRIEF_DUTY.end,
-        settling=BRIEF_DUTY.settling,
-        band=1e-8,
+        loads=BRIEF_DUTY.loads, end=BRIEF_DUTY.end, settling=BRIEF_DUTY.settling, band=1e-8
     )
     first = changed(closed_loop_package, tmp_path / "first.ssp", PLACE, ORDER_1 + PLACE)
     design, _ = run_loop(first, HOSTS[0], strict)

@@ -12,21 +12,9 @@ import pytest
 from slider_resonator.device.interface import INPUTS, OUTPUTS
 from slider_resonator.errors import HarnessError
 from slider_resonator.output import markdown
-from studies.hosts.compiler import (
-    SOURCES,
-    compile_program,
-    native_compiler,
-)
+from studies.hosts.compiler import SOURCES, compile_program, native_compiler
 from studies.hosts.hosts import Host, hosts, package_version
-from studies.hosts.job import (
-    HostAnswer,
-    Job,
-    Rows,
-    describe,
-    read_answers,
-    serve,
-    write_jobs,
-)
+from studies.hosts.job import HostAnswer, Job, Rows, describe, read_answers, serve, write_jobs
 from studies.hosts.runs import (
     ALLOWED,
     CASES,

@@ -20,11 +20,7 @@ from studies.paper import mapping
 from studies.paper.average_error import errors, slope
 from studies.paper.claim import Claim, statements
 from studies.paper.figure_8 import PHASES
-from studies.paper.listing import (
-    write_claims,
-    write_index,
-    write_tables,
-)
+from studies.paper.listing import write_claims, write_index, write_tables
 from studies.paper.mapping import coulomb_case, stiffness_of
 from studies.paper.measure import blocking_force, record, steady_velocity
 from studies.paper.reproduce import FIGURES, NAMES, TABLES, reproduce

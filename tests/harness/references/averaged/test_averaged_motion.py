@@ -12,10 +12,7 @@ from numpy.polynomial import Polynomial
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.averaged.averaged_motion import (
-    AveragedMotion,
-    simulate_averaged,
-)
+from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
 from slider_resonator.references.averaged.averaged_outputs import AveragedOutputs, averaged_outputs
 from slider_resonator.references.averaged.device_average import prediction_valid, stable_velocity
 from slider_resonator.references.averaged.slow_trajectory import slide_of_block, slow_trajectory
@@ -73,8 +70,7 @@ QUICK = ("Coulomb, lifting", "Coulomb, overload", "soft")
 
 
 @pytest.mark.parametrize(
-    "name",
-    [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in CASES],
+    "name", [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in CASES]
 )
 def test_error_falls_with_the_drive_frequency(name: str) -> None:
     device, inputs = CASES[name]
