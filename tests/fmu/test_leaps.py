@@ -148,22 +148,6 @@ def test_steady_motion_whose_rates_are_rounding_is_leapt_over(
     assert means[15:] == pytest.approx(means[-1:] * 10, abs=1e-11 * FAST)
 
 
-def test_a_ratio_that_grows_and_falls_within_steps(instantiate: Instantiate) -> None:
-    """What has grown before a leap counts in it: the phase of the load shows."""
-    leaping, full = (
-        instantiate().initialize(fidelity=fidelity, tolerance=1e-6) for fidelity in (0, 2)
-    )
-    ratio, size = 1.0, 400.0 * PERIOD
-    for rate in (4e-4, 4e-4, -8e-4):
-        for instance in (leaping, full):
-            instance.set(frequency_ratio=ratio)
-            instance.ramp(frequency_ratio=rate)
-            instance.step(size)
-        ratio += rate * size
-        names = ("normal_force", "mean_velocity")
-        assert leaping.get(*names) == pytest.approx(full.get(*names), abs=3e-6 * FAST)
-
-
 @pytest.mark.parametrize("law", [0, 1])
 def test_the_load_drifts_on_in_leaps_that_neglect_it(instantiate: Instantiate, law: int) -> None:
     """A drift too small to change the rates adds up over many leaps."""

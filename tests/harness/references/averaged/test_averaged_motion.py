@@ -19,6 +19,7 @@ from slider_resonator.references.averaged.slow_trajectory import slide_of_block,
 from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
+from tests.harness.references.comparing import staircase
 
 PERIOD = 2.0 * np.pi / 3500.0
 COULOMB = Device(fidelity=0)
@@ -146,21 +147,6 @@ LUGRE = replace(CLOSED, friction_law=1, bristle_stiffness=1e4)
 
 def first_order(device: Device, held: Sequence[HeldInputs], times: Array) -> Array:
     return simulate_averaged(device, held, times).position
-
-
-def staircase(line: HeldInputs, count: int) -> list[HeldInputs]:
-    size = STOP / count
-    return [
-        replace(
-            line.later((i + 0.5) * size),
-            start=i * size,
-            stop=(i + 1) * size,
-            phase_rate=0.0,
-            load_rate=0.0,
-            ratio_rate=0.0,
-        )
-        for i in range(count)
-    ]
 
 
 @pytest.mark.parametrize("device", [CLOSED, LUGRE])
