@@ -8,7 +8,7 @@ import pytest
 from slider_resonator.arrays import Array
 from slider_resonator.choosing.choosing import choose_with
 from slider_resonator.choosing.errors import ErrorEstimate, Readings, unseen_beat
-from slider_resonator.choosing.reference import exact_schedule, must_hold
+from slider_resonator.choosing.reference import must_hold
 from slider_resonator.choosing.scales import scales_of
 from slider_resonator.choosing.steady_need import SteadyValue, steady_error
 from slider_resonator.fmu.instance import Instance
@@ -62,13 +62,6 @@ def test_events_are_the_nearest_true_ones() -> None:
     assert missed.reason == "1 reversals instead of 0"
 
 
-def test_beats_are_frequencies() -> None:
-    true, found = (record(mean_velocity=np.sin(2.0 * np.pi * f * TIMES)) for f in (20.0, 20.2))
-    estimate = error("beat", found, true)
-    assert estimate.error == pytest.approx(0.2, rel=1e-3)
-    assert estimate.magnitude == pytest.approx(20.0, rel=1e-3)
-
-
 def test_nothing_is_known_better_than_to_rounding() -> None:
     same = record(position=TIMES)
     for law, floor in ((0, 1e-12), (1, 1e-10)):
@@ -117,42 +110,11 @@ RAMP = (
     "frequency_ratio = { ramp = [[0, 1], [0.05, 1.5]] }\n"
     "[run]\nstop_time = 0.1\nstep_size = 0.007\n"
 )
-ENDS = np.array([0.0, 0.1])
 
 
 @pytest.fixture
 def scene() -> Scene:
     return scene_of(RAMP)
-
-
-@pytest.mark.parametrize("step", [0.011, 0.002])
-def test_held_inputs_give_their_impulse_exactly(scene: Scene, step: float) -> None:
-    schedule = exact_schedule(scene, ENDS, step, interpolates=False)
-    assert not schedule.ramps
-    load, ratio = (np.diff(schedule.times) @ schedule.sampled[:-1, i] for i in (1, 2))
-    assert load == pytest.approx(0.5 * 0.3 * 0.1, rel=1e-12)
-    assert ratio == pytest.approx(0.05 * 1.25 + 0.05 * 1.5, rel=1e-12)
-
-
-def test_lines_that_are_passed_on_need_their_corners_only(scene: Scene) -> None:
-    schedule = exact_schedule(scene, np.array([0.0, 0.0651, 0.1]), 0.001, interpolates=True)
-    assert schedule.times.tolist() == [0.0, 0.03, 0.05, 0.051, 0.0651, 0.1]
-    assert schedule.rates[:-1, 1] == pytest.approx([10.0, *4 * [-0.3 / 0.07]])
-    assert schedule.sampled[:, 1] == pytest.approx(scene.signals["load"].over(schedule.times))
-
-
-def test_tuned_parameters_are_held_at_their_means() -> None:
-    scene = scene_of(
-        "[tuning]\nfriction_coefficient = { ramp = [[0, 0.1], [0.1, 0.3]] }\n"
-        "base_amplitude = { steps = [[0, 1e-4], [0.033, 2e-4]] }\n"
-        "[run]\nstop_time = 0.1\nstep_size = 0.02\n"
-    )
-    schedule = exact_schedule(scene, ENDS, 0.02, interpolates=True)
-    tuned = dict(zip(schedule.tuning, schedule.tuned.T, strict=True))
-    lengths = np.diff(schedule.times)
-    assert lengths @ tuned["friction_coefficient"][:-1] == pytest.approx(0.1 * 0.2, rel=1e-12)
-    assert tuned["base_amplitude"][np.searchsorted(schedule.times, 0.033)] == 2e-4
-    assert must_hold(scene, interpolates=False)
 
 
 @pytest.mark.parametrize(
@@ -181,18 +143,3 @@ def test_the_error_of_a_value_is_at_least_that_of_the_search() -> None:
     assert steady_error(reference, reference, 0).error == pytest.approx(2e-10)
     assert steady_error(none, reference, 0).error == inf
     assert steady_error(near, none, 0).reason == "stuck: why"
-
-
-@pytest.mark.parametrize(
-    "device",
-    [
-        "friction_coefficient = 0.0",
-        "base_amplitude = 0.0",
-        "damping_ratio = 0.0\nresonator_mass = 1.0\nresonator_frequency = 2474.8737341529163",
-    ],
-)
-def test_without_vibration_or_friction_there_is_nothing_to_average(device: str) -> None:
-    scales = scales_of(scene_of(f"[device]\n{device}\n"))
-    assert scales.fast_velocity is None
-    assert scales.slowness is None
-    assert scales.relaxation == inf
