@@ -199,6 +199,37 @@ def test_lugre_devices(
     assert_equal(native, python, tolerance)
 
 
+@pytest.mark.parametrize(
+    ("values", "inputs", "allowed"),
+    [
+        ({}, {}, ROUNDING),
+        ({"frequency_ratio": 1.5, "normal_amplitude": 2.0, "phase": 0.4}, {}, ROUNDING),
+        ({"frequency_ratio": 1.002, "friction_coefficient": 1.0}, {}, 1e-9),
+        ({"frequency_ratio": 1.002, "normal_amplitude": 1.5}, {}, 1e-9),
+        ({}, {"phase": [0.0, 1.0, 0.3, 2.0, -1.0, 0.5, 1.7], "load": [0.0, 0.05]}, ROUNDING),
+        ({"friction_law": 1, "tolerance": 1e-10, "phase": 0.4}, {"load": [0.0, 0.05]}, 1e-8),
+        ({"friction_law": 1, "tolerance": 1e-10}, {"phase": [0.4, 1.0]}, 1e-8),
+        ({"resonator_mass": 0.0, "tangential_force": 900.0}, {}, ROUNDING),
+        ({"frequency_ratio": 1.37}, {}, ROUNDING),
+        ({"damping_ratio": 0.0}, {}, ROUNDING),
+    ],
+)
+def test_short_steps_of_order_2(
+    twins: Twins, values: dict[str, float], inputs: dict[str, list[float]], allowed: float
+) -> None:
+    held = {
+        name: steps([(0.05 * i, numbers[i % len(numbers)]) for i in range(14)])
+        for name, numbers in inputs.items()
+    }
+    # The ratio is an input, too.
+    ratio = values.get("frequency_ratio", 1.0)
+    held |= {"frequency_ratio": steps([(0.0, ratio)])}
+    held |= {"phase": steps([(0.0, values["phase"])])} if "phase" in values else {}
+    given = {k: v for k, v in values.items() if k not in ("frequency_ratio", "phase")}
+    native, python = both(twins, {"fidelity": 0, **given}, schedule(0.7, 0.01, **held))
+    assert_equal(native, python, allowed)
+
+
 def refused(instance: Instance, values: Mapping[str, float]) -> str:
     with pytest.raises(Refusal) as refusal:
         run(instance, values, schedule(0.01, 0.001))

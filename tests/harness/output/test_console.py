@@ -6,7 +6,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.cells import cell_len
 
-from slider_resonator.output.progress import counted, part_of
 from slider_resonator.output.progress_bar import progress_bar, time_left
 from slider_resonator.output.terminal import fitting
 
@@ -38,17 +37,6 @@ def test_progress_stays_on_one_line(width: int, monkeypatch: pytest.MonkeyPatch)
     assert shown
     assert all("set or get" in line and "0:00:0" in line for line in shown)
     assert max(map(cell_len, lines)) <= width
-
-
-def test_a_task_has_its_number() -> None:
-    assert counted("table_1", 0, 33) == "1 of 33: table_1"
-    assert counted("table_1", 33, 33) == "33 of 33: table_1"
-
-
-def test_a_part_reports_its_share_of_all_work() -> None:
-    reported: list[tuple[str, float]] = []
-    part_of(lambda label, share: reported.append((label, share)), 1, 4)("second of four", 0.5)
-    assert reported == [("second of four", 0.375)]
 
 
 @pytest.mark.parametrize(
