@@ -32,3 +32,19 @@ def test_a_scene_that_cannot_be_resolved_as_a_whole_confirms_the_resolved_model_
     grown = CAUTION * 1e-12 * resolved.errors["position"].magnitude
     assert resolved.errors["position"].error > 5.0 * grown
     assert resolved.seconds > 0.01
+
+
+@pytest.mark.usefixtures("stated_costs")
+def test_steps_that_make_no_difference_are_put_together(
+    instance: Instance, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = RUN.format(4000, "position", 0.1).replace("0.01", "1")
+    found = []
+    for steps in (probes.MAX_STEPS, 100):
+        monkeypatch.setattr(probes, "MAX_STEPS", steps)
+        monkeypatch.setattr(probes, "TIMED_STEPS", steps)
+        probe = Probe(instance, scene_of(text))
+        found.append(probe.measure(Candidate(AVERAGED.model, 1e-8, probe.scene.step_size)))
+    one, joined = (measured.errors["position"].error for measured in found)
+    assert joined == pytest.approx(one, rel=0.1)
+    assert found[1].seconds == pytest.approx(found[0].seconds, rel=0.1), "all steps cost"

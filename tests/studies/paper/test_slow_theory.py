@@ -49,6 +49,18 @@ def test_linear_velocity_is_the_limit_of_the_steady_velocity() -> None:
     assert exact == pytest.approx(linear, rel=1e-6), "(5) becomes (7) for small velocities"
 
 
+def test_blocking_load_stops_the_motion() -> None:
+    blocking = theory.blocking_load(0.7, 1.1)
+    velocity = theory.steady_velocity(1.3, 0.7, 1.1, blocking)
+    assert velocity == pytest.approx(0.0, abs=1e-14), "(21) is the load of (20) at rest"
+
+
+@pytest.mark.parametrize("load", [1.1, -1.1, 1.5, math.nan])
+def test_load_above_friction_is_refused(load: float) -> None:
+    with pytest.raises(ValueError, match=r"load = "):
+        theory.steady_velocity(1.0, 1.0, 0.5, load)
+
+
 def test_table_1_has_the_strength_and_length_of_the_paper() -> None:
     assert theory.strength_of(Device()) == pytest.approx(1.301353, abs=5e-7), "q"
     assert theory.length_scale(Device()) == pytest.approx(0.181818, abs=5e-7), "x0 in m"
@@ -88,6 +100,25 @@ def test_steady_velocity_of_the_paper_case() -> None:
     velocity = theory.lugre_steady_velocity(LugreCase())
     assert velocity == pytest.approx(0.50827, abs=5e-6)
     assert theory.slow_manifold_friction(velocity, LugreCase()) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_lugre_blocking_load_stops_the_motion() -> None:
+    case = LugreCase(strength=0.5, phase=0.4)
+    blocking = theory.lugre_blocking_load(case)
+    assert theory.lugre_steady_velocity(case, blocking) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_linear_lugre_velocity_is_the_limit_of_small_velocities() -> None:
+    weak = LugreCase(strength=1.0, amplitude_ratio=1e-4, damping=1.0)
+    linear = theory.lugre_linear_velocity(weak)
+    assert linear == pytest.approx(theory.lugre_steady_velocity(weak), rel=1e-3)
+
+
+def test_lugre_load_above_friction_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"load = 0\.6"):
+        theory.lugre_steady_velocity(LugreCase(), 0.6)
+    with pytest.raises(ValueError, match=r"load = -0\.6"):
+        theory.uniform_velocity(LugreCase(), 10.0, 10.0, load=-0.6)
 
 
 def test_soft_bristle_is_on_the_slow_manifold() -> None:

@@ -1,5 +1,8 @@
+import pytest
+
 from slider_resonator.fmu.isolation.crash_report import crash_report, missed_limit
 from slider_resonator.fmu.isolation.supervised import Ending
+from slider_resonator.fmu.limits import MEMORY
 
 TRACE = (
     "Fatal Python error: Aborted\n\nCurrent thread 0x1 (most recent call first):\n"
@@ -29,3 +32,18 @@ def test_printed_text_is_not_taken_for_a_traceback() -> None:
     assert crash_report(printed, "", Ending(1), 60.0).startswith(
         "the FMU crashed: its process ended with exit code 1; it printed: Timeout"
     )
+
+
+@pytest.mark.parametrize(
+    ("ending", "what"),
+    [
+        (Ending(memory=400 * 2**20), "400 MiB in memory; must be at most 300 MiB (--max-memory)"),
+        (Ending(processes=321), "321 processes; must be at most 250"),
+    ],
+)
+def test_too_much_is_reported_with_the_limit(
+    ending: Ending, what: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(MEMORY, "300")
+    assert not missed_limit("", ending)
+    assert crash_report("", "", ending, 60.0) == f"the FMU was ended: it had {what}"
