@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from html.parser import HTMLParser
 from pathlib import Path
 
 VOID = {"meta", "link", "img", "br"}
 """Elements without an end tag, of those that our pages have."""
-
-
-def without_spans(html: str) -> str:
-    """Return HTML without the elements that only style parts of a text."""
-    return re.sub(r"</?span[^>]*>", "", html)
 
 
 class Page(HTMLParser):

@@ -31,35 +31,30 @@ def test_sources_keep_their_layers(root: Path) -> None:
 @pytest.mark.parametrize(
     ("including", "line", "broken"),
     [
-        pytest.param(
+        (
             "device/plant.h",
             '#include "../leap/leap.h"',
             "device/plant.h includes leap/leap.h, which is above it",
-            id="upwards",
         ),
-        pytest.param(
+        (
             "base/refusal.c",
             '#include "../component/variables.h"',
             "base/refusal.c includes component/variables.h, which is above it",
-            id="upwards to a generated header",
         ),
-        pytest.param(
+        (
             "friction/leg.h",
             '#include "law.h"',
             "friction/law includes friction/leg includes friction/law: a circle",
-            id="in a circle of headers",
         ),
-        pytest.param(
+        (
             "friction/leg.c",
             '#include "law.h"',
             "friction/law includes friction/leg includes friction/law",
-            id="in a circle by way of a C file",
         ),
-        pytest.param(
+        (
             "device/plant.c",
             '#include "../../controller/c/component/control.h"',
             "which is in no layer",
-            id="out of the layers",
         ),
     ],
 )

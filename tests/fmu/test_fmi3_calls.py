@@ -6,12 +6,7 @@ from typing import Any
 
 import pytest
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi3 import (
-    fmi3Error,
-    fmi3InstanceEnvironment,
-    fmi3LogMessageCallback,
-    fmi3OK,
-)
+from fmpy.fmi3 import fmi3Error, fmi3InstanceEnvironment, fmi3LogMessageCallback, fmi3OK
 
 from fmu_src.python.slider_component.variables import VARIABLES
 from tests.fmu.host import Unpacked

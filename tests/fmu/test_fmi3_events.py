@@ -33,12 +33,7 @@ DEVICES: dict[str, dict[str, float]] = {
 
 
 def run(
-    unpacked: Unpacked,
-    values: dict[str, float],
-    steps: int,
-    size: float,
-    *,
-    events: bool = True,
+    unpacked: Unpacked, values: dict[str, float], steps: int, size: float, *, events: bool = True
 ) -> Run:
     with instance_3(unpacked, event_mode=events, early_return=events) as instance:
         return instance.initialize(**values).run(steps, size)

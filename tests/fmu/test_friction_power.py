@@ -154,19 +154,6 @@ def test_long_steps_give_the_power_of_short_ones(
     assert powers[0] == pytest.approx(powers[1], rel=1e-12 if law == 0 else 1e-6)
 
 
-@pytest.mark.parametrize("law", [0, 1])
-def test_averages_and_leaps_heat_as_resolved_motion(instantiate: Instantiate, law: int) -> None:
-    """Leaps to their error, averages of first order to theirs."""
-    powers = []
-    for values in ({}, {"fidelity": 0}, {"fidelity": 0, "averaging_order": 1}):
-        instance = instantiate().initialize(friction_law=law, phase=0.4, load=0.02, **values)
-        instance.step(200 * TURN)
-        powers.append(instance.get("friction_power")[0])
-    resolved, leaping, averaged = powers
-    assert leaping == pytest.approx(resolved, rel=1e-6)
-    assert averaged == pytest.approx(resolved, rel=0.03)
-
-
 def test_averaged_power_is_bounded_work_at_any_ratio(instantiate: Instantiate) -> None:
     """What a rapid normal load adds falls with the square of the ratio."""
     powers = []

@@ -29,10 +29,7 @@ class Found:
 
 
 def compared(
-    instantiate: Instantiate,
-    values: Mapping[str, float],
-    size: float,
-    steps: int,
+    instantiate: Instantiate, values: Mapping[str, float], size: float, steps: int
 ) -> Found:
     """Errors over steps of a size in s."""
     leaping = instantiate().initialize(**{**values, "fidelity": 0})
@@ -149,22 +146,6 @@ def test_steady_motion_whose_rates_are_rounding_is_leapt_over(
     rows = instance.run(25, 2.0)
     means = [row[OUTPUTS.index("mean_velocity")] for row in rows]
     assert means[15:] == pytest.approx(means[-1:] * 10, abs=1e-11 * FAST)
-
-
-def test_a_ratio_that_grows_and_falls_within_steps(instantiate: Instantiate) -> None:
-    """What has grown before a leap counts in it: the phase of the load shows."""
-    leaping, full = (
-        instantiate().initialize(fidelity=fidelity, tolerance=1e-6) for fidelity in (0, 2)
-    )
-    ratio, size = 1.0, 400.0 * PERIOD
-    for rate in (4e-4, 4e-4, -8e-4):
-        for instance in (leaping, full):
-            instance.set(frequency_ratio=ratio)
-            instance.ramp(frequency_ratio=rate)
-            instance.step(size)
-        ratio += rate * size
-        names = ("normal_force", "mean_velocity")
-        assert leaping.get(*names) == pytest.approx(full.get(*names), abs=3e-6 * FAST)
 
 
 @pytest.mark.parametrize("law", [0, 1])

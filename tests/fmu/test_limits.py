@@ -13,9 +13,7 @@ from tests.fmus import both_fmus
 pytestmark = both_fmus
 
 
-def test_a_release_by_an_input_is_the_last_event(
-    instantiate: Callable[[], Instance],
-) -> None:
+def test_a_release_by_an_input_is_the_last_event(instantiate: Callable[[], Instance]) -> None:
     """Where the parts of the step sum up to more than it by rounding, too."""
     instance = instantiate().initialize(base_amplitude=0.0, resonator_mass=0.0)
     instance.step(1e-3)

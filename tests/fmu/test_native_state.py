@@ -108,18 +108,6 @@ def test_memory_of_another_size_is_refused(instance: Instance) -> None:
     instance.slave.freeFMUstate(state)
 
 
-def test_a_state_is_written_over_when_it_is_handed_back(instance: Instance) -> None:
-    state = instance.slave.getFMUstate()
-    kept = state.value
-    instance.run(3, STEP)
-    assert call(instance, "fmi2GetFMUstate", ctypes.byref(state)) == OK
-    assert state.value == kept, "its memory is used again"
-    assert instance.slave.serializeFMUstate(state) == instance.state()
-    assert call(instance, "fmi2FreeFMUstate", ctypes.byref(state)) == OK
-    assert state.value is None
-    assert call(instance, "fmi2FreeFMUstate", ctypes.byref(state)) == OK, "nothing to free is fine"
-
-
 def test_null_pointers_are_refused(instance: Instance) -> None:
     null, bytes_ = ctypes.c_void_p(), ctypes.create_string_buffer(500)
     state = ctypes.c_void_p()

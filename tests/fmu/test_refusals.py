@@ -142,10 +142,7 @@ def test_values_that_do_not_fit_each_other(instantiate: Instantiate, fidelity: i
         ("friction_coefficient", 1.7976931348623157e308, {"friction_law": 1}),
         ("friction_coefficient", 5e-324, {"friction_law": 1}),
         ("bristle_damping", 1e308, {"friction_law": 1}),
-        (
-            *("bristle_stiffness", 1e308),
-            {"friction_law": 1, "initial_bristle_deflection": 1e10},
-        ),
+        (*("bristle_stiffness", 1e308), {"friction_law": 1, "initial_bristle_deflection": 1e10}),
         (
             *("initial_bristle_deflection", 1e300),
             {"friction_law": 1, "bristle_stiffness": 1e8, "fidelity": 0, "averaging_order": 1},

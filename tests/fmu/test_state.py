@@ -107,11 +107,7 @@ def test_two_builds_in_one_process_stay_independent(
     candidate = Instance(unpack(other_build, tmp_path)).initialize()
     tuned = instantiate().initialize(friction_coefficient=0.2)
     rows = [
-        (
-            golden.run(1, STEP_BESIDE),
-            candidate.run(1, STEP_BESIDE),
-            tuned.run(1, STEP_BESIDE),
-        )
+        (golden.run(1, STEP_BESIDE), candidate.run(1, STEP_BESIDE), tuned.run(1, STEP_BESIDE))
         for _ in range(20)
     ]
     candidate.free()

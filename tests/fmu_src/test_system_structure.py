@@ -3,13 +3,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from fmu_src.python.slider_component.variable import Variable
-from fmu_src.system_structure import (
-    Connection,
-    ParameterValues,
-    System,
-    parameter_set,
-    structure,
-)
+from fmu_src.system_structure import Connection, ParameterValues, System, parameter_set, structure
 
 SSD = "{http://ssp-standard.org/SSP1/SystemStructureDescription}"
 SSC = "{http://ssp-standard.org/SSP1/SystemStructureCommon}"

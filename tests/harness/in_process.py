@@ -35,10 +35,7 @@ def run_in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def _open(
-    self: Any,
-    fmu: Path | None,
-    time_limit: float = TIME_LIMIT,
-    stop: threading.Event | None = None,
+    self: Any, fmu: Path | None, time_limit: float = TIME_LIMIT, stop: threading.Event | None = None
 ) -> None:
     self.time_limit = time_limit
     self._killed = False

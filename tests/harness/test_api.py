@@ -200,15 +200,9 @@ def test_arrays_and_numbers_of_numpy_are_data(native_fmu: Path, tmp_path: Path) 
 @pytest.mark.parametrize(
     ("call", "text"),
     [
-        (
-            lambda: sr.read_scene("table_1", phase=float("nan")),
-            "phase = nan: must be a",
-        ),
+        (lambda: sr.read_scene("table_1", phase=float("nan")), "phase = nan: must be a"),
         (lambda: sr.read_scene({"run": {"stop_time": "a"}}), r"scene: run\.stop_time = 'a': must"),
-        (
-            lambda: sr.read_device({"slider_mass": -1}),
-            r"device\.slider_mass = -1: must be a",
-        ),
+        (lambda: sr.read_device({"slider_mass": -1}), r"device\.slider_mass = -1: must be a"),
         (lambda: sr.read_device(sr.Device(slider_mass=-1.0)), "slider_mass = -1.0: must be a fin"),
         (lambda: sr.read_device("no.toml"), r"no\.toml: cannot be read: No such file"),
         (lambda: sr.open_fmu("no.fmu", time_limit=0), "time_limit = 0: must be a number above 0"),

@@ -170,25 +170,14 @@ def test_steady_and_blocking_as_json(python_fmu: Path) -> None:
     assert json.loads(blocking.stdout)["blocking_force"] == pytest.approx(0.0851861, rel=1e-5)
 
 
-@pytest.mark.parametrize(
-    ("settings", "status"),
-    [
-        ("load=0.25", "load_above_friction"),
-        ("frequency_ratio=1.001", "slow_beat"),
-        ("frequency_ratio=1.37", "no_common_period"),
-    ],
-)
-def test_no_steady_motion_exits_with_1_and_a_status(
-    python_fmu: Path, settings: str, status: str
-) -> None:
-    result = call("steady", python_fmu, "--set", settings, "--json")
+def test_no_steady_motion_exits_with_1_and_a_status(python_fmu: Path) -> None:
+    result = call("steady", python_fmu, "--set", "frequency_ratio=1.001", "--json")
     assert result.exit_code == 1
     motion = json.loads(result.stdout)
-    assert motion["steady_velocity"] is None
-    assert motion["status"] == status
-    printed = call("steady", python_fmu, "--set", settings)
+    assert (motion["steady_velocity"], motion["status"]) == (None, "slow_beat")
+    printed = call("steady", python_fmu, "--set", "frequency_ratio=1.001")
     assert printed.exit_code == 1
-    assert status in printed.stdout
+    assert "slow_beat" in printed.stdout
 
 
 def test_run_writes_csv_and_plot_and_reports_the_cost(python_fmu: Path, tmp_path: Path) -> None:

@@ -9,7 +9,6 @@ from studies.closed_loop.duty import Duty
 from studies.closed_loop.judge import judge_agreement, judge_intervals
 from studies.closed_loop.loop import HOSTS, run_loop
 from studies.closed_loop.prediction import predicted_errors
-from studies.hosts.ecos_host import preload_tbb
 from studies.hosts.hosts import Host
 
 pytestmark = pytest.mark.interop
@@ -34,27 +33,3 @@ def test_another_master_matches_fmpy_in_closed_loop(closed_loop_package: Path, h
         )
         assert theirs.velocity[ends] == pytest.approx(ours.velocity[ends], rel=1e-3)
         assert theirs.phase[ends] == pytest.approx(ours.phase[ends], abs=1e-3)
-
-
-def test_libcosim_runs_the_package_as_it_is(closed_loop_package: Path) -> None:
-    from libcosimpy.CosimExecution import CosimExecution
-    from libcosimpy.CosimObserver import CosimObserver
-
-    loop = CosimExecution.from_ssp_file(str(closed_loop_package), step_size=10_000_000)
-    observer = CosimObserver.create_last_value()
-    loop.add_observer(observer)
-    loop.step(150)
-    slider = loop.slave_index_from_instance_name("slider")
-    references = {v.name: v.reference for v in loop.slave_variables(slider)}
-    (velocity,) = observer.last_real_values(slider, [references[b"mean_velocity"]])
-    assert velocity == pytest.approx(0.06, rel=0.02)
-
-
-def test_ecos_runs_the_package_as_it_is(closed_loop_package: Path) -> None:
-    preload_tbb()
-    from ecospy import EcosSimulation
-
-    with EcosSimulation(step_size=0.01, ssp_path=str(closed_loop_package)) as simulation:
-        assert simulation.init(parameter_set="proof")
-        simulation.step(150)
-        assert simulation.get_real("slider::mean_velocity") == pytest.approx(0.06, rel=0.02)

@@ -9,11 +9,7 @@ from studies.hosts.driver_host import native_driver
 from studies.hosts.job import describe
 from tests.native.toolchain import Binary, run, unpacked_binary
 
-STEADY = {
-    (0.0, 0.0, 1.0): 0.12666700,
-    (0.4, 0.05, 1.0): 0.0986951,
-    (0.4, 0.0, 3.0): -0.0362968,
-}
+STEADY = {(0.0, 0.0, 1.0): 0.12666700, (0.4, 0.05, 1.0): 0.0986951, (0.4, 0.0, 3.0): -0.0362968}
 """Phase [rad], load [N], frequency ratio: steady velocity [m/s] of both degrees of freedom, found
 by Taylor integration with located events."""
 

@@ -20,11 +20,7 @@ from tests.native.toolchain import (
 pytestmark = pytest.mark.interop
 
 KEEP = ("-O1", "-g", "-fno-omit-frame-pointer")
-MEMORY = (
-    *KEEP,
-    "-fsanitize=address,undefined,float-cast-overflow",
-    "-fno-sanitize-recover=all",
-)
+MEMORY = (*KEEP, "-fsanitize=address,undefined,float-cast-overflow", "-fno-sanitize-recover=all")
 THREADS = (*KEEP, "-fsanitize=thread")
 SPEAK_UP = {
     "ASAN_OPTIONS": f"exitcode={FAULT}",

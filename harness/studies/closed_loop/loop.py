@@ -10,7 +10,7 @@ from fmpy.ssp.ssd import read_ssv
 from slider_resonator.arrays import Array
 from slider_resonator.errors import HarnessError
 from studies.closed_loop.duty import Duty
-from studies.hosts.hosts import Host, package_version
+from studies.hosts.hosts import Host, packaged
 from studies.hosts.job import Job
 from studies.hosts.runs import TIME_LIMIT, run_jobs
 from studies.hosts.ssp_package import WITH_CONNECTORS
@@ -21,9 +21,9 @@ FIDELITY = "slider.fidelity"
 OUTPUTS = ("slider.mean_velocity", "controller.phase")
 
 HOSTS = (
-    Host("fmpy", "fmpy_ssp_host", lambda: package_version("fmpy")),
-    Host("libcosimpy", "libcosim_ssp_host", lambda: package_version("libcosimpy")),
-    Host("ecos", "ecos_ssp_host", lambda: package_version("ecospy")),
+    packaged("fmpy", "fmpy_ssp_host", "fmpy"),
+    packaged("libcosimpy", "libcosim_ssp_host", "libcosimpy"),
+    packaged("ecos", "ecos_ssp_host", "ecospy"),
 )
 
 INPUT_DELAY = {"fmpy": 1, "libcosimpy": 0, "ecos": 0}

@@ -47,11 +47,7 @@ def bench_command(fmu: Path | None, repeats: int, time_limit: float, as_json: bo
     """
     path = default_fmu(fmu)
     provenance = provenance_of(path)
-    with (
-        noting_on_interrupt(),
-        progress_bar() as progress,
-        open_fmu(path) as opened,
-    ):
+    with noting_on_interrupt(), progress_bar() as progress, open_fmu(path) as opened:
         if not opened.runs_without_python:
             raise FmuError(f"{opened.path}: needs a Python interpreter, which a C host lacks")
         costs = measure_steps(opened.path, repeats, progress, time_limit)

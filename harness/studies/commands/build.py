@@ -11,10 +11,7 @@ from slider_resonator.errors import HarnessError
 SCRIPT = Path(__file__).resolve().parents[3] / "build_fmu.py"
 
 
-@click.command(
-    "build",
-    context_settings={"ignore_unknown_options": True},
-)
+@click.command("build", context_settings={"ignore_unknown_options": True})
 @click.argument("arguments", nargs=-1, type=click.UNPROCESSED)
 @click.pass_context
 def build_command(context: click.Context, arguments: tuple[str, ...]) -> None:

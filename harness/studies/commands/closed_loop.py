@@ -21,12 +21,7 @@ from slider_resonator.output.readable import one_line
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from slider_resonator.output.targets import make_folder
 from studies.closed_loop.duty import Duty
-from studies.closed_loop.judge import (
-    Agreement,
-    IntervalResult,
-    judge_agreement,
-    judge_intervals,
-)
+from studies.closed_loop.judge import Agreement, IntervalResult, judge_agreement, judge_intervals
 from studies.closed_loop.loop import HOSTS, LoopRecord, run_loop
 from studies.closed_loop.picture import draw_loop
 from studies.closed_loop.prediction import predicted_errors

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from slider_resonator.errors import HarnessError
@@ -50,6 +51,18 @@ def package_version(package: str, python: Path = Path(sys.executable)) -> str:
     return answer.stdout.strip()
 
 
+def packaged(
+    name: str, module: str, package: str, python: Path = Path(sys.executable), **able: bool
+) -> Host:
+    """Return a host whose version is that of a package in the environment of `python`."""
+    return Host(name, module, partial(package_version, package, python), python, **able)
+
+
+def native_version() -> str:
+    """Return the version of the C compiler for this machine; HarnessError where there is none."""
+    return compiler_version(native_compiler())
+
+
 def wine_version() -> str:
     """Return the versions of ziglang and Wine; HarnessError where either is missing."""
     if shutil.which("wine") is None:
@@ -64,41 +77,21 @@ def hosts(own_environments: Path = OWN_ENVIRONMENTS) -> tuple[Host, ...]:
     scripts = "Scripts" if sys.platform == "win32" else "bin"
     cofmupy, newest = (own_environments / name / scripts / "python" for name in ("cofmupy", "fmpy"))
     return (
-        Host("fmpy", "fmpy_host", lambda: package_version("fmpy"), loads_fmi_3=True),
-        Host(
-            "newest fmpy",
-            "fmpy_host",
-            lambda: package_version("fmpy", newest),
-            newest,
-            loads_fmi_3=True,
-        ),
-        Host("ecos", "ecos_host", lambda: package_version("ecospy"), loads_fmi_3=True),
-        Host("libcosimpy", "libcosim_host", lambda: package_version("libcosimpy")),
-        Host(
-            "pathsim-fmi",
-            "pathsim_host",
-            lambda: package_version("pathsim-fmi", newest),
-            newest,
-        ),
-        Host("cofmupy", "cofmupy_host", lambda: package_version("cofmupy", cofmupy), cofmupy),
-        Host(
-            "fmuloader",
-            "fmuloader_host",
-            lambda: package_version("fmuloader"),
-            loads_python=False,  # it needs the model-exchange functions, which pythonfmu lacks
-        ),
-        Host(
+        packaged("fmpy", "fmpy_host", "fmpy", loads_fmi_3=True),
+        packaged("newest fmpy", "fmpy_host", "fmpy", newest, loads_fmi_3=True),
+        packaged("ecos", "ecos_host", "ecospy", loads_fmi_3=True),
+        packaged("libcosimpy", "libcosim_host", "libcosimpy"),
+        packaged("pathsim-fmi", "pathsim_host", "pathsim-fmi", newest),
+        packaged("cofmupy", "cofmupy_host", "cofmupy", cofmupy),
+        # It needs the functions of model exchange, which pythonfmu lacks.
+        packaged("fmuloader", "fmuloader_host", "fmuloader", loads_python=False),
+        packaged(
             "fmu_manipulation_toolbox",
             "container_host",
-            lambda: package_version("fmu-manipulation-toolbox"),
+            "fmu-manipulation-toolbox",
             loads_python=False,
             couples=True,
         ),
-        Host(
-            "C driver",
-            "driver_host",
-            lambda: compiler_version(native_compiler()),
-            loads_python=False,
-        ),
+        Host("C driver", "driver_host", native_version, loads_python=False),
         Host("C driver in Wine", "wine_host", wine_version, loads_python=False),
     )

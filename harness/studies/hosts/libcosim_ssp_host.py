@@ -13,12 +13,7 @@ from libcosimpy.CosimExecution import CosimExecution
 from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
 
 from studies.hosts.job import Description, Job, Rows, describe, serve
-from studies.hosts.libcosim_host import (
-    NANOSECONDS,
-    Variable,
-    set_initial,
-    stepped,
-)
+from studies.hosts.libcosim_host import NANOSECONDS, Variable, set_initial, stepped
 from studies.hosts.ssp_package import system_inputs
 
 

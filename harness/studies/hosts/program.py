@@ -29,15 +29,9 @@ def run_program(
         given = stack.enter_context(Path(script or os.devnull).open("rb"))
         log = stack.enter_context(printed.open("wb"))
         stderr = subprocess.STDOUT if errors is None else stack.enter_context(errors.open("wb"))
-        program = Supervised(
-            command,
-            folder,
-            # Hosts leave what they have unpacked where it is when an FMU fails.
-            child_environment(str(folder)),
-            stdin=given,
-            stdout=log,
-            stderr=stderr,
-        )
+        # Hosts leave what they have unpacked where it is when an FMU fails.
+        environment = child_environment(str(folder))
+        program = Supervised(command, folder, environment, stdin=given, stdout=log, stderr=stderr)
         try:
             in_time = program.wait(time_limit)
         finally:

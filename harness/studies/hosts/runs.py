@@ -154,17 +154,14 @@ def run_host(
         behind = [replace(job, partner=str(python.resolve())) for job in jobs]
         theirs = run_jobs(host, behind, time_limit)
         return [HostResult(host.name, version, "native behind Python", by_case(ours, theirs))]
+    pairs = [("native", native, native)]
+    pairs += [("Python", python, python)] if host.loads_python else []
+    pairs += [(FMI_3, native_3, native)] if host.loads_fmi_3 else []
     results = []
-    for name, fmu in (("native", native), ("Python", python)):
-        if name == "native" or host.loads_python:
-            jobs = table_1_jobs(fmu)
-            ours = _run_in_reference(reference, jobs, time_limit)
-            compared = by_case(ours, run_jobs(host, jobs, time_limit))
-            results.append(HostResult(host.name, version, name, compared))
-    if host.loads_fmi_3:
-        ours = _run_in_reference(reference, table_1_jobs(native), time_limit)
-        compared = by_case(ours, run_jobs(host, table_1_jobs(native_3), time_limit))
-        results.append(HostResult(host.name, version, FMI_3, compared))
+    for name, fmu, in_reference in pairs:
+        ours = _run_in_reference(reference, table_1_jobs(in_reference), time_limit)
+        compared = by_case(ours, run_jobs(host, table_1_jobs(fmu), time_limit))
+        results.append(HostResult(host.name, version, name, compared))
     return results
 
 

@@ -52,7 +52,8 @@ def _statement_edits(
     if isinstance(statement, ast.If | ast.While):
         yield from negated(source, statement.test)
     if isinstance(statement, ast.AugAssign):
-        yield from _augmented(source, statement)
+        plain = ast.BinOp(statement.target, statement.op, statement.value)  # what += stands for
+        yield from edits(source, plain)
     if inside is not None and _can_go(statement, inside):
         text = ast.unparse(statement)
         shown = text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."
@@ -61,12 +62,6 @@ def _statement_edits(
     for expression in _own_expressions(statement):
         for node in _nodes(expression):
             yield from edits(source, node)
-
-
-def _augmented(source: Source, statement: ast.AugAssign) -> Iterator[Edit]:
-    """Yield the change of += and its like, by way of the operator that it stands for."""
-    plain = ast.BinOp(statement.target, statement.op, statement.value)
-    yield from edits(source, plain)
 
 
 def _can_go(statement: ast.stmt, inside: Function) -> bool:

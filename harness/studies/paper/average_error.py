@@ -19,9 +19,7 @@ KAPPAS = (0.25, 2.5, 25.0)
 
 
 def _measure(instance: Instance) -> Data:
-    cases = {
-        "Coulomb": [coulomb_case(1.0, w, AMPLITUDE_RATIO, PHASE) for w in COULOMB_FREQUENCIES],
-    }
+    cases = {"Coulomb": [coulomb_case(1.0, w, AMPLITUDE_RATIO, PHASE) for w in COULOMB_FREQUENCIES]}
     for kappa in KAPPAS:
         cases[f"LuGre {kappa:g}"] = [
             lugre_case(CASE, w, stiffness_of(kappa, CASE, w)) for w in LUGRE_FREQUENCIES
@@ -60,14 +58,8 @@ def _draw(data: Data) -> Drawing:
     for (name, (frequencies, error)), shade in zip(errors(data).items(), SHADES, strict=False):
         law, _, kappa = name.partition(" ")
         case = f"{law}, $\\kappa$ = {kappa}" if kappa else law
-        axis.loglog(
-            frequencies,
-            error,
-            "o-",
-            markersize=4,
-            color=shade,
-            label=f"{case}: slope {slope(frequencies, error):.2f}",
-        )
+        label = f"{case}: slope {slope(frequencies, error):.2f}"
+        axis.loglog(frequencies, error, "o-", markersize=4, color=shade, label=label)
     ends = np.array([10.0, 10000.0])
     axis.loglog(ends, 1.0 / ends, ":", color="0.4", label="$1 / \\Omega$")
     axis.set(xlabel=labels.FREQUENCY, ylabel="error of the averaged velocity [$x_0 \\omega_0$]")

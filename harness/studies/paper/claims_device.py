@@ -76,11 +76,7 @@ def _measure(instance: Instance) -> Iterator[Claim]:
     yield claim(
         "fast_velocity",
         near(fast_strength, strength, 1e-9) and near(fast.velocity, table.velocity, 2e-3),
-        {
-            "strength": fast_strength,
-            "phase_rad": fast_force.angle,
-            "fmu_m_per_s": fast.velocity,
-        },
+        {"strength": fast_strength, "phase_rad": fast_force.angle, "fmu_m_per_s": fast.velocity},
     )
     yield claim(
         "fast_force",

@@ -23,17 +23,11 @@ def _measure(instance: Instance) -> Data:
     data: Data = {}
     for strength in STRENGTHS:
         lugre = LugreCase(strength=strength)
+        coulomb_load = slow_theory.blocking_load(1.0, pi / 2.0)
+        lugre_load = slow_theory.uniform_blocking_load(lugre, STIFFNESS, FREQUENCY)
         for law, values, blocking in (
-            (
-                "Coulomb",
-                coulomb_case(strength, FREQUENCY),
-                slow_theory.blocking_load(1.0, pi / 2.0),
-            ),
-            (
-                "LuGre",
-                lugre_case(lugre, FREQUENCY, STIFFNESS),
-                slow_theory.uniform_blocking_load(lugre, STIFFNESS, FREQUENCY),
-            ),
+            ("Coulomb", coulomb_case(strength, FREQUENCY), coulomb_load),
+            ("LuGre", lugre_case(lugre, FREQUENCY, STIFFNESS), lugre_load),
         ):
             loads = [blocking * share for share in SHARES]
             velocities = [steady_velocity(instance, {**values, "load": load}) for load in loads]

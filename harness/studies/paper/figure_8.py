@@ -14,13 +14,7 @@ from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.steady.steady_velocity import find_steady
 from studies.paper import labels, slow_theory
-from studies.paper.figure import (
-    SHADES,
-    Data,
-    PaperFigure,
-    markers,
-    panels,
-)
+from studies.paper.figure import SHADES, Data, PaperFigure, markers, panels
 from studies.paper.measure import plain, record
 
 DEVICE = Device()
@@ -74,13 +68,8 @@ def _scaled(phase: float, ratio: float) -> float:
 def _over_ratio(axis: Axes, data: Data) -> None:
     axis.axhline(0.0, color="0.4", linewidth=0.6)
     integers = [float(n) for n in range(1, 8)]
-    axis.vlines(
-        integers,
-        0.0,
-        [_scaled(0.0, n) for n in integers],
-        color=SHADES[0],
-        label="average at integer ratios",
-    )
+    averages = [_scaled(0.0, n) for n in integers]
+    axis.vlines(integers, 0.0, averages, color=SHADES[0], label="average at integer ratios")
     markers(axis, RATIOS, data["ratio"], SHADES[1], "FMU")
     axis.set(xlabel=labels.RATIO, ylabel=labels.STEADY_VELOCITY)
 

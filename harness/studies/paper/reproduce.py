@@ -35,12 +35,7 @@ from studies.paper import (
 )
 from studies.paper.claim import Claim, ClaimGroup
 from studies.paper.figure import Data, PaperFigure
-from studies.paper.listing import (
-    write_claims,
-    write_figures,
-    write_index,
-    write_tables,
-)
+from studies.paper.listing import write_claims, write_figures, write_index, write_tables
 from studies.paper.table import PaperTable
 
 FIGURES: Mapping[str, PaperFigure] = {
@@ -60,12 +55,10 @@ FIGURES: Mapping[str, PaperFigure] = {
 TABLES: Mapping[str, PaperTable] = {
     table.name: table for table in (lugre_tables.BLOCKING, lugre_tables.DEVICE)
 }
-GROUPS: tuple[ClaimGroup, ...] = (
-    claims_device.GROUP,
-    claims_coulomb.GROUP,
-    claims_lugre.GROUP,
-    claims_resonator.GROUP,
-)
+GROUPS: Mapping[str, ClaimGroup] = {
+    module.GROUP.name: module.GROUP
+    for module in (claims_device, claims_coulomb, claims_lugre, claims_resonator)
+}
 CLAIMS = "claims"
 NAMES = (*FIGURES, *TABLES, CLAIMS)
 SUFFIXES = (".png", ".svg")
@@ -126,7 +119,7 @@ def reproduce(
     chosen = only or NAMES
     figures = [figure for name, figure in FIGURES.items() if name in chosen]
     tables = [table for name, table in TABLES.items() if name in chosen]
-    groups = GROUPS if CLAIMS in chosen else ()
+    groups = [*GROUPS.values()] if CLAIMS in chosen else []
     jobs: list[PaperFigure | PaperTable | ClaimGroup] = [*figures, *tables, *groups]
     found: dict[str, Any] = {}
     with noting_on_interrupt(lambda: _kept(found, out)), IsolatedFmu(fmu_path, time_limit) as fmu:
@@ -168,11 +161,7 @@ def _kept(found: Mapping[str, Any], out: Path) -> str:
 
 def _measure(name: str, instance: Instance) -> Any:
     """Measure a figure, a table or a group of claims, in the process of the FMU."""
-    jobs: Mapping[str, PaperFigure | PaperTable | ClaimGroup] = {
-        **FIGURES,
-        **TABLES,
-        **{group.name: group for group in GROUPS},
-    }
+    jobs: Mapping[str, PaperFigure | PaperTable | ClaimGroup] = {**FIGURES, **TABLES, **GROUPS}
     return jobs[name].measure(instance)
 
 

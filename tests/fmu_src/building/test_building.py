@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from fmu_src.building.archive import check_folder, write_archive
+from fmu_src.building.archive import write_archive
 from fmu_src.building.build_error import BuildError
 from fmu_src.building.cache import cache_folder, cached
 from fmu_src.building.compiling import Compiler, compile_binary
@@ -33,13 +33,6 @@ def test_an_older_file_is_replaced_or_stays(tmp_path: Path) -> None:
     assert (tmp_path / "Model.fmu").read_bytes() == older
     assert write_archive(tmp_path, "Model", FILES).read_bytes() != older
     assert [p.name for p in tmp_path.iterdir()] == ["Model.fmu"], "no left-overs"
-
-
-def test_a_file_in_the_way_is_refused(tmp_path: Path) -> None:
-    (tmp_path / "file").touch()
-    check_folder(tmp_path / "not" / "there")
-    with pytest.raises(BuildError, match="is a file; must be a folder"):
-        check_folder(tmp_path / "file" / "below")
 
 
 class Maker:

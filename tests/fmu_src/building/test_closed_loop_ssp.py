@@ -2,7 +2,6 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssd, read_ssv
 
 from fmu_src.building.build_error import BuildError
@@ -48,16 +47,6 @@ def test_components_have_the_parameters_of_the_bound_set(closed_loop_package: Pa
         for parameter in values.parameters:
             found[f"{component.name}.{parameter.name}"] = (parameter.type, parameter.value)
     assert found == {p.name: (p.type, p.value) for p in bound}
-
-
-def test_fmpy_holds_the_velocity_of_the_set(closed_loop_package: Path) -> None:
-    result = simulate_ssp(
-        str(closed_loop_package),
-        stop_time=1.5,
-        step_size=0.01,
-        parameter_set=read_ssv(closed_loop_package, resource="resources/design.ssv"),
-    )
-    assert result["slider.mean_velocity"][-1] == pytest.approx(0.06, rel=0.01)
 
 
 @pytest.mark.parametrize(("name", "fidelity"), FIDELITIES.items())

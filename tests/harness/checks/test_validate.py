@@ -42,20 +42,6 @@ def test_a_failure_is_worse_than_any_pass() -> None:
     assert not worst.passed
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("build", ["native_fmu", "python_fmu"])
-def test_repeated_validations_of_a_correct_fmu_give_equal_checks(
-    request: pytest.FixtureRequest, build: str
-) -> None:
-    fmu: Path = request.getfixturevalue(build)
-    scenes = [find_scene(name) for name in ("changing_inputs", "lugre", "lift_off", "phase_sweep")]
-    first, *others = validate([fmu] * 4, scenes)
-    assert first.passed
-    for other in others:
-        assert other.checks == first.checks, "every verdict and number must be the same"
-        assert not other.run_failures
-
-
 def test_a_refused_scene_does_not_keep_others_from_being_judged(
     native_fmu: Path, tmp_path: Path
 ) -> None:
@@ -214,3 +200,13 @@ def test_bent_bristles_need_unequal_steps(stranger: Path, tmp_path: Path) -> Non
     (validation,) = validate([stranger], [read_scene(scene)])
     assert validation.exit_code == 2
     assert "canHandleVariableCommunicationStepSize = false" in validation.run_failures[0].reason
+
+
+@pytest.mark.isolated
+def test_modules_in_the_present_folder_are_not_imported(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "numpy.py").write_text("raise RuntimeError('a script of the user')")
+    monkeypatch.chdir(tmp_path)
+    (validation,) = validate([native_fmu.resolve()], [read_scene(faulty_fmus.scene(tmp_path))])
+    assert validation.exit_code == 0, validation.run_failures

@@ -12,7 +12,6 @@ from slider_resonator.choosing.probe import Probe
 from slider_resonator.device.model import Model
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.run import run
 from tests.harness.scene_text import scene_of, table_1
 
 pytestmark = pytest.mark.usefixtures("stated_costs")
@@ -145,39 +144,9 @@ def test_straight_lines_that_are_passed_on_need_no_small_steps(instance: Instanc
     assert "inputs go on as straight lines" in " ".join(passed.sentences())
 
 
-def test_a_choice_with_straight_lines_holds_in_the_run_that_applies_it(instance: Instance) -> None:
-    scene = scene_of(RAMPED % "true")
-    choice = choose_with(instance, scene)
-    applied = choice.applied_to(scene)
-    fine = scene.with_step(1e-3).with_values({"fidelity": 2.0})
-    found, expected = (
-        run(instance, one.parameters, one.schedule()).final("mean_velocity")
-        for one in (applied, fine)
-    )
-    assert abs(found - expected) <= choice.allowed["mean_velocity"]
-
-
 @pytest.mark.slow
 def test_an_fmu_that_takes_no_derivatives_has_straight_lines_held(python_fmu: Path) -> None:
     text = (RAMPED % "true").replace("1e-7", "0.2").replace("stop_time = 1.0", "stop_time = 0.1")
     choice = choose(scene_of(text), python_fmu)
     assert (choice.meets, choice.inputs) == (True, "cannot")
     assert "canInterpolateInputs = false" in " ".join(choice.sentences())
-
-
-def test_parameters_that_change_in_the_run_are_followed(instance: Instance) -> None:
-    """Friction that doubles for the second half brings the slider nearer to its steady motion."""
-    choices = [
-        choose_with(
-            instance,
-            scene_of(
-                "[run]\nstop_time = 2.0\nstep_size = 0.02\n[need]\n"
-                f"mean_velocity = {{ rel = 1e-3 }}\n[tuning]\n"
-                f"friction_coefficient = {{ steps = [[0, 0.1], [1.0, {late}]] }}\n"
-            ),
-        )
-        for late in (0.1, 0.2)
-    ]
-    assert all(choice.meets for choice in choices)
-    constant, doubled = (choice.allowed["mean_velocity"] for choice in choices)
-    assert doubled > 1.05 * constant

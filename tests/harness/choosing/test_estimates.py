@@ -62,13 +62,6 @@ def test_events_are_the_nearest_true_ones() -> None:
     assert missed.reason == "1 reversals instead of 0"
 
 
-def test_beats_are_frequencies() -> None:
-    true, found = (record(mean_velocity=np.sin(2.0 * np.pi * f * TIMES)) for f in (20.0, 20.2))
-    estimate = error("beat", found, true)
-    assert estimate.error == pytest.approx(0.2, rel=1e-3)
-    assert estimate.magnitude == pytest.approx(20.0, rel=1e-3)
-
-
 def test_nothing_is_known_better_than_to_rounding() -> None:
     same = record(position=TIMES)
     for law, floor in ((0, 1e-12), (1, 1e-10)):
@@ -181,18 +174,3 @@ def test_the_error_of_a_value_is_at_least_that_of_the_search() -> None:
     assert steady_error(reference, reference, 0).error == pytest.approx(2e-10)
     assert steady_error(none, reference, 0).error == inf
     assert steady_error(near, none, 0).reason == "stuck: why"
-
-
-@pytest.mark.parametrize(
-    "device",
-    [
-        "friction_coefficient = 0.0",
-        "base_amplitude = 0.0",
-        "damping_ratio = 0.0\nresonator_mass = 1.0\nresonator_frequency = 2474.8737341529163",
-    ],
-)
-def test_without_vibration_or_friction_there_is_nothing_to_average(device: str) -> None:
-    scales = scales_of(scene_of(f"[device]\n{device}\n"))
-    assert scales.fast_velocity is None
-    assert scales.slowness is None
-    assert scales.relaxation == inf

@@ -5,7 +5,6 @@ from math import inf
 import pytest
 
 from slider_resonator.choosing import probe as probes
-from slider_resonator.choosing import reference
 from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.probe import CAUTION, Probe
 from slider_resonator.device.model import Model
@@ -15,31 +14,6 @@ from tests.harness.scene_text import scene_of
 RUN = "[run]\ndrive_periods = {}\nsteps_per_period = 0.01\n[need]\n{} = {{ rel = {} }}\n"
 RESOLVED = Candidate(Model(2, 0), 1e-8, None)
 AVERAGED = Candidate(Model(0, 0, 1), 1e-8, None)
-
-
-@pytest.fixture
-def long_is_expensive(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let a resolved run of a few milliseconds count as a long one."""
-    monkeypatch.setattr(reference, "SHORT", 1e-4)
-
-
-@pytest.mark.usefixtures("long_is_expensive")
-@pytest.mark.parametrize(
-    ("scene", "covers"),
-    [
-        (RUN.format(20_000, "mean_velocity", 0.1), "leaps"),
-        (RUN.format(20_000, "mean_velocity", 1e-11), "whole"),
-        (RUN.format(20_000, "event_times", 0.1), "whole"),
-    ],
-)
-def test_leaps_replace_a_resolved_run_where_they_serve(
-    instance: Instance, scene: str, covers: str
-) -> None:
-    """Not for needs near their own error, nor for events."""
-    probe = Probe(instance, scene_of(scene))
-    probe.resolve()
-    assert probe.covers == covers
-    assert (probe.drive_periods < 1000.0) == (covers == "leaps")
 
 
 @pytest.mark.usefixtures("stated_costs")

@@ -57,9 +57,7 @@ def ladder(instance: Instance, text: str) -> tuple[float, ...]:
     return tuple(step for step in steps if step is not None)
 
 
-def test_inputs_that_vary_leave_powers_of_two_of_the_step(
-    instance: Instance,
-) -> None:
+def test_inputs_that_vary_leave_powers_of_two_of_the_step(instance: Instance) -> None:
     run = f"{RAMP}[run]\nstop_time = 0.1\nstep_size = 0.003\n[need]\n"
     signal = ladder(instance, f"{run}position = {{ rel = 0.1 }}\n")
     number = ladder(instance, f"{run}mean_velocity = {{ rel = 0.1 }}\n")

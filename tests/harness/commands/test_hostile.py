@@ -224,10 +224,7 @@ CASES = [
 
 @pytest.mark.parametrize(("command", "as_json"), CASES)
 def test_no_command_prints_hostile_text(
-    nasty_fmu: Path,
-    tmp_path: Path,
-    command: str,
-    as_json: bool,
+    nasty_fmu: Path, tmp_path: Path, command: str, as_json: bool
 ) -> None:
     summary = tmp_path / "summary.md"
     words = [*arguments(command, nasty_fmu, tmp_path), *(["--json"] if as_json else [])]

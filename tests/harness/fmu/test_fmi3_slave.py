@@ -38,9 +38,7 @@ def test_fmi_3_gives_the_numbers_of_fmi_2(
         assert np.max(np.abs(ours[name] - theirs[name])) <= 1e-13 * peak, name
 
 
-def test_a_refusal_of_fmi_3_is_explained_and_leaves_the_instance_usable(
-    native_3_fmu: Path,
-) -> None:
+def test_a_refusal_of_fmi_3_is_explained_and_leaves_the_instance_usable(native_3_fmu: Path) -> None:
     with open_fmu(native_3_fmu) as fmu, instantiate(fmu) as instance:
         assert fmu.version == "3.0"
         with pytest.raises(Refusal, match="load = nan refused: must be a finite number"):

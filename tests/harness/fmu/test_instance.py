@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from slider_resonator.device.schedule import schedule
-from slider_resonator.device.signal import ramp, steps
-from slider_resonator.errors import FmuError, NotApplicable, Refusal
+from slider_resonator.device.signal import steps
+from slider_resonator.errors import FmuError, Refusal
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import Fmu
 from slider_resonator.fmu.run import run
@@ -113,21 +113,3 @@ def test_progress_is_reported(instance: Instance) -> None:
     run(instance, {}, schedule(20 * PERIOD, PERIOD), progress=lambda _, share: shares.append(share))
     assert shares[-1] == 1.0
     assert shares == sorted(shares)
-
-
-@pytest.mark.slow
-def test_lines_are_passed_on_where_the_fmu_takes_derivatives(instance: Instance) -> None:
-    line = {"load": ramp([(0.0, 0.0), (10 * PERIOD, 2.0)])}
-    fine = run(instance, {}, schedule(10 * PERIOD, PERIOD / 200, **line))
-    plan = schedule(10 * PERIOD, 5 * PERIOD, None, True, **line)
-    if not instance.fmu.interpolates:
-        with pytest.raises(NotApplicable, match="needs canInterpolateInputs = true"):
-            run(instance, {}, plan)
-        with pytest.raises(NotApplicable):
-            instance.set_input_rates([0.0, 1.0, 0.0])
-        return
-    found = run(instance, {}, plan)
-    coarse = run(instance, {}, replace(plan, interpolates=False))
-    off, held = (abs(r.final("position") - fine.final("position")) for r in (found, coarse))
-    assert off < 2e-3 * abs(fine.final("position"))
-    assert off < 1e-2 * held

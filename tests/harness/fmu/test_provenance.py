@@ -10,12 +10,7 @@ import pytest
 import slider_resonator
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu import fmu_log
-from slider_resonator.fmu.provenance import (
-    DATE_VARIABLE,
-    FmuIdentity,
-    identity_of,
-    provenance_of,
-)
+from slider_resonator.fmu.provenance import DATE_VARIABLE, FmuIdentity, identity_of, provenance_of
 from slider_resonator.fmu.provenance_text import (
     provenance_html,
     provenance_markdown,

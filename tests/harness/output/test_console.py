@@ -6,9 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.cells import cell_len
 
-from slider_resonator.output.progress import counted, part_of
-from slider_resonator.output.progress_bar import progress_bar, shortened, time_left
-from slider_resonator.output.readable import readable
+from slider_resonator.output.progress_bar import progress_bar, time_left
 from slider_resonator.output.terminal import fitting
 
 
@@ -41,29 +39,6 @@ def test_progress_stays_on_one_line(width: int, monkeypatch: pytest.MonkeyPatch)
     assert max(map(cell_len, lines)) <= width
 
 
-def test_a_long_label_keeps_its_beginning_and_its_end() -> None:
-    assert shortened("3 of 33: table_1", 16) == "3 of 33: table_1"
-    assert (
-        shortened("3 of 33: a_long_name_of_a_scene", 16) == "3 of 33\N{HORIZONTAL ELLIPSIS}_a_scene"
-    )
-
-
-@pytest.mark.parametrize("value", [0.0, -0.0, -1.7e-14, 9e-13])
-def test_noise_and_minus_zero_are_0(value: float) -> None:
-    assert readable(value, 10) == "0"
-
-
-def test_a_task_has_its_number() -> None:
-    assert counted("table_1", 0, 33) == "1 of 33: table_1"
-    assert counted("table_1", 33, 33) == "33 of 33: table_1"
-
-
-def test_a_part_reports_its_share_of_all_work() -> None:
-    reported: list[tuple[str, float]] = []
-    part_of(lambda label, share: reported.append((label, share)), 1, 4)("second of four", 0.5)
-    assert reported == [("second of four", 0.375)]
-
-
 @pytest.mark.parametrize(
     ("elapsed", "share", "text"),
     [
@@ -78,26 +53,6 @@ def test_a_part_reports_its_share_of_all_work() -> None:
 )
 def test_the_time_left_follows_from_the_share_done(elapsed: float, share: float, text: str) -> None:
     assert time_left(elapsed, share) == text
-
-
-COST = "cost     43 drive periods in 3 iterations, a common period is 1 of them"
-SENTENCE = "  nearest to the bound: 0.36 of it in mean_velocity, case 5"
-
-
-def test_a_labelled_line_goes_on_under_its_text() -> None:
-    assert fitting(COST, 40).splitlines() == [
-        "cost     43 drive periods in 3",
-        "         iterations, a common period is",
-        "         1 of them",
-    ]
-
-
-def test_other_lines_go_on_indented() -> None:
-    assert fitting(f"short\n{SENTENCE}", 40).splitlines() == [
-        "short",
-        "  nearest to the bound: 0.36 of it in",
-        "    mean_velocity, case 5",
-    ]
 
 
 @given(st.text("ab_-. \n", max_size=80), st.integers(5, 40))

@@ -1,5 +1,7 @@
 """Comparing trajectories, and splitting the inputs of a run."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from slider_resonator.device.held_inputs import HeldInputs
@@ -10,6 +12,16 @@ from tests.problems import SIGNALS
 def until(stop: float, **inputs: float) -> list[HeldInputs]:
     """Constant inputs from 0 to `stop`, s."""
     return [HeldInputs(0.0, stop, **inputs)]
+
+
+def staircase(inputs: HeldInputs, count: int) -> list[HeldInputs]:
+    """Return steps that hold the values in the middle of each."""
+    size = inputs.stop / count
+    still = {"phase_rate": 0.0, "load_rate": 0.0, "ratio_rate": 0.0}
+    return [
+        replace(inputs.later((i + 0.5) * size), start=i * size, stop=(i + 1) * size, **still)
+        for i in range(count)
+    ]
 
 
 def deviation(expected: Trajectory, found: Trajectory, signal: str) -> float:

@@ -18,6 +18,7 @@ from slider_resonator.references.resolved.contact import LIFTED
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.trading.peers import event_free, located_scipy
+from tests.harness.references.comparing import staircase
 
 STOP = 0.03
 TIMES = np.linspace(0.0, STOP, 200)
@@ -33,16 +34,6 @@ STICKS = replace(DEVICE, friction_coefficient=30.0)
 RIGID = replace(LIFTS, fidelity=1)
 LUGRE = replace(DEVICE, friction_law=1, bristle_stiffness=1e4)
 LUGRE_LIFTS = replace(LUGRE, normal_amplitude=1.6)
-
-
-def staircase(inputs: HeldInputs, count: int) -> list[HeldInputs]:
-    """Return steps that hold the values in the middle of each."""
-    size = inputs.stop / count
-    still = {"phase_rate": 0.0, "load_rate": 0.0, "ratio_rate": 0.0}
-    return [
-        replace(inputs.later((i + 0.5) * size), start=i * size, stop=(i + 1) * size, **still)
-        for i in range(count)
-    ]
 
 
 def position(device: Device, held: Sequence[HeldInputs]) -> Array:

@@ -70,9 +70,7 @@ BELOW_THE_HEAD = {
         "[device]\nfidelity = 1.5\n", "fidelity", "must be an integer"
     ),
     "a fidelity that does not exist": Mistake(
-        "[device]\nfidelity = 3\n",
-        "device.fidelity = 3",
-        "an integer from 0 to 2 (0 slow motion",
+        "[device]\nfidelity = 3\n", "device.fidelity = 3", "an integer from 0 to 2 (0 slow motion"
     ),
     "a second instance out of bounds": Mistake(
         RUN + "[beside.device]\nfriction_law = 2\n",

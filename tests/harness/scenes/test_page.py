@@ -11,7 +11,7 @@ import pytest
 from docs.scene_page import TABLES, beside, scene_page
 from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.scenes.json_schema import scene_schema
-from slider_resonator.scenes.scene import Scene, scene_from
+from slider_resonator.scenes.scene import scene_from
 from slider_resonator.scenes.scene_files import built_in_scenes, template
 from slider_resonator.scenes.schema import SceneTable
 from slider_resonator.scenes.toml_file import toml_value
@@ -41,11 +41,6 @@ def steady() -> str:
 
 FAMILY = "\n".join([*EVERY_KEY, *(line.removeprefix("# ") for line in EVERY_KEY[-3:])])
 VARIANTS = ["\n".join(EVERY_KEY), steady(), FAMILY, *map(replaced, ALTERNATIVES)]
-
-
-def scene_of_text(text: str, folder: Path) -> Scene:
-    (folder / "recorded.csv").write_text(beside("recorded.csv"))
-    return scene_from(tomllib.loads(text), "x.toml", folder)
 
 
 def keys(table: Mapping[str, Any], place: str = "") -> Iterator[str]:
@@ -85,8 +80,9 @@ def test_every_key_is_described_and_its_example_is_valid(heading: str) -> None:
 
 def test_a_scene_with_every_key_validates(tmp_path: Path) -> None:
     seen: set[str] = set()
+    (tmp_path / "recorded.csv").write_text(beside("recorded.csv"))
     for text in VARIANTS:
-        scene_of_text(text, tmp_path)
+        scene_from(tomllib.loads(text), "x.toml", tmp_path)
         VALIDATOR.validate(tomllib.loads(text))
         seen |= set(keys(tomllib.loads(text)))
     assert seen >= set(PARAMETERS_OF_TABLES)

@@ -7,22 +7,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
-from matplotlib.image import imread
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.output.plot_style import save
 from slider_resonator.scenes import signals_plot
-from slider_resonator.scenes.run_plot import (
-    run_figure,
-    schedule_to_plot,
-)
+from slider_resonator.scenes.run_plot import run_figure, schedule_to_plot
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.signals_plot import (
     COLUMNS,
-    SIGNALS,
     Run,
     check_signals,
     check_window,
@@ -35,16 +30,6 @@ from slider_resonator.scenes.signals_plot import (
 @pytest.fixture
 def scene() -> Scene:
     return find_scene("changing_inputs")
-
-
-def test_a_run_becomes_a_picture(instance: Instance, scene: Scene, tmp_path: Path) -> None:
-    record = run(instance, scene.parameters, scene.schedule())
-    for suffix in (".png", ".svg", ".pdf"):
-        save(run_figure(record, scene), tmp_path / f"run{suffix}")
-    picture = imread(tmp_path / "run.png")
-    assert picture.shape[1] == 1200
-    assert np.ptp(picture[..., :3]) > 0.5, "something must be drawn"
-    assert "velocity" in (tmp_path / "run.svg").read_text()
 
 
 def test_the_lines_and_constant_inputs_are_named(instance: Instance, tmp_path: Path) -> None:
@@ -155,29 +140,6 @@ def test_each_signal_has_a_panel_with_its_unit_over_contact(
     assert np.array_equal(np.asarray(line.get_ydata()), 1e3 * record["velocity"][inside])
     (legend,) = drawn[0].legends
     assert {text.get_text() for text in legend.get_texts()} == {"slips backward", "slips forward"}
-
-
-def test_overlaid_runs_can_be_told_apart(
-    instance: Instance, tmp_path: Path, drawn: list[Figure]
-) -> None:
-    scene = scene_called("table_1")
-    runs = []
-    for fidelity in (2, 1, 0):
-        varied = scene.with_values({"fidelity": fidelity})
-        record = run(instance, varied.parameters, schedule_for_window(varied, WINDOW))
-        runs.append(Run(f"fidelity {fidelity}", record))
-    plot_signals(runs, scene, SIGNALS, WINDOW, tmp_path / "a.png")
-    lines = drawn[0].axes[0].get_lines()
-    assert len({(line.get_color(), line.get_linestyle()) for line in lines}) == 3
-    assert len({line.get_color() for line in lines}) == 3
-    (legend,) = drawn[0].legends
-    shown = [text.get_text() for text in legend.get_texts()]
-    assert shown == ["fidelity 2", "fidelity 1", "fidelity 0"]
-    ends = [np.asarray(line.get_ydata())[-1] for line in drawn[0].axes[1].get_lines()]
-    assert ends == [
-        1e3 * one.record["mean_velocity"][one.record.times <= WINDOW[1]][-1] for one in runs
-    ]
-    assert len(set(ends)) == 3, "each line is a run of its own"
 
 
 def test_differences_from_the_first_run_are_below(

@@ -103,14 +103,10 @@ def test_bracketing_renews_its_jacobian_for_a_bristle_state() -> None:
 ONES = np.ones(2)
 
 
-def linear_map(slow: float, fixed: Vector) -> tuple[np.ndarray, Vector]:
-    basis = np.array([[1.0, 0.3], [-0.2, 1.0]])
-    return basis @ np.diag([slow, 0.2]) @ np.linalg.inv(basis), fixed
-
-
 @pytest.mark.parametrize("slow", [0.5, 1.0 - 1.0 / 1140.0, 1.0 - 1e-6, -0.9])
 def test_linear_contraction_is_solved_by_one_jacobian(slow: float) -> None:
-    matrix, target = linear_map(slow, np.array([0.126667, -3.0]))
+    basis, target = np.array([[1.0, 0.3], [-0.2, 1.0]]), np.array([0.126667, -3.0])
+    matrix = basis @ np.diag([slow, 0.2]) @ np.linalg.inv(basis)
     evaluations = []
 
     def period_map(state: Vector) -> tuple[Vector, float]:

@@ -30,8 +30,8 @@ from slider_resonator.stressing.verdict import (
 )
 from tests.fmus import both_fmus
 from tests.harness.faulty_fmus import compiled, without_later_variables
+from tests.harness.golden import assert_page_as_before
 from tests.harness.known_provenance import PROVENANCE
-from tests.html_pages import Page, without_spans
 
 QUICK = Case("steps", "few", Model(2, 0), {}, (Hold(1e-4, 20),))
 ENDLESS = Case("steps", "far too many", Model(2, 0), {}, (Hold(1.0, 100_000),))
@@ -109,56 +109,19 @@ VERDICTS = (
 RESULT = StressResult("some place/my.fmu", VERDICTS, 3.0)
 
 
-def text_of(tmp_path: Path, *results: StressResult) -> str:
+def test_the_page_has_each_case_with_its_checks_or_command(tmp_path: Path) -> None:
+    """Of a whole run, of one without failures so far, and of one that failed before its end."""
+    so_far = replace(RESULT, fmu="b.fmu", verdicts=VERDICTS[::2], not_run=1)
+    failed = replace(RESULT, fmu="c.fmu", verdicts=VERDICTS[1:2], not_run=1)
     page = tmp_path / "index.html"
-    write_stress_page(page, results, PROVENANCE)
-    found = Page.read(page)
-    assert "provenance" in found.ids
-    assert found.loaded == ["data:,"]
-    return page.read_text(encoding="utf-8")
-
-
-def test_each_case_of_an_axis_is_in_its_grid_with_its_checks(tmp_path: Path) -> None:
-    text = text_of(tmp_path, RESULT)
-    assert "reference: 0.5 of what is allowed\nmomentum: 0.001 of what is allowed" in text
-    assert '">F</td>' in text
-    assert '">r</td>' in text
-    assert text.count("<td></td>") == 1, "the case that the axis does not have"
-    assert "q &amp; r" in text
-    assert "3 cases checked by momentum, reference; nearest to its bound: reference, 0.5" in text
-
-
-def test_an_interrupted_run_without_failures_is_incomplete_and_has_not_failed(
-    tmp_path: Path,
-) -> None:
-    so_far = replace(RESULT, verdicts=VERDICTS[::2], not_run=1)
-    text = without_spans(text_of(tmp_path, so_far))
-    assert "incomplete</td>" in text
-    assert "FAIL" not in text
-    assert "1 not run: incomplete" in text
-    failed = without_spans(text_of(tmp_path, replace(RESULT, not_run=1)))
-    assert "FAIL</td>" in failed, "a failure stands, whatever the rest would have been"
-
-
-def test_cases_that_did_not_pass_are_listed_with_their_command(tmp_path: Path) -> None:
-    text = text_of(tmp_path, RESULT)
-    assert "it &lt;flies&gt;" in text
-    assert "it <flies>" not in text
-    assert without_spans(text).count("--case ") == 4
-    expected = (
-        "slider-resonator stress 'some place/my.fmu' --case 'q & r: 1e6: Coulomb, fidelity 2'"
-    )
-    assert VERDICTS[1].command(RESULT.fmu) == expected
-
-
-def test_failed_cases_are_open_and_the_others_folded(tmp_path: Path) -> None:
-    text = text_of(tmp_path, RESULT)
-    assert '<details id="failed-my.fmu" open><summary><h3>Failed</h3> 1 case' in text
-    assert '<details id="refused-by-name-my.fmu"><summary><h3>Refused by name</h3> 1 case' in text
+    write_stress_page(page, [RESULT, so_far, failed], PROVENANCE)
+    assert_page_as_before("stress.html", page)
 
 
 def test_a_case_without_a_deviation_is_drawn_without_a_height(tmp_path: Path) -> None:
-    text = text_of(tmp_path, RESULT)
+    page = tmp_path / "index.html"
+    write_stress_page(page, [RESULT], PROVENANCE)
+    text = page.read_text(encoding="utf-8")
     assert '"x":[2.0],"y":[null]' in text
     assert '"x":[3.0,4.0,5.0],"y":[null,1000000.0,null]' in text
 

@@ -132,15 +132,3 @@ def test_three_variables_have_no_picture(tmp_path: Path) -> None:
     path.write_text("[grid]\nphase = [0]\nload = [0]\nfriction_law = [0]", encoding="utf-8")
     with pytest.raises(HarnessError, match=r"3 variables.*must be one"):
         check_picture(read_grid(path), "--plot")
-
-
-def test_axes_of_the_picture_are_logarithmic_where_the_grid_is() -> None:
-    scales: list[tuple[str, str]] = []
-    log = {"from": 0.1, "to": 10.0, "count": 8, "spacing": "log"}
-    for names in (["friction_coefficient"], ["friction_coefficient", "load"]):
-        grid = {name: log for name in names}
-        sweep = grid_from({"grid": grid}, "grid.toml")
-        rows: dict[int, Row] = {n: (n, [1.0, ""], None) for n in range(len(sweep.points))}
-        axes = sweep_figure(sweep, table_columns(sweep.task, sweep.points, rows)).axes[0]
-        scales.append((axes.get_xscale(), axes.get_yscale()))
-    assert scales == [("log", "linear"), ("log", "log")]

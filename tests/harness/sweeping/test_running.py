@@ -21,14 +21,6 @@ def rows_of(fmu: Path, time_limit: float, measure: str = "velocity.rms") -> list
     return sorted(kept)
 
 
-@pytest.mark.slow
-def test_points_that_crash_every_process_have_an_error(native_fmu: Path, tmp_path: Path) -> None:
-    fmu = compiled(native_fmu, tmp_path / "f.fmu", "IN_STEP=CRASH", "VALUE=1.0")
-    for _, cells, error in rows_of(fmu, 60.0):
-        assert cells == [None]
-        assert "crashed in fmi2DoStep" in str(error)
-
-
 def test_a_point_that_takes_too_long_is_a_row_and_the_others_go_on(
     native_fmu: Path, tmp_path: Path
 ) -> None:

@@ -15,14 +15,7 @@ from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import PEER
 from slider_resonator.trading.solution import Solution, errors
 from tests.harness.in_process import InProcess
-from tests.harness.trading.problems import (
-    RAMP,
-    SCAN,
-    STICKING,
-    TABLE_1,
-    problem,
-    reference_of,
-)
+from tests.harness.trading.problems import RAMP, SCAN, STICKING, TABLE_1, problem, reference_of
 
 
 def followed(problem: Problem, method: Method) -> dict[str, float]:

@@ -11,13 +11,7 @@ from slider_resonator.trading.peer_methods import shoot
 from slider_resonator.trading.problem import MIN_PERIODS, Problem
 from slider_resonator.trading.reference import find_reference
 from slider_resonator.trading.solution import Solution, errors, windows
-from tests.harness.trading.problems import (
-    BEAT,
-    RAMP,
-    SCAN,
-    TABLE_1,
-    problem,
-)
+from tests.harness.trading.problems import BEAT, RAMP, SCAN, TABLE_1, problem
 
 PERIOD = 2.0 * pi / 3500.0
 

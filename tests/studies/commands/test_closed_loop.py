@@ -47,17 +47,11 @@ def test_the_velocity_is_held_at_both_fidelities_and_they_agree(
     assert float(rows[-1]["fmpy fidelity 2 mean_velocity [m/s]"]) == pytest.approx(0.06, rel=1e-3)
 
 
-@pytest.fixture
-def brief(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Make fewer predictions, where they do not matter."""
-    monkeypatch.setattr(prediction, "FIRST", 1)
-
-
 @pytest.mark.slow
-@pytest.mark.usefixtures("brief")
 def test_a_controller_without_integral_does_not_hold(
-    closed_loop_package: Path, tmp_path: Path
+    closed_loop_package: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(prediction, "FIRST", 1)  # predictions do not matter here
     loose = changed(closed_loop_package, tmp_path / "loose.ssp", '"400.0"', '"0.0"')
     done = call("closed-loop", loose, "--out", tmp_path)
     assert done.exit_code == 1

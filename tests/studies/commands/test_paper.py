@@ -33,7 +33,7 @@ def test_an_unconfirmed_claim_exits_with_1(
 
     claim = Claim("speed", "(5)", "It flies", {"v": 1.0}, "agrees", "it does not", False)
     group = ClaimGroup("claims_x", "X", (lambda instance: [claim],))
-    monkeypatch.setattr(reproduce, "GROUPS", (group,))
+    monkeypatch.setattr(reproduce, "GROUPS", {group.name: group})
     in_process(monkeypatch)
     arguments = ["--out", tmp_path, "--only", "claims", "--fmu", native_fmu]
     result = call("paper", *arguments)

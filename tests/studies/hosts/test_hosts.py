@@ -9,35 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.device.interface import INPUTS, OUTPUTS
 from slider_resonator.errors import HarnessError
-from slider_resonator.output import markdown
-from studies.hosts.compiler import (
-    SOURCES,
-    compile_program,
-    native_compiler,
-)
+from studies.hosts.compiler import SOURCES, compile_program, native_compiler
 from studies.hosts.hosts import Host, hosts, package_version
-from studies.hosts.job import (
-    HostAnswer,
-    Job,
-    Rows,
-    describe,
-    read_answers,
-    serve,
-    write_jobs,
-)
-from studies.hosts.runs import (
-    ALLOWED,
-    CASES,
-    FMI_3,
-    HostComparison,
-    HostResult,
-    compare,
-    coupled,
-    run_jobs,
-    table_1_jobs,
-)
+from studies.hosts.job import HostAnswer, Job, Rows, describe, read_answers, serve, write_jobs
+from studies.hosts.runs import ALLOWED, CASES, FMI_3, compare, run_jobs, table_1_jobs
 from studies.hosts.step_cost import (
     LONG_STEP,
     ONE_PERIOD,
@@ -46,7 +22,7 @@ from studies.hosts.step_cost import (
     measure_steps,
     short_step_ratio,
 )
-from studies.hosts.table import BEGIN, COLUMNS, END, host_table
+from studies.hosts.table import BEGIN, COLUMNS, END
 from tests.processes import has_ended
 
 
@@ -150,18 +126,6 @@ def host(folder: Path, script: str) -> Host:
     return Host("broken", "broken_host", lambda: "1", program)
 
 
-def test_every_case_is_run_and_every_input_changes() -> None:
-    jobs = table_1_jobs(FMU)
-    assert {(job.start["friction_law"], job.start["fidelity"]) for job in jobs} == {
-        (law, fidelity) for law in (0, 1) for fidelity in (0, 1, 2)
-    }
-    for job in jobs:
-        assert list(job.inputs) == list(INPUTS)
-        assert all(len(set(values)) == 2 for values in job.inputs.values())
-        assert {len(values) for values in job.inputs.values()} == {job.steps}
-        assert list(job.outputs) == list(OUTPUTS)
-
-
 def test_a_host_that_dies_leaves_the_answers_before(tmp_path: Path) -> None:
     answer = '{"rows": [[1.0]], "error": null}'
     broken = host(tmp_path, f"echo '{answer}' > \"$5\"; echo 'cannot go on' >&2; exit 3")
@@ -201,31 +165,7 @@ def test_an_answer_that_cannot_be_compared_fails() -> None:
     assert not any(found.passed for found in (refused, short, not_a_number))
 
 
-def test_the_leaders_blocking_force_becomes_the_load() -> None:
-    jobs = table_1_jobs(FMU)[:1]
-    row = [0.0] * len(OUTPUTS)
-    row[list(OUTPUTS).index("blocking_force")] = 0.07
-    (job,) = coupled(jobs, [[row] * jobs[0].steps])
-    assert set(job.inputs["load"]) == {0.07}
-    assert job.inputs["phase"] == jobs[0].inputs["phase"]
-
-
 PAGE = Path(__file__).parents[3] / "docs" / "hosts.md"
-RESULT = HostResult(
-    "a host",
-    "1.2",
-    "native",
-    dict.fromkeys(CASES, HostComparison(0.0)) | {CASES[1]: HostComparison(3e-14)},
-)
-
-
-def test_a_row_says_host_version_fmu_and_each_deviation() -> None:
-    assert markdown.rendered(host_table([RESULT])).splitlines() == [
-        "| host | version | FMU | "
-        "Coulomb 2 | Coulomb 1 | Coulomb 0 | LuGre 2 | LuGre 1 | LuGre 0 |",
-        "| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |",
-        "| a host | 1.2 | native | 0 | 3e-14 | 0 | 0 | 0 | 0 |",
-    ]
 
 
 def test_the_table_of_the_page_is_one_that_this_code_writes() -> None:

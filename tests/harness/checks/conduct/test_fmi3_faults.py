@@ -55,11 +55,7 @@ FAULTS: dict[str, tuple[str, str, str]] = {
     "time stands still between events": (VALUES, TIME, TIME.replace("now.time", "now.stop_time")),
     "values after time are off by one": (VALUES, TIME, TIME.replace("*next++", "found[i]")),
     "time can be set": (VALUES, "if (done && place_count < count) {", "if (false) {"),
-    "too many values are accepted": (
-        CALLS,
-        GIVEN,
-        GIVEN.replace("!=", "<"),
-    ),
+    "too many values are accepted": (CALLS, GIVEN, GIVEN.replace("!=", "<")),
     "initialization does not end in event mode": (
         CALLS,
         "if (done && own->event_mode_used) {",

@@ -18,13 +18,6 @@ def test_a_crash_names_the_call_and_the_signal() -> None:
     )
 
 
-def test_functions_of_fmi_3_are_named_as_there() -> None:
-    through = '  File "/a/fmu/fmi3_slave.py", line 48 in _call\n'
-    trace = TRACE.replace('  File "/a/fmu/instance.py"', f'{through}  File "/a/fmu/instance.py"')
-    report = "the FMU crashed in fmi3DoStep: its process ended with SIGABRT"
-    assert crash_report("", trace, Ending(-6), 60.0) == report
-
-
 def test_a_missed_time_limit_is_reported_however_the_process_ended() -> None:
     trace = TRACE.replace("Fatal Python error: Aborted", "Timeout (0:01:00)!")
     expected = "no answer within the time limit of 60 s in fmi2DoStep: the FMU was ended"
@@ -41,18 +34,16 @@ def test_printed_text_is_not_taken_for_a_traceback() -> None:
     )
 
 
-def test_too_much_memory_is_reported_with_the_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    ("ending", "what"),
+    [
+        (Ending(memory=400 * 2**20), "400 MiB in memory; must be at most 300 MiB (--max-memory)"),
+        (Ending(processes=321), "321 processes; must be at most 250"),
+    ],
+)
+def test_too_much_is_reported_with_the_limit(
+    ending: Ending, what: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv(MEMORY, "300")
-    ending = Ending(memory=400 * 2**20)
     assert not missed_limit("", ending)
-    assert crash_report("", "", ending, 60.0) == (
-        "the FMU was ended: it had 400 MiB in memory; must be at most 300 MiB (--max-memory)"
-    )
-
-
-def test_too_many_processes_are_reported_with_the_limit() -> None:
-    ending = Ending(processes=321)
-    assert not missed_limit("", ending)
-    assert crash_report("", "", ending, 60.0) == (
-        "the FMU was ended: it had 321 processes; must be at most 250"
-    )
+    assert crash_report("", "", ending, 60.0) == f"the FMU was ended: it had {what}"

@@ -95,10 +95,7 @@ def test_a_process_that_the_fmu_started_neither_survives_nor_blocks(
 ) -> None:
     pid_file = tmp_path / "pid"
     ended = pytest.raises(FmuDied, match="its process ended with")  # and not the time limit
-    with (
-        nullcontext() if then == "return" else ended,
-        IsolatedFmu(native_fmu, 60.0) as isolated,
-    ):
+    with nullcontext() if then == "return" else ended, IsolatedFmu(native_fmu, 60.0) as isolated:
         isolated.run(partial(tasks.start_child, pid_file=pid_file, then=then))
     assert has_ended(int(pid_file.read_text()))
 

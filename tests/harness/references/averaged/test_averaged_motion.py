@@ -12,16 +12,14 @@ from numpy.polynomial import Polynomial
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.averaged.averaged_motion import (
-    AveragedMotion,
-    simulate_averaged,
-)
+from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
 from slider_resonator.references.averaged.averaged_outputs import AveragedOutputs, averaged_outputs
 from slider_resonator.references.averaged.device_average import prediction_valid, stable_velocity
 from slider_resonator.references.averaged.slow_trajectory import slide_of_block, slow_trajectory
 from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
+from tests.harness.references.comparing import staircase
 
 PERIOD = 2.0 * np.pi / 3500.0
 COULOMB = Device(fidelity=0)
@@ -73,8 +71,7 @@ QUICK = ("Coulomb, lifting", "Coulomb, overload", "soft")
 
 
 @pytest.mark.parametrize(
-    "name",
-    [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in CASES],
+    "name", [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in CASES]
 )
 def test_error_falls_with_the_drive_frequency(name: str) -> None:
     device, inputs = CASES[name]
@@ -150,21 +147,6 @@ LUGRE = replace(CLOSED, friction_law=1, bristle_stiffness=1e4)
 
 def first_order(device: Device, held: Sequence[HeldInputs], times: Array) -> Array:
     return simulate_averaged(device, held, times).position
-
-
-def staircase(line: HeldInputs, count: int) -> list[HeldInputs]:
-    size = STOP / count
-    return [
-        replace(
-            line.later((i + 0.5) * size),
-            start=i * size,
-            stop=(i + 1) * size,
-            phase_rate=0.0,
-            load_rate=0.0,
-            ratio_rate=0.0,
-        )
-        for i in range(count)
-    ]
 
 
 @pytest.mark.parametrize("device", [CLOSED, LUGRE])

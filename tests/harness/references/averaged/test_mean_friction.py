@@ -14,9 +14,7 @@ from slider_resonator.references.averaged import vibrating_contact as contact
 from slider_resonator.references.averaged.averaged_motion import slow_start
 from slider_resonator.references.averaged.device_average import blocking_force, steady_velocity
 from slider_resonator.references.averaged.uniform_average import LugreCase
-from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
-from slider_resonator.steady.reference_steady import reference_steady_velocity
 
 
 @pytest.mark.parametrize("ratio", [-3.0, -1.0, 0.0, 1.0, 2.0, 5.0])
@@ -37,38 +35,6 @@ def test_mean_friction_is_the_integral_over_a_turn(
     mean = (forward - backward) / (2.0 * math.pi)
     found = coulomb.mean_friction(velocity, strength, alpha, phase, ratio)
     assert found == pytest.approx(mean, abs=3e-8), "the closed form is the mean over one turn"
-
-
-def steady_by_shooting(device: Device, phase: float, load: float, ratio: int) -> float:
-    """Mean velocity in m/s of the motion that repeats, by the integrator with located events."""
-    guess = steady_velocity(device, phase, load, float(ratio))
-    found = reference_steady_velocity(device, phase, load, float(ratio), guess)
-    assert found is not None, "the device slides steadily"
-    return found
-
-
-@pytest.mark.parametrize(
-    ("alpha", "phase", "ratio", "load"),
-    [(2.0, 0.4, 1, 0.0), (2.0, 0.4, 1, 0.08), (1.3, 0.0, 3, 0.0), (6.0, 1.5, 1, 0.3)],
-)
-def test_average_predicts_a_lifting_contact(
-    alpha: float, phase: float, ratio: int, load: float
-) -> None:
-    """Table 1 at its drive frequency and at four times that, the fast velocity kept."""
-    errors = []
-    for factor in (1.0, 4.0):
-        device = Device(
-            fidelity=1,
-            normal_amplitude=alpha,
-            base_amplitude=1e-4 / factor,
-            drive_frequency=3500.0 * factor,
-            resonator_frequency=3500.0 * factor,
-        )
-        average = steady_velocity(device, phase, load, float(ratio))
-        error = average - steady_by_shooting(device, phase, load, ratio)
-        errors.append(error / equivalent_force(device).velocity_amplitude)
-    assert abs(errors[0]) < 0.01, "1 % of the fast velocity"
-    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05), "averages err by 1 / Omega"
 
 
 def test_slow_start_is_the_momentum_of_the_drive() -> None:

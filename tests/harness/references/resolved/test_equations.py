@@ -80,11 +80,7 @@ def test_fidelity_1_has_the_equivalent_force_of_the_closed_forms(device: Device)
         ({"normal_preload": -1.0}, r"normal_preload = -1\.0 N must be at least 0"),
         ({"normal_amplitude": math.nan}, "normal_amplitude = nan N"),
         (
-            {
-                "fidelity": 1,
-                "damping_ratio": 0.0,
-                "resonator_frequency": 3500.0 / math.sqrt(1.1),
-            },
+            {"fidelity": 1, "damping_ratio": 0.0, "resonator_frequency": 3500.0 / math.sqrt(1.1)},
             r"damping_ratio = 0\.0 .* greater than 0",
         ),
     ],

@@ -17,11 +17,7 @@ TABLE_1 = Device()
 PERIOD = 2.0 * math.pi / 3500.0
 SIGNALS = ("position", "velocity", "resonator_displacement", "resonator_velocity")
 BLOCK = Device(
-    fidelity=1,
-    base_amplitude=0.0,
-    normal_amplitude=0.0,
-    drive_frequency=10.0,
-    initial_velocity=0.3,
+    fidelity=1, base_amplitude=0.0, normal_amplitude=0.0, drive_frequency=10.0, initial_velocity=0.3
 )
 
 
