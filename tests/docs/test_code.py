@@ -52,7 +52,7 @@ def test_the_example_of_the_page_runs(
 
 PAGE = Path(__file__).parents[2] / "docs" / "closed_loop.md"
 CODE = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
-FMPY, VARIED, LIBCOSIMPY, ECOS = CODE
+FMPY, VARIED, OWN, LIBCOSIMPY, ECOS = CODE
 
 
 @pytest.mark.parametrize(
@@ -67,6 +67,16 @@ FMPY, VARIED, LIBCOSIMPY, ECOS = CODE
 def test_documented_code_prints_the_documented_output(
     code: str, closed_loop_package: Path, tmp_path: Path
 ) -> None:
+    printed, expected = output_of(code, closed_loop_package, tmp_path)
+    assert printed[-1] == expected
+
+
+def test_the_loop_of_another_device_holds_half_its_velocity(
+    closed_loop_package: Path, native_fmu: Path, tmp_path: Path
+) -> None:
+    code = OWN.replace("open_fmu(", f"open_fmu({str(native_fmu)!r}, ")
+    code = code.replace("sr.fmu_path()", f"Path({str(closed_loop_package)!r})")
+    code = f"from pathlib import Path\n{code}"
     printed, expected = output_of(code, closed_loop_package, tmp_path)
     assert printed[-1] == expected
 

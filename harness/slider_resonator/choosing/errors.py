@@ -11,6 +11,7 @@ from slider_resonator.checks.measures import dominant_frequency, peak
 from slider_resonator.choosing.scales import NEAR_AN_INTEGER, Scales
 from slider_resonator.device.schedule import nearest
 from slider_resonator.fmu.record import Record
+from slider_resonator.output.readable import number_of
 from slider_resonator.scenes.need_table import AllowedTable
 from slider_resonator.scenes.scene import Scene
 
@@ -70,7 +71,8 @@ class Readings:
         """Return the largest distance of an event from the nearest one of the reference."""
         found, true = (one.final("reversals") for one in (record, reference))
         if found != true:
-            return ErrorEstimate(inf, self.period, f"{found:.0f} reversals instead of {true:.0f}")
+            why = f"{number_of(round(found), 'reversal')} instead of {true:.0f}"
+            return ErrorEstimate(inf, self.period, why)
         shown = np.unique(_at(self.points, record, "last_event_time"))
         events = np.unique(reference["last_event_time"])
         apart = peak(shown - events[nearest(events, shown)])

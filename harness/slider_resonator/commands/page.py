@@ -24,10 +24,13 @@ _DEVICES = re.compile(r'(?<=<script type="application/json" id="devices">).*?(?=
 
 @click.command("page", cls=options.SettingsCommand)
 @options.native_fmu_argument
-@options.set_option
+@options.device_option
+@options.settings_option
 @click.option("--out", type=options.target((".html",)), required=True, help="The page to write.")
 @options.json_option
-def page_command(fmu: Path, settings: dict[str, float], out: Path, as_json: bool) -> None:
+def page_command(
+    fmu: Path, device: str | None, settings: dict[str, float], out: Path, as_json: bool
+) -> None:
     """Write a page that runs the component in a browser, started at your device.
 
     One file without a network. The page is that of the native FMU, from its documentation.
@@ -37,8 +40,11 @@ def page_command(fmu: Path, settings: dict[str, float], out: Path, as_json: bool
       slider-resonator page --out slider.html
       slider-resonator page --device mine.toml --set phase="30 deg" --out mine.html
     """
+    own = options.device_file(device)
+    settings = {**(own.values if own else {}), **settings}
+    page = started_at(page_of(fmu), settings, own.title if own else "Your device")
     with replacing(out) as temporary:
-        temporary.write_text(started_at(page_of(fmu), settings), encoding="utf-8")
+        temporary.write_text(page, encoding="utf-8")
     if as_json:
         print_json({"page": str(out)})
     else:
@@ -70,12 +76,12 @@ def page_of(fmu: Path) -> str:
     return text
 
 
-def started_at(page: str, settings: dict[str, float]) -> str:
+def started_at(page: str, settings: dict[str, float], title: str) -> str:
     """Return the page with the device and the inputs of `settings` as those to start from."""
 
     def with_mine(found: re.Match[str]) -> str:
         parameters = {name: value for name, value in settings.items() if name in PARAMETERS}
-        mine = to_toml(Device.from_mapping(parameters), "Your device")
+        mine = to_toml(Device.from_mapping(parameters), title)
         devices = {"mine": mine, **json.loads(found[0])} if parameters else json.loads(found[0])
         return json.dumps(devices).replace("<", "\\u003c")
 

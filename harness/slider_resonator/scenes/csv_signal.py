@@ -18,13 +18,13 @@ _SEPARATOR_LINE = re.compile(r'"?sep=(.)"?\s*', re.IGNORECASE)
 
 
 def _text(path: Path) -> str:
-    """Return the text of a file in UTF-8, or else Windows-1252, but not with a mark of UTF-16."""
+    """Return the text of a file in UTF-8, UTF-16 with its mark, or else Windows-1252."""
     content = path.read_bytes()
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return content.decode("utf-16")
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError:
-        if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-            raise
         return content.decode("cp1252")
 
 
@@ -47,7 +47,9 @@ def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     except OSError as error:
         raise ValueError(f"csv {path} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
-        raise ValueError(f"csv {path}: {error}; must be text in UTF-8 or Windows-1252") from error
+        raise ValueError(
+            f"csv {path}: {error}; must be text in UTF-8, UTF-16 or Windows-1252"
+        ) from error
     except csv.Error as error:
         raise ValueError(f"csv {path}: {error}; must be lines of numbers") from error
     header = [name.strip() for name in rows[0][1]] if rows else []
@@ -62,7 +64,8 @@ def check_cells(path: Path, header: Sequence[str], rows: Sequence[tuple[int, lis
         if any(cell.strip() for cell in row[len(header) :]):
             raise ValueError(
                 f"csv {path} line {line}: {len(row)} cells below {len(header)} headings; "
-                "must be as many (with decimal commas columns are apart by ;)"
+                "must be as many (with decimal commas columns are apart by ;, text with commas is in "
+                "quotes)"
             )
 
 

@@ -59,7 +59,7 @@ def test_events_are_the_nearest_true_ones() -> None:
     assert far.error == pytest.approx(0.03)
     missed = error("event_times", record(last_event_time=events, reversals=1), reference)
     assert missed.error == inf
-    assert missed.reason == "1 reversals instead of 0"
+    assert missed.reason == "1 reversal instead of 0"
 
 
 def test_nothing_is_known_better_than_to_rounding() -> None:

@@ -31,6 +31,8 @@ def test_device_and_inputs_are_those_to_start_from(tmp_path: Path) -> None:
     assert 'id="devices">{"mine": "title = \\"Your device\\"' in text
     assert "base_amplitude = 1e-06" in text
     assert 'location.hash ||= "phase=0.5"' in text
+    call("page", fmu_with(PAGE, tmp_path), "--device", "conveyor", "--out", out)
+    assert '"mine": "title = \\"A part on a vibratory conveyor' in out.read_text(encoding="utf-8")
 
 
 def test_an_fmu_without_a_page_is_refused(native_fmu: Path, tmp_path: Path) -> None:

@@ -65,6 +65,7 @@ PLAIN = "phase [deg],frequency [kHz],steady_velocity [mm/s]\n30,20,47\n60,20,50\
     ("content", "notes"),
     [
         (PLAIN.encode(), ()),
+        (PLAIN.replace(",", "\t").encode("utf-16"), ()),
         (b"sep=;\r\n" + PLAIN.replace(",", ";").encode(), ()),
         (b"sep=|\n" + PLAIN.replace(",", "|").encode(), ()),
         (PLAIN.replace("\n", ",\n").encode(), ()),

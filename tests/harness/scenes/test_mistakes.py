@@ -298,7 +298,7 @@ def test_a_mistake_is_one_line_with_file_key_and_remedy(name: str, tmp_path: Pat
     (tmp_path / "bare.csv").write_text("0,0\n1,1\n")
     (tmp_path / "words.csv").write_text("time,load\n0,none\n")
     (tmp_path / "twice.csv").write_text("time,load,load\n0,0,1\n0.1,1,2\n")
-    (tmp_path / "utf16.csv").write_text("time,load\n0,0\n1,1\n", encoding="utf-16")
+    (tmp_path / "utf16.csv").write_bytes("time,load\n0,0\n1,1\n".encode("utf-16")[:-1])
     path = tmp_path / "mine.toml"
     path.write_text(text)
     message = refused("scenes", "--check", path)
