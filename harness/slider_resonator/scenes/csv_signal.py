@@ -64,8 +64,8 @@ def check_cells(path: Path, header: Sequence[str], rows: Sequence[tuple[int, lis
         if any(cell.strip() for cell in row[len(header) :]):
             raise ValueError(
                 f"csv {path} line {line}: {len(row)} cells below {len(header)} headings; "
-                "must be as many (with decimal commas columns are apart by ;, text with commas is in "
-                "quotes)"
+                "must be as many (with decimal commas columns are apart by ;, text with commas "
+                "is in quotes)"
             )
 
 
