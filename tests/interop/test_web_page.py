@@ -159,7 +159,7 @@ def test_a_page_written_for_a_device_starts_at_it(browser: Chrome, page: str) ->
     mine = Path(unquote(urlsplit(page).path)).with_name("mine.html")
     text = Path(unquote(urlsplit(page).path)).read_text(encoding="utf-8")
     values = read_device("stick_slip") | {"phase": 0.4}
-    mine.write_text(started_at(text, values), encoding="utf-8")
+    mine.write_text(started_at(text, values, "Mine"), encoding="utf-8")
     browser.get("about:blank")
     browser.get(mine.as_uri())
     found = results(browser)
