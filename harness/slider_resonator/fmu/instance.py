@@ -83,6 +83,7 @@ class Instance:
             reason = fmu_log.in_one_line([str(error), *self.messages])
             fmu_log.forget(self._name)
             raise FmuError(f"{self.fmu.path}: cannot be instantiated: {reason}") from error
+        self._exists = True
         self.time = 0.0
         self._used = False
         self._initialised = False
@@ -123,7 +124,12 @@ class Instance:
             self.begin()
 
     def set_up(self, stop_time: float | None = None, *, start_time: float = 0.0) -> None:
-        """Reset the instance, where it was used before, and set up an experiment (s)."""
+        """Reset the instance, where it was used before, and set up an experiment (s).
+
+        One that could not be created again after a failure is created now; FmuError as at first.
+        """
+        if not self._exists:
+            self._create()
         self.time = start_time
         if self._used:
             self.call("fmi2Reset")
@@ -209,7 +215,10 @@ class Instance:
         return found
 
     def end(self) -> None:
-        """Terminate, where the FMU is in a state that allows it, and free the instance."""
+        """Terminate, where the FMU is in a state that allows it, and free the instance, once."""
+        if not self._exists:  # as after a failure to create it again
+            return
+        self._exists = False
         if self._initialised:
             with suppress(FMICallException):  # nothing is lost: the instance is freed at once
                 self.slave.terminate()

@@ -53,6 +53,23 @@ def test_a_refusal_carries_the_words_of_the_fmu(instance: Instance) -> None:
     assert record.final("position") != 0.0, "the instance is usable after a refusal"
 
 
+def test_an_instance_that_cannot_be_created_again_is_not_used_after_it_was_freed(
+    fmu: Fmu, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise OSError("no memory")
+
+    with instantiate(fmu) as instance:
+        instance.start({})
+        with monkeypatch.context() as broken:
+            broken.setattr(f"{Instance.__module__}.FMU2Slave", refuse)
+            for attempt in (instance.recreate, instance.recreate, lambda: instance.start({})):
+                with pytest.raises(FmuError, match="cannot be instantiated: no memory"):
+                    attempt()
+        instance.start({})
+        assert instance.value("position") == 0.0
+
+
 def test_unknown_names_suggest_the_nearest(instance: Instance) -> None:
     with pytest.raises(FmuError, match="did you mean 'slider_mass'"):
         instance.start({"slider_mas": 1.0})
