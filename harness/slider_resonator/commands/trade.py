@@ -92,7 +92,7 @@ def trade_command(
     Peers follow inputs that are straight lines, and so do FMUs with canInterpolateInputs; other
     FMUs hold them over each step. Scenes with constant inputs run for at least 1000 drive
     periods. One of the peers needs heyoka (pip install 'slider-resonator[taylor]') and is left
-    out without it. Exit code: 0, or 2 when it could not run, an FMU refuses every run, crashed or
+    out without it. Exit code: 0, or 2 when it could not run, an FMU refuses the scene, crashed or
     exceeded the time limit; the tables of the scenes before are kept.
 
     \b

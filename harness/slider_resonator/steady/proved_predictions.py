@@ -105,8 +105,8 @@ def proved_predictions(
         limits = seen[:, -1] + rest
         aim = np.array([one.velocity / one.scale[0] for one in left])
         is_stable = np.abs(np.linalg.eigvals(matrices)).max(axis=1, initial=0.0) < 1.0 - NEUTRAL
-        is_near = (np.abs(limits[:, 3] - aim) <= PROVEN) & (np.abs(rest).max(axis=1) <= NEAR)
-        is_proved = is_near & is_stable
+        is_proved = (np.abs(limits[:, 3] - aim) <= PROVEN) & (np.abs(rest).max(axis=1) <= NEAR)
+        is_proved &= is_stable
         further = []
         for one, limit, is_done in zip(left, limits, is_proved, strict=True):
             if is_done:
@@ -214,13 +214,15 @@ def _improved(matrices: Array, before: Array, seen: Array) -> Array:
     """Return matrices that also map the difference of two runs (Broyden's update, 1965).
 
     Both are `seen` (n, PERIODS, 4), the last but one period of the former and the first of the next
-    one are close to each other.
+    one are close to each other. Where they are so far apart that numbers end, matrices stay.
     """
     change = seen[:, 0] - before[:, -2]
     mapped = (matrices @ change[:, :, None])[:, :, 0]
     missing = seen[:, 1] - before[:, -1] - mapped
     size = np.maximum(np.sum(change**2, axis=1), np.finfo(np.float64).tiny)
-    return np.asarray(matrices + missing[:, :, None] * (change / size[:, None])[:, None, :])
+    improved = matrices + missing[:, :, None] * (change / size[:, None])[:, None, :]
+    is_finite = np.isfinite(improved).all(axis=(1, 2), keepdims=True)
+    return np.asarray(np.where(is_finite, improved, matrices))
 
 
 def _rest(matrices: Array, seen: Array) -> Array:

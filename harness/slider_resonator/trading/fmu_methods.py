@@ -66,6 +66,11 @@ class FmuMethods:
         """Return the CPU time (s) of `task(instance, ...)` in the FMU's process, and its result."""
         return self.fmu.run(partial(_timed, partial(task, **arguments)))
 
+    def check_runs(self) -> None:
+        """Raise what the FMU raises in a drive period of the scene, at the model it starts with."""
+        period = self.problem.schedule(1, self.problem.period, interpolates=self.interpolates)
+        self._run(run, parameters=self.problem.parameters, schedule=period, outputs=OUTPUTS)
+
     def methods(self) -> Iterator[Method]:
         """Yield every setting; the other friction law as a model of the same device."""
         own = self.problem.device.friction_law

@@ -87,8 +87,8 @@ def measure_trade(
 
     After a warm-up of all methods, times are taken in turn, `repeats` times or as often as the
     `budget` (s of CPU time) of a method allows. Raises HarnessError where the reference fails,
-    FmuError for an FMU that no method can run, and FmuDied for one that crashes or exceeds its time
-    limit.
+    FmuError for an FMU that refuses to run the scene by its own start values, and FmuDied for one
+    that crashes or exceeds its time limit.
     """
 
     def report(name: str, index: int, count: int, begin: float, share: float) -> None:
@@ -102,19 +102,13 @@ def measure_trade(
         progress(f"{problem.name}: reference", 0.0)
         reference = find_reference(problem)
         fmus = [FmuMethods(problem, build, instance) for build, instance in instances.items()]
-        groups = [*(list(fmu.methods()) for fmu in fmus), list(peer_methods(problem))]
-        methods = [method for group in groups for method in group]
+        for fmu in fmus:
+            fmu.check_runs()
+        methods = [method for fmu in fmus for method in fmu.methods()] + list(peer_methods(problem))
         answers = [answer for fmu in fmus for answer in fmu.answers()] + list(peer_answers(problem))
-        followed = 0
-        for group in groups:
-            before = len(candidates)
-            for method in group:
-                report(method.label.name, followed, len(methods), 0.0, 0.4)
-                candidates += _follow(problem, reference, method, budget, notes)
-                followed += 1
-            if group is not groups[-1] and len(candidates) == before:
-                why = notes[group[0].label.name, "all"]
-                raise FmuError(f"{problem.name}: no model of an FMU can be measured: {why}")
+        for index, method in enumerate(methods):
+            report(method.label.name, index, len(methods), 0.0, 0.4)
+            candidates += _follow(problem, reference, method, budget, notes)
         for index, answer in enumerate(answers):
             report(answer.label.name, index, len(answers), 0.4, 0.2)
             candidates += _answer(problem, reference, answer, budget, notes)
