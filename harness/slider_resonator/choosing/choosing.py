@@ -31,8 +31,9 @@ ROUNDING = 1e-9
 MAX_COST_RATIO = 5.0
 """Cost of resolved motion by its beginning, over that of another model, beyond which all of it is
 not run: the beginning, in which the resonator rings, can cost some times more than the rest."""
-NEAR = 2.0
-"""Cost over the smallest one up to which candidates are timed again."""
+NEAR, DISTURBANCE = 2.0, 1e-3
+"""Cost over the smallest one up to which candidates are timed again, and CPU time (s) by which a
+first timing may be too long."""
 ROUNDS, ENOUGH = 25, 0.4
 """Times that they are run in turn, at most, and CPU time (s) after which no other turn begins."""
 TIME_LIMIT = 600.0
@@ -222,7 +223,8 @@ class Choosing:
         costs = {one.candidate: one.cost for one in good}
         began = time.process_time()
         for _ in range(ROUNDS):
-            near = [one for one, cost in costs.items() if cost <= NEAR * min(costs.values())]
+            longest = NEAR * min(costs.values()) + DISTURBANCE
+            near = [one for one, cost in costs.items() if cost <= longest]
             if len(near) == 1 or time.process_time() - began > ENOUGH:
                 break
             for candidate in near:
