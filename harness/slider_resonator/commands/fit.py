@@ -20,7 +20,7 @@ from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
-from slider_resonator.output.targets import make_folder
+from slider_resonator.output.targets import distinct, make_folder
 
 
 def _quantity(variable: str) -> options.Parsed[float]:
@@ -130,15 +130,20 @@ def fit_command(
     """
     # Imported here: fitting and drawing take longer to load than other commands to run.
     from slider_resonator.fitting.fit import fit, isolated
-    from slider_resonator.fitting.report import parameter_table, write_report
+    from slider_resonator.fitting.report import FILES, parameter_table, write_report
 
     measurements = sum(
         (read_measurements(path) for path in data), datasheet(velocity, blocking, loaded)
     )
     if not len(measurements.measured):
         raise click.UsageError("no measurements: must be CSV files, --velocity or --blocking")
+    context = click.get_current_context()
     if out is not None:
         make_folder(out)
+        sources = {f"the data {path.name}": path for path in data}
+        if context.params["device"]:
+            sources["the device"] = Path(context.params["device"])
+        distinct({f"{name} of --out": out / name for name in FILES}, sources)
     path = options.default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:
@@ -162,4 +167,4 @@ def fit_command(
         if written:
             lines.append(f"written: {one_line(', '.join(map(str, written)))}")
         print_text("\n".join(lines))
-    click.get_current_context().exit(1 if found.open_directions or found.unmet else 0)
+    context.exit(1 if found.open_directions or found.unmet else 0)

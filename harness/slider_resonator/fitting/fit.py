@@ -26,7 +26,7 @@ from slider_resonator.fitting.estimation import (
     profile_end,
 )
 from slider_resonator.fitting.measurements import Measurements
-from slider_resonator.fitting.notes import data_notes, misfit_notes
+from slider_resonator.fitting.notes import data_notes, implausible_notes, misfit_notes
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, Task
 from slider_resonator.fmu.isolation.tasks import run_all_tasks
 from slider_resonator.output.progress import Progress, counted, no_progress
@@ -154,14 +154,17 @@ class Fit(Shown, Tabular, Drawable):
         shown = self.measurements.shown
         for index in self.unmet:
             name, source, row = self.measurements.places[index]
-            asked, reached = shown(name, self.measured[index]), shown(name, self.predicted[index])
-            what = f"{name} ({source}, {row})"
-            lines.append(f"not met: {what} must be {asked}, the nearest found is {reached}")
+            asked, reached = shown(name, self.measured[index]), self.predicted[index]
+            nearest = f"the nearest found is {shown(name, reached)}"
+            if not isfinite(reached):
+                nearest = "but no steady motion was found"
+            lines.append(f"not met: {name} ({source}, {row}) must be {asked}, {nearest}")
         quantities = np.array(self.measurements.quantities)
         for quantity in dict.fromkeys(quantities.tolist()):
-            off = (self.predicted - self.measured)[quantities == quantity]
-            rms = float(np.sqrt(np.nanmean(off**2)))
-            lines.append(f"{quantity} is off by {shown(quantity, rms)} (rms)")
+            found = np.isfinite(self.predicted) & (quantities == quantity)
+            if found.any():
+                rms = float(np.sqrt(np.mean((self.predicted - self.measured)[found] ** 2)))
+                lines.append(f"{quantity} is off by {shown(quantity, rms)} (rms)")
         missing = int(np.count_nonzero(~np.isfinite(self.predicted)))
         if missing:
             lines.append(f"at {missing} of the points the fitted device has no steady motion")
@@ -306,11 +309,14 @@ def fit(
     )
     off = np.abs(predicted - measurements.measured)
     missed = () if spare else np.flatnonzero(~(off <= MET * measurements.sizes)).tolist()
+    device = Device.from_mapping(values)
+    determined = {one.name: one.value for one in fitted if not one.is_open}
+    notes += implausible_notes(determined, device.friction_faces)
     if spare:
         notes += misfit_notes(measurements, predicted, len(free))
     return Fit(
         tuple(fitted),
-        Device.from_mapping(values),
+        device,
         tuple(directions),
         covariance / np.outer(deviations, deviations).clip(min=1e-300),
         measurements.measured,

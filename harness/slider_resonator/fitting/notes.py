@@ -18,6 +18,8 @@ ROUNDING = 1e-6
 """Residual, in root mean squares of the quantity, up to which it may be rounding of the data."""
 MAX_NAMED = 5
 """Number of outliers that are named."""
+SELDOM_ABOVE = {"friction_coefficient": 1.5, "damping_ratio": 1.0}
+"""Parameters with the value that dry friction or a resonator of metal seldom exceeds."""
 
 
 def data_notes(measurements: Measurements, parameters: Mapping[str, float]) -> list[str]:
@@ -31,6 +33,16 @@ def data_notes(measurements: Measurements, parameters: Mapping[str, float]) -> l
         for slip in possible_slips({name: value}, parameters, where):
             slips.setdefault((source, name), f"{source}: {slip}")
     return [*measurements.notes, *slips.values()]
+
+
+def implausible_notes(fitted: Mapping[str, float], friction_faces: int) -> list[str]:
+    """Return the fitted parameters that hardly any device has."""
+    check = f"normal_preload, the units, and friction_faces = {friction_faces}"
+    return [
+        f"{name} = {value:.3g} is seldom above {SELDOM_ABOVE[name]:g}: check {check}"
+        for name, value in fitted.items()
+        if value > SELDOM_ABOVE.get(name, value)
+    ]
 
 
 def misfit_notes(measurements: Measurements, predicted: Array, free: int) -> list[str]:

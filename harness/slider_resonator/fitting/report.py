@@ -1,5 +1,6 @@
 """What a fit says: text, table, picture, page, and the device file to go on with."""
 
+from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 
@@ -15,6 +16,8 @@ from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.device_file import to_toml
 
 OPEN = "left open"
+FILES = ("device.toml", "fit.png", "residuals.csv", "fit.html")
+"""What a report consists of."""
 
 
 def parameter_table(fit: Fit) -> Table:
@@ -36,19 +39,15 @@ def _numbers(one: FittedParameter) -> tuple[str, str, str]:
 
 
 def write_report(fit: Fit, folder: Path, title: str, provenance: Provenance) -> list[Path]:
-    """Write device.toml, fit.png, residuals.csv and fit.html into a folder; return their paths."""
-    paths = [folder / name for name in ("device.toml", "fit.png", "residuals.csv", "fit.html")]
+    """Write `FILES` into a folder; return their paths."""
+    paths = [folder / name for name in FILES]
     device, picture, table, page = paths
     open_names = [one.name for one in fit.parameters if one.is_open]
     note = f"# left open by the data: {', '.join(open_names)}\n" if open_names else ""
     write_text(device, note + to_toml(fit.device, title))
     figure = fit.figure()
     save(figure, picture)
-    header = ("quantity", "measured", "predicted", "residual_over_deviation", "source", "row")
-    numbers_of = (fit.measured, fit.predicted, fit.residuals)
-    quantities, *where = zip(*fit.measurements.places, strict=True)
-    columns = (column.tolist() for column in numbers_of)
-    write_csv(table, header, zip(quantities, *columns, *where, strict=True))
+    _write_residuals(fit, table)
     said = "".join(f"<li>{escape(line)}</li>" for line in fit.sentences())
     parts = [
         rendered(parameter_table(fit)),
@@ -58,3 +57,17 @@ def write_report(fit: Fit, folder: Path, title: str, provenance: Provenance) -> 
     ]
     write_page(page, title, parts)
     return paths
+
+
+def _write_residuals(fit: Fit, path: Path) -> None:
+    """Write a row for each number; what a steady measurement set is in columns of its own."""
+    points = fit.measurements.points
+    settings = list(dict.fromkeys(name for point in points for name in point.values))
+    quantities, *where = zip(*fit.measurements.places, strict=True)
+    found = (column.tolist() for column in (fit.measured, fit.predicted, fit.residuals))
+    columns: list[Sequence[object]] = [quantities, *found, *where]
+    of_runs = [""] * (len(quantities) - len(points))
+    for name in settings:
+        columns.append([*(point.values.get(name, "") for point in points), *of_runs])
+    header = ("quantity", "measured", "predicted", "residual_over_deviation", "source", "row")
+    write_csv(path, (*header, *settings), zip(*columns, strict=True))

@@ -46,7 +46,9 @@ class RangeTable(KeyTable):
     spacing: Literal["linear", "log"] = "linear"
 
     @model_validator(mode="after")
-    def _has_logarithms(self) -> "RangeTable":
+    def _is_a_range(self) -> "RangeTable":
+        if self.first == self.last:
+            raise ValueError(f"from {self.first!r} to {self.last!r}: must be two different numbers")
         if self.spacing == "log" and not (self.first > 0.0 and self.last > 0.0):
             raise ValueError(f"from {self.first!r} to {self.last!r}: must be above 0 for log")
         return self

@@ -1,6 +1,7 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import slider_resonator as sr
@@ -32,6 +33,11 @@ def test_a_fit_writes_the_device_to_go_on_with(
         *("device.toml", "fit.html", "fit.png", "residuals.csv")
     }
     assert "95 % from" in (tmp_path / "fit.html").read_text(encoding="utf-8")
+    residuals = np.genfromtxt(tmp_path / "residuals.csv", delimiter=",", names=True)
+    assert np.rad2deg(residuals["phase"]) == pytest.approx([-40.0, -10.0, 20.0, 50.0])
+    again = ("--device", tmp_path / "device.toml", "--free", "damping_ratio", "--out", tmp_path)
+    said = refused("fit", data, "--fmu", native_fmu, *again)
+    assert "device.toml is the device; must be a file of its own" in " ".join(said.split())
 
 
 def test_what_is_left_open_is_exit_code_1(data: Path, native_fmu: Path) -> None:
@@ -56,4 +62,19 @@ def test_a_datasheet_that_no_device_has_is_exit_code_1(native_fmu: Path) -> None
     options = ("--velocity", "5 m/s", "--free", "friction_coefficient", "--starts", 1)
     ran = call("fit", *options, "--fmu", native_fmu)
     assert ran.exit_code == 1, ran.output
-    assert "must be 5 m/s, the nearest found is" in " ".join(ran.stdout.split())
+    said = " ".join(ran.stdout.split())
+    assert "must be 5 m/s, the nearest found is" in said
+
+
+def test_friction_that_hardly_any_device_has_is_noted(native_fmu: Path) -> None:
+    free = ("--free", "friction_coefficient", "--starts", 1, "--fmu", native_fmu)
+    said = " ".join(call("fit", "--blocking", "2 N", *free).stdout.split())
+    assert "is seldom above 1.5: check normal_preload, the units, and friction_faces = 2" in said
+
+
+def test_a_datasheet_under_which_nothing_moves_is_said(native_fmu: Path) -> None:
+    free = ("--free", "friction_coefficient", "--starts", 1, "--fmu", native_fmu)
+    ran = call("fit", "--velocity-at", "1 N=10 mm/s", "--set", "normal_preload=1", *free)
+    assert ran.exit_code == 1
+    assert "must be 0.01 m/s, but no steady motion was found" in " ".join(ran.stdout.split())
+    assert "nan" not in ran.stdout

@@ -55,6 +55,7 @@ def test_ranges_may_be_options(native_fmu: Path, tmp_path: Path) -> None:
         (["--over", "phase=0:1"], "is not NAME=FROM:TO:COUNT, such as 'phase=-180 deg:180"),
         (["--over", "phse=0:1:3"], "did you mean 'phase'?"),
         (["--over", "phase=0:1:1"], "grid.phase.count = 1: must be"),
+        (["--over", "phase=1:1:5"], "from 1.0 to 1.0: must be two different numbers"),
         (["--over", "phase=0 kg:1:3"], "phase = '0 kg': not in rad"),
         (["--over", "phase=0:1:3", "--over", "phase=0:2:3"], "--over phase: given twice"),
     ],
