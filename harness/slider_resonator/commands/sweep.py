@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -124,11 +125,15 @@ def sweep_command(
     for name in names:
         if names.count(name) > 1:
             raise click.UsageError(f"--over {name}: given twice; must be once")
+    read = options.device_file(device)
+    own = read.values if read else {}
     if grid is not None:
-        sweep = read_grid(grid, options.device_named(device), settings)
+        sweep = read_grid(grid, own, settings)
     else:
         content = {"grid": dict(axes), **({"measures": list(measures)} if measures else {})}
-        sweep = grid_from(content, "--over", options.device_named(device), settings)
+        sweep = grid_from(content, "--over", own, settings)
+    if read and not sweep.title:
+        sweep = replace(sweep, title=read.title)
     _check_drawable(sweep, plot, html)
     path = options.default_fmu(fmu)
     provenance = provenance_of(path)

@@ -219,18 +219,21 @@ function draw(box) {
   window.addEventListener("resize", () => plot.setSize({ width: width(), height: spec.height }));
 }
 
-function drawOnce(box) {
-  seen.unobserve(box);
-  if (!box.dataset.drawn) draw(box);
+/** Return the plots that are still to be drawn: a folded one has no width. */
+function waiting() {
+  return [...document.querySelectorAll(".plot:not([data-drawn])")].filter((box) => !box.closest("details:not([open])"));
 }
 
-const boxes = document.querySelectorAll(".plot");
-const seen = new IntersectionObserver((entries) => entries.forEach(({ isIntersecting, target }) => {
-  if (isIntersecting) drawOnce(target);
-}), { rootMargin: "300px" });
-boxes.forEach((box) => seen.observe(box));
-const isUnfolded = (box) => !box.closest("details:not([open])");
-window.addEventListener("beforeprint", () => [...boxes].filter(isUnfolded).forEach(drawOnce));  // far ones, too
+/** Draw one plot after the other, so that a page with many answers meanwhile. */
+function drawInTurn() {
+  const [box] = waiting();
+  if (box === undefined) return;
+  draw(box);
+  setTimeout(drawInTurn);
+}
+drawInTurn();
+document.addEventListener("toggle", drawInTurn, true);
+window.addEventListener("beforeprint", () => waiting().forEach(draw));
 
 function unfoldTarget() {
   const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));

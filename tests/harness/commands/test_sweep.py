@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import slider_resonator as sr
+from slider_resonator.scenes.device_file import read_device_file
 from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
 
@@ -32,8 +33,9 @@ def test_a_table_and_a_picture_are_written(native_fmu: Path, tmp_path: Path) -> 
 
 
 def test_ranges_may_be_options(native_fmu: Path, tmp_path: Path) -> None:
-    out, plot = tmp_path / "a.csv", tmp_path / "a.png"
-    arguments = ["--out", out, "--plot", plot, "--fmu", native_fmu, "--measure", "blocking_force"]
+    out, plot, page = (tmp_path / f"a.{suffix}" for suffix in ("csv", "png", "html"))
+    arguments = ["--out", out, "--plot", plot, "--html", page, "--fmu", native_fmu]
+    arguments += ["--measure", "blocking_force"]
     axes = ["--over", "phase=-90 deg:90 deg:3", "--over", "damping_ratio=2 %:4 %:2"]
     result = call("sweep", *axes, *arguments, "--device", "ultrasonic_slider")
     assert result.exit_code == 0, result.output
@@ -44,6 +46,8 @@ def test_ranges_may_be_options(native_fmu: Path, tmp_path: Path) -> None:
         expected = fmu.blocking(phase=0.0).blocking_force
     assert float(rows[2]["blocking_force"]) == pytest.approx(expected, rel=1e-9)
     assert plot.is_file()
+    title = read_device_file("ultrasonic_slider").title
+    assert f"<h1>{title}</h1>" in page.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(
