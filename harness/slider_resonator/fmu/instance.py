@@ -1,9 +1,10 @@
 """Driving an instance of an FMU through fmpy."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import chdir, contextmanager, suppress
 from dataclasses import dataclass
 from itertools import count
+from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,8 @@ EQUAL = 1e-6
 """Relative difference up to which two communication steps count as equal."""
 
 _numbers = count(1)
+_loading = Lock()
+"""Held while fmpy loads a library: in its folder, where the process stays if that fails."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,18 @@ class _Plan:
     integers: Mapping[str, int]
     reals: Sequence[str]
     block: Block
+
+
+def load(fmu: Fmu, name: str) -> FMU2Slave | FMU3Slave:
+    """Load the library of an FMU for an instance; raises a bare Exception, as fmpy does."""
+    slave = FMU3Slave if fmu.version == "3.0" else FMU2Slave
+    with _loading, chdir("."):
+        return slave(
+            instanceName=name,
+            guid=fmu.description.guid,
+            modelIdentifier=fmu.identifier,
+            unzipDirectory=str(fmu.folder),
+        )
 
 
 class Instance:
@@ -68,16 +83,11 @@ class Instance:
         self._name = f"harness{next(_numbers)}"
         self.messages, callbacks = fmu_log.collect(self._name)
         try:
-            about = {
-                "instanceName": self._name,
-                "guid": self.fmu.description.guid,
-                "modelIdentifier": self.fmu.identifier,
-                "unzipDirectory": str(self.fmu.folder),
-            }
-            if self.fmu.version == "3.0":
-                self.slave = Fmi3Slave(FMU3Slave(**about), self.messages)
+            slave = load(self.fmu, self._name)
+            if isinstance(slave, FMU3Slave):
+                self.slave = Fmi3Slave(slave, self.messages)
             else:
-                self.slave = FMU2Slave(**about)
+                self.slave = slave
                 self.slave.instantiate(callbacks=callbacks, loggingOn=True)
         except Exception as error:  # fmpy raises bare Exception for every error here
             reason = fmu_log.in_one_line([str(error), *self.messages])

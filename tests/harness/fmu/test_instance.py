@@ -1,5 +1,7 @@
 """One instance of either build: calls, refusals and runs."""
 
+import shutil
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from math import pi
 from pathlib import Path
@@ -84,6 +86,28 @@ def test_an_fmu_that_cannot_be_instantiated_is_reported(fmu: Fmu, tmp_path: Path
         instantiate(gutted),
     ):
         pass
+
+
+def test_loading_a_library_leaves_the_working_folder_as_it_is(fmu: Fmu, tmp_path: Path) -> None:
+    before = Path.cwd()
+
+    def load(turn: int) -> None:
+        with instantiate(fmu):
+            pass
+
+    with ThreadPoolExecutor(4) as threads:
+        assert list(threads.map(load, range(40))) == [None] * 40
+    assert Path.cwd() == before
+    broken = tmp_path / "broken"
+    shutil.copytree(fmu.folder, broken)
+    for library in (broken / "binaries").rglob(f"{fmu.identifier}.*"):
+        library.write_bytes(b"no library")
+    with (
+        pytest.raises(FmuError, match="cannot be instantiated"),
+        instantiate(replace(fmu, folder=broken)),
+    ):
+        pass
+    assert Path.cwd() == before
 
 
 def test_an_instance_that_was_never_started_is_freed_without_complaint(

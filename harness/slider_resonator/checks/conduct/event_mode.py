@@ -8,10 +8,9 @@ from math import tau
 import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Warning
-from fmpy.fmi3 import FMU3Slave
 
 from slider_resonator.checks.conduct.findings import is_refused
-from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.instance import Instance, load
 from slider_resonator.fmu.opening import Fmu
 
 DEVICE = {
@@ -41,12 +40,7 @@ class _Slave:
     """An instance of an FMI 3.0 FMU, its variables by name."""
 
     def __init__(self, fmu: Fmu, *, events: bool, early: bool) -> None:
-        self.slave = FMU3Slave(
-            instanceName="events",
-            guid=fmu.description.guid,
-            modelIdentifier=fmu.identifier,
-            unzipDirectory=str(fmu.folder),
-        )
+        self.slave = load(fmu, "events")
         self._found = fmu.variables
         self.outputs = fmu.outputs
         (self.time,) = (
