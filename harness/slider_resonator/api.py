@@ -33,7 +33,7 @@ from slider_resonator.choosing import Choice
 from slider_resonator.choosing import choose as choose_model
 from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.device.device import Device
-from slider_resonator.device.interface import PARAMETERS, SETTABLE
+from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fitting.fit import STARTS, Fit, isolated
@@ -295,13 +295,11 @@ def fit(
     elif not isinstance(data, Measurements):
         files = [data] if isinstance(data, str | Path) else data
         data = sum((read_measurements(Path(one)) for one in files), Measurements())
-    checked = {**_stated(device), **_checked(values)}
     return fit_parameters(
         data,
         [free] if isinstance(free, str) else free,
-        {name: value for name, value in checked.items() if name in PARAMETERS},
+        {**_stated(device), **_checked(values)},
         isolated(_fmu(fmu), _processes("jobs", jobs), _seconds(time_limit)),
-        inputs={name: value for name, value in checked.items() if name not in PARAMETERS},
         bounds=_plain(bounds),
         starts=_whole("starts", starts),
     )

@@ -43,8 +43,8 @@ COMMANDS: Mapping[str, str] = {
     "validate": "Compare FMUs with the references, scene by scene.",
 }
 """Name to summary of what is installed."""
-ELSEWHERE: Mapping[str, str] = {"campaign": "stress", "extremes": "stress"}
-"""Commands that are in the module of another: names that this once had."""
+ELSEWHERE: Mapping[str, str] = {"blocking": "steady", "campaign": "stress", "extremes": "stress"}
+"""Commands that are in the module of another."""
 
 
 click.Context.formatter_class = FittingHelp
@@ -54,8 +54,8 @@ click.Context.formatter_class = FittingHelp
 class HarnessGroup(click.Group):
     """A group of commands in which exit code 1 always means a failed verdict.
 
-    Python and click exit with 1 on some errors too. A command is loaded when it is called: loading
-    all takes longer than running most.
+    Python and click exit with 1 on some errors too. A command returns its exit code, or None for 0.
+    It is loaded when it is called: loading all takes longer than running most.
     """
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:

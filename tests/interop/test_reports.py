@@ -15,8 +15,7 @@ from selenium.webdriver.support.wait import WebDriverWait
 
 from slider_resonator.checks.reports.html_report import MAX_UNFOLDED, write_html
 from slider_resonator.checks.validate import Validation, validate
-from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.fmu.provenance_text import provenance_html
+from slider_resonator.fmu.provenance import provenance_html, provenance_of
 from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, plot_html, write_plot_page
 from slider_resonator.output.html_page import write_page
 from slider_resonator.scenes.scene_files import find_scene

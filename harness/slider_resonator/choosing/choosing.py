@@ -199,9 +199,7 @@ class Choosing:
             estimates: Estimates = {}
             cost = 0.0
             if self.probe.run_needs:
-                measured = self.probe.measure(candidate)
-                estimates |= measured.errors
-                cost += measured.seconds
+                estimates, cost = self.probe.measure(candidate)
             for name in self.probe.steady_needs:
                 found = self._find(name, candidate)
                 estimates[name] = steady_error(found, self._find(name, self.finest), self.law)

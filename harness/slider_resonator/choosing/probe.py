@@ -1,6 +1,6 @@
 """The errors and the cost of candidates, measured in runs of the scene."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from math import ceil, inf
 
@@ -36,14 +36,6 @@ LONGEST = 60.0
 """CPU time (s) of a resolved run of a whole scene, where leaps do not serve."""
 CAUTION = 3.0
 """Safety factor on errors extrapolated from the beginning, besides their growth with time."""
-
-
-@dataclass(frozen=True)
-class Measured:
-    """Errors by need, and the CPU time (s) of the run."""
-
-    errors: Estimates
-    seconds: float
 
 
 class Probe:
@@ -92,8 +84,8 @@ class Probe:
         """Make the reference; raises FmuError or Refusal where the FMU cannot."""
         self._reference.record(self.ladder[0] or self.duration)
 
-    def measure(self, candidate: Candidate) -> Measured:
-        """Return errors and cost of a run with a candidate.
+    def measure(self, candidate: Candidate) -> tuple[Estimates, float]:
+        """Return errors by need, and cost (s), of a run with a candidate.
 
         Raises FmuError or Refusal where the FMU cannot run it.
         """
@@ -107,7 +99,7 @@ class Probe:
         if "beat" in seen and (why := self.no_beat or unseen_beat(seen["beat"], self.scales)):
             seen["beat"] = ErrorEstimate(inf, 0.0, why)
         grown = seen if self._stop == self.duration else self._grown(candidate.model, seen)
-        return Measured(grown, seconds * self.duration / self._stop)
+        return grown, seconds * self.duration / self._stop
 
     def cost(self, candidate: Candidate, stop: float = inf) -> float:
         """Return the cost (s) of a run with a candidate, by that up to `stop` (s)."""

@@ -52,15 +52,13 @@ def baseline_command() -> None:
 @scenes_option("all built-in that apply")
 @click.option("--replace", is_flag=True, help="Replace scenes that are already recorded.")
 @limited
-@click.pass_context
 def record_command(
-    context: click.Context,
     fmu: Path,
     folder: Path,
     scenes: tuple[str, ...],
     replace: bool,
     time_limit: float,
-) -> None:
+) -> int:
     """Record scenes, by default all built-in ones that apply to the FMU.
 
     Recorded scenes are replaced only with --replace. Exit code: 0, or 2 when something could not
@@ -78,7 +76,7 @@ def record_command(
         )
     print_text(f"recorded {number_of(len(names), 'scene')} in {one_line(str(folder))}")
     print_run_failures(str(fmu), run_failures)
-    context.exit(2 if run_failures else 0)
+    return 2 if run_failures else 0
 
 
 @baseline_command.command("check", short_help="Compare an FMU with the recorded results.")
@@ -96,9 +94,7 @@ def record_command(
 @click.option("--details", is_flag=True, help="Show unchanged results too.")
 @limited
 @report_options("Slider-resonator baseline")
-@click.pass_context
 def check_command(
-    context: click.Context,
     fmu: Path,
     folder: Path,
     scenes: tuple[str, ...],
@@ -106,7 +102,7 @@ def check_command(
     details: bool,
     time_limit: float,
     reports: Reports,
-) -> None:
+) -> int:
     """Compare an FMU with the recorded results: what has changed, by how much and where.
 
     Changed results are kept, ignored by git, for accept. Exit code: 0 when nothing has changed, 1
@@ -128,7 +124,7 @@ def check_command(
         raise
     print_verdicts([result], details=details, as_json=reports.prints_json, only_failed=not details)
     reports.write([result])
-    context.exit(result.exit_code)
+    return result.exit_code
 
 
 @baseline_command.command("accept")

@@ -25,16 +25,14 @@ from slider_resonator.scenes.scene_files import find_scene
 @options.settings_option
 @options.time_limit_option(TIME_LIMIT, "For the whole choice.")
 @options.json_option
-@click.pass_context
 def choose_command(
-    context: click.Context,
     scene: str,
     fmu: Path | None,
     device: str | None,
     settings: dict[str, float],
     time_limit: float,
     as_json: bool,
-) -> None:
+) -> int:
     """Choose fidelity, friction law, tolerance and communication step for what a scene needs.
 
     The scene, built in or from a file, states its needs in [need]: any of mean_velocity (at the
@@ -66,7 +64,7 @@ def choose_command(
         print_json(choice, provenance)
     else:
         _print(choice)
-    context.exit(0 if choice.meets else 1)
+    return 0 if choice.meets else 1
 
 
 def _print(choice: Choice) -> None:

@@ -109,7 +109,7 @@ def fit_command(
     jobs: int | None,
     time_limit: float,
     as_json: bool,
-) -> None:
+) -> int:
     """Estimate parameters of a device from measurements, with 95 % intervals.
 
     DATA are CSV files. A table has a row for each steady measurement: columns that say what was set
@@ -150,9 +150,8 @@ def fit_command(
         found = fit(
             measurements,
             [name.strip() for names in free for name in names.split(",") if name.strip()],
-            {name: value for name, value in settings.items() if name in PARAMETERS},
+            settings,
             isolated(path, jobs or available_cores(), time_limit, progress),
-            inputs={name: value for name, value in settings.items() if name not in PARAMETERS},
             bounds=dict(bounds),
             starts=starts,
         )
@@ -167,4 +166,4 @@ def fit_command(
         if written:
             lines.append(f"written: {one_line(', '.join(map(str, written)))}")
         print_text("\n".join(lines))
-    context.exit(1 if found.open_directions or found.unmet else 0)
+    return 1 if found.open_directions or found.unmet else 0

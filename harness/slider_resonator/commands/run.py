@@ -15,8 +15,9 @@ from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.values import si_number
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.fmu.record import Record, write_csv
+from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
+from slider_resonator.output.atomic import write_csv
 from slider_resonator.output.progress import Progress
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line, readable
@@ -111,9 +112,7 @@ def _overlay(text: str) -> tuple[str, float] | Path:
     TIME_LIMIT, "For each of the choice, the run and the run for the picture."
 )
 @options.json_option
-@click.pass_context
 def run_command(
-    context: click.Context,
     fmu: Path,
     scene: str,
     stop_time: float | None,
@@ -128,7 +127,7 @@ def run_command(
     settings: dict[str, float],
     time_limit: float,
     as_json: bool,
-) -> None:
+) -> int:
     """Run one scene, built in or from a file, and report the cost.
 
     Without SCENE it is table_1: 100 drive periods from rest, with --device of a device of yours. A
@@ -180,14 +179,16 @@ def run_command(
             if not chosen.meets:
                 text = "\n".join(chosen.sentences())
                 print_result(chosen, text, as_json=as_json, provenance=provenance)
-                context.exit(1)
+                return 1
             choice, read = chosen, chosen.applied_to(read)
         how = read.lines_reach(isolated.run(attrgetter("fmu.interpolates")))
         if how == "cannot":
             read = read.interpolating(False)
         record = _run(isolated, read, read.schedule(), progress)
         if out is not None:
-            write_csv(record, out)
+            columns = record.table()
+            rows = zip(*(column.tolist() for column in columns.values()), strict=True)
+            write_csv(out, columns, rows, quotes_text=True)
         if is_chosen and plot is not None:
             shown = window or (0.0, float(record.times[-1]))
             _draw_signals(isolated, fmu, read, names, shown, overlays, plot, time_limit, progress)
@@ -199,6 +200,7 @@ def run_command(
             save(run_figure(fine, read), plot)
     summary = _summary(fmu, read, record, out, plot, choice, how)
     print_result(summary, _sentences(summary, read), as_json=as_json, provenance=provenance)
+    return 0
 
 
 def _run(

@@ -1,9 +1,24 @@
-"""`steady`: the steady velocity by shooting."""
+"""`steady` and `blocking`: the steady velocity and the blocking force by shooting."""
 
-from slider_resonator.commands.searching import search_command
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import click
+
+from slider_resonator.commands import options
+from slider_resonator.commands.results import print_result
+from slider_resonator.device.device import Device
+from slider_resonator.device.interface import INPUT_STARTS, VARIABLES
+from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
+from slider_resonator.fmu.provenance import provenance_of
+from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.readable import number_of, one_line
+from slider_resonator.steady.blocking_force import find_blocking
+from slider_resonator.steady.search_result import SearchResult
 from slider_resonator.steady.steady_velocity import find_steady
 
-HELP = """\
+STEADY = """\
 Find the steady velocity of an FMU by shooting, without a long run.
 
 The steady motion is a fixed point of the map over one common period.
@@ -19,5 +34,61 @@ Examples:
   slider-resonator steady my.fmu --set friction_law=1 bristle_stiffness=1e6 tolerance=1e-12
   slider-resonator steady my.fmu --set frequency_ratio=1.37 --max-denominator 100
 """
+BLOCKING = """\
+Find the load that stops an FMU, by shooting, without a long run.
 
-steady_command = search_command("steady", "steady velocity", find_steady, HELP)
+The load is one more unknown of the shooting, zero displacement over the common period one more
+equation. --set load=... is the initial guess. Exit code: 0 when it is found, 1 when there is
+none (the status says why), 2 when the FMU could not run, crashed or exceeded the time limit.
+
+\b
+Examples:
+  slider-resonator blocking
+  slider-resonator blocking my.fmu --set phase=0.4 friction_faces=1 --json
+  slider-resonator blocking my.fmu --set friction_law=1 bristle_stiffness=1e4
+"""
+
+
+def _search_command(
+    name: str, what: str, find: Callable[..., SearchResult], help_text: str
+) -> click.Command:
+    """Return the command that searches something of an FMU by shooting."""
+
+    @click.command(name, cls=options.SettingsCommand, help=help_text)
+    @options.native_fmu_argument
+    @options.set_option
+    @options.max_denominator_option
+    @options.time_limit_option(TIME_LIMIT, "For the whole search.")
+    @options.json_option
+    def command(
+        fmu: Path,
+        settings: dict[str, float],
+        max_denominator: int,
+        time_limit: float,
+        as_json: bool,
+    ) -> int:
+        provenance = provenance_of(fmu)
+        search = partial(find, values=settings, max_denominator=max_denominator)
+        with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
+            progress(f"searching the {what}", 0.0)
+            result: SearchResult = isolated.run(search, progress)
+        faces = int(settings.get("friction_faces", Device().friction_faces))
+        inputs = (
+            f"{name} {settings.get(name, start):g} {VARIABLES[name].unit}".removesuffix(" 1")
+            for name, start in INPUT_STARTS.items()
+            if (name, what) != ("load", "blocking force")
+        )
+        lines = [
+            *result.describe(),
+            f"inputs           {', '.join(inputs)}",
+            f"friction         on {number_of(faces, 'face')} (friction_faces)",
+            f"FMU              {one_line(str(fmu))}",
+        ]
+        print_result(result, "\n".join(lines), as_json=as_json, provenance=provenance)
+        return 1 if result.answer[1] is None else 0
+
+    return command
+
+
+steady_command = _search_command("steady", "steady velocity", find_steady, STEADY)
+blocking_command = _search_command("blocking", "blocking force", find_blocking, BLOCKING)

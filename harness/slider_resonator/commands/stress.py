@@ -1,11 +1,10 @@
 """`stress`, once `extremes` and `campaign`: run FMUs at extremes and with random devices."""
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -37,33 +36,31 @@ _OWN = re.compile(rf"{DEVICE} (.+?): ")
 _DRAWN = re.compile(rf"{RANDOM}: seed (\d+), case (\d+)(?:: .*)?")
 
 
-def long_option(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the option --long."""
-    return click.option(
-        "--long",
-        is_flag=True,
-        help="Lengthen resolved runs from 1e5 to 1e8 drive periods, with LuGre friction from 1e3 "
-        "to 1e6: minutes each in the native FMU, so give slower ones a --time-limit. Averaged "
-        "motion always has 1e8.",
-    )(command)
-
-
-def seed_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options --first and --seed of random devices."""
-    for name, default, text in (
-        ("seed", 1, "Seed of the random devices: the same cases everywhere."),
-        ("first", 0, "Number of the first random device."),
-    ):
-        command = click.option(
-            f"--{name}",
-            type=click.IntRange(min=0),
-            default=default,
-            show_default=True,
-            envvar=f"CAMPAIGN_{name.upper()}",
-            show_envvar=True,
-            help=text,
-        )(command)
-    return command
+long_option = click.option(
+    "--long",
+    is_flag=True,
+    help="Lengthen resolved runs from 1e5 to 1e8 drive periods, with LuGre friction from 1e3 to "
+    "1e6: minutes each in the native FMU, so give slower ones a --time-limit. Averaged motion "
+    "always has 1e8.",
+)
+first_option = click.option(
+    "--first",
+    type=click.IntRange(min=0),
+    default=0,
+    show_default=True,
+    envvar="CAMPAIGN_FIRST",
+    show_envvar=True,
+    help="Number of the first random device.",
+)
+seed_option = click.option(
+    "--seed",
+    type=click.IntRange(min=0),
+    default=1,
+    show_default=True,
+    envvar="CAMPAIGN_SEED",
+    show_envvar=True,
+    help="Seed of the random devices: the same cases everywhere.",
+)
 
 
 @click.command("stress")
@@ -74,7 +71,8 @@ def seed_options(command: Callable[..., Any]) -> Callable[..., Any]:
     type=click.IntRange(min=1),
     help="Run this number of random devices instead of the axes. Each takes about half a second.",
 )
-@seed_options
+@first_option
+@seed_option
 @long_option
 @options.device_option
 @click.option("--case", "name", metavar="NAME", help="Run the case of this name alone.")
@@ -98,7 +96,7 @@ def stress_command(
     jobs: int | None,
     out: Path | None,
     as_json: bool,
-) -> None:
+) -> int:
     """Run FMUs at the extremes of everything, or with random devices, and judge them by physics.
 
     A case on an axis takes a parameter, an input or the steps to an extreme. It passes the bounds
@@ -130,7 +128,7 @@ def stress_command(
     else:
         cases = axis_cases(long=long)
     files = Files() if out is None else in_folder(out, "stress")
-    stress(fmus, cases, files, time_limit, jobs, as_json=as_json)
+    return stress(fmus, cases, files, time_limit, jobs, as_json=as_json)
 
 
 @click.command("extremes")
@@ -147,7 +145,7 @@ def extremes_command(
     long: bool,
     name: str | None,
     as_json: bool,
-) -> None:
+) -> int:
     """Run `stress` on its axes.
 
     \b
@@ -156,7 +154,7 @@ def extremes_command(
       slider-resonator extremes my.fmu --out one --cell "r_m: 1e-12: Coulomb, fidelity 1"
     """
     cases = axis_cases(long=long) if name is None else [case_named(name, "--cell")]
-    stress(fmus, cases, in_folder(out, "extremes"), time_limit, as_json=as_json)
+    return stress(fmus, cases, in_folder(out, "extremes"), time_limit, as_json=as_json)
 
 
 @click.command("campaign")
@@ -168,7 +166,8 @@ def extremes_command(
     show_default=True,
     help="Number of cases. Each takes about half a second.",
 )
-@seed_options
+@first_option
+@seed_option
 @click.option(
     "--case",
     "number",
@@ -189,7 +188,7 @@ def campaign_command(
     out: Path | None,
     html: Path | None,
     as_json: bool,
-) -> None:
+) -> int:
     """Run `stress` with random devices.
 
     \b
@@ -199,7 +198,7 @@ def campaign_command(
     """
     numbers = range(first, first + cases) if number is None else (number,)
     drawn = [random_case(seed, one) for one in numbers]
-    stress(fmus, drawn, Files(out, html), time_limit, as_json=as_json)
+    return stress(fmus, drawn, Files(out, html), time_limit, as_json=as_json)
 
 
 def case_named(name: str, option: str) -> Case:
@@ -228,8 +227,8 @@ def stress(
     jobs: int | None = None,
     *,
     as_json: bool,
-) -> None:
-    """Run the cases, print and write the result, and exit with its code."""
+) -> int:
+    """Run the cases, print and write the result, and return the exit code."""
     chosen = fmus or options.default_fmus()
     distinct(
         {"--out": files.json, "--html": files.page}, {f"the FMU {path}": path for path in chosen}
@@ -254,7 +253,7 @@ def stress(
     lines += [values_of(case) for case in cases if len(cases) == 1]
     lines += [f"written {one_line(name)}" for name in files.names]
     print_result(as_plain(results), "\n".join(lines), as_json=as_json, provenance=provenance)
-    click.get_current_context().exit(0 if all(result.passed for result in results) else 1)
+    return 0 if all(result.passed for result in results) else 1
 
 
 def _kept(results: Sequence[StressResult], files: Files) -> str:

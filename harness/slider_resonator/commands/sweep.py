@@ -67,9 +67,7 @@ def _axis(text: str) -> tuple[str, dict[str, float]]:
 @click.option("--overwrite", is_flag=True, help="Replace the table of another grid.")
 @options.time_limit_option(TIME_LIMIT, "For each point; one that takes longer fails.")
 @options.json_option
-@click.pass_context
 def sweep_command(
-    context: click.Context,
     grid: Path | None,
     axes: Sequence[tuple[str, dict[str, float]]],
     measures: Sequence[str],
@@ -85,7 +83,7 @@ def sweep_command(
     overwrite: bool,
     time_limit: float,
     as_json: bool,
-) -> None:
+) -> int:
     """Compute measures over a grid, a list or a random sample of parameters and inputs.
 
     Finished points are kept beside the table until it is written: after an interruption, even a
@@ -165,7 +163,7 @@ def sweep_command(
     written = ", ".join(map(str, [out, *filter(None, (plot, html))]))
     text = "\n".join([*result.sentences(), f"written    {one_line(written)}"])
     print_result(document, text, as_json=as_json, provenance=provenance)
-    context.exit(1 if result.failed else 0)
+    return 1 if result.failed else 0
 
 
 def _check_drawable(sweep: Sweep, plot: Path | None, html: Path | None) -> None:

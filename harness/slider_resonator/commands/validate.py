@@ -33,9 +33,7 @@ from slider_resonator.scenes.scene_files import find_scenes
 @options.jobs_option
 @options.time_limit_option(TIME_LIMIT, "For each scene, or point of a sweep, on each FMU.")
 @report_options(TITLE)
-@click.pass_context
 def validate_command(
-    context: click.Context,
     fmus: tuple[Path, ...],
     scenes: tuple[str, ...],
     own: bool,
@@ -43,7 +41,7 @@ def validate_command(
     jobs: int | None,
     time_limit: float,
     reports: Reports,
-) -> None:
+) -> int:
     """Compare FMUs with the references, scene by scene.
 
     Without FMUS: those in dist, the native one first. Each FMU runs in processes of its own, one
@@ -82,4 +80,4 @@ def validate_command(
         raise
     print_verdicts(validations, details=details, as_json=reports.prints_json)
     reports.write(validations)
-    context.exit(max(validation.exit_code for validation in validations))
+    return max(validation.exit_code for validation in validations)

@@ -236,20 +236,21 @@ Runner = Callable[[str, Sequence[Task]], list[Any]]
 def fit(
     measurements: Measurements,
     names: Sequence[str],
-    parameters: Mapping[str, float],
+    values: Mapping[str, float],
     run: Runner,
     *,
-    inputs: Mapping[str, float] | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     starts: int = STARTS,
 ) -> Fit:
     """Estimate parameters of a device by weighted least squares from several starts.
 
-    `parameters` are those of the device that differ from table 1; their values are the first start.
-    `inputs` are those of steady measurements that do not say them. Each start, and each end of an
-    interval, is a task for `run`. Raises HarnessError for too few numbers, FmuError where the FMU
-    fails.
+    `values` are the parameters of the device that differ from table 1, from which the first start
+    begins, and the inputs of steady measurements that do not say them. Each start, and each end of
+    an interval, is a task for `run`. Raises HarnessError for too few numbers, FmuError where the
+    FMU fails.
     """
+    parameters = {name: value for name, value in values.items() if name in PARAMETERS}
+    inputs = {name: value for name, value in values.items() if name not in PARAMETERS}
     free = free_parameters(names, parameters, bounds or {})
     for source, name in measurements.given:
         if name in names:
@@ -257,7 +258,7 @@ def fit(
                 f"{name} is free, and a column of {source}; must be one of them: leave it out of "
                 "the free parameters, or take the column out"
             )
-    measurements = measurements.under(inputs or {})
+    measurements = measurements.under(inputs)
     notes = data_notes(measurements, parameters)
     problem = Problem(parameters, free, measurements)
     count = len(measurements.measured)
@@ -303,13 +304,13 @@ def fit(
                 at_bound=bool(best.at_bound[index]),
             )
         )
-    values = {**parameters, **{one.name: one.value for one in fitted}}
+    best_values = {**parameters, **{one.name: one.value for one in fitted}}
     (predicted,) = run(
-        "comparing", [partial(predict, parameters=values, measurements=measurements)]
+        "comparing", [partial(predict, parameters=best_values, measurements=measurements)]
     )
     off = np.abs(predicted - measurements.measured)
     missed = () if spare else np.flatnonzero(~(off <= MET * measurements.sizes)).tolist()
-    device = Device.from_mapping(values)
+    device = Device.from_mapping(best_values)
     determined = {one.name: one.value for one in fitted if not one.is_open}
     notes += implausible_notes(determined, device.friction_faces)
     if spare:

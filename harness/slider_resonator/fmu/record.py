@@ -1,14 +1,11 @@
-"""The record of a run, and its CSV file."""
+"""The record of a run."""
 
-import csv
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS, VARIABLES
 from slider_resonator.errors import HarnessError, unknown_name
-from slider_resonator.output.atomic import replacing
 from slider_resonator.output.readable import number_of, readable
 from slider_resonator.output.shown import Shown, Tabular
 
@@ -62,15 +59,3 @@ class Record(Shown, Tabular):
             unit = VARIABLES[name].unit.removeprefix("1")
             lines.append(f"{name:<24}{readable(self.final(name), 9)} {unit}".rstrip())
         return lines
-
-
-def write_csv(record: Record, path: Path) -> None:
-    """Write a run with quoted names of the variables as header, time first.
-
-    Inputs are those held from each time on. Raises HarnessError when `path` cannot be written.
-    """
-    table = record.table()
-    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        csv.writer(file, quoting=csv.QUOTE_ALL, lineterminator="\n").writerow(table)
-        numbers = csv.writer(file, lineterminator="\n")
-        numbers.writerows(zip(*(column.tolist() for column in table.values()), strict=True))

@@ -1,6 +1,5 @@
 """Check output paths before anything runs."""
 
-import os
 import stat
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -32,20 +31,13 @@ def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
         raise HarnessError(f"{path}: the suffix is {path.suffix!r}; must be one of {allowed}")
     if not path.parent.is_dir():
         raise HarnessError(f"{path}: there is no folder {path.parent}; create it first")
-    _check_folder(path)
-    return path
-
-
-def _check_folder(path: Path) -> None:
-    """Raise HarnessError if no file can be created beside a path: permissions do not say it all."""
-    reason = ""
     try:
-        with TemporaryFile(dir=path.parent):
+        with TemporaryFile(dir=path.parent):  # permissions do not say it all
             pass
     except OSError as error:
-        reason = f": {error.strerror}"
-    if reason or not os.access(path.parent, os.W_OK):
-        raise HarnessError(f"{path}: the folder {path.parent} cannot be written to{reason}")
+        reason = f"the folder {path.parent} cannot be written to: {error.strerror}"
+        raise HarnessError(f"{path}: {reason}") from error
+    return path
 
 
 def make_folder(path: Path) -> None:

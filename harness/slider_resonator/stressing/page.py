@@ -4,8 +4,7 @@ from collections.abc import Sequence
 from math import log10
 from pathlib import Path
 
-from slider_resonator.fmu.provenance import Provenance
-from slider_resonator.fmu.provenance_text import provenance_html
+from slider_resonator.fmu.provenance import Provenance, provenance_html
 from slider_resonator.output.hover_plot import (
     Axis,
     HoverPlot,

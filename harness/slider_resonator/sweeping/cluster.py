@@ -13,12 +13,12 @@ from distributed import CancelledError, Client, KilledWorker, Worker, WorkerPlug
 from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import FmuDied, Task
-from slider_resonator.fmu.isolation.tasks import Outcome, Runner
+from slider_resonator.fmu.isolation.tasks import LocalProcesses, Outcome
 from slider_resonator.sweeping.running import Workers
 
 CONNECT_SECONDS = 30
 
-_runners: dict[str, Runner] = {}
+_runners: dict[str, LocalProcesses] = {}
 """Digest of an FMU to what runs its tasks, on a worker."""
 
 
@@ -46,7 +46,7 @@ class FmuPlugin(WorkerPlugin):
         folder = tempfile.mkdtemp(prefix="fmu-", dir=worker.local_directory)
         fmu = Path(folder) / self.file_name
         fmu.write_bytes(self.content)
-        _runners[self.digest] = Runner(fmu, self.time_limit)
+        _runners[self.digest] = LocalProcesses(fmu, self.time_limit)
 
     def teardown(self, worker: Worker) -> None:
         """End the FMU's processes on the worker."""

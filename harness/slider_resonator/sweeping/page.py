@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.provenance import Provenance
-from slider_resonator.fmu.provenance_text import provenance_html
+from slider_resonator.fmu.provenance import Provenance, provenance_html
 from slider_resonator.output.hover_plot import (
     Axis,
     HoverPlot,

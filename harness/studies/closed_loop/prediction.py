@@ -81,7 +81,7 @@ def _probed(instance: Instance, scene: Scene) -> tuple[float, float]:
     order = device.averaging_order if instance.fmu.has_orders else None
     model = Model(0, device.friction_law, order)
     candidate = Candidate(model, START_TOLERANCE, scene.step_size)
-    found = Probe(instance, scene).measure(candidate).errors["mean_velocity"]
+    found = Probe(instance, scene).measure(candidate)[0]["mean_velocity"]
     return found.error, scene.need.needs["mean_velocity"].at(found.magnitude)
 
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
-from slider_resonator.fmu.isolation.child_environment import child_environment
 from slider_resonator.fmu.isolation.supervised import Supervised
 
 
@@ -30,8 +29,7 @@ def run_program(
         log = stack.enter_context(printed.open("wb"))
         stderr = subprocess.STDOUT if errors is None else stack.enter_context(errors.open("wb"))
         # Hosts leave what they have unpacked where it is when an FMU fails.
-        environment = child_environment(str(folder))
-        program = Supervised(command, folder, environment, stdin=given, stdout=log, stderr=stderr)
+        program = Supervised(command, folder, stdin=given, stdout=log, stderr=stderr)
         try:
             in_time = program.wait(time_limit)
         finally:

@@ -4,8 +4,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from slider_resonator.fmu.provenance import Provenance
-from slider_resonator.fmu.provenance_text import provenance_html, provenance_markdown
+from slider_resonator.fmu.provenance import Provenance, provenance_html, provenance_markdown
 from slider_resonator.output import html_page, markdown
 from slider_resonator.output.atomic import write_text
 from slider_resonator.output.json_output import to_json

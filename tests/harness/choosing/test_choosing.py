@@ -89,7 +89,7 @@ def test_the_mean_velocity_can_be_needed_throughout(instance: Instance) -> None:
     need = "mean_velocity = { abs = 1e-2 }\nmean_velocity_throughout = { abs = 1e-2 }"
     scene = table_1(need, periods=8000.0, steps=0.01)
     averaged = Candidate(Model(0, 0, 1), 1e-8, scene.step_size)
-    errors = Probe(instance, scene).measure(averaged).errors
+    errors = Probe(instance, scene).measure(averaged)[0]
     end, throughout = (errors[f"mean_velocity{part}"].error for part in ("", "_throughout"))
     assert throughout > 1.1 * end
     between = f"mean_velocity_throughout = {{ abs = {0.5 * (end + throughout)} }}"

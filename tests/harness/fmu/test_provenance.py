@@ -10,10 +10,13 @@ import pytest
 import slider_resonator
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu import fmu_log
-from slider_resonator.fmu.provenance import DATE_VARIABLE, FmuIdentity, identity_of, provenance_of
-from slider_resonator.fmu.provenance_text import (
+from slider_resonator.fmu.provenance import (
+    DATE_VARIABLE,
+    FmuIdentity,
+    identity_of,
     provenance_html,
     provenance_markdown,
+    provenance_of,
     provenance_properties,
 )
 from tests.harness.golden import assert_as_before

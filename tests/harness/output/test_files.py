@@ -87,14 +87,6 @@ def test_no_name_and_no_folder_are_refused(tmp_path: Path) -> None:
         writable(str(tmp_path / ("x" * 300)))
 
 
-def test_a_folder_that_cannot_be_written_to_is_refused(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(os, "access", lambda path, mode: False)  # root may write everywhere
-    with pytest.raises(HarnessError, match="cannot be written to"):
-        writable(str(tmp_path / "out.csv"))
-
-
 def test_a_folder_in_which_no_file_can_be_created_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

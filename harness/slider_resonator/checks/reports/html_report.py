@@ -18,7 +18,7 @@ from slider_resonator.checks.validate import (
 )
 from slider_resonator.checks.verdict import TITLE, place, sentence, sizes, title, value_text
 from slider_resonator.device.interface import SETTABLE
-from slider_resonator.fmu.provenance_text import provenance_html
+from slider_resonator.fmu.provenance import provenance_html
 from slider_resonator.output.hover_plot import (
     Axis,
     HoverPlot,

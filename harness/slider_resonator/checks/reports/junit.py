@@ -13,8 +13,7 @@ from slider_resonator.checks.validate import (
     provenance_of_all,
 )
 from slider_resonator.checks.verdict import TITLE, place, sentence, title
-from slider_resonator.fmu.provenance import Provenance
-from slider_resonator.fmu.provenance_text import provenance_properties
+from slider_resonator.fmu.provenance import Provenance, provenance_properties
 from slider_resonator.output.atomic import replacing
 
 _NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")

@@ -11,7 +11,7 @@ from slider_resonator.checks.validate import (
 )
 from slider_resonator.checks.verdict import TITLE, place, sentence, title
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.provenance_text import provenance_markdown
+from slider_resonator.fmu.provenance import provenance_markdown
 from slider_resonator.output.markdown import escaped, rendered
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
 

@@ -19,8 +19,8 @@ from typing import BinaryIO
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance, instantiate
-from slider_resonator.fmu.isolation.child_environment import TRACEBACK, WORK
 from slider_resonator.fmu.isolation.messages import (
+    TRACEBACK,
     Failure,
     Message,
     Progress,
@@ -34,6 +34,8 @@ if sys.platform != "win32":
     import resource
 
 
+WORK = "work"
+"""The folder that the FMU runs in."""
 MAX_WRITTEN = 2**26
 """Maximum size (bytes) of a file that the FMU writes, also of what it prints."""
 

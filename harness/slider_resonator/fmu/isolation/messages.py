@@ -36,6 +36,8 @@ class Failure:
     error: Exception
 
 
+TRACEBACK = "traceback.txt"
+"""File in the folder of the process with the calls that the FMU was in at its end."""
 Request = tuple[Callable[..., Any], bool]
 Message = Started | Progress | Result | Failure
 """A message from the process of the FMU."""

@@ -13,9 +13,9 @@ from time import monotonic
 from typing import IO, Any
 
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.isolation.child_environment import PRINTED, TRACEBACK, child_environment
 from slider_resonator.fmu.isolation.crash_report import crash_report, missed_limit
 from slider_resonator.fmu.isolation.messages import (
+    TRACEBACK,
     Failure,
     Message,
     Progress,
@@ -26,6 +26,8 @@ from slider_resonator.fmu.isolation.supervised import Supervised
 from slider_resonator.output.progress import Progress as ReportProgress
 from slider_resonator.output.temporary import temporary_folder
 
+PRINTED = "printed.txt"
+"""File with what the FMU has printed."""
 TIME_LIMIT = 120.0
 """Default time limit of a task, s; the slowest built-in scene takes a few."""
 LOADING = 60.0
@@ -88,7 +90,7 @@ class IsolatedFmu:
                     *(str(fmu or ""), repr(self.time_limit), str(self._folder)),
                 ],
                 self._folder,
-                child_environment(str(self._folder), os.environ.get("PYTHONPATH", "")),
+                os.environ.get("PYTHONPATH", ""),
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=log,

@@ -7,15 +7,18 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
-from slider_resonator.fmu.isolation.child_environment import FOLDER
 from slider_resonator.fmu.limits import max_memory
 
+PACKAGE_PATH = str(Path(__file__).resolve().parents[3])
+"""The folder that this package is imported from."""
+FOLDER = "SLIDER_RESONATOR_FOLDER"
+"""The variable by which all processes of one temporary folder are known."""
 SUPERVISOR = Path(__file__).with_name("supervisor.py")
 MAX_ENDING = 90.0
 """Longest time (s) that ending a program may take; the supervisor gives up before."""
@@ -41,18 +44,18 @@ class Ending:
 
 
 class Supervised:
-    """A running program in a session of its own, with a temporary folder of its own.
+    """A running program in a session of its own, with `folder` for its temporary files.
 
-    `environment` must be that of `child_environment` for `folder`; the streams are those of
-    `subprocess.Popen`. On Windows what the program has started is not ended; on
-    other systems than Linux a child that has left the program's session is not.
+    It can import this package, and what is on `search_path`; the streams are those of
+    `subprocess.Popen`. On Windows what the program has started is not ended; on other systems than
+    Linux a child that has left the program's session is not.
     """
 
     def __init__(
         self,
         command: Sequence[str],
         folder: Path,
-        environment: Mapping[str, str],
+        search_path: str = "",
         *,
         stdin: int | IO[bytes],
         stdout: int | IO[bytes],
@@ -61,6 +64,11 @@ class Supervised:
         self._folder = folder
         self._ending: Ending | None = None
         self._control: socket.socket | None = None
+        environment = {
+            **os.environ,
+            **dict.fromkeys(("TMPDIR", "TEMP", "TMP", FOLDER), str(folder)),
+            "PYTHONPATH": os.pathsep.join(filter(None, [PACKAGE_PATH, search_path])),
+        }
         if sys.platform == "win32":
             self.process = subprocess.Popen(
                 command, env=environment, stdin=stdin, stdout=stdout, stderr=stderr

@@ -51,17 +51,26 @@ class Processes(Protocol):
         """End all processes, also in the middle of a task."""
 
 
-class Runner:
-    """Runs tasks on an FMU; each thread that asks has a process for as long as its task takes."""
+class LocalProcesses:
+    """Up to `count` processes on this machine, one for each thread that runs tasks."""
 
-    def __init__(self, fmu: Path | None, time_limit: float) -> None:
+    def __init__(self, fmu: Path | None, time_limit: float, count: int = 1) -> None:
         self._fmu = fmu
         self._time_limit = time_limit
         self._idle: list[IsolatedFmu] = []
         self._stop = Event()
+        self._threads = ThreadPoolExecutor(count)
+
+    def submit(self, task: Task) -> Future[Outcome]:
+        """Begin to run a task, or queue it."""
+        return self._threads.submit(self.run, task)
+
+    def outcome(self, future: Future[Outcome]) -> Outcome:
+        """Wait for the outcome of a task."""
+        return future.result()
 
     def run(self, task: Task) -> Outcome:
-        """Run a task. After an error its process is ended: the FMU may be in any state."""
+        """Run a task; after an error its process is ended: the FMU may be in any state."""
         began = monotonic()
         try:
             process = self._idle.pop()
@@ -82,7 +91,8 @@ class Runner:
         return Outcome(value, seconds=monotonic() - began)
 
     def close(self) -> FmuDied | None:
-        """Free the FMU in each idle process and end it; return the first error thereby."""
+        """Free the FMU in each process and end them; return the first error thereby."""
+        self._threads.shutdown()
         first = None
         while self._idle:
             try:
@@ -92,37 +102,11 @@ class Runner:
         return first
 
     def end(self) -> None:
-        """Give up the tasks at work and end the idle processes."""
+        """End all processes, also in the middle of a task."""
         self._stop.set()
+        self._threads.shutdown(cancel_futures=True)
         while self._idle:
             self._idle.pop().kill()
-
-
-class LocalProcesses:
-    """Up to `count` processes on this machine, one for each thread that runs tasks."""
-
-    def __init__(self, fmu: Path | None, time_limit: float, count: int) -> None:
-        self._runner = Runner(fmu, time_limit)
-        self._threads = ThreadPoolExecutor(count)
-
-    def submit(self, task: Task) -> Future[Outcome]:
-        """Begin to run a task, or queue it."""
-        return self._threads.submit(self._runner.run, task)
-
-    def outcome(self, future: Future[Outcome]) -> Outcome:
-        """Wait for the outcome of a task."""
-        return future.result()
-
-    def close(self) -> FmuDied | None:
-        """Free the FMU in each process and end them; return the first error thereby."""
-        self._threads.shutdown()
-        return self._runner.close()
-
-    def end(self) -> None:
-        """End all processes, also in the middle of a task."""
-        self._runner.end()
-        self._threads.shutdown(cancel_futures=True)
-        self._runner.end()  # those that became idle meanwhile
 
 
 MAX_CRASHES = 3
