@@ -17,9 +17,9 @@ from slider_resonator.fmu.run import run
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.search_result import SearchResult
 from slider_resonator.steady.steady_velocity import find_steady
-from slider_resonator.trading.method import Label, Method, SteadyAnswer, SteadyMethod
+from slider_resonator.trading.method import STEADY, Method, SteadyAnswer, SteadyMethod
 from slider_resonator.trading.problem import Problem
-from slider_resonator.trading.result import AVERAGED, RESOLVED
+from slider_resonator.trading.result import AVERAGED, RESOLVED, Label
 from slider_resonator.trading.solution import Solution
 
 STEPS = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
@@ -90,7 +90,7 @@ class FmuMethods:
 
     def answers(self) -> Iterator[SteadyMethod]:
         """Yield the searches for steady motion and blocking force, and the outputs of theory."""
-        for quantity in ("steady_velocity", "blocking_force"):
+        for quantity in STEADY:
             for model in self._models():
                 yield self._search(quantity, model)
             for order in self.orders:

@@ -6,29 +6,27 @@ Methods are timed in turn, so that a busy moment of the machine affects all of t
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from math import inf
 from operator import attrgetter
 from pathlib import Path
-from typing import Any
 
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from slider_resonator.output.progress import Progress, counted, no_progress, part_of
 from slider_resonator.trading.fmu_methods import FmuMethods, TaskRunner
-from slider_resonator.trading.method import Label, Method, SteadyMethod
+from slider_resonator.trading.method import STEADY, Method, SteadyMethod
 from slider_resonator.trading.peer_methods import peer_answers, peer_methods
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.reference import Reference, find_reference
 from slider_resonator.trading.result import Omission, Row, Trade
-from slider_resonator.trading.solution import QUANTITIES, Solution, errors
+from slider_resonator.trading.solution import QUANTITIES, errors
 
 BUDGET = 1.0
 """CPU time (s) for the longest run or search of a method, and as much again for repeats."""
 REPEATS = 5
 TIME_LIMIT = 600.0
 """Default time limit of a run or a search of an FMU, s."""
-STEADY = ("steady_velocity", "blocking_force")
 
 _FAILURES = (ValueError, RuntimeError, ArithmeticError, ModuleNotFoundError, FmuError)
 
@@ -107,15 +105,15 @@ def measure_trade(
         methods = [method for fmu in fmus for method in fmu.methods()] + list(peer_methods(problem))
         answers = [answer for fmu in fmus for answer in fmu.answers()] + list(peer_answers(problem))
         for index, method in enumerate(methods):
-            report(method.label.name, index, len(methods), 0.0, 0.4)
+            report(method.label.method, index, len(methods), 0.0, 0.4)
             candidates += _follow(problem, reference, method, budget, notes)
         for index, answer in enumerate(answers):
-            report(answer.label.name, index, len(answers), 0.4, 0.2)
+            report(answer.label.method, index, len(answers), 0.4, 0.2)
             candidates += _answer(problem, reference, answer, budget, notes)
         for method in methods:
             for quantity in STEADY:
                 if quantity in method.missing:
-                    notes.setdefault((method.label.name, quantity), method.missing[quantity])
+                    notes.setdefault((method.label.method, quantity), method.missing[quantity])
         turns = in_turn([min(repeats, int(budget / max(c.estimate, 1e-9))) for c in candidates])
         taken: list[list[float]] = [[] for _ in candidates]
         for done, index in enumerate(turns):
@@ -149,7 +147,7 @@ def _follow(
     """Run a method as far as its budget (s of CPU time) takes it; empty where it has no run."""
 
     def note(quantity: str, reason: str) -> None:
-        notes.setdefault((method.label.name, quantity), reason)
+        notes.setdefault((method.label.method, quantity), reason)
 
     if method.min_periods > problem.periods:
         note("all", f"a step is longer than the run of {problem.periods} drive periods")
@@ -191,7 +189,18 @@ def _follow(
         if quantity not in (*STEADY, *found) and optional.get(quantity, ()) is not None:
             reason = "its own steps are too long or its run too short"
             note(quantity, method.missing.get(quantity, reason))
-    row = _row(problem, method.label, "run", periods, found, solution)
+    row = Row(
+        **vars(method.label),
+        scene=problem.name,
+        answer="run",
+        periods=periods,
+        cpu=(),
+        errors=found,
+        start_cpu=solution.start_cpu,
+        steps=solution.steps,
+        evaluations=solution.evaluations,
+        events=solution.events,
+    )
     return [_Candidate(row, lambda: method.seconds(periods), problem.duration(periods), taken)]
 
 
@@ -199,7 +208,7 @@ def _answer(
     problem: Problem, reference: Reference, answer: SteadyMethod, budget: float, notes: _Notes
 ) -> list[_Candidate]:
     """Find an answer once; empty where there is none."""
-    key = answer.label.name, answer.quantity
+    key = answer.label.method, answer.quantity
     expected: float | None = getattr(reference, answer.quantity)
     if not expected:
         notes.setdefault(key, "the device has none under these inputs, or it is zero")
@@ -214,31 +223,12 @@ def _answer(
     if found.value is None:
         notes.setdefault(key, found.reason)
         return []
-    wrong = {answer.quantity: abs(found.value - expected) / abs(expected)}
-    row = _row(problem, answer.label, answer.quantity, found.periods, wrong)
-    return [_Candidate(row, lambda: answer.find(inf)[0], 1.0, taken)]
-
-
-def _row(
-    problem: Problem,
-    label: Label,
-    answer: str,
-    periods: int,
-    errors: Mapping[str, float],
-    solution: Solution | None = None,
-) -> Row:
-    fields = asdict(label)
-    counts: dict[str, Any] = {
-        name: getattr(solution, name, None)
-        for name in ("start_cpu", "steps", "evaluations", "events")
-    }
-    return Row(
+    row = Row(
+        **vars(answer.label),
         scene=problem.name,
-        answer=answer,
-        method=fields.pop("name"),
-        **fields,
-        periods=periods,
+        answer=answer.quantity,
+        periods=found.periods,
         cpu=(),
-        **counts,
-        errors=errors,
+        errors={answer.quantity: abs(found.value - expected) / abs(expected)},
     )
+    return [_Candidate(row, lambda: answer.find(inf)[0], 1.0, taken)]

@@ -3,21 +3,11 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from slider_resonator.trading.result import Label
 from slider_resonator.trading.solution import Solution
 
-
-@dataclass(frozen=True)
-class Label:
-    """Identity of a method, with the fields of `Row`."""
-
-    kind: str
-    family: str
-    name: str
-    friction_law: int
-    fidelity: int | None = None
-    step: float | None = None
-    tolerance: float | None = None
-    averaging_order: int | None = None
+STEADY = ("steady_velocity", "blocking_force")
+"""What is found without following a motion."""
 
 
 @dataclass(frozen=True)

@@ -23,11 +23,11 @@ from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
     reference_steady_velocity,
 )
-from slider_resonator.trading.method import Label, Method, SteadyAnswer, SteadyMethod
+from slider_resonator.trading.method import STEADY, Method, SteadyAnswer, SteadyMethod
 from slider_resonator.trading.peers import event_free, located_scipy, moreau_jean
 from slider_resonator.trading.peers.switching_taylor import heyoka_in_one_call
 from slider_resonator.trading.problem import Problem
-from slider_resonator.trading.result import PEER
+from slider_resonator.trading.result import PEER, Label
 from slider_resonator.trading.solution import Solution, solution_of
 
 Follow = Callable[[Device, Sequence[HeldInputs], Array], Solution]
@@ -37,9 +37,7 @@ MAX_EVALUATIONS = 1_000_000
 SHOOTING = 1e-6
 """Accuracy of shooting, in units of the state, with methods that lose their order at reversals."""
 NO_EVENTS = {"event_times": "no event is located"}
-NOT_SHOT = dict.fromkeys(
-    ("steady_velocity", "blocking_force"), "shooting needs a start in any state of the full device"
-)
+NOT_SHOT = dict.fromkeys(STEADY, "shooting needs a start in any state of the full device")
 
 
 @dataclass(frozen=True)
@@ -184,7 +182,7 @@ def peer_methods(problem: Problem) -> Iterator[Method]:
 
 def peer_answers(problem: Problem) -> Iterator[SteadyMethod]:
     """Yield the searches for steady velocity and blocking force, of peers that support shooting."""
-    for quantity in ("steady_velocity", "blocking_force"):
+    for quantity in STEADY:
         for peer in peers(problem):
             if peer.simulate is not None:
                 find = partial(shoot, problem, quantity, peer.simulate, peer.shooting)

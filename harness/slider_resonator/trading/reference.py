@@ -7,6 +7,7 @@ import numpy as np
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.references.resolved.simulate import simulate
+from slider_resonator.trading.method import STEADY
 from slider_resonator.trading.peer_methods import shoot
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.solution import WindowReadings, solution_of, windows
@@ -36,20 +37,11 @@ def find_reference(problem: Problem) -> Reference:
         run = simulate(problem.device, held, problem.readings(periods))
         found = windows(problem, solution_of(run, located=True), periods)
         first = simulate(problem.device, problem.lines(1), np.empty(0)).stick_time
-        answers = {}
-        for quantity in ("steady_velocity", "blocking_force"):
-            answers[quantity] = (
-                shoot(problem, quantity, simulate, SHOOTING, inf)[1].value
-                if problem.steady
-                else None
-            )
+        answers = dict.fromkeys(STEADY, None)
+        if problem.steady:
+            answers = {n: shoot(problem, n, simulate, SHOOTING, inf)[1].value for n in STEADY}
     except (ValueError, RuntimeError) as error:
         raise HarnessError(
             f"scene {problem.name}: the reference cannot follow it: {error}"
         ) from error
-    return Reference(
-        found,
-        run.stick_time > first + 1e-9 * problem.period,
-        answers["steady_velocity"],
-        answers["blocking_force"],
-    )
+    return Reference(found, run.stick_time > first + 1e-9 * problem.period, **answers)

@@ -16,36 +16,44 @@ AVERAGED, RESOLVED, PEER = "averaged", "resolved", "peer"
 
 
 @dataclass(frozen=True)
-class Row:
+class Label:
+    """A method at one setting: its name `method`, which begins with its family.
+
+    `step` is the communication step in drive periods, `averaging_order` that of fidelity 0, in an
+    FMU that has a choice, and of predictions. What a method does not have is None.
+    """
+
+    kind: str
+    family: str
+    method: str
+    friction_law: int
+    fidelity: int | None = None
+    step: float | None = None
+    tolerance: float | None = None
+    averaging_order: int | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row(Label):
     """One method at one setting on one scene.
 
     `answer` is `run`, with the errors of a trajectory over `periods` drive periods, or
     `steady_velocity` or `blocking_force`, with that error alone. `cpu` (s) holds every repeat, per
     simulated second of a run and per answer otherwise, and `start_cpu` (s) what initialisation took
-    besides. `step` is the communication step in drive periods, `averaging_order` that of
-    fidelity 0, in an FMU that has a choice, and of predictions. Of a run `steps` counts the
-    communication steps of an FMU or an integrator's own, `evaluations` those of the equations,
-    `events` the located ones, or the reversals where a method reports no others. What a method does
-    not have or does not report is None.
+    besides. Of a run `steps` counts the communication steps of an FMU or an integrator's own,
+    `evaluations` those of the equations, `events` the located ones, or the reversals where a method
+    reports no others. What a method does not report is None.
     """
 
     scene: str
     answer: str
-    kind: str
-    family: str
-    method: str
-    fidelity: int | None
-    friction_law: int
-    step: float | None
-    tolerance: float | None
     periods: int
     cpu: tuple[float, ...]
-    start_cpu: float | None
-    steps: int | None
-    evaluations: int | None
-    events: int | None
     errors: Mapping[str, float]
-    averaging_order: int | None = None
+    start_cpu: float | None = None
+    steps: int | None = None
+    evaluations: int | None = None
+    events: int | None = None
 
     @property
     def cost(self) -> float:

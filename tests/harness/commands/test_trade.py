@@ -56,7 +56,7 @@ def test_every_method_is_a_row_or_an_omission_and_the_files_can_be_read(
         ]
     followed = {row["method"] for row in rows if row["answer"] == "run"}
     omitted = {o["method"] for o in omissions if o["quantity"] == "all"}
-    assert {method.label.name for method in methods} == followed | omitted
+    assert {method.label.method for method in methods} == followed | omitted
     assert not followed & omitted
 
     resolved = [

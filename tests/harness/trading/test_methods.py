@@ -10,9 +10,9 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.trading import measure
 from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.measure import measure_trade
-from slider_resonator.trading.method import Label, Method
+from slider_resonator.trading.method import Method
 from slider_resonator.trading.problem import Problem
-from slider_resonator.trading.result import PEER
+from slider_resonator.trading.result import PEER, Label
 from slider_resonator.trading.solution import Solution, errors
 from tests.harness.in_process import InProcess
 from tests.harness.trading.problems import RAMP, SCAN, STICKING, TABLE_1, problem, reference_of
@@ -32,7 +32,7 @@ def pick(
         for method in methods
         if (method.label.fidelity, method.label.step) == (fidelity, step)
         and method.label.averaging_order == order
-        and "instead" not in method.label.name
+        and "instead" not in method.label.method
     )
 
 
@@ -64,7 +64,7 @@ def test_a_drive_that_changes_costs_nothing(instance: Instance, law: int) -> Non
 
 def test_answers_are_those_of_the_commands(instance: Instance) -> None:
     answers = list(FmuMethods(problem(TABLE_1), "native", InProcess(instance)).answers())
-    found = {(a.label.name, a.quantity): a.find(inf)[1].value for a in answers}
+    found = {(a.label.method, a.quantity): a.find(inf)[1].value for a in answers}
     assert found["native FMU, fidelity 2", "steady_velocity"] == pytest.approx(0.126667, rel=1e-6)
     assert found["native FMU, fidelity 2", "blocking_force"] == pytest.approx(0.0851861, rel=1e-6)
     first, second = (

@@ -2,14 +2,13 @@
 
 The system is compiled for a device and its inputs; the direction of sliding is a parameter that an
 event callback reverses where the velocity is zero. With LuGre friction the bristle deflection
-follows from the path since the last reversal. It covers neither sticking nor flight:
-`simulate_sliding` refuses devices that lift, and a start at rest.
+follows from the path since the last reversal. It covers neither sticking nor flight.
 """
 
 import importlib
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from time import process_time
 from typing import Any
@@ -20,11 +19,8 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.simulate import simulate
-from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.trading.solution import Solution, solution_of
 
-_STATE = ("position", "velocity", "resonator_displacement", "resonator_velocity")
-_AT_REST: dict[str, Any] = {f"initial_{name}": 0.0 for name in (*_STATE, "bristle_deflection")}
 DIRECTION, REVERSED_AT, STRETCH = range(3)
 """Parameters that change in a run; only the first with Coulomb friction."""
 
@@ -34,13 +30,19 @@ def heyoka_in_one_call(
 ) -> Solution:
     """Follow a motion; it starts where the reference is after one drive period.
 
-    Raises ValueError for what is not covered, besides what `simulate_sliding` raises.
+    `tolerance` is the relative one of a Taylor step. The first call for a device compiles. Raises
+    ValueError for what is not covered; RuntimeError when heyoka fails; ModuleNotFoundError without
+    heyoka.
     """
     if len(held) != 1 or held[0].vary:
         raise ValueError("inputs vary, which it does not cover")
+    if device.normal_amplitude > device.normal_preload:
+        raise ValueError("normal_amplitude above normal_preload: the contact lifts")
+    if device.resonator_mass == 0.0:
+        raise ValueError("resonator_mass = 0: only full devices are covered")
     (inputs,) = held
     begin = min(2.0 * np.pi / device.drive_frequency, inputs.stop)
-    early = times[times <= begin]
+    early, later = times[times <= begin], times[times > begin]
     began = process_time()
     start = simulate(device, [replace(inputs, stop=begin)], np.append(early, begin))
     started = process_time() - began
@@ -51,79 +53,35 @@ def heyoka_in_one_call(
             position=start.position[:-1],
             velocity=start.velocity[:-1],
         )
-    if start.contact_mode[-1] == 0:
+    direction = float(start.contact_mode[-1])
+    if direction == 0.0:
         raise ValueError("the slider sticks after a drive period, which it does not cover")
-    moving = device_at(device, start, -1)
-    later = times[times > begin]
-    rest = simulate_sliding(moving, inputs, later, tolerance=tolerance, start=begin)
-    return Solution(
-        times,
-        position=np.concatenate([start.position[:-1], rest.samples[:, 0]]),
-        velocity=np.concatenate([start.velocity[:-1], rest.samples[:, 1]]),
-        steps=rest.steps,
-        events=rest.reversals,
-        start_cpu=started,
-    )
-
-
-def device_at(device: Device, run: Trajectory, index: int) -> Device:
-    """Return the device that starts in the state of a trajectory at one of its samples."""
-    state: dict[str, Any] = {f"initial_{name}": float(getattr(run, name)[index]) for name in _STATE}
-    return replace(device, **state, initial_bristle_deflection=float(run.bristle_deflection[index]))
-
-
-@dataclass(frozen=True)
-class SlidingRun:
-    """States `samples` (n, 4): position, velocity, resonator displacement and velocity.
-
-    `reversals` and `steps` count over the run.
-    """
-
-    samples: Array
-    reversals: int
-    steps: int
-
-
-def simulate_sliding(
-    device: Device,
-    inputs: HeldInputs,
-    times: Array,
-    *,
-    tolerance: float,
-    start: float | None = None,
-) -> SlidingRun:
-    """Follow a moving slider to the stop of `inputs` (s), theta = psi = 0 at their start.
-
-    The initial state is that at `start` (s), by default the start of the inputs. `times` (s, shape
-    (n,)) ascend from there. `tolerance` is the relative one of a Taylor step. The first call for a
-    device compiles. Raises ValueError for what is not covered; RuntimeError when heyoka fails;
-    ModuleNotFoundError without heyoka.
-    """
-    if device.normal_amplitude > device.normal_preload:
-        raise ValueError("normal_amplitude above normal_preload: the contact lifts")
-    if device.initial_velocity == 0.0 or device.fidelity != 2 or device.resonator_mass == 0.0:
-        raise ValueError("only full devices with initial_velocity not 0 are covered")
     now = (inputs.phase, inputs.load, inputs.frequency_ratio)
-    integrator, counter = _compiled(replace(device, **_AT_REST), now, tolerance)
+    integrator, counter = _compiled(device, now, tolerance)
     counter.reversals = 0
-    integrator.time = 0.0 if start is None else start - inputs.start
+    integrator.time = begin - inputs.start
     integrator.reset_cooldowns()
-    integrator.pars[DIRECTION] = math.copysign(1.0, device.initial_velocity)
+    integrator.pars[DIRECTION] = direction
     if device.friction_law == 1:
-        bent = device.bristle_stiffness * device.initial_bristle_deflection
+        bent = device.bristle_stiffness * float(start.bristle_deflection[-1])
         integrator.pars[REVERSED_AT] = 0.0
         integrator.pars[STRETCH] = bent / device.friction_coefficient
-    integrator.state[:] = [
-        *(0.0, device.initial_velocity),
-        *(device.initial_resonator_displacement, device.initial_resonator_velocity),
-    ]
-    grid = np.union1d(times - inputs.start, [integrator.time, inputs.stop - inputs.start])
+    motion = (start.velocity, start.resonator_displacement, start.resonator_velocity)
+    integrator.state[:] = [0.0, *(float(values[-1]) for values in motion)]
+    ends = [integrator.time, inputs.stop - inputs.start]
+    grid = np.union1d(later - inputs.start, ends)
     outcome, *_, steps, _, states = integrator.propagate_grid(grid.tolist())
     if "time_limit" not in str(outcome):
         raise RuntimeError(f"heyoka ended after {steps} steps with {outcome}")
-    samples = np.array(states)[np.searchsorted(grid, times - inputs.start), :4]
-    samples[:, 0] += device.initial_position
-    return SlidingRun(samples, counter.reversals, steps)
+    position, velocity, *_ = np.array(states)[np.searchsorted(grid, later - inputs.start)].T
+    return Solution(
+        times,
+        position=np.concatenate([start.position[:-1], start.position[-1] + position]),
+        velocity=np.concatenate([start.velocity[:-1], velocity]),
+        steps=steps,
+        events=counter.reversals,
+        start_cpu=started,
+    )
 
 
 class _Counter:
@@ -134,7 +92,7 @@ class _Counter:
 def _compiled(
     device: Device, inputs: tuple[float, float, float], tolerance: float
 ) -> tuple[Any, _Counter]:
-    """Compile a device at rest under phase (rad), load (N) and frequency ratio."""
+    """Compile a device under phase (rad), load (N) and frequency ratio."""
     try:
         hy = importlib.import_module("heyoka")
     except ModuleNotFoundError as error:

@@ -1,42 +1,40 @@
 """heyoka in one call, on motions without sticking."""
 
-import math
-from dataclasses import replace
-
-import numpy as np
 import pytest
 
-from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.trading.method import Method
 from slider_resonator.trading.peer_methods import peer_answers, peer_methods
-from slider_resonator.trading.peers.switching_taylor import simulate_sliding
 from tests.harness.trading.problems import RAMP, TABLE_1, problem
 
-MOVING = Device(
-    initial_velocity=-0.0491,
-    initial_resonator_displacement=-4.978e-4,
-    initial_resonator_velocity=1.5837,
+
+def in_one_call(text: str) -> Method:
+    methods = peer_methods(problem(text, max_periods=4))
+    return next(method for method in methods if method.label.family == "heyoka at its fastest")
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        (RAMP, "inputs vary"),
+        ("[device]\nnormal_amplitude = 1.5\n", "the contact lifts"),
+        ("[device]\nresonator_mass = 0\n", "only full devices"),
+        ("[device]\nbase_amplitude = 0\n", "the slider sticks"),
+    ],
 )
-PERIOD = 2.0 * math.pi / MOVING.drive_frequency
+def test_what_it_does_not_cover_is_refused(text: str, reason: str) -> None:
+    with pytest.raises(ValueError, match=reason):
+        in_one_call(text).run(4)
 
 
-def test_what_it_does_not_cover_is_refused() -> None:
-    held, times = HeldInputs(0.0, PERIOD), np.array([PERIOD])
-    with pytest.raises(ValueError, match="initial_velocity not 0"):
-        simulate_sliding(Device(), held, times, tolerance=1e-10)
-    with pytest.raises(ValueError, match="the contact lifts"):
-        simulate_sliding(replace(MOVING, normal_amplitude=1.5), held, times, tolerance=1e-10)
-    by_family = {method.label.family: method for method in peer_methods(problem(RAMP))}
-    with pytest.raises(ValueError, match="inputs vary"):
-        by_family["heyoka at its fastest"].run(4)
+def test_it_is_not_used_for_shooting_which_starts_at_rest_too() -> None:
     answers = {answer.label.family for answer in peer_answers(problem(TABLE_1))}
     assert "Moreau-Jean" in answers
-    assert not any("at its fastest" in family for family in answers), "shooting starts at rest too"
+    assert not any("at its fastest" in family for family in answers)
 
 
 def test_being_led_into_motion_is_not_charged() -> None:
-    by_family = {m.label.family: m for m in peer_methods(problem(TABLE_1, max_periods=4))}
-    _, led = by_family["heyoka at its fastest"].run(4)
+    _, led = in_one_call(TABLE_1).run(4)
     assert led.start_cpu is not None
     assert led.start_cpu > 0.0
+    by_family = {m.label.family: m for m in peer_methods(problem(TABLE_1, max_periods=4))}
     assert by_family["Moreau-Jean"].run(4)[1].start_cpu is None, "it starts by itself"
