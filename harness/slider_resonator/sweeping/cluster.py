@@ -85,9 +85,6 @@ class DaskProcesses:
                 raise _lost(self._address) from None
             return Outcome(error=FmuDied("the worker process died at this point"))
 
-    def close(self) -> None:
-        """Leave the processes to the end of the sweep."""
-
     def end(self) -> None:
         """Take back what has not begun."""
         self._executor.shutdown(wait=False)
@@ -107,14 +104,11 @@ def dask_workers(digest: str, fmu: Path, address: str, time_limit: float) -> Ite
         with _naming_loss(address):
             client.register_plugin(plugin)
             threads: dict[str, int] = client.nthreads()  # type: ignore[no-untyped-call]
+        processes = DaskProcesses(client, address, digest)
         try:
-            yield Workers(
-                fmu,
-                time_limit,
-                max(1, sum(threads.values())),
-                lambda: DaskProcesses(client, address, digest),
-            )
+            yield Workers(fmu, time_limit, max(1, sum(threads.values())), processes)
         finally:
+            processes.end()
             if client.status == "running":
                 with suppress(OSError):
                     client.unregister_worker_plugin(plugin.name)  # type: ignore[no-untyped-call]

@@ -148,27 +148,8 @@ Proved = Mapping[str, float]
 """Measure to its value, of those that need no search."""
 
 
-FEW = 10
-"""Points left of a batch that are searched with it: another process would take longer to start."""
-
-
-def prove_points(instance: Instance, task: Task, points: Sequence[Point]) -> Sequence[Row | Proved]:
-    """Return a row for each point that is proved, for others what is proved.
-
-    Where few are left and need no run, they are searched, too.
-    """
-    done: list[Row | Proved] = [
-        _proved_row(task, point, proved) or proved
-        for point, proved in zip(points, _proved(instance, task, points), strict=True)
-    ]
-    left = [index for index, one in enumerate(done) if not isinstance(one, tuple)]
-    if len(left) <= FEW and all(name in QUANTITIES for name in task.measures):
-        for index in left:
-            done[index] = measure_point(instance, task, points[index], {})
-    return done
-
-
-def _proved(instance: Instance, task: Task, points: Sequence[Point]) -> Sequence[Proved]:
+def prove_points(instance: Instance, task: Task, points: Sequence[Point]) -> Sequence[Proved]:
+    """Return what is proved of each point, in the process of the FMU."""
     values = [task.values(point) for _, point in points]
     proved: list[dict[str, float]] = [{} for _ in points]
     for name in QUANTITIES:
@@ -193,7 +174,7 @@ def measure_point(instance: Instance, task: Task, point: Point, proved: Proved) 
         return failed_row(task, number, _text(error, instance.fmu.path))
 
 
-def _proved_row(task: Task, point: Point, proved: Proved) -> Row | None:
+def proved_row(task: Task, point: Point, proved: Proved) -> Row | None:
     """Return the row of a point of which all is proved, None where some is to be measured."""
     try:
         found = [(proved[name], STATUS[name]) for name in task.measures]

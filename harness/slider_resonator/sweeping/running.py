@@ -1,7 +1,7 @@
 """Hands the points of a sweep to processes of the FMU, and keeps what they return."""
 
-from collections.abc import Callable, Generator, Sequence
-from contextlib import closing
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.process import Task as FmuTask
-from slider_resonator.fmu.isolation.tasks import Processes, run_all_tasks
+from slider_resonator.fmu.isolation.tasks import LocalProcesses, Processes, run_all_tasks
 from slider_resonator.sweeping.measures import (
     SEARCHED,
     Point,
@@ -20,6 +20,7 @@ from slider_resonator.sweeping.measures import (
     failed_row,
     measure_point,
     prove_points,
+    proved_row,
 )
 
 BATCH = 200
@@ -35,15 +36,12 @@ Keep = Callable[[Sequence[Row]], None]
 
 @dataclass(frozen=True)
 class Workers:
-    """Processes of an FMU for a sweep: `jobs` of them, by `processes` where they are elsewhere.
-
-    `time_limit` (s) is that of a point.
-    """
+    """Processes of an FMU, here or elsewhere; `time_limit` (s) is that of a point."""
 
     fmu: Path
     time_limit: float
     jobs: int
-    processes: Callable[[], Processes | None] = lambda: None
+    processes: Processes
 
     def outcomes(
         self, tasks: Sequence[tuple[Item, FmuTask]]
@@ -55,8 +53,15 @@ class Workers:
             self.time_limit,
             outcomes=(HarnessError,),
             jobs=self.jobs,
-            processes=self.processes(),
+            processes=self.processes,
         )
+
+
+@contextmanager
+def local_workers(fmu: Path, time_limit: float, jobs: int) -> Iterator[Workers]:
+    """Yield processes on this machine; FmuDied where freeing the FMU ends one."""
+    with LocalProcesses(fmu, time_limit, jobs) as processes:
+        yield Workers(fmu, time_limit, jobs, processes)
 
 
 def run_points(workers: Workers, task: Task, points: Sequence[Point], keep: Keep) -> None:
@@ -93,13 +98,15 @@ def _prove(
             if isinstance(error, FmuDied) and not error.over_limit:
                 lost += batch
                 continue
-            done = found if error is None else [{}] * len(batch)
-            left += [
-                (point, one)
-                for point, one in zip(batch, done, strict=True)
-                if not isinstance(one, tuple)
-            ]
-            keep([one for one in done if isinstance(one, tuple)])
+            proofs = found if error is None else [{}] * len(batch)
+            done = []
+            for point, proved in zip(batch, proofs, strict=True):
+                row = proved_row(task, point, proved)
+                if row is None:
+                    left.append((point, proved))
+                else:
+                    done.append(row)
+            keep(done)
     return left, lost
 
 

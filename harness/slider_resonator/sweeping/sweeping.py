@@ -3,7 +3,6 @@
 import hashlib
 import json
 from collections.abc import Sequence
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import asdict, dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -20,7 +19,7 @@ from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Drawable, Shown, Tabular
 from slider_resonator.sweeping.grid import Sweep
 from slider_resonator.sweeping.measures import Row, unit
-from slider_resonator.sweeping.running import Workers, run_points
+from slider_resonator.sweeping.running import local_workers, run_points
 from slider_resonator.sweeping.table import (
     Columns,
     check_nothing_lost,
@@ -141,13 +140,12 @@ def run_sweep(
 
         keep([])
         if left:
-            here = Workers(fmu.resolve(), time_limit, min(workers, len(left)))
-            there: AbstractContextManager[Workers] = nullcontext(here)
+            processes = local_workers(fmu.resolve(), time_limit, min(workers, len(left)))
             if dask is not None:
                 from slider_resonator.sweeping.cluster import dask_workers
 
-                there = dask_workers(fmu_digest, fmu, dask, time_limit)
-            with noting_on_interrupt(note), there as at_work:
+                processes = dask_workers(fmu_digest, fmu, dask, time_limit)
+            with noting_on_interrupt(note), processes as at_work:
                 run_points(at_work, sweep.task, left, keep)
         columns = table_columns(sweep.task, sweep.points, rows)
         if not overwrite:

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.sweeping.measures import Row, Run, Task
-from slider_resonator.sweeping.running import Workers, run_points
+from slider_resonator.sweeping.running import local_workers, run_points
 from tests.harness.faulty_fmus import compiled
 
 pytestmark = pytest.mark.isolated
@@ -16,7 +16,8 @@ POINTS = [(number, (0.1 * (1 + number),)) for number in range(3)]
 def rows_of(fmu: Path, time_limit: float, measure: str = "velocity.rms") -> list[Row]:
     task = Task(("friction_coefficient",), (), (measure,), 20, Run(1, 1, 0))
     kept: list[Row] = []
-    run_points(Workers(fmu, time_limit, jobs=1), task, POINTS, kept.extend)
+    with local_workers(fmu, time_limit, jobs=1) as workers:
+        run_points(workers, task, POINTS, kept.extend)
     assert sorted(row[0] for row in kept) == [0, 1, 2], "each point is computed once"
     return sorted(kept)
 

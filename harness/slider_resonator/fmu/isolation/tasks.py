@@ -44,15 +44,13 @@ class Processes(Protocol):
     def outcome(self, future: Future[Outcome]) -> Outcome:
         """Wait for the outcome of a task; HarnessError where no more can be run."""
 
-    def close(self) -> FmuDied | None:
-        """Free the FMU in each process and end them; return the first error thereby."""
-
-    def end(self) -> None:
-        """End all processes, also in the middle of a task."""
-
 
 class LocalProcesses:
-    """Up to `count` processes on this machine, one for each thread that runs tasks."""
+    """Up to `count` processes on this machine, one for each thread that runs tasks.
+
+    Use it in a `with` block, at whose end the FMU is freed in each process, with FmuDied where that
+    fails, or call `end`.
+    """
 
     def __init__(self, fmu: Path | None, time_limit: float, count: int = 1) -> None:
         self._fmu = fmu
@@ -60,6 +58,18 @@ class LocalProcesses:
         self._idle: list[IsolatedFmu] = []
         self._stop = Event()
         self._threads = ThreadPoolExecutor(count)
+
+    def __enter__(self) -> "LocalProcesses":
+        """Return this."""
+        return self
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        """End all processes, at once after an error."""
+        try:
+            if error is None and (died := self.close()):
+                raise died
+        finally:
+            self.end()
 
     def submit(self, task: Task) -> Future[Outcome]:
         """Begin to run a task, or queue it."""
@@ -145,14 +155,15 @@ def run_tasks(
     """Run a task for each item, and yield each outcome, in this order.
 
     `meanwhile` is called for an item while the FMU works on it, or has. A run that takes longer
-    than `ALONE` gets up to `jobs` processes here, or `processes` elsewhere. The outcomes do not
+    than `ALONE` gets up to `jobs` processes: those of `processes`, or its own. The outcomes do not
     depend on their number, for an FMU in which each run is independent of those before. After a
     crash or an exceeded limit the other items of that `name` are left out. All remaining items are
     left out after an exceeded limit of time, memory or processes, after `max_crashes` crashes, and
     after crashes that took `time_limit` (s) together; with None for `max_crashes` no item is ever
     left out.
     """
-    processes = processes or LocalProcesses(fmu, time_limit, jobs)
+    own = LocalProcesses(fmu, time_limit, jobs)
+    processes = processes or own
     submitted: dict[int, Future[Outcome]] = {}
     waiting = deque(range(len(tasks)))
     crashed: set[str] = set()
@@ -191,10 +202,10 @@ def run_tasks(
                 if left_out:
                     yield Finished(None, error=_gave_up(crashes, left_out))
                 return
-        if error := processes.close():
+        if error := own.close():
             yield Finished(None, error=error)
     finally:
-        processes.end()
+        own.end()
 
 
 def run_all_tasks(
