@@ -1,6 +1,5 @@
 """The candidates: fidelity, averaging order, friction law, tolerance and communication step."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 from slider_resonator.device.model import LUGRE, Model
@@ -19,13 +18,6 @@ def uses_tolerance(model: Model) -> bool:
 def tolerances(model: Model) -> tuple[float, ...]:
     """Return the tolerances to choose from, descending."""
     return TOLERANCES if uses_tolerance(model) else (START_TOLERANCE,)
-
-
-def models(laws: Iterable[int], averaging_orders: Iterable[int | None]) -> list[Model]:
-    """Return the models of some friction laws, the averaged ones of some orders."""
-    laws, orders = tuple(laws), tuple(averaging_orders)
-    averaged = [Model(0, law, order) for order in orders for law in laws]
-    return averaged + [Model(fidelity, law) for fidelity in (1, 2) for law in laws]
 
 
 @dataclass(frozen=True)

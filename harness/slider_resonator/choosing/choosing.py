@@ -7,7 +7,7 @@ from functools import partial
 from math import inf
 from pathlib import Path
 
-from slider_resonator.choosing.candidate import START_TOLERANCE, Candidate, models, tolerances
+from slider_resonator.choosing.candidate import START_TOLERANCE, Candidate, tolerances
 from slider_resonator.choosing.choice import Choice, Evaluation, RuledOut, cheapest
 from slider_resonator.choosing.errors import Estimates
 from slider_resonator.choosing.ladder import coarsest
@@ -123,9 +123,10 @@ class Choosing:
         return ""
 
     def models(self) -> list[Model]:
-        """Return the models that the scene allows."""
+        """Return the models that the scene allows, the simplest first."""
         laws = (COULOMB, LUGRE) if self.free and self.law == LUGRE else (self.law,)
-        return models(laws, self.probe.averaging_orders)
+        averaged = [Model(0, law, order) for order in self.probe.averaging_orders for law in laws]
+        return averaged + [Model(fidelity, law) for fidelity in (1, 2) for law in laws]
 
     def steps(self, model: Model) -> tuple[float | None, ...]:
         """Return the communication steps (s) to choose from, descending."""

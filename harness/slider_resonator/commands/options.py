@@ -311,14 +311,6 @@ def set_option(command: Callable[..., Any]) -> Callable[..., Any]:
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
 
-max_denominator_option = click.option(
-    "--max-denominator",
-    type=click.IntRange(min=1),
-    default=20,
-    show_default=True,
-    help="Largest q for which a frequency ratio p/q counts as having a common period.",
-)
-
 
 def out_folder_option(contents: str) -> Callable[[FC], FC]:
     """Return the option --out, a folder; `contents` is the help text about what goes into it."""

@@ -72,11 +72,18 @@ def scenes_command(as_json: bool, **chosen: Any) -> None:
     elif chosen["template"]:
         click.echo(template(), nl=False)
     elif chosen["check"]:
-        _check(chosen["check"])
+        for scene in find_scenes([chosen["check"]]):
+            checks = sum(len(point.scene.expect) for point in scene.points())
+            click.echo(escaped(f"{scene.source}: valid, {number_of(checks, 'check')}"))
     elif chosen["schema"]:
         click.echo(json.dumps(scene_schema(), indent=2))
+    elif chosen["quantities"] and as_json:
+        keys = ("kind", "unit", "meaning", "references", "needs_run")
+        print_json(
+            [{"name": n, **{key: getattr(q, key) for key in keys}} for n, q in QUANTITIES.items()]
+        )
     elif chosen["quantities"]:
-        _list_quantities(as_json)
+        print_table(quantities_table())
     else:
         _list_scenes(as_json, all_scenes=chosen["all"])
 
@@ -88,22 +95,6 @@ def _text(scene: Scene) -> str:
     if len(content) > 1:
         return toml_text(content[scene.name])
     return path.read_text(encoding="utf-8-sig")
-
-
-def _check(given: str) -> None:
-    for scene in find_scenes([given]):
-        checks = sum(len(point.scene.expect) for point in scene.points())
-        click.echo(escaped(f"{scene.source}: valid, {number_of(checks, 'check')}"))
-
-
-def _list_quantities(as_json: bool) -> None:
-    if as_json:
-        keys = ("kind", "unit", "meaning", "references", "needs_run")
-        print_json(
-            [{"name": n, **{key: getattr(q, key) for key in keys}} for n, q in QUANTITIES.items()]
-        )
-    else:
-        print_table(quantities_table())
 
 
 def quantities_table() -> Table:

@@ -8,6 +8,7 @@ import click
 
 from slider_resonator.commands import options
 from slider_resonator.commands.results import print_result
+from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUT_STARTS, VARIABLES
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
@@ -57,7 +58,13 @@ def _search_command(
     @click.command(name, cls=options.SettingsCommand, help=help_text)
     @options.native_fmu_argument
     @options.set_option
-    @options.max_denominator_option
+    @click.option(
+        "--max-denominator",
+        type=click.IntRange(min=1),
+        default=MAX_DENOMINATOR,
+        show_default=True,
+        help="Largest q for which a frequency ratio p/q counts as having a common period.",
+    )
     @options.time_limit_option(TIME_LIMIT, "For the whole search.")
     @options.json_option
     def command(

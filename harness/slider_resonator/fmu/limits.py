@@ -12,17 +12,8 @@ MAX_ENTRIES = 20_000
 """Maximum number of files in an FMU."""
 
 
-def max_memory() -> int:
-    """Return the bytes that an FMU and all that it starts may have in memory."""
-    return _bytes(MEMORY)
-
-
-def max_unpacked() -> int:
-    """Return the bytes that the files of an FMU may have together."""
-    return _bytes(UNPACKED)
-
-
-def _bytes(variable: str) -> int:
+def max_bytes(variable: str) -> int:
+    """Return a limit: the memory of an FMU and all that it starts, or the size of its files."""
     text = os.environ.get(variable) or str(DEFAULTS[variable])
     if not text.isdecimal() or int(text) == 0:
         raise HarnessError(f"{variable} = {text!r}: must be a whole number of MiB above 0")

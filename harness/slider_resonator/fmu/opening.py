@@ -18,7 +18,7 @@ from fmpy.model_description import (
 from slider_resonator.device.interface import FIRST, SETTABLE, VARIABLES
 from slider_resonator.errors import FmuError, NotApplicable, unknown_name
 from slider_resonator.fmu.interface_check import interface_problems
-from slider_resonator.fmu.limits import MAX_ENTRIES, max_unpacked
+from slider_resonator.fmu.limits import MAX_ENTRIES, UNPACKED, max_bytes
 from slider_resonator.output.temporary import temporary_folder
 
 _TYPES_OF_FMI_3 = {"Float64": "Real", "Int32": "Integer"}
@@ -194,9 +194,9 @@ def check_unpacked_size(path: Path) -> None:
     size = sum(entry.file_size for entry in entries)
     if len(entries) > MAX_ENTRIES:
         raise FmuError(f"{path}: {len(entries)} files; must be at most {MAX_ENTRIES}")
-    if size > max_unpacked():
+    if size > (allowed := max_bytes(UNPACKED)):
         raise FmuError(
-            f"{path}: {size >> 20} MiB unpacked; must be at most {max_unpacked() >> 20} MiB "
+            f"{path}: {size >> 20} MiB unpacked; must be at most {allowed >> 20} MiB "
             "(--max-unpacked)"
         )
 

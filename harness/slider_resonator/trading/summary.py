@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from slider_resonator.device.model import LAWS
-from slider_resonator.errors import HarnessError
 from slider_resonator.output import html_page, markdown
 from slider_resonator.output.atomic import write_marked
 from slider_resonator.output.table import Table, numbers, texts
@@ -150,9 +149,6 @@ def write_choices(path: Path, trades: Sequence[Trade]) -> None:
 
     Raises HarnessError when the file cannot be written, or has marks that are no pair.
     """
-    if path.suffix not in SUFFIXES:
-        allowed = " or ".join(SUFFIXES)
-        raise HarnessError(f"{path}: the suffix is {path.suffix!r}; must be {allowed}")
     parts = []
     for trade in trades:
         table = Table(COLUMNS, choices(trade))

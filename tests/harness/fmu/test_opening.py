@@ -103,7 +103,7 @@ def test_an_archive_of_too_many_files_is_refused(
 def test_a_limit_that_is_no_number_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(limits.MEMORY, "much")
     with pytest.raises(HarnessError, match="SLIDER_RESONATOR_MAX_MEMORY = 'much': must be a whole"):
-        limits.max_memory()
+        limits.max_bytes(limits.MEMORY)
 
 
 NEWTON = {"kg": 1, "m": 1, "s": -2}

@@ -9,7 +9,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from slider_resonator.errors import HarnessError
 from slider_resonator.trading.page import write_trades
 from slider_resonator.trading.plots import draw_picture
 from slider_resonator.trading.result import (
@@ -179,8 +178,6 @@ def test_markdown_and_html_hold_the_same(tmp_path: Path) -> None:
         write_choices(path, [TRADE])
     assert tables(paths[0]) == tables(paths[1])
     assert all("old" not in path.read_text() for path in paths)
-    with pytest.raises(HarnessError, match=r"the suffix is '\.txt'; must be \.md or \.html"):
-        write_choices(tmp_path / "page.txt", [TRADE])
 
 
 def tables(path: Path) -> list[list[str]]:

@@ -44,7 +44,9 @@ def main() -> None:
     """Instantiate the FMU and run tasks until there are no more requests."""
     path, limit, folder = sys.argv[1], float(sys.argv[2]), Path(sys.argv[3])
     requests, messages = _take_standard_streams()
-    _limit_files()
+    if sys.platform != "win32":
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_WRITTEN, MAX_WRITTEN))
     # Not with what the FMU prints, which may be endless, or look like a traceback.
     trace = (folder / TRACEBACK).open("w", encoding="utf-8")
     faulthandler.enable(trace)
@@ -70,13 +72,6 @@ def main() -> None:
             begin()
     except HarnessError as error:
         _send(messages, Failure(error))
-
-
-def _limit_files() -> None:
-    """Limit the files that this process writes, and let it leave no memory dump."""
-    if sys.platform != "win32":
-        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-        resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_WRITTEN, MAX_WRITTEN))
 
 
 def _take_standard_streams() -> tuple[BinaryIO, BinaryIO]:

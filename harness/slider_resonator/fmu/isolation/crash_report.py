@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from slider_resonator.fmu.isolation.supervised import Ending
 from slider_resonator.fmu.isolation.supervisor import MAX_PROCESSES
-from slider_resonator.fmu.limits import max_memory
+from slider_resonator.fmu.limits import MEMORY, max_bytes
 
 MAX_PRINTED = 500
 """Maximum characters of the FMU's own output in the report."""
@@ -57,7 +57,7 @@ def crash_report(printed: str, trace: str, ending: Ending, limit: float) -> str:
     if ending.memory is not None:
         report = (
             f"the FMU was ended: it had {ending.memory >> 20} MiB in memory; must be at most "
-            f"{max_memory() >> 20} MiB (--max-memory)"
+            f"{max_bytes(MEMORY) >> 20} MiB (--max-memory)"
         )
     elif ending.processes is not None:
         report = (

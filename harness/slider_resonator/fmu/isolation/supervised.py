@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
-from slider_resonator.fmu.limits import max_memory
+from slider_resonator.fmu.limits import MEMORY, max_bytes
 
 PACKAGE_PATH = str(Path(__file__).resolve().parents[3])
 """The folder that this package is imported from."""
@@ -78,7 +78,7 @@ class Supervised:
         with theirs:
             supervisor = [sys.executable, "-I", "-S", str(SUPERVISOR), str(theirs.fileno())]
             self.process = subprocess.Popen(
-                [*supervisor, str(max_memory()), str(folder), *command],
+                [*supervisor, str(max_bytes(MEMORY)), str(folder), *command],
                 env=environment,
                 pass_fds=[theirs.fileno()],
                 start_new_session=True,
@@ -100,19 +100,17 @@ class Supervised:
     def end(self) -> Ending:
         """End the program and all that it started, if it still runs, and return how it ended."""
         if self._ending is None:
-            self._ending = self._end_directly() if self._control is None else self._end()
+            self._ending = self._end()
         return self._ending
 
-    def _end_directly(self) -> Ending:
-        ran = self.process.poll() is None
-        self.process.kill()
-        code = self.process.wait()
-        return Ending(None if ran else code)
-
     def _end(self) -> Ending:
-        assert self._control is not None
+        ran = self.process.poll() is None
+        if self._control is None:
+            self.process.kill()
+            code = self.process.wait()
+            return Ending(None if ran else code)
         with self._control as control:
-            if self.process.poll() is None:
+            if ran:
                 with suppress(OSError):
                     control.sendall(b"end")
             if not self.wait(MAX_ENDING):

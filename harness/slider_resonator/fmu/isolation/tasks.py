@@ -200,7 +200,11 @@ def run_tasks(
                 rest = [name(other) for other, _ in tasks[index + 1 :]]
                 left_out = [one for one in dict.fromkeys(rest) if one not in crashed]
                 if left_out:
-                    yield Finished(None, error=_gave_up(crashes, left_out))
+                    many = f"{crashes} crashes or exceeded limits"
+                    if crashes == 1:
+                        many = "1 crash or exceeded limit"
+                    reason = f"given up after {many}; not run: {', '.join(left_out)}"
+                    yield Finished(None, error=FmuError(reason))
                 return
         if error := own.close():
             yield Finished(None, error=error)
@@ -240,10 +244,3 @@ def run_all_tasks(
             if one.error is not None and not isinstance(one.error, outcomes):
                 raise one.error
             yield one.item, one.result, one.error
-
-
-def _gave_up(crashes: int, names: Sequence[str]) -> FmuError:
-    many = "1 crash or exceeded limit"
-    if crashes > 1:
-        many = f"{crashes} crashes or exceeded limits"
-    return FmuError(f"given up after {many}; not run: {', '.join(names)}")
