@@ -12,6 +12,7 @@ from slider_resonator.commands.results import print_json, print_table, print_tex
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
+from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.scenes.scene_files import find_scene
 
 
@@ -21,14 +22,13 @@ from slider_resonator.scenes.scene_files import find_scene
 )
 @click.argument("scene")
 @options.fmu_option
-@options.device_option
-@options.settings_option
+@options.device_options
 @options.time_limit_option(TIME_LIMIT, "For the whole choice.")
 @options.json_option
 def choose_command(
     scene: str,
     fmu: Path | None,
-    device: str | None,
+    device: DeviceFile | None,
     settings: dict[str, float],
     time_limit: float,
     as_json: bool,
@@ -53,9 +53,8 @@ def choose_command(
       slider-resonator choose scenes/mine.toml --json
       slider-resonator choose feed_forward --set friction_law=1 bristle_stiffness=1e6
     """
-    own = options.device_file(device)
-    options.check_left_to_choose(own, settings)
-    read = find_scene(scene, settings, own)
+    options.check_left_to_choose(device, settings)
+    read = find_scene(scene, settings, device)
     path = options.default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:

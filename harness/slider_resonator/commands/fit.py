@@ -21,6 +21,7 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
 from slider_resonator.output.targets import distinct, make_folder
+from slider_resonator.scenes.device_file import DeviceFile
 
 
 def _quantity(variable: str) -> options.Parsed[float]:
@@ -90,7 +91,7 @@ def _bounds(text: str) -> tuple[str, tuple[float, float]]:
     type=click.Path(path_type=Path, file_okay=False),
     help="Folder for device.toml, fit.png, residuals.csv and fit.html.",
 )
-@options.set_option
+@options.device_options
 @options.fmu_option
 @options.jobs_option
 @options.time_limit_option(TIME_LIMIT, "For each start and each end of an interval.")
@@ -104,6 +105,7 @@ def fit_command(
     loaded: Sequence[tuple[float, float]],
     starts: int,
     out: Path | None,
+    device: DeviceFile | None,
     settings: dict[str, float],
     fmu: Path | None,
     jobs: int | None,
@@ -137,12 +139,11 @@ def fit_command(
     )
     if not len(measurements.measured):
         raise click.UsageError("no measurements: must be CSV files, --velocity or --blocking")
-    context = click.get_current_context()
     if out is not None:
         make_folder(out)
         sources = {f"the data {path.name}": path for path in data}
-        if context.params["device"]:
-            sources["the device"] = Path(context.params["device"])
+        if device is not None:
+            sources["the device"] = device.path
         distinct({f"{name} of --out": out / name for name in FILES}, sources)
     path = options.default_fmu(fmu)
     provenance = provenance_of(path)
@@ -150,7 +151,7 @@ def fit_command(
         found = fit(
             measurements,
             [name.strip() for names in free for name in names.split(",") if name.strip()],
-            settings,
+            options.values_of(device, settings),
             isolated(path, jobs or available_cores(), time_limit, progress),
             bounds=dict(bounds),
             starts=starts,

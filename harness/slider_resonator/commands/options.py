@@ -126,7 +126,7 @@ def _each_once(
 
 def check_left_to_choose(device: DeviceFile | None, settings: Mapping[str, float]) -> None:
     """Raise UsageError for a fidelity or tolerance in either, which are to be chosen."""
-    all_given = {**(device.values if device else {}), **settings}
+    all_given = values_of(device, settings)
     given = [f"{n} = {all_given[n]:g}" for n in ("fidelity", "tolerance") if n in all_given]
     if given:
         raise click.UsageError(
@@ -263,7 +263,7 @@ fmu_option = click.option(
     help="FMU to run.  [default: the native one in dist]",
 )
 
-settings_option = click.option(
+_settings_option = click.option(
     SET,
     "settings",
     type=Parsed("NAME=VALUE", setting),
@@ -274,22 +274,14 @@ settings_option = click.option(
 )
 
 
-def device_file(name_or_file: str | None) -> DeviceFile | None:
-    """Return a device file or an example, None without a name; note slips.
+def device_file(name_or_file: str) -> DeviceFile:
+    """Return a device file or an example; note slips.
 
     Raises SceneError as `read_device_file` does.
     """
-    if name_or_file is None:
-        return None
     read = read_device_file(name_or_file)
     _note([f"{name_or_file}: {note}" for note in (*read.slips, *without_drive(read.values))])
     return read
-
-
-def device_named(name_or_file: str | None) -> dict[str, float]:
-    """Return the parameters that `device_file` states, none without a name."""
-    read = device_file(name_or_file)
-    return read.values if read else {}
 
 
 device_option = click.option(
@@ -299,14 +291,19 @@ device_option = click.option(
 )
 
 
-def set_option(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add --device and --set; `settings` has the values of both, where both set one, of --set."""
+def device_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add --device and --set: the command gets a `device`, as it was read, and `settings`."""
 
     @wraps(command)
-    def with_device(device: str | None, settings: dict[str, float], **others: Any) -> Any:
-        return command(settings={**device_named(device), **settings}, **others)
+    def with_device(device: str | None, **others: Any) -> Any:
+        return command(device=None if device is None else device_file(device), **others)
 
-    return device_option(settings_option(with_device))
+    return device_option(_settings_option(with_device))
+
+
+def values_of(device: DeviceFile | None, settings: Mapping[str, float]) -> dict[str, float]:
+    """Return the values of --device and of --set; where both set one, that of --set."""
+    return {**(device.values if device else {}), **settings}
 
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")

@@ -15,7 +15,7 @@ from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.errors import FmuError
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.readable import one_line
-from slider_resonator.scenes.device_file import to_toml
+from slider_resonator.scenes.device_file import DeviceFile, to_toml
 
 PAGE = "documentation/slider-resonator.html"
 """The page in a native FMU that was built for all platforms; it is beside such an FMU, too."""
@@ -24,12 +24,11 @@ _DEVICES = re.compile(r'(?<=<script type="application/json" id="devices">).*?(?=
 
 @click.command("page", cls=options.SettingsCommand)
 @options.native_fmu_argument
-@options.device_option
-@options.settings_option
+@options.device_options
 @click.option("--out", type=options.target((".html",)), required=True, help="The page to write.")
 @options.json_option
 def page_command(
-    fmu: Path, device: str | None, settings: dict[str, float], out: Path, as_json: bool
+    fmu: Path, device: DeviceFile | None, settings: dict[str, float], out: Path, as_json: bool
 ) -> None:
     """Write a page that runs the component in a browser, started at your device.
 
@@ -40,9 +39,8 @@ def page_command(
       slider-resonator page --out slider.html
       slider-resonator page --device mine.toml --set phase="30 deg" --out mine.html
     """
-    own = options.device_file(device)
-    settings = {**(own.values if own else {}), **settings}
-    page = started_at(page_of(fmu), settings, own.title if own else "Your device")
+    values = options.values_of(device, settings)
+    page = started_at(page_of(fmu), values, device.title if device else "Your device")
     with replacing(out) as temporary:
         temporary.write_text(page, encoding="utf-8")
     if as_json:

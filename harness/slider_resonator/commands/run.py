@@ -22,6 +22,7 @@ from slider_resonator.output.progress import Progress
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
+from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import find_scene
 
@@ -106,8 +107,7 @@ def _overlay(text: str) -> tuple[str, float] | Path:
     "each step. An FMU without canInterpolateInputs holds them.  [default: as [run] of the scene "
     "says, which holds them unless it has interpolate]",
 )
-@options.device_option
-@options.settings_option
+@options.device_options
 @options.time_limit_option(
     TIME_LIMIT, "For each of the choice, the run and the run for the picture."
 )
@@ -123,7 +123,7 @@ def run_command(
     overlays: tuple[tuple[str, float] | Path, ...],
     auto: bool,
     interpolate: bool | None,
-    device: str | None,
+    device: DeviceFile | None,
     settings: dict[str, float],
     time_limit: float,
     as_json: bool,
@@ -145,8 +145,7 @@ def run_command(
       slider-resonator run my.fmu table_1 --plot a.png --window 0.1:0.11 --overlay fidelity=1
       slider-resonator run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
-    own = options.device_file(device)
-    read = find_scene(scene, settings, own)
+    read = find_scene(scene, settings, device)
     if stop_time is not None:
         read = read.lasting(stop_time)
     if interpolate is not None:
@@ -158,7 +157,7 @@ def run_command(
     if plot is None and is_chosen:
         raise click.UsageError("--signals, --window and --overlay need --plot")
     if auto:
-        options.check_left_to_choose(own, settings)
+        options.check_left_to_choose(device, settings)
     choice: Choice | None = None
     provenance = provenance_of(fmu, *others.values())
     names = [name.strip() for name in signals.split(",")] if signals is not None else None

@@ -15,6 +15,7 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line
+from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.search_result import SearchResult
 from slider_resonator.steady.steady_velocity import find_steady
@@ -57,7 +58,7 @@ def _search_command(
 
     @click.command(name, cls=options.SettingsCommand, help=help_text)
     @options.native_fmu_argument
-    @options.set_option
+    @options.device_options
     @click.option(
         "--max-denominator",
         type=click.IntRange(min=1),
@@ -69,19 +70,21 @@ def _search_command(
     @options.json_option
     def command(
         fmu: Path,
+        device: DeviceFile | None,
         settings: dict[str, float],
         max_denominator: int,
         time_limit: float,
         as_json: bool,
     ) -> int:
         provenance = provenance_of(fmu)
-        search = partial(find, values=settings, max_denominator=max_denominator)
+        values = options.values_of(device, settings)
+        search = partial(find, values=values, max_denominator=max_denominator)
         with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
             progress(f"searching the {what}", 0.0)
             result: SearchResult = isolated.run(search, progress)
-        faces = int(settings.get("friction_faces", Device().friction_faces))
+        faces = int(values.get("friction_faces", Device().friction_faces))
         inputs = (
-            f"{name} {settings.get(name, start):g} {VARIABLES[name].unit}".removesuffix(" 1")
+            f"{name} {values.get(name, start):g} {VARIABLES[name].unit}".removesuffix(" 1")
             for name, start in INPUT_STARTS.items()
             if (name, what) != ("load", "blocking force")
         )

@@ -122,7 +122,7 @@ def stress_command(
     if name is not None:
         cases = [case_named(name, "--case")]
     elif device is not None:
-        cases = device_cases(device, options.device_named(device))
+        cases = device_cases(device, options.device_file(device).values)
     elif count is not None:
         cases = [random_case(seed, number) for number in range(first, first + count)]
     else:
@@ -207,7 +207,9 @@ def case_named(name: str, option: str) -> Case:
     if drawn:
         return random_case(int(drawn[1]), int(drawn[2]))
     own = _OWN.match(name)
-    found = device_cases(own[1], options.device_named(own[1])) if own else axis_cases(long=True)
+    found = (
+        device_cases(own[1], options.device_file(own[1]).values) if own else axis_cases(long=True)
+    )
     cases = {case.name: case for case in found}
     if name not in cases:
         near = get_close_matches(name, cases, n=1)

@@ -18,6 +18,7 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
+from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.sweeping.grid import Sweep, grid_from, read_grid
 from slider_resonator.sweeping.sweeping import run_sweep
 from slider_resonator.sweeping.table import SUFFIXES, journal_path
@@ -58,8 +59,7 @@ def _axis(text: str) -> tuple[str, dict[str, float]]:
     "--plot", type=options.target(PICTURE_SUFFIXES), help="Picture of the results: lines or map."
 )
 @click.option("--html", type=options.target([".html"]), help="One page with plots to point at.")
-@options.device_option
-@options.settings_option
+@options.device_options
 @options.fmu_option
 @options.jobs_option
 @click.option("--dask", metavar="ADDRESS", help="Run on the cluster of this scheduler.")
@@ -74,7 +74,7 @@ def sweep_command(
     out: Path,
     plot: Path | None,
     html: Path | None,
-    device: str | None,
+    device: DeviceFile | None,
     settings: dict[str, float],
     fmu: Path | None,
     jobs: int | None,
@@ -123,15 +123,14 @@ def sweep_command(
     for name in names:
         if names.count(name) > 1:
             raise click.UsageError(f"--over {name}: given twice; must be once")
-    read = options.device_file(device)
-    own = read.values if read else {}
+    own = device.values if device else {}
     if grid is not None:
         sweep = read_grid(grid, own, settings)
     else:
         content = {"grid": dict(axes), **({"measures": list(measures)} if measures else {})}
         sweep = grid_from(content, "--over", own, settings)
-    if read and not sweep.title:
-        sweep = replace(sweep, title=read.title)
+    if device and not sweep.title:
+        sweep = replace(sweep, title=device.title)
     _check_drawable(sweep, plot, html)
     path = options.default_fmu(fmu)
     provenance = provenance_of(path)

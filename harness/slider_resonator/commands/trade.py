@@ -13,6 +13,7 @@ from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
+from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.trading.measure import BUDGET, REPEATS, TIME_LIMIT, measure_trades, opened
 from slider_resonator.trading.page import write_trades
@@ -65,13 +66,12 @@ from slider_resonator.trading.summary import SUFFIXES, comparisons, standings, t
     help="Markdown or HTML file for the tables from need to model to cost, which go between the "
     "lines <!-- trade --> and <!-- end of trade --> if the file has them. Repeatable.",
 )
-@options.device_option
-@options.settings_option
+@options.device_options
 @options.time_limit_option(TIME_LIMIT, "For each run and search of an FMU.")
 @options.json_option
 def trade_command(
     scenes: Sequence[str],
-    device: str | None,
+    device: DeviceFile | None,
     settings: dict[str, float],
     out: Path,
     fmus: Sequence[Path],
@@ -102,8 +102,7 @@ def trade_command(
       slider-resonator trade table_1 --device mine.toml --out trade
       slider-resonator trade my.toml --out trade --fmu my.fmu --json
     """
-    own = options.device_file(device)
-    read = [find_scene(name, settings, own) for name in scenes or ("table_1",)]
+    read = [find_scene(name, settings, device) for name in scenes or ("table_1",)]
     points = [point for scene in read for point in scene.points()]
     problems = [problem_of(point.scene, point.at, periods) for point in points]
     paths = fmus or options.default_fmus()

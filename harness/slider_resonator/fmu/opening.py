@@ -134,7 +134,11 @@ def open_fmu(path: str | Path) -> Iterator[Fmu]:
     path = Path(path)
     description = _read_description(path)
     variables = {variable.name: variable for variable in description.modelVariables}
-    _check_interface(path, description)
+    if description.coSimulation is None:
+        raise FmuError(f"{path}: an FMU for model exchange only; must be co-simulation")
+    problems = interface_problems(description) or _platform_problems(path, description)
+    if problems:
+        raise FmuError(f"{path}: not usable as a slider-resonator: {'; '.join(problems)}")
     with temporary_folder() as folder:
         unpacked = folder / "unpacked"
         try:
@@ -210,16 +214,6 @@ def root_attributes(path: Path) -> dict[str, str]:
     with zipfile.ZipFile(path) as archive, archive.open("modelDescription.xml") as file:
         _, root = next(iter(ET.iterparse(file, events=("start",))))
         return dict(root.attrib)
-
-
-def _check_interface(path: Path, description: ModelDescription) -> None:
-    if description.coSimulation is None:
-        raise FmuError(f"{path}: an FMU for model exchange only; must be co-simulation")
-    problems = interface_problems(description)
-    if not problems:
-        problems += _platform_problems(path, description)
-    if problems:
-        raise FmuError(f"{path}: not usable as a slider-resonator: {'; '.join(problems)}")
 
 
 def _platform_problems(path: Path, description: ModelDescription) -> list[str]:

@@ -5,7 +5,7 @@ A mouse or a finger near a point, or the arrow keys on a plot in focus, show its
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -77,9 +77,12 @@ def look(index: int) -> tuple[str, str, tuple[int, ...]]:
 
 def plot_html(plot: HoverPlot) -> str:
     """Return the plot as HTML for a page of `write_plot_page`."""
+    text = json.dumps(_printable(plain(plot)), separators=(",", ":"), ensure_ascii=True)
+    # "<" could end the script element; in JSON it occurs in strings only.
+    data = text.replace("<", "\\u003c")
     return (
         f'<figure><figcaption>{escaped(plot.title)}</figcaption><div class="plot">'
-        f'<script type="application/json">{_data(plot)}</script></div></figure>'
+        f'<script type="application/json">{data}</script></div></figure>'
     )
 
 
@@ -95,12 +98,6 @@ def _texts(*names: str) -> list[str]:
     """Return the texts of files of this package."""
     folder = files("slider_resonator.output")
     return [(folder / name).read_text(encoding="utf-8") for name in names]
-
-
-def _data(plot: HoverPlot) -> str:
-    text = json.dumps(_printable(plain(asdict(plot))), separators=(",", ":"), ensure_ascii=True)
-    # "<" could end the script element; in JSON it occurs in strings only.
-    return text.replace("<", "\\u003c")
 
 
 def _printable(value: object) -> object:

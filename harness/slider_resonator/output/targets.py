@@ -8,6 +8,15 @@ from tempfile import TemporaryFile
 from slider_resonator.errors import HarnessError
 
 PICTURE_SUFFIXES = (".png", ".svg", ".pdf")
+_KINDS = {
+    stat.S_IFDIR: "a directory",
+    stat.S_IFLNK: "a symbolic link",
+    stat.S_IFCHR: "a device",
+    stat.S_IFBLK: "a device",
+    stat.S_IFIFO: "a pipe",
+    stat.S_IFSOCK: "a socket",
+}
+"""Files that are no regular ones."""
 
 
 def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
@@ -25,7 +34,8 @@ def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
     except OSError as error:
         raise HarnessError(f"{path}: cannot be written: {error.strerror}") from error
     if not stat.S_ISREG(mode):
-        raise HarnessError(f"{path} is {_kind(mode)}; must be a regular file or a new one")
+        kind = _KINDS.get(stat.S_IFMT(mode), "no regular file")
+        raise HarnessError(f"{path} is {kind}; must be a regular file or a new one")
     if suffixes and path.suffix.lower() not in suffixes:
         allowed = ", ".join(suffixes)
         raise HarnessError(f"{path}: the suffix is {path.suffix!r}; must be one of {allowed}")
@@ -58,25 +68,8 @@ def distinct(targets: Mapping[str, Path | None], sources: Mapping[str, Path]) ->
         if path is None:
             continue
         for name, other in taken.items():
-            if _same(path, other):
+            # Linked files are the same, and not all need exist yet.
+            there = path.exists() and other.exists()
+            if path.samefile(other) if there else path.resolve() == other.resolve():
                 raise HarnessError(f"{option} {path} is {name}; must be a file of its own")
         taken[f"the file of {option}"] = path
-
-
-def _same(one: Path, other: Path) -> bool:
-    """Whether two paths are the same file, even linked or not yet created."""
-    if one.exists() and other.exists():
-        return one.samefile(other)
-    return one.resolve() == other.resolve()
-
-
-def _kind(mode: int) -> str:
-    kinds = (
-        (stat.S_ISDIR, "a directory"),
-        (stat.S_ISLNK, "a symbolic link"),
-        (stat.S_ISCHR, "a device"),
-        (stat.S_ISBLK, "a device"),
-        (stat.S_ISFIFO, "a pipe"),
-        (stat.S_ISSOCK, "a socket"),
-    )
-    return next((words for test, words in kinds if test(mode)), "no regular file")

@@ -26,21 +26,14 @@ def temporary_folder() -> Iterator[Path]:
     clear_abandoned()
     folder = Path(tempfile.mkdtemp(prefix=PREFIX))
     try:
-        with _owned(folder):
+        with (folder / OWNER).open("w", encoding="utf-8") as file:
+            if sys.platform != "win32":
+                fcntl.flock(file, fcntl.LOCK_EX)
+            file.write(f"{os.getpid()}\n")
+            file.flush()
             yield folder
     finally:
         shutil.rmtree(folder, ignore_errors=True)
-
-
-@contextmanager
-def _owned(folder: Path) -> Iterator[None]:
-    """Lock the folder's file of its owner for the length of the block."""
-    with (folder / OWNER).open("w", encoding="utf-8") as file:
-        if sys.platform != "win32":
-            fcntl.flock(file, fcntl.LOCK_EX)
-        file.write(f"{os.getpid()}\n")
-        file.flush()
-        yield
 
 
 def clear_abandoned() -> None:

@@ -153,9 +153,9 @@ def test_fmus_built_here_are_preferred(tmp_path: Path, monkeypatch: pytest.Monke
 
 @click.command("echo", cls=options.SettingsCommand)
 @click.argument("names", nargs=-1)
-@options.set_option
+@options.device_options
 @options.json_option
-def echo(names: tuple[str, ...], settings: dict[str, float], as_json: bool) -> None:
+def echo(names: tuple[str, ...], device: None, settings: dict[str, float], as_json: bool) -> None:
     """Print what was given."""
     click.echo((names, settings, as_json))
 
