@@ -295,14 +295,16 @@ def fit(
     elif not isinstance(data, Measurements):
         files = [data] if isinstance(data, str | Path) else data
         data = sum((read_measurements(Path(one)) for one in files), Measurements())
-    return fit_parameters(
-        data,
-        [free] if isinstance(free, str) else free,
-        {**_stated(device), **_checked(values)},
-        isolated(_fmu(fmu), _processes("jobs", jobs), _seconds(time_limit)),
-        bounds=_plain(bounds),
-        starts=_whole("starts", starts),
-    )
+    checked = {**_stated(device), **_checked(values)}
+    with isolated(_fmu(fmu), _processes("jobs", jobs), _seconds(time_limit)) as run:
+        return fit_parameters(
+            data,
+            [free] if isinstance(free, str) else free,
+            checked,
+            run,
+            bounds=_plain(bounds),
+            starts=_whole("starts", starts),
+        )
 
 
 @_plain_errors

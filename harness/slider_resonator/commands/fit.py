@@ -147,12 +147,13 @@ def fit_command(
         distinct({f"{name} of --out": out / name for name in FILES}, sources)
     path = options.default_fmu(fmu)
     provenance = provenance_of(path)
-    with progress_bar() as progress:
+    workers = jobs or available_cores()
+    with progress_bar() as progress, isolated(path, workers, time_limit, progress) as run:
         found = fit(
             measurements,
             [name.strip() for names in free for name in names.split(",") if name.strip()],
             options.values_of(device, settings),
-            isolated(path, jobs or available_cores(), time_limit, progress),
+            run,
             bounds=dict(bounds),
             starts=starts,
         )

@@ -1,6 +1,7 @@
 """Fit parameters of a device to measurements, on isolated FMUs."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from math import exp, isfinite
@@ -27,8 +28,8 @@ from slider_resonator.fitting.estimation import (
 )
 from slider_resonator.fitting.measurements import Measurements
 from slider_resonator.fitting.notes import data_notes, implausible_notes, misfit_notes
-from slider_resonator.fmu.isolation.process import TIME_LIMIT, Task
-from slider_resonator.fmu.isolation.tasks import run_all_tasks
+from slider_resonator.fmu.isolation.process import Task
+from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Drawable, Shown, Tabular
@@ -345,18 +346,19 @@ def _starts(free: Sequence[Free], count: int) -> list[Array]:
     ]
 
 
+@contextmanager
 def isolated(
-    fmu: Path, jobs: int = 1, time_limit: float = TIME_LIMIT, progress: Progress = no_progress
-) -> Runner:
-    """Return what runs tasks in processes of an FMU, each for up to `time_limit` (s)."""
+    fmu: Path, jobs: int, time_limit: float, progress: Progress = no_progress
+) -> Iterator[Runner]:
+    """Yield what runs tasks in processes of an FMU, each for up to `time_limit` (s)."""
+    with LocalProcesses(fmu, time_limit, jobs) as processes:
 
-    def run(label: str, tasks: Sequence[Task]) -> list[Any]:
-        numbered = list(enumerate(tasks))
-        results = []
-        progress(counted(label, 0, len(tasks)), 0.0)
-        for _, result, _ in run_all_tasks(fmu, numbered, time_limit, outcomes=(), jobs=jobs):
-            results.append(result)
-            progress(counted(label, len(results), len(tasks)), len(results) / len(tasks))
-        return results
+        def run(label: str, tasks: Sequence[Task]) -> list[Any]:
+            results = []
+            progress(counted(label, 0, len(tasks)), 0.0)
+            for _, result, _ in run_all_tasks(processes, list(enumerate(tasks)), outcomes=()):
+                results.append(result)
+                progress(counted(label, len(results), len(tasks)), len(results) / len(tasks))
+            return results
 
-    return run
+        yield run

@@ -3,7 +3,6 @@
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
-from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import Any
 
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
-from slider_resonator.fmu.isolation.tasks import run_all_tasks
+from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.progress import Progress, counted
 from slider_resonator.output.readable import number_of, one_line
@@ -229,11 +228,11 @@ def run_cases(
         return StressResult(str(fmu), tuple(verdicts), seconds, left, skipped)
 
     tasks = [(case, partial(observe, case=case)) for case in chosen]
-    died = (FmuDied,)
-    runs = run_all_tasks(fmu, tasks, time_limit, meanwhile=report, outcomes=died, jobs=jobs)
     try:
-        with closing(runs) as finished:
-            for case, seen, error in finished:
+        with LocalProcesses(fmu, time_limit, jobs) as processes:
+            for case, seen, error in run_all_tasks(
+                processes, tasks, outcomes=(FmuDied,), meanwhile=report
+            ):
                 failed = error and verdict_on(case, FAILED, str(error))
                 verdicts.append(failed or judge(case, seen))
     except BaseException:

@@ -14,7 +14,6 @@ from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import FmuDied, Task
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, Outcome
-from slider_resonator.sweeping.running import Workers
 
 CONNECT_SECONDS = 30
 
@@ -64,7 +63,8 @@ def run_task(digest: str, task: Task) -> Outcome:
 class DaskProcesses:
     """The workers of a cluster, which itself runs the tasks of a dead worker again."""
 
-    def __init__(self, client: Client, address: str, digest: str) -> None:
+    def __init__(self, client: Client, address: str, digest: str, count: int) -> None:
+        self.count = count
         self._client = client
         self._address = address
         self._digest = digest
@@ -91,7 +91,9 @@ class DaskProcesses:
 
 
 @contextmanager
-def dask_workers(digest: str, fmu: Path, address: str, time_limit: float) -> Iterator[Workers]:
+def dask_processes(
+    digest: str, fmu: Path, address: str, time_limit: float
+) -> Iterator[DaskProcesses]:
     """Yield the workers of the scheduler at `address`; HarnessError where none answers."""
     try:
         client = Client(  # type: ignore[no-untyped-call]
@@ -104,9 +106,9 @@ def dask_workers(digest: str, fmu: Path, address: str, time_limit: float) -> Ite
         with _naming_loss(address):
             client.register_plugin(plugin)
             threads: dict[str, int] = client.nthreads()  # type: ignore[no-untyped-call]
-        processes = DaskProcesses(client, address, digest)
+        processes = DaskProcesses(client, address, digest, max(1, sum(threads.values())))
         try:
-            yield Workers(fmu, time_limit, max(1, sum(threads.values())), processes)
+            yield processes
         finally:
             processes.end()
             if client.status == "running":

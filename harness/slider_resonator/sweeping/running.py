@@ -1,16 +1,11 @@
 """Hands the points of a sweep to processes of the FMU, and keeps what they return."""
 
-from collections.abc import Callable, Generator, Iterator, Sequence
-from contextlib import closing, contextmanager
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from functools import partial
-from pathlib import Path
-from typing import Any, TypeVar
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import FmuDied
-from slider_resonator.fmu.isolation.process import Task as FmuTask
-from slider_resonator.fmu.isolation.tasks import LocalProcesses, Processes, run_all_tasks
+from slider_resonator.fmu.isolation.tasks import Processes, run_all_tasks
 from slider_resonator.sweeping.measures import (
     SEARCHED,
     Point,
@@ -28,43 +23,11 @@ BATCH = 200
 ATTEMPTS = 3
 """Processes that may die at a point before it counts as the cause."""
 
-Item = TypeVar("Item")
-
 Keep = Callable[[Sequence[Row]], None]
 """Called with rows as they come, in any order."""
 
 
-@dataclass(frozen=True)
-class Workers:
-    """Processes of an FMU, here or elsewhere; `time_limit` (s) is that of a point."""
-
-    fmu: Path
-    time_limit: float
-    jobs: int
-    processes: Processes
-
-    def outcomes(
-        self, tasks: Sequence[tuple[Item, FmuTask]]
-    ) -> Generator[tuple[Item, Any, HarnessError | None], None, None]:
-        """Run a task for each item, and yield item, result and error of each."""
-        return run_all_tasks(
-            self.fmu,
-            tasks,
-            self.time_limit,
-            outcomes=(HarnessError,),
-            jobs=self.jobs,
-            processes=self.processes,
-        )
-
-
-@contextmanager
-def local_workers(fmu: Path, time_limit: float, jobs: int) -> Iterator[Workers]:
-    """Yield processes on this machine; FmuDied where freeing the FMU ends one."""
-    with LocalProcesses(fmu, time_limit, jobs) as processes:
-        yield Workers(fmu, time_limit, jobs, processes)
-
-
-def run_points(workers: Workers, task: Task, points: Sequence[Point], keep: Keep) -> None:
+def run_points(processes: Processes, task: Task, points: Sequence[Point], keep: Keep) -> None:
     """Compute all points.
 
     What the FMU predicts is proved in batches; what remains is measured point by point. A point
@@ -75,15 +38,15 @@ def run_points(workers: Workers, task: Task, points: Sequence[Point], keep: Keep
     unproved = list(points)
     if any(name in SEARCHED for name in task.measures):
         for _ in range(ATTEMPTS):
-            more, unproved = _prove(workers, task, unproved, keep)
+            more, unproved = _prove(processes, task, unproved, keep)
             left += more
     left += [(point, {}) for point in unproved]
     for attempt in range(ATTEMPTS):
-        left = _measure(workers, task, left, keep, is_last=attempt == ATTEMPTS - 1)
+        left = _measure(processes, task, left, keep, is_last=attempt == ATTEMPTS - 1)
 
 
 def _prove(
-    workers: Workers, task: Task, points: Sequence[Point], keep: Keep
+    processes: Processes, task: Task, points: Sequence[Point], keep: Keep
 ) -> tuple[list[tuple[Point, Proved]], list[Point]]:
     """Keep the rows of batches; return what is proved of points without, and those of lost batches.
 
@@ -93,25 +56,24 @@ def _prove(
     tasks = [(batch, partial(prove_points, task=task, points=batch)) for batch in batches]
     left: list[tuple[Point, Proved]] = []
     lost: list[Point] = []
-    with closing(workers.outcomes(tasks)) as outcomes:
-        for batch, found, error in outcomes:
-            if isinstance(error, FmuDied) and not error.over_limit:
-                lost += batch
-                continue
-            proofs = found if error is None else [{}] * len(batch)
-            done = []
-            for point, proved in zip(batch, proofs, strict=True):
-                row = proved_row(task, point, proved)
-                if row is None:
-                    left.append((point, proved))
-                else:
-                    done.append(row)
-            keep(done)
+    for batch, found, error in run_all_tasks(processes, tasks, outcomes=(HarnessError,)):
+        if isinstance(error, FmuDied) and not error.over_limit:
+            lost += batch
+            continue
+        proofs = found if error is None else [{}] * len(batch)
+        done = []
+        for point, proved in zip(batch, proofs, strict=True):
+            row = proved_row(task, point, proved)
+            if row is None:
+                left.append((point, proved))
+            else:
+                done.append(row)
+        keep(done)
     return left, lost
 
 
 def _measure(
-    workers: Workers,
+    processes: Processes,
     task: Task,
     points: Sequence[tuple[Point, Proved]],
     keep: Keep,
@@ -122,10 +84,9 @@ def _measure(
     measure = partial(measure_point, task=task)
     tasks = [(one, partial(measure, point=one[0], proved=one[1])) for one in points]
     died: list[tuple[Point, Proved]] = []
-    with closing(workers.outcomes(tasks)) as outcomes:
-        for one, row, error in outcomes:
-            if isinstance(error, FmuDied) and not error.over_limit and not is_last:
-                died.append(one)
-            else:
-                keep([row if error is None else failed_row(task, one[0][0], str(error))])
+    for one, row, error in run_all_tasks(processes, tasks, outcomes=(HarnessError,)):
+        if isinstance(error, FmuDied) and not error.over_limit and not is_last:
+            died.append(one)
+        else:
+            keep([row if error is None else failed_row(task, one[0][0], str(error))])
     return died

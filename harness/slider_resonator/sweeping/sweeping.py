@@ -3,6 +3,7 @@
 import hashlib
 import json
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -12,6 +13,7 @@ from slider_resonator import __version__
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
+from slider_resonator.fmu.isolation.tasks import LocalProcesses, Processes
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import Progress, no_progress
@@ -19,7 +21,7 @@ from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Drawable, Shown, Tabular
 from slider_resonator.sweeping.grid import Sweep
 from slider_resonator.sweeping.measures import Row, unit
-from slider_resonator.sweeping.running import local_workers, run_points
+from slider_resonator.sweeping.running import run_points
 from slider_resonator.sweeping.table import (
     Columns,
     check_nothing_lost,
@@ -140,11 +142,13 @@ def run_sweep(
 
         keep([])
         if left:
-            processes = local_workers(fmu.resolve(), time_limit, min(workers, len(left)))
-            if dask is not None:
-                from slider_resonator.sweeping.cluster import dask_workers
+            processes: AbstractContextManager[Processes]
+            if dask is None:
+                processes = LocalProcesses(fmu.resolve(), time_limit, min(workers, len(left)))
+            else:
+                from slider_resonator.sweeping.cluster import dask_processes
 
-                processes = dask_workers(fmu_digest, fmu, dask, time_limit)
+                processes = dask_processes(fmu_digest, fmu, dask, time_limit)
             with noting_on_interrupt(note), processes as at_work:
                 run_points(at_work, sweep.task, left, keep)
         columns = table_columns(sweep.task, sweep.points, rows)

@@ -4,8 +4,9 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator.fmu.isolation.tasks import LocalProcesses
 from slider_resonator.sweeping.measures import Row, Run, Task
-from slider_resonator.sweeping.running import local_workers, run_points
+from slider_resonator.sweeping.running import run_points
 from tests.harness.faulty_fmus import compiled
 
 pytestmark = pytest.mark.isolated
@@ -16,8 +17,8 @@ POINTS = [(number, (0.1 * (1 + number),)) for number in range(3)]
 def rows_of(fmu: Path, time_limit: float, measure: str = "velocity.rms") -> list[Row]:
     task = Task(("friction_coefficient",), (), (measure,), 20, Run(1, 1, 0))
     kept: list[Row] = []
-    with local_workers(fmu, time_limit, jobs=1) as workers:
-        run_points(workers, task, POINTS, kept.extend)
+    with LocalProcesses(fmu, time_limit) as processes:
+        run_points(processes, task, POINTS, kept.extend)
     assert sorted(row[0] for row in kept) == [0, 1, 2], "each point is computed once"
     return sorted(kept)
 

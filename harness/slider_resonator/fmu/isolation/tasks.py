@@ -2,9 +2,8 @@
 
 import os
 from collections import deque
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
-from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Event
@@ -36,7 +35,9 @@ class Outcome:
 
 
 class Processes(Protocol):
-    """Processes, here or elsewhere, that run tasks."""
+    """Processes that run tasks, here or elsewhere: `count` of them."""
+
+    count: int
 
     def submit(self, task: Task) -> Future[Outcome]:
         """Begin to run a task, or queue it."""
@@ -53,6 +54,7 @@ class LocalProcesses:
     """
 
     def __init__(self, fmu: Path | None, time_limit: float, count: int = 1) -> None:
+        self.count = count
         self._fmu = fmu
         self._time_limit = time_limit
         self._idle: list[IsolatedFmu] = []
@@ -148,99 +150,99 @@ def run_tasks(
     *,
     name: Callable[[Item], str],
     meanwhile: Callable[[Item], None] = lambda item: None,
-    max_crashes: int | None = MAX_CRASHES,
     jobs: int = 1,
-    processes: Processes | None = None,
 ) -> Generator[Finished[Item], None, None]:
-    """Run a task for each item, and yield each outcome, in this order.
+    """Run a task for each item in up to `jobs` processes, and yield each outcome, in this order.
 
-    `meanwhile` is called for an item while the FMU works on it, or has. A run that takes longer
-    than `ALONE` gets up to `jobs` processes: those of `processes`, or its own. The outcomes do not
-    depend on their number, for an FMU in which each run is independent of those before. After a
-    crash or an exceeded limit the other items of that `name` are left out. All remaining items are
-    left out after an exceeded limit of time, memory or processes, after `max_crashes` crashes, and
-    after crashes that took `time_limit` (s) together; with None for `max_crashes` no item is ever
-    left out.
+    `meanwhile` is called for an item while the FMU works on it, or has. After a crash or an
+    exceeded limit the other items of that `name` are left out. All remaining items are left out
+    after an exceeded limit of time, memory or processes, after `MAX_CRASHES` crashes, and after
+    crashes that took `time_limit` (s) together.
     """
-    own = LocalProcesses(fmu, time_limit, jobs)
-    processes = processes or own
-    submitted: dict[int, Future[Outcome]] = {}
-    waiting = deque(range(len(tasks)))
     crashed: set[str] = set()
     crashes, wasted = 0, 0.0
-    began = monotonic()
+    processes = LocalProcesses(fmu, time_limit, jobs)
     try:
-        for index, (item, task) in enumerate(tasks):
-            if name(item) in crashed:
-                if future := submitted.pop(index, None):
-                    future.cancel()
-                continue
-            at_once = jobs if monotonic() - began >= ALONE else 1
-            if max_crashes is None:
-                at_once *= QUEUED
-            while waiting and len(submitted) < at_once:
-                following = waiting.popleft()
-                if name(tasks[following][0]) not in crashed:
-                    submitted[following] = processes.submit(tasks[following][1])
-            meanwhile(item)
-            outcome = processes.outcome(submitted.pop(index))
-            if not outcome.is_open and index > 0:  # it may run in fewer processes only
-                jobs = 1
-                wait(submitted.values())
-                outcome = processes.outcome(processes.submit(task))
+        for index, outcome in _outcomes(
+            processes, tasks, meanwhile, left_out=lambda item: name(item) in crashed
+        ):
+            item = tasks[index][0]
             if not outcome.is_open:
                 yield Finished(None, error=outcome.error)
                 return
-            if isinstance(outcome.error, FmuDied) and max_crashes is not None:
+            if isinstance(outcome.error, FmuDied):
                 crashed.add(name(item))
                 crashes += 1
                 wasted += time_limit if outcome.error.over_limit else outcome.seconds
             yield Finished(item, outcome.value, outcome.error)
-            if max_crashes is not None and (crashes >= max_crashes or wasted >= time_limit):
+            if crashes >= MAX_CRASHES or wasted >= time_limit:
                 rest = [name(other) for other, _ in tasks[index + 1 :]]
-                left_out = [one for one in dict.fromkeys(rest) if one not in crashed]
-                if left_out:
+                not_run = [one for one in dict.fromkeys(rest) if one not in crashed]
+                if not_run:
                     many = f"{crashes} crashes or exceeded limits"
                     if crashes == 1:
                         many = "1 crash or exceeded limit"
-                    reason = f"given up after {many}; not run: {', '.join(left_out)}"
+                    reason = f"given up after {many}; not run: {', '.join(not_run)}"
                     yield Finished(None, error=FmuError(reason))
                 return
-        if error := own.close():
+        if error := processes.close():
             yield Finished(None, error=error)
     finally:
-        own.end()
+        processes.end()
 
 
 def run_all_tasks(
-    fmu: Path,
+    processes: Processes,
     tasks: Sequence[tuple[Item, Task]],
-    time_limit: float,
     *,
-    meanwhile: Callable[[Item], None] = lambda item: None,
     outcomes: tuple[type[HarnessError], ...],
-    jobs: int = 1,
-    processes: Processes | None = None,
-) -> Generator[tuple[Item, Any, HarnessError | None], None, None]:
+    meanwhile: Callable[[Item], None] = lambda item: None,
+) -> Iterator[tuple[Item, Any, HarnessError | None]]:
     """Run a task for each item, however many crash, and yield item, result and error of each.
 
     Errors that are among the `outcomes` of a task are yielded, others raised: FmuError when the FMU
     cannot be run at all.
     """
-    finished = run_tasks(
-        fmu,
-        tasks,
-        time_limit,
-        name=lambda item: "",  # none is left out
-        meanwhile=meanwhile,
-        max_crashes=None,
-        jobs=jobs,
-        processes=processes,
-    )
-    with closing(finished):
-        for one in finished:
-            if one.item is None:
-                raise one.error or FmuError(f"{fmu}: cannot be run")
-            if one.error is not None and not isinstance(one.error, outcomes):
-                raise one.error
-            yield one.item, one.result, one.error
+    for index, outcome in _outcomes(processes, tasks, meanwhile, queued=QUEUED):
+        error = outcome.error
+        if error is not None and not (outcome.is_open and isinstance(error, outcomes)):
+            raise error
+        yield tasks[index][0], outcome.value, error
+
+
+def _outcomes(
+    processes: Processes,
+    tasks: Sequence[tuple[Item, Task]],
+    meanwhile: Callable[[Item], None],
+    *,
+    left_out: Callable[[Item], bool] = lambda item: False,
+    queued: int = 1,
+) -> Iterator[tuple[int, Outcome]]:
+    """Yield index and outcome of each task, in this order, but of items that are `left_out`.
+
+    A run that takes longer than `ALONE` gets all processes, with `queued` tasks for each of them.
+    The outcomes do not depend on their number, for an FMU in which each run is independent of those
+    before. The last outcome is that of an FMU that cannot be opened.
+    """
+    submitted: dict[int, Future[Outcome]] = {}
+    waiting = deque(range(len(tasks)))
+    count, began = processes.count, monotonic()
+    for index, (item, task) in enumerate(tasks):
+        if left_out(item):
+            if future := submitted.pop(index, None):
+                future.cancel()
+            continue
+        at_once = queued * (count if monotonic() - began >= ALONE else 1)
+        while waiting and len(submitted) < at_once:
+            following = waiting.popleft()
+            if not left_out(tasks[following][0]):
+                submitted[following] = processes.submit(tasks[following][1])
+        meanwhile(item)
+        outcome = processes.outcome(submitted.pop(index))
+        if not outcome.is_open and index > 0:  # it may run in fewer processes only
+            count = 1
+            wait(submitted.values())
+            outcome = processes.outcome(processes.submit(task))
+        yield index, outcome
+        if not outcome.is_open:
+            return

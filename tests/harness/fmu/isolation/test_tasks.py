@@ -8,7 +8,12 @@ from typing import Any
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import FmuDied
-from slider_resonator.fmu.isolation.tasks import Finished, run_tasks
+from slider_resonator.fmu.isolation.tasks import (
+    Finished,
+    LocalProcesses,
+    run_all_tasks,
+    run_tasks,
+)
 from tests.harness.fmu.isolation import tasks_of_tests as tasks
 
 MOVE = partial(tasks.position_after, time=0.01)
@@ -44,11 +49,17 @@ def test_tasks_of_one_name_are_left_out_after_a_crash(native_fmu: Path) -> None:
 
 
 def test_an_fmu_that_keeps_crashing_is_given_up_by_default(native_fmu: Path) -> None:
-    given = [(name, die) for name in "abc"]
-    *_, last = run_tasks(native_fmu, given, 60.0, name=str, max_crashes=2)
+    given = [(name, die) for name in "abcd"]
+    *_, last = run_tasks(native_fmu, given, 60.0, name=str)
     assert last.item is None
-    assert str(last.error) == "given up after 2 crashes or exceeded limits; not run: c"
-    assert len(list(run_tasks(native_fmu, given, 60.0, name=str, max_crashes=None))) == 3
+    assert str(last.error) == "given up after 3 crashes or exceeded limits; not run: d"
+
+
+def test_all_tasks_are_run_however_many_crash(native_fmu: Path) -> None:
+    given = [(name, die) for name in "abcd"]
+    with LocalProcesses(native_fmu, 60.0) as processes:
+        finished = list(run_all_tasks(processes, given, outcomes=(FmuDied,)))
+    assert [item for item, _, error in finished if isinstance(error, FmuDied)] == list("abcd")
 
 
 def test_a_missed_time_limit_ends_the_run(native_fmu: Path) -> None:
