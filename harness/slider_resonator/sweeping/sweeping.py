@@ -28,7 +28,6 @@ from slider_resonator.sweeping.table import (
     check_replaceable,
     check_writer,
     open_journal,
-    rows_of,
     table_columns,
     write_table,
 )
@@ -126,7 +125,11 @@ def run_sweep(
     content = json.dumps([__version__, fmu_digest, asdict(sweep.task), sweep.points])
     digest = hashlib.sha256(content.encode()).hexdigest()
     with open_journal(out, digest, restart=restart) as journal:
-        rows = rows_of(journal)
+        rows: dict[int, Row] = {
+            number: (number, cells, error)
+            for kept in journal.entries.values()
+            for number, cells, error in kept
+        }
         found = len(rows)
         left = [(n, point) for n, point in enumerate(sweep.points) if n not in rows]
 

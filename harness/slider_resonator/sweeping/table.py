@@ -119,19 +119,3 @@ def open_journal(table: Path, digest: str, *, restart: bool = False) -> Journal:
     """
     remedy = "move the file away, or discard it with --restart"
     return Journal(journal_path(table), "sweep", digest, remedy, restart=restart)
-
-
-def rows_of(journal: Journal) -> dict[int, Row]:
-    """Return the rows by number of the point; HarnessError for an entry that is none."""
-    rows: dict[int, Row] = {}
-    for number, entry in journal.entries.items():
-        for row in entry if isinstance(entry, list) else [entry]:
-            match row:
-                case [int(point), list(cells), None | str() as failure]:
-                    rows[point] = (point, cells, failure)
-                case _:
-                    raise HarnessError(
-                        f"{journal.path} entry {number}: is no point of a sweep; must be number, "
-                        "results and error; --restart discards the file"
-                    )
-    return rows

@@ -2,7 +2,6 @@
 
 import csv
 import math
-from math import inf
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +14,6 @@ from slider_resonator.sweeping.grid import Sweep, read_grid
 from slider_resonator.sweeping.measures import Row, Run, Task
 from slider_resonator.sweeping.table import (
     check_writer,
-    open_journal,
-    rows_of,
     table_columns,
     write_table,
 )
@@ -174,20 +171,3 @@ def test_without_pyarrow_only_csv_is_possible(monkeypatch: pytest.MonkeyPatch) -
     check_writer(Path("a.csv"))
     with pytest.raises(HarnessError, match=r"pip install 'slider-resonator\[parquet\]'"):
         check_writer(Path("a.parquet"))
-
-
-KEPT: list[Row] = [
-    (0, [0.1 + 0.2, "steady"], None),
-    (1, [None, None], "load = nan"),
-    (2, [inf], None),
-]
-
-
-def test_a_line_that_is_no_point_is_named(tmp_path: Path) -> None:
-    with open_journal(tmp_path / "b.csv", "a") as journal:
-        journal.add([KEPT, [{"point": 3}]])
-    with (
-        open_journal(tmp_path / "b.csv", "a") as journal,
-        pytest.raises(HarnessError, match=r"journal entry 2: is no point of a sweep"),
-    ):
-        rows_of(journal)
