@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
@@ -108,11 +108,11 @@ def _wait_for_points(process: subprocess.Popen[bytes], out: Path, points: int) -
 
 def _children(process: subprocess.Popen[bytes]) -> list[int]:
     """Return the processes of the FMU, which the threads of the sweep started."""
-    return [
-        int(child)
-        for thread in Path(f"/proc/{process.pid}/task").iterdir()
-        for child in (thread / "children").read_text().split()
-    ]
+    found: list[int] = []
+    for thread in Path(f"/proc/{process.pid}/task").iterdir():
+        with suppress(FileNotFoundError):  # those that send a task are short-lived
+            found += map(int, (thread / "children").read_text().split())
+    return found
 
 
 @pytest.fixture(scope="module")
