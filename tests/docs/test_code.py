@@ -3,7 +3,6 @@
 import os
 import re
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -13,27 +12,26 @@ from slider_resonator.sweeping.grid import read_grid
 from slider_resonator.sweeping.picture import check_picture
 from tests.processes import ROOT, run_command
 
+DOCS = ROOT / "docs"
 
-def output_of(code: str, file: Path, folder: Path) -> tuple[list[str], str]:
-    """Run code beside `dist` with a file; return the lines printed and the one in its comment."""
+
+def printed(code: str, file: Path, folder: Path) -> list[str]:
+    """The lines that code prints in a folder whose folder `dist` has a file."""
     (folder / "dist").mkdir()
     shutil.copy(file, folder / "dist")
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        cwd=folder,
-        env={**os.environ, "LD_LIBRARY_PATH": f"{sys.prefix}/lib"},  # ecos needs the one of tbb
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    own = {"PYTHONPATH": str(ROOT / "harness"), "LD_LIBRARY_PATH": f"{sys.prefix}/lib"}  # of tbb
+    done = run_command(sys.executable, "-c", code, cwd=folder, env={**os.environ, **own})
     assert done.returncode == 0, done.stderr
-    (expected,) = re.findall(r"^ *# (.*)$", code, re.MULTILINE)
-    return done.stdout.splitlines(), expected
+    return done.stdout.splitlines()
 
 
-(API_EXAMPLE,) = re.findall(
-    r"```python\n(.*?)```", (ROOT / "docs" / "api.md").read_text("utf-8"), re.DOTALL
-)
+def documented(code: str) -> str:
+    """What code prints by its only comment."""
+    (output,) = re.findall(r"^ *# (.*)$", code, re.MULTILINE)
+    return str(output)
+
+
+(API_EXAMPLE,) = re.findall(r"```python\n(.*?)```", (DOCS / "api.md").read_text("utf-8"), re.DOTALL)
 
 
 def test_the_example_of_the_page_runs(
@@ -50,8 +48,7 @@ def test_the_example_of_the_page_runs(
     assert "points     73" in capsys.readouterr().out
 
 
-PAGE = Path(__file__).parents[2] / "docs" / "closed_loop.md"
-CODE = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+CODE = re.findall(r"```python\n(.*?)```", (DOCS / "closed_loop.md").read_text("utf-8"), re.DOTALL)
 FMPY, VARIED, OWN, LIBCOSIMPY, ECOS = CODE
 
 
@@ -67,8 +64,7 @@ FMPY, VARIED, OWN, LIBCOSIMPY, ECOS = CODE
 def test_documented_code_prints_the_documented_output(
     code: str, closed_loop_package: Path, tmp_path: Path
 ) -> None:
-    printed, expected = output_of(code, closed_loop_package, tmp_path)
-    assert printed[-1] == expected
+    assert printed(code, closed_loop_package, tmp_path)[-1] == documented(code)
 
 
 def test_the_loop_of_another_device_holds_half_its_velocity(
@@ -77,8 +73,7 @@ def test_the_loop_of_another_device_holds_half_its_velocity(
     code = OWN.replace("open_fmu(", f"open_fmu({str(native_fmu)!r}, ")
     code = code.replace("sr.fmu_path()", f"Path({str(closed_loop_package)!r})")
     code = f"from pathlib import Path\n{code}"
-    printed, expected = output_of(code, closed_loop_package, tmp_path)
-    assert printed[-1] == expected
+    assert printed(code, closed_loop_package, tmp_path)[-1] == documented(code)
 
 
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -88,19 +83,11 @@ def script(number: int) -> str:
     return str(re.findall(r"^```python\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)[number])
 
 
-def printed(code: str, folder: Path, native_fmu: Path) -> list[str]:
-    (folder / "dist").symlink_to(native_fmu.parent)
-    env = {**os.environ, "PYTHONPATH": str(ROOT / "harness")}
-    done = run_command(sys.executable, "-c", code, cwd=folder, env=env)
-    assert done.returncode == 0, done.stderr
-    return done.stdout.splitlines()
-
-
 def test_the_first_script_prints_what_it_says(native_fmu: Path, tmp_path: Path) -> None:
     code = script(0)
     said = re.findall(r"^print\(.*\)  # (.*)$", code, re.MULTILINE)
     assert len(said) == 2
-    for line, end in zip(printed(code, tmp_path, native_fmu), said, strict=True):
+    for line, end in zip(printed(code, native_fmu, tmp_path), said, strict=True):
         assert line.endswith(f" {end}")
 
 
@@ -108,12 +95,9 @@ def test_the_script_of_the_api_is_ten_lines_that_run(native_fmu: Path, tmp_path:
     code = script(1).replace("sr.open_fmu()", f"sr.open_fmu({str(native_fmu)!r})")
     code = code.replace("sr.fmu_path()", repr(str(native_fmu)))
     assert len(code.splitlines()) <= 10
-    _, run, steady = printed(code, tmp_path, native_fmu)
+    _, run, steady = printed(code, native_fmu, tmp_path)
     assert run == "0.094666 m/s after 4 s"
     assert steady == "0.0986951 m/s in steady motion"
-
-
-DOCS = Path(__file__).parents[2] / "docs"
 
 
 def test_the_map_has_40_000_points_that_all_repeat() -> None:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ctypes
+import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
@@ -43,6 +45,31 @@ def unpack(fmu: Path, folder: Path) -> Unpacked:
     return Unpacked(folder, read_model_description(str(fmu)))
 
 
+@dataclass
+class HostMemory:
+    """Memory of a host: blocks by address, which are not zeroed, up to `limit` bytes in all."""
+
+    limit: float = math.inf
+    blocks: dict[int, ctypes.Array[ctypes.c_char]] = field(default_factory=dict)
+    given: int = 0
+    """How many blocks were given so far."""
+
+    @property
+    def in_use(self) -> int:
+        return sum(map(len, self.blocks.values()))
+
+    def allocate(self, count: int, size: int) -> int | None:
+        if self.in_use + count * size > self.limit:
+            return None
+        block = ctypes.create_string_buffer(b"\xa5" * (count * size), count * size)
+        self.blocks[ctypes.addressof(block)] = block
+        self.given += 1
+        return ctypes.addressof(block)
+
+    def release(self, address: int) -> None:
+        del self.blocks[address]
+
+
 class Entry(NamedTuple):
     """A message to the host's logger."""
 
@@ -55,7 +82,9 @@ class Entry(NamedTuple):
 class Instance:
     """One instance; `slave` is fmpy's object, for calls that a proper host does not make."""
 
-    def __init__(self, unpacked: Unpacked, *, logging_on: bool = True) -> None:
+    def __init__(
+        self, unpacked: Unpacked, *, logging_on: bool = True, memory: HostMemory | None = None
+    ) -> None:
         self.entries: list[Entry] = []
         self.time = 0.0
         self._status_of_refusals = unpacked.status_of_refusals
@@ -69,8 +98,8 @@ class Instance:
         # Not fmpy's own logger: that sends the messages of all instances to the newest of them.
         callbacks = fmi2CallbackFunctions(
             logger=fmi2CallbackLoggerTYPE(self._receive),
-            allocateMemory=fmi2CallbackAllocateMemoryTYPE(calloc),
-            freeMemory=fmi2CallbackFreeMemoryTYPE(free),
+            allocateMemory=fmi2CallbackAllocateMemoryTYPE(memory.allocate if memory else calloc),
+            freeMemory=fmi2CallbackFreeMemoryTYPE(memory.release if memory else free),
         )
         self.slave.instantiate(callbacks=callbacks, loggingOn=logging_on)
 

@@ -11,6 +11,7 @@ from fmpy.fmi3 import fmi3Error, fmi3InstanceEnvironment, fmi3LogMessageCallback
 from fmu_src.python.slider_component.variables import VARIABLES
 from tests.fmu.host import Unpacked
 from tests.fmu.host_3 import Instance3, instance_3
+from tests.fmu.native_calls import call
 
 STEP = 1e-3
 TIME = 1
@@ -29,12 +30,6 @@ OTHER_TYPES = (
     *("Float32", "Int8", "UInt8", "Int16", "UInt16", "UInt32", "Int64", "UInt64"),
     *("Boolean", "String"),
 )
-
-
-def call(instance: Instance3, function: str, *arguments: Any) -> int:
-    foreign = instance.slave.dll[function]
-    foreign.restype = ctypes.c_int
-    return int(foreign(ctypes.c_void_p(instance.slave.component), *arguments))
 
 
 @pytest.fixture
@@ -135,14 +130,13 @@ def test_null_pointers_are_refused(instance: Instance3) -> None:
     nothing = [ctypes.c_void_p()] * 4
     assert call(instance, "fmi3DoStep", zero, step, ctypes.c_bool(True), *nothing) == fmi3Error
     assert "fmi3DoStep: a null pointer refused" in instance.log[-1][2]
-    assert call(instance, "fmi3GetFloat64", None, ctypes.c_size_t(1), None, ctypes.c_size_t(1)) == 3
+    assert call(instance, "fmi3GetFloat64", None, 1, None, 1) == 3
     assert call(instance, "fmi3GetFMUState", None) == fmi3Error
     assert "null pointer" in instance.log[-1][2]
     assert instance.slave.dll.fmi3Reset(None) == fmi3Error
     many = (ctypes.c_uint32 * 1)(2)
     value = (ctypes.c_double * 2)()
-    wrong = ctypes.c_size_t(2)
-    assert call(instance, "fmi3GetFloat64", many, ctypes.c_size_t(1), value, wrong) == fmi3Error
+    assert call(instance, "fmi3GetFloat64", many, 1, value, 2) == fmi3Error
     assert "nValues = 2 refused: must be 1" in instance.log[-1][2]
 
 

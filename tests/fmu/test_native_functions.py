@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import pytest
-from fmpy import calloc, free
 from fmpy.fmi2 import (
     fmi2CallbackAllocateMemoryTYPE,
     fmi2CallbackFreeMemoryTYPE,
@@ -16,7 +15,7 @@ from fmpy.fmi2 import (
 
 from fmu_src.model_description import LOG_CATEGORIES
 from fmu_src.python.slider_component.variables import VALUE_REFERENCE, VARIABLES
-from tests.fmu.host import Instance, Unpacked
+from tests.fmu.host import HostMemory, Instance, Unpacked
 from tests.fmu.native_calls import DISCARD, ERROR, OK, call, reals, references
 from tests.fmu.test_native_binaries import fmi_functions
 from tests.fmus import native_fmu_only
@@ -41,35 +40,22 @@ NOT_OFFERED = (
 
 
 @dataclass
-class Host:
-    """Callbacks that note what they are asked for; those of `missing` are null."""
+class Host(HostMemory):
+    """A host that keeps what is logged; the callbacks called `missing` are null."""
 
     missing: tuple[str, ...] = ()
-    memory: bool = True
     log: list[tuple[bytes, int, bytes, bytes]] = field(default_factory=list)
-    taken: list[int] = field(default_factory=list)
-    given_back: list[int] = field(default_factory=list)
     kept: list[fmi2CallbackFunctions] = field(default_factory=list)
 
     def callbacks(self) -> fmi2CallbackFunctions:
         functions = {
             "logger": fmi2CallbackLoggerTYPE(lambda _, *said: self.log.append(said)),
-            "allocateMemory": fmi2CallbackAllocateMemoryTYPE(self._allocate),
-            "freeMemory": fmi2CallbackFreeMemoryTYPE(self._free),
+            "allocateMemory": fmi2CallbackAllocateMemoryTYPE(self.allocate),
+            "freeMemory": fmi2CallbackFreeMemoryTYPE(self.release),
         }
         present = {k: f for k, f in functions.items() if k not in self.missing}
         self.kept.append(fmi2CallbackFunctions(**present))
         return self.kept[-1]
-
-    def _allocate(self, count: int, size: int) -> int | None:
-        if not self.memory:
-            return None
-        self.taken.append(calloc(count, size))
-        return self.taken[-1]
-
-    def _free(self, memory: int) -> None:
-        self.given_back.append(memory)
-        free(memory)
 
 
 def instantiate_as(
@@ -109,7 +95,7 @@ def test_a_refused_instantiation_says_why(
     ((_, status, category, said),) = host.log
     assert (status, category) == (ERROR, b"logStatusError"), "also when no logging is asked for"
     assert text in said.decode()
-    assert host.taken == host.given_back
+    assert host.in_use == 0
 
 
 @pytest.mark.parametrize(
@@ -122,23 +108,23 @@ def test_a_host_without_memory_callbacks_is_served(
     component = instantiate_as(instance, host)
     assert component is not None
     give_back(instance, component)
-    assert host.taken == host.given_back == [], "memory from one is never given to another"
+    assert host.given == 0, "memory from one is never given to another"
 
 
 def test_a_host_that_runs_out_of_memory_gets_no_state(instance: Instance) -> None:
     host = Host()
     component = instantiate_as(instance, host)
-    host.memory = False
+    host.limit = 0
     state = ctypes.c_void_p()
     function = instance.slave.dll.fmi2GetFMUstate
     assert function(ctypes.c_void_p(component), ctypes.byref(state)) == ERROR
     assert state.value is None
     assert host.log[-1][-1] == b"fmi2GetFMUstate: no memory for a state"
-    host.memory = True
+    host.limit = math.inf
     assert function(ctypes.c_void_p(component), ctypes.byref(state)) == OK, "it can go on"
     instance.slave.dll.fmi2FreeFMUstate(ctypes.c_void_p(component), ctypes.byref(state))
     give_back(instance, component)
-    assert sorted(host.taken) == sorted(host.given_back)
+    assert host.given > 0 == host.in_use
 
 
 @pytest.mark.parametrize("function", sorted(fmi_functions() - {"fmi2Instantiate"}))

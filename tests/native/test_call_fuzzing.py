@@ -1,6 +1,7 @@
 """All functions of FMI 2.0 in random order, with good, bad and absurd arguments."""
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,9 @@ from fmu_src.controller.variables import VARIABLES
 from tests.native.toolchain import COUNTS, PROGRAMS, Binary, program, run, unpacked_binary
 
 CALLS = 300_000
+FUNCTIONS = ("fmi2DoStep", "fmi2SetReal", "fmi2SetFMUstate", "fmi2DeSerializeFMUstate")
+FUNCTIONS_3 = ("fmi3DoStep", "fmi3SetFloat64", "fmi3SetFMUState", "fmi3EnterStepMode")
+"""Functions that are carried out more than a thousand times, and also refused."""
 
 
 @pytest.fixture(scope="module")
@@ -16,13 +20,15 @@ def fuzzer(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return program(PROGRAMS / "fuzz.c", tmp_path_factory.mktemp("fuzzer"))
 
 
-def fuzz(fuzzer: Path, binary: Binary, *arguments: int) -> dict[str, int]:
+def fuzz(
+    fuzzer: Path, binary: Binary, *arguments: float, functions: Sequence[str] = FUNCTIONS
+) -> dict[str, int]:
     """Number of calls by the name of the function, none of which went wrong."""
     done = run([fuzzer, binary.library, binary.guid, *arguments])
     assert done.returncode == 0, f"{arguments}: {done.stdout}{done.stderr}"
     assert done.stdout.startswith(f"{CALLS} calls"), "the fuzzer ended before its last call"
     calls = {name: (int(n), int(k)) for name, n, k in re.findall(r"(\w+) (\d+) (\d+)", done.stdout)}
-    for name in ("fmi2DoStep", "fmi2SetReal", "fmi2SetFMUstate", "fmi2DeSerializeFMUstate"):
+    for name in functions:
         number, carried_out = calls[name]
         assert 1000 < carried_out < number, f"{name} is both carried out and refused"
     return {name: number for name, (number, _) in calls.items()}
@@ -49,13 +55,7 @@ def test_no_call_of_fmi_3_crashes_hangs_or_is_refused_in_silence(
 ) -> None:
     fuzzer = program(PROGRAMS / "fuzz3.c", tmp_path)
     binary = unpacked_binary(native_3_fmu, tmp_path, "x86_64-linux")
-    done = run([fuzzer, binary.library, binary.guid, seed, CALLS, COUNTS[0], 2.0])
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert done.stdout.startswith(f"{CALLS} calls"), "the fuzzer ended before its last call"
-    calls = {name: (int(n), int(k)) for name, n, k in re.findall(r"(\w+) (\d+) (\d+)", done.stdout)}
-    for name in ("fmi3DoStep", "fmi3SetFloat64", "fmi3SetFMUState", "fmi3EnterStepMode"):
-        number, carried_out = calls[name]
-        assert 1000 < carried_out < number, f"{name} is both carried out and refused"
+    fuzz(fuzzer, binary, seed, CALLS, COUNTS[0], 2.0, functions=FUNCTIONS_3)
 
 
 @pytest.mark.slow

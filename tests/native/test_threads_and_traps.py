@@ -1,8 +1,13 @@
+"""Memory, threads and floating-point traps of hosts in C."""
+
 from pathlib import Path
 
 import pytest
 
+from studies.hosts.driver_host import native_driver
+from tests.native.scripts import CHOICES, script
 from tests.native.toolchain import PROGRAMS, Binary, program, run
+from tests.problems import PROBLEMS
 
 pytestmark = pytest.mark.slow
 
@@ -24,3 +29,20 @@ def test_memory_stays_flat_over_thousands_of_instances(product: Binary, tmp_path
 
 def test_threads_give_the_numbers_of_instances_alone(product: Binary, tmp_path: Path) -> None:
     output_of("threads.c", tmp_path, product, 8, 5000)
+
+
+def test_resolved_motion_raises_no_exception_that_hosts_trap(
+    product: Binary, tmp_path: Path
+) -> None:
+    """No invalid operation and no division by zero."""
+    preloaded = ("-shared", "-fPIC", "-Wl,--no-as-needed", "-lm")
+    trap = program(PROGRAMS / "trap.c", tmp_path, preloaded)
+    command = [native_driver(), product.library, product.guid, "file:///nowhere"]
+    died = {}
+    for name, problem in PROBLEMS.items():
+        for law, fidelity in ((law, fidelity) for law, fidelity in CHOICES if fidelity > 0):
+            commands = script(problem.start_values, law, fidelity)
+            done = run(command, commands, {"LD_PRELOAD": str(trap)})
+            if done.returncode < 0:
+                died[name, law, fidelity] = done.returncode
+    assert not died, f"ended by signals: {died}"

@@ -61,30 +61,31 @@ def test_a_write_that_fails_is_an_error_of_the_file(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
-def test_targets_that_are_not_regular_files_are_refused_by_kind(tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "pipe")
-    (tmp_path / "link").symlink_to(tmp_path / "elsewhere")
-    for target, kind in (
-        (tmp_path, "a directory"),
-        (tmp_path / "pipe", "a pipe"),
-        (tmp_path / "link", "a symbolic link"),
-        (Path("/dev/null"), "a device"),
-    ):
-        with pytest.raises(HarnessError, match=f"is {kind}; must be a regular file"):
-            writable(str(target))
-
-
-def test_no_name_and_no_folder_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(HarnessError, match="names no file"):
-        writable("")
-    with pytest.raises(HarnessError, match=r"there is no folder .*missing"):
-        writable(str(tmp_path / "missing" / "out.csv"))
-    assert not (tmp_path / "missing").exists()
-    (tmp_path / "file").touch()
-    with pytest.raises(HarnessError, match="Not a directory"):
-        writable(str(tmp_path / "file" / "out.csv"))
-    with pytest.raises(HarnessError, match="name too long"):
-        writable(str(tmp_path / ("x" * 300)))
+@pytest.mark.parametrize(
+    ("target", "refused"),
+    [
+        ("", "names no file"),
+        (".", "is a directory; must be a regular file"),
+        ("pipe", "is a pipe; must be a regular file"),
+        ("link", "is a symbolic link; must be a regular file"),
+        ("/dev/null", "is a device; must be a regular file"),
+        ("missing/out.csv", "there is no folder missing"),
+        ("file/out.csv", "Not a directory"),
+        ("x" * 300, "name too long"),
+        ("p.txt", r"'\.txt'; must be one of \.png, \.svg"),
+    ],
+)
+def test_what_cannot_be_written_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, target: str, refused: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    os.mkfifo("pipe")
+    Path("link").symlink_to("elsewhere")
+    Path("file").touch()
+    with pytest.raises(HarnessError, match=refused):
+        writable(target, (".png", ".svg") if target == "p.txt" else ())
+    assert not Path("missing").exists()
+    assert writable("p.PNG", (".png",)).name == "p.PNG"
 
 
 def test_a_folder_in_which_no_file_can_be_created_is_refused(
@@ -109,12 +110,6 @@ def test_a_folder_for_results_is_made_unless_a_file_is_there(tmp_path: Path) -> 
     for folder in ("file", "file/results"):
         with pytest.raises(HarnessError, match=f"{folder}: cannot be made a folder"):
             make_folder(tmp_path / folder)
-
-
-def test_a_suffix_that_no_picture_has_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(HarnessError, match=r"'\.txt'; must be one of \.png, \.svg"):
-        writable(str(tmp_path / "p.txt"), (".png", ".svg"))
-    assert writable(str(tmp_path / "p.PNG"), (".png",)).name == "p.PNG"
 
 
 def test_a_target_that_is_read_from_is_refused_under_any_name(

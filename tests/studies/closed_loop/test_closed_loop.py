@@ -1,6 +1,5 @@
 """The duty of the loop, its judge, and predicted errors."""
 
-import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +10,7 @@ from studies.closed_loop.duty import Duty
 from studies.closed_loop.judge import judge_agreement, judge_intervals
 from studies.closed_loop.loop import HOSTS, LoopRecord, run_loop
 from studies.closed_loop.prediction import predicted_errors
+from tests.harness.faulty_fmus import altered
 
 
 def test_a_load_counts_from_its_own_time_on_despite_rounding() -> None:
@@ -65,10 +65,7 @@ BRIEF_DUTY = Duty(loads=((0.0, 0.0), (0.8, 0.03)), end=1.6, settling=0.5)
 
 def changed(package: Path, out: Path, old: bytes, new: bytes) -> Path:
     """Copy a package with something replaced in all its files."""
-    with zipfile.ZipFile(package) as archive, zipfile.ZipFile(out, "w") as copy:
-        for name in archive.namelist():
-            copy.writestr(name, archive.read(name).replace(old, new))
-    return out
+    return altered(package, out, lambda _, content: content.replace(old, new))
 
 
 PLACE = b'<ssv:Parameter name="slider.fidelity">'

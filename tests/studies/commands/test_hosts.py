@@ -18,10 +18,6 @@ def others(python_fmu: Path, native_3_fmu: Path) -> tuple[str | Path, ...]:
     return "--python-fmu", python_fmu, "--fmi3-fmu", native_3_fmu
 
 
-def test_the_fmu_is_given_once(native_fmu: Path) -> None:
-    assert "must be one FMU" in call("hosts", native_fmu, "--fmu", native_fmu).stderr
-
-
 def test_an_fmu_that_fmpy_cannot_run_is_no_verdict(
     others: tuple[str | Path, ...], tmp_path: Path
 ) -> None:

@@ -31,12 +31,6 @@ def test_a_package_that_is_missing_is_named_with_what_installs_it() -> None:
         package_version("no-such-host")
 
 
-def test_an_environment_that_is_missing_is_named_with_what_creates_it(tmp_path: Path) -> None:
-    (cofmupy,) = (host for host in hosts(tmp_path / "nowhere") if host.name == "cofmupy")
-    with pytest.raises(HarnessError, match=r"cofmupy: there is no .*nowhere.*`make hosts`"):
-        cofmupy.version()
-
-
 def test_the_driver_compiles_without_warnings_and_prints_its_usage(tmp_path: Path) -> None:
     driver = compile_program(native_compiler(), SOURCES / "driver.c", tmp_path / "driver")
     done = subprocess.run([driver], capture_output=True, text=True, check=False)

@@ -1,10 +1,11 @@
 """Which tasks are run, and how often, where an FMU dies; the processes are tested beside this."""
 
-import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any
+
+import pytest
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import FmuDied
@@ -22,8 +23,12 @@ MOVE = partial(tasks.position_after, time=0.01)
 Named = tuple[str, Callable[[Instance], Any]]
 
 
+CLOCK = [0.0]
+"""The time (s) of a test that does not wait."""
+
+
 def die(instance: Instance, seconds: float = 0.0, over_limit: bool = False) -> None:
-    time.sleep(seconds)
+    CLOCK[0] += seconds
     raise FmuDied("as a process of its own would have", over_limit=over_limit)
 
 
@@ -71,7 +76,10 @@ def test_a_missed_time_limit_ends_the_run(native_fmu: Path) -> None:
     assert str(last.error) == "given up after 1 crash or exceeded limit; not run: b, c"
 
 
-def test_crashes_that_took_the_time_limit_end_the_run(native_fmu: Path) -> None:
+def test_crashes_that_took_the_time_limit_end_the_run(
+    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(f"{run_tasks.__module__}.monotonic", lambda: CLOCK[0])
     slow: Named = ("a", partial(die, seconds=0.9))
     given = [slow, ("b", slow[1]), ("c", slow[1])]
     *died, last = run_tasks(native_fmu, given, 1.5, name=str)
