@@ -171,7 +171,7 @@ def test_no_step_takes_more_than_some_seconds(
     instantiate: Instantiate, fmu: Path, values: dict[str, float], turns: float
 ) -> None:
     # Some seconds in Python; at most 2 in C, and a margin for a busy machine.
-    longest = 40.0 if fmu.stem == "SliderResonatorPy" else 6.0
+    longest = 20.0 if fmu.stem == "SliderResonatorPy" else 3.0
     instance = instantiate().initialize(phase=0.4, **values)
     instance.step(1e-3)
     before = instance.get(*OUTPUTS)

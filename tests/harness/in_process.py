@@ -14,10 +14,6 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT, FmuDied, Isolated
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.output.progress import Progress
 
-ONE_AT_A_TIME = threading.RLock()
-"""Held where an FMU may be loaded: fmpy changes the working folder of the process meanwhile, and
-two threads could leave it in a folder that is removed with its FMU."""
-
 
 @dataclass(frozen=True)
 class InProcess:
@@ -47,7 +43,7 @@ def _open(
     self._resources = ExitStack()
     self._here = InProcess(None)
     if fmu is not None:
-        with ONE_AT_A_TIME, ExitStack() as resources:
+        with ExitStack() as resources:
             opened = resources.enter_context(open_fmu(fmu))
             self._here = InProcess(resources.enter_context(instantiate(opened)))
             self._resources = resources.pop_all()
@@ -57,7 +53,6 @@ def _open(
 
 
 def _run(self: Any, task: Task, progress: Progress | None = None) -> Any:
-    with ONE_AT_A_TIME:
-        if self._stop.is_set():
-            raise FmuDied("the process of the FMU has been stopped")
-        return self._here.run(task, progress)
+    if self._stop.is_set():
+        raise FmuDied("the process of the FMU has been stopped")
+    return self._here.run(task, progress)
