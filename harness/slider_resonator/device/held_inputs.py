@@ -1,7 +1,7 @@
 """Inputs over an interval: held, or straight lines, as an FMU has them in a communication step."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
 import numpy as np
@@ -17,7 +17,8 @@ RATES = ("phase_rate", "load_rate", "ratio_rate")
 class HeldInputs:
     """Inputs over ``[start, stop]`` (s): phase (rad), load (N), frequency_ratio (1).
 
-    They are the values at ``start``, which stay, or change at constant rates per second.
+    They are the values at ``start``, which stay, or change at constant rates per second. ``tuned``
+    is what a run tunes, by name: parameters, deviations of the drive.
     """
 
     start: float
@@ -28,6 +29,7 @@ class HeldInputs:
     phase_rate: float = 0.0
     load_rate: float = 0.0
     ratio_rate: float = 0.0
+    tuned: tuple[tuple[str, float], ...] = field(default=(), kw_only=True)
 
     @property
     def vary(self) -> bool:
@@ -50,21 +52,10 @@ class HeldInputs:
         return ratio * frequency * duration
 
     def tuned_device(self, device: Device) -> Device:
-        """Return the device of a run as it is over these inputs."""
-        return device
-
-
-@dataclass(frozen=True)
-class TunedInputs(HeldInputs):
-    """Held inputs together with what a run tunes, by name: parameters, deviations of the drive."""
-
-    tuned: tuple[tuple[str, float], ...] = ()
-
-    def tuned_device(self, device: Device) -> Device:
         """Return the device of a run with the parameters as they are over these inputs."""
         values = dict(self.tuned)
         parameters: dict[str, Any] = {n: v for n, v in values.items() if n not in DEVIATIONS}
-        return replace(device, **parameters).deviating(values)
+        return replace(device, **parameters).deviating(values) if values else device
 
 
 def with_steady_phase(held: Sequence[HeldInputs], device: Device) -> list[HeldInputs]:

@@ -10,14 +10,13 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import (
     RATES,
     HeldInputs,
-    TunedInputs,
     check_contiguous,
     check_times,
     turning_apart,
     with_steady_phase,
 )
 from slider_resonator.device.schedule import communication_points, schedule, step_count
-from slider_resonator.device.signal import Signal, ramp, steps
+from slider_resonator.device.signal import Signal, constant, ramp, steps
 
 
 def test_steps_hold_until_the_next_point() -> None:
@@ -128,11 +127,11 @@ def test_jump_replaces_a_grid_point_just_before_it() -> None:
 
 
 def test_extra_readings_keep_the_held_inputs() -> None:
-    plan = schedule(1.0, 0.25, load=ramp([(0.0, 0.0), (1.0, 4.0)]))
+    plan = schedule(1.0, 0.25, load=ramp([(0.0, 0.0), (1.0, 4.0)]), phase=constant(0.3))
     more = plan.read_at(np.array([0.1, 0.25 + 1e-12, 0.6]), 1e-9)
     assert more.times.tolist() == [0.0, 0.1, 0.25, 0.5, 0.6, 0.75, 1.0]
     assert more.held() == plan.held()
-    assert more.phase is plan.phase, "what is constant stays so"
+    assert more.signals["phase"] is plan.signals["phase"], "what is constant stays so"
 
 
 def test_lines_are_held_or_have_rates_and_corners() -> None:
@@ -213,7 +212,7 @@ def test_inputs_are_cut_where_the_load_turns_back() -> None:
 
 def test_a_rate_of_the_phase_is_a_shift_of_the_ratio() -> None:
     rise = HeldInputs(0.0, 0.1, 0.3, phase_rate=7.0)
-    jump = TunedInputs(0.1, 0.2, -0.5, phase_rate=3.0, tuned=(("drive_frequency", 3000.0),))
+    jump = HeldInputs(0.1, 0.2, -0.5, phase_rate=3.0, tuned=(("drive_frequency", 3000.0),))
     first, second = with_steady_phase([rise, jump], Device())
     assert (first.phase, first.frequency_ratio, first.phase_rate) == (0.3, 1.0 + 0.002, 0.0)
     assert second.frequency_ratio == 1.0 + 0.001

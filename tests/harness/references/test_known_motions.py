@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pytest
@@ -24,7 +25,7 @@ class KnownMotion:
     """A device under constant inputs over [0, STOP] s, and one of its signals in closed form."""
 
     parameters: dict[str, float]
-    inputs: dict[str, float]
+    inputs: dict[str, Any]
     signal: str
     exact: Callable[[Array], Array]
     event_times: tuple[float, ...] = ()

@@ -11,12 +11,8 @@ from typing import Any
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Fatal
 
-from slider_resonator.checks.conduct.findings import (
-    adding_refusal,
-    differences,
-    other_value,
-)
-from slider_resonator.checks.conduct.replays import plain_rows
+from slider_resonator.checks.conduct.findings import adding_refusal, other_value
+from slider_resonator.checks.conduct.replays import Replay
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES, Variable
 from slider_resonator.fmu.instance import Instance
@@ -256,17 +252,13 @@ def bad_values(variable: Variable) -> list[float]:
 
 def refusal_faults(fmu: FmuSide) -> list[str]:
     """Try what must be refused before, in and after the run of the scene; the run goes on."""
-    instance, schedule = fmu.instance, fmu.scene.schedule()
-    expected = plain_rows(instance, fmu.scene.parameters, schedule)
-    running = Running(instance, schedule)
-    start = {**fmu.scene.parameters, **running.first}
-    trial = Trial(instance, [])
-    with adding_refusal(instance, trial.faults):
-        _try_all(trial, running, start, schedule.start_time)
-        what = "a run with refused calls"
-        outputs, times = instance.fmu.outputs, schedule.readings()
-        found = differences(what, outputs, times, running.rows, expected)
-        return trial.faults + found
+    plain = Replay(fmu)
+    running = Running(fmu.instance, plain.schedule)
+    start = {**plain.parameters, **running.first}
+    trial = Trial(fmu.instance, [])
+    with adding_refusal(fmu.instance, trial.faults):
+        _try_all(trial, running, start, plain.schedule.start_time)
+        trial.faults += plain.differences("a run with refused calls", running.rows)
     return trial.faults
 
 

@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
@@ -48,7 +49,7 @@ def both(
     return simulate_averaged(device, held, times), simulate(resolved, held, times)
 
 
-CASES: dict[str, tuple[Device, dict[str, float]]] = {
+CASES: dict[str, tuple[Device, dict[str, Any]]] = {
     "Coulomb": (COULOMB, {"phase": 0.4, "load": 0.05}),
     "Coulomb, ratio 3": (COULOMB, {"phase": 0.4, "frequency_ratio": 3.0}),
     "Coulomb, lifting": (replace(COULOMB, normal_amplitude=2.0), {"phase": 0.4}),
