@@ -5,10 +5,12 @@ for an accuracy of 1e-6. The fixed point of the map over a single period is foun
 few dozen.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal, Protocol
+from math import ceil
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +31,8 @@ LoadedPeriodMap = Callable[[Vector, float], tuple[Vector, float]]
 
 WARM_UP = 20
 """Drive periods run before shooting, so that the resonator's own transient is mostly gone."""
+SAMPLES = 8
+"""Points of the last of these periods that give the size of each state."""
 TOLERANCE = 1e-11
 """Accuracy of the state in units of its scale, by default."""
 
@@ -258,18 +262,47 @@ class WarmedUp:
         return state
 
 
-class PeriodicRun(Protocol):
-    """A device that is run over its common period of `period` seconds."""
+class PeriodicRun(ABC):
+    """A device that is run over a common period of `drive_periods`, each of `drive_period` s.
+
+    Its state has the entries `names`, the velocity (m/s) first.
+    """
+
+    names: tuple[str, ...]
+    drive_periods: int
+    drive_period: float
 
     @property
     def period(self) -> float:
         """Length of the common period in seconds."""
+        return self.drive_periods * self.drive_period
+
+    @abstractmethod
+    def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
+        """Return states (m, n) and travel (m,), in m, at times (m,), in s, under a load (N).
+
+        The run begins in a state (n,) at theta = psi = 0 and ends with the last of the times, a
+        whole number of drive periods later.
+        """
+
+    @abstractmethod
+    def scale(self, sizes: Vector) -> Vector:
+        """Return the scale of each entry of the state from its largest magnitude, both (n,)."""
 
     def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
         """Return state (n,) and displacement (m) after a common period under a load (N)."""
+        states, travel = self.run(state, load, np.array([self.period]))
+        return states[-1], float(travel[-1])
 
     def warm_up(self, velocity: float, load: float) -> WarmedUp:
         """Run some periods with the resonator at rest and the slider at `velocity` (m/s)."""
+        count = ceil(WARM_UP / self.drive_periods) * self.drive_periods
+        start = np.zeros(len(self.names))
+        start[0] = velocity
+        times = np.linspace(count - 1, count, SAMPLES + 1) * self.drive_period
+        states, travel = self.run(start, load, times)
+        mean = float(travel[-1] - travel[0]) / self.drive_period
+        return WarmedUp(states[-1], self.scale(np.abs(states[1:]).max(axis=0)), mean)
 
 
 def steady_point(

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from slider_resonator.steady.bracketing import bracketed_state
-from slider_resonator.steady.newton import Vector, solve
+from slider_resonator.steady.newton import Matrix, Vector, solve
 from slider_resonator.steady.shooting import (
     FixedPoint,
     NoFixedPoint,
+    PeriodicRun,
     WarmedUp,
     blocked_point,
     blocking_point,
@@ -207,14 +208,18 @@ def test_blocking_point_of_a_map_without_motion_is_singular() -> None:
     assert isinstance(found, NoFixedPoint)
 
 
-class _Slider:
+class _Slider(PeriodicRun):
     """A slow velocity that (0.1 - load) pushes, saturated as Coulomb friction is, and a swing."""
 
-    period = 2.0
+    drive_periods = 1
+    drive_period = 2.0
 
-    def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
+    def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
         drift = 0.01 * (0.1 - load - np.clip(state[0], -0.5, 0.5))
-        return np.array([state[0] + drift, 0.3 * state[1]]), self.period * float(state[0])
+        return np.array([[state[0] + drift, 0.3 * state[1]]]), times * state[0]
+
+    def scale(self, sizes: Vector) -> Vector:
+        return np.ones_like(sizes)
 
     def warm_up(self, velocity: float, load: float) -> WarmedUp:
         return WarmedUp(np.array([velocity + 0.02, 0.1]), np.ones(2), velocity + 0.01)
@@ -225,7 +230,7 @@ def test_steady_motion_is_found_from_any_guess(velocity: float) -> None:
     found = steady_point(_Slider(), velocity, 0.03)
     assert isinstance(found, FixedPoint)
     assert found.load == 0.03
-    assert found.displacement / _Slider.period == pytest.approx(0.07, abs=1e-9)
+    assert found.displacement / _Slider().period == pytest.approx(0.07, abs=1e-9)
 
 
 def test_blocking_load_is_found() -> None:

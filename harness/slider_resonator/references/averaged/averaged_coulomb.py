@@ -32,11 +32,9 @@ def mean_friction(
     check_amplitude_ratio(amplitude_ratio)
     angle = math.acos(max(-1.0, min(1.0, velocity / strength)))
     slide = 1.0 - 2.0 * angle / math.pi
-    if ratio == 0.0:
-        return slide * max(0.0, 1.0 + amplitude_ratio * math.sin(phase))
     turns = turns_until_repeat(amplitude_ratio, ratio)
-    if turns == 0:
-        return slide * mean_load(amplitude_ratio)
+    if turns == 0 or ratio == 0.0:
+        return slide * mean_load(1.0, amplitude_ratio, phase, ratio)
     if amplitude_ratio > 1.0:
         total = 0.0
         for turn in range(turns):

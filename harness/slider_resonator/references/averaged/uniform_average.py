@@ -71,14 +71,11 @@ def mean_friction(
             raise ValueError(f"{name} = {value!r} must be greater than 0")
     q, mu = case.strength, case.friction_coefficient
     turns = turns_until_repeat(case.amplitude_ratio, ratio)
+    load = mean_load(1.0, case.amplitude_ratio, case.phase, ratio)
     if turns == 0:
         constant = replace(case, amplitude_ratio=0.0)
-        mean = mean_load(case.amplitude_ratio)
-        return mean * mean_friction(velocity, constant, stiffness, frequency)
+        return load * mean_friction(velocity, constant, stiffness, frequency)
     if abs(velocity) >= q:
-        load = mean_load(case.amplitude_ratio)
-        if ratio == 0:
-            load = max(0.0, 1.0 + case.amplitude_ratio * math.sin(case.phase))
         return math.copysign(mu, velocity) * load
     turn = math.acos(velocity / q)
     rate = stiffness / (mu * frequency)

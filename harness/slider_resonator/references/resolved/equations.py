@@ -187,14 +187,7 @@ class Equations:
         They are what the forces, apart from the resonator's, would reach in 1 / drive_frequency.
         Never zero, even without any force.
         """
-        velocity = self.force_scale(load) / (self.inertia * self.drive_frequency)
-        displacement = velocity / self.drive_frequency
-        scales = np.array([displacement, velocity, displacement, velocity])
-        return scales.clip(min=float(np.finfo(float).tiny))
-
-    def force_scale(self, load: float) -> float:
-        """Return a force in N that bounds what moves the slider apart from the resonator."""
-        return (
+        force = (
             self.inertia * self.base_acceleration
             + abs(self.force_sine)
             + abs(self.force_cosine)
@@ -202,6 +195,10 @@ class Equations:
             + self.friction_amplitude
             + abs(load)
         )
+        velocity = force / (self.inertia * self.drive_frequency)
+        displacement = velocity / self.drive_frequency
+        scales = np.array([displacement, velocity, displacement, velocity])
+        return scales.clip(min=float(np.finfo(float).tiny))
 
 
 def equations_of(device: Device) -> Equations:

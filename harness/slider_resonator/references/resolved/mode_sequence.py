@@ -25,7 +25,6 @@ from slider_resonator.references.resolved.contact import (
     SLIP_FORWARD,
     STICK,
     is_lifted,
-    mode_at_rest,
     time_to_contact_change,
 )
 from slider_resonator.references.resolved.equations import Instant, equations_of, initial_state
@@ -168,13 +167,13 @@ class ModeSequence:
         if self._bends:
             return self._direction
         _, velocity, displacement, resonator_velocity = self.state
-        if velocity:
-            return SLIP_FORWARD if velocity > 0.0 else SLIP_BACKWARD
         needed = self._equations.needed_force(
             inputs.load, self._theta, displacement, resonator_velocity
         )
         limit = self._equations.friction_limit(self._psi + inputs.phase)
-        return mode_at_rest(needed, max(0.0, limit))
+        if not velocity and abs(needed) <= max(0.0, limit):
+            return STICK
+        return SLIP_FORWARD if (velocity or needed) > 0.0 else SLIP_BACKWARD
 
     def _mode_after_event(self, mode: int, event: int, inputs: HeldInputs) -> int:
         position, _, *others = self.state
