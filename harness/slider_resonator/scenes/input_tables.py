@@ -4,8 +4,6 @@ from typing import ClassVar, Literal
 
 from pydantic import model_validator
 
-from slider_resonator.device.device import DEVIATIONS
-from slider_resonator.device.interface import TUNABLES
 from slider_resonator.scenes.key_table import (
     KeyTable,
     Number,
@@ -101,11 +99,6 @@ class AllInputsTable(InputsTable):
         "deviation of drive_frequency, relative to it", 0.01, unit="1"
     )
 
-    @property
-    def deviations(self) -> dict[str, InputTable]:
-        """The deviations that are given, by name."""
-        return self.given(DEVIATIONS)
-
 
 class TuningTable(KeyTable):
     """Tunable parameters over time, given as inputs are; those left out stay as in [device]."""
@@ -131,11 +124,6 @@ class TuningTable(KeyTable):
     friction_coefficient: InputTable | None = key(
         "friction coefficient", {"csv": "friction.csv", "column": "mu"}, unit="1"
     )
-
-    @property
-    def tuned(self) -> dict[str, InputTable]:
-        """The tuned parameters by name."""
-        return self.given(TUNABLES)
 
 
 class BesideTable(KeyTable):

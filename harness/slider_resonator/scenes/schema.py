@@ -5,7 +5,8 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, field_validator, model_validator
 
-from slider_resonator.device.interface import INPUTS, SETTABLE
+from slider_resonator.device.device import DEVIATIONS
+from slider_resonator.device.interface import INPUTS, SETTABLE, TUNABLES
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.expansion import with_bundles
@@ -88,7 +89,9 @@ class SweepTable(KeyTable):
         examples=["load"],
         json_schema_extra={"enum": [*SETTABLE]},
     )
-    values: tuple[Number, ...] = required("its values", [0.0, 0.02, 0.04])
+    values: Annotated[tuple[Number, ...], Field(min_length=1)] = required(
+        "its values", [0.0, 0.02, 0.04]
+    )
 
     @field_validator("variable")
     @classmethod
@@ -96,13 +99,6 @@ class SweepTable(KeyTable):
         if name not in SETTABLE:
             raise ValueError(unknown_name("parameter or input", name, SETTABLE))
         return name
-
-    @field_validator("values")
-    @classmethod
-    def _some(cls, values: tuple[float, ...]) -> tuple[float, ...]:
-        if not values:
-            raise ValueError("must be a list of at least one number")
-        return values
 
     @model_validator(mode="after")
     def _possible(self) -> "SweepTable":
@@ -170,7 +166,7 @@ class SceneTable(KeyTable):
 
     @model_validator(mode="after")
     def _runnable(self) -> "SceneTable":
-        for name in self.tuning.tuned:
+        for name in self.tuning.given(TUNABLES):
             if name in self.device:
                 raise ValueError(
                     f"tuning.{name} is in [device] and in [tuning]; must be in one of them"
@@ -202,7 +198,7 @@ class SceneTable(KeyTable):
 
         Deviations of a drive that is tuned count as such: they are applied to what it is tuned to.
         """
-        deviations = self.inputs.deviations
-        tables = self.inputs.given(INPUTS) | self.tuning.tuned | deviations
-        combined = deviations if self.tuning.tuned else {}
+        tuned, deviations = self.tuning.given(TUNABLES), self.inputs.given(DEVIATIONS)
+        tables = self.inputs.given(INPUTS) | tuned | deviations
+        combined = deviations if tuned else {}
         return [n for n, table in tables.items() if table.constant is None or n in combined]
