@@ -12,7 +12,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.compare import Check, Comparison, Tolerance, compare
+from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.curves import Curves
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.validate import RunFailure, Validation
@@ -128,12 +128,8 @@ def _judged(
     judged = []
     for name, expected in experiment.results.items():
         measured = Measurement(record[name][rows], times=times)
-        comparison = Comparison(
-            name,
-            "own result",
-            Tolerance(relative=experiment.allowed),
-            "the FMU carries this result of its experiment",
-        )
+        why = "the FMU carries this result of its experiment"
+        comparison = Comparison(name, "own result", why, relative=experiment.allowed)
         check = compare(comparison, measured, expected, point)
         judged.append(Curves(check, times, measured.value, expected))
     return judged

@@ -7,12 +7,7 @@ from rich.text import Text
 
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.headline import headline
-from slider_resonator.checks.validate import (
-    Validation,
-    judged_without,
-    not_applied,
-    worst_of_sweeps,
-)
+from slider_resonator.checks.validate import Validation, worst_of_sweeps
 from slider_resonator.checks.verdict import called, near_zero, place, sentence, sizes, value_text
 from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
@@ -46,13 +41,11 @@ def print_validation(
     """
     if not only_failed:
         _print_headline(console, validation.checks)
-    scenes: dict[str, list[Check]] = {}
-    for check in validation.checks:
-        scenes.setdefault(check.scene, []).append(check)
+    scenes = validation.scenes
     if len(scenes) > MAX_DETAILED and not (details or only_failed):
         _print_overview(console, scenes)
         only_failed = True
-    checks = [check for check in validation.checks if not (only_failed and check.passed)]
+    checks = validation.failed if only_failed else validation.checks
     rows = [(check, 1) for check in checks] if details else worst_of_sweeps(checks)
     count = len(rows)
     if only_failed and not details:
@@ -77,7 +70,7 @@ def print_validation(
 def _not_applied_lines(validation: Validation, details: bool) -> Iterator[str]:
     """Yield a line for each check, or without `details` one for many of the same reason."""
     by_reason: dict[str, list[tuple[str, str]]] = {}
-    for scene, quantity, reason in not_applied(validation):
+    for scene, quantity, reason in validation.inapplicable:
         by_reason.setdefault(reason, []).append((scene, quantity))
     for reason, checks in by_reason.items():
         if details or len(checks) <= MAX_NOT_APPLIED:
@@ -102,16 +95,15 @@ def _print_line(console: Console, line: Text) -> None:
 
 
 def _summary(validation: Validation) -> Text:
-    failed = sum(not check.passed for check in validation.checks)
+    failed = len(validation.failed)
     parts = [(f"{escaped(validation.fmu)}: ", "")]
     for count, what in ((failed, "failed"), (len(validation.run_failures), "could not be run")):
         if count:
             parts += [(f"{count} {what}", STYLES[Style.FAIL]), (", ", "")]
     count = len(validation.checks)
     parts.append((f"{count - failed} of {count} checks passed in {validation.wall_time:.1f} s", ""))
-    without = judged_without(validation)
-    if without:
-        parts.append((f"; {escaped(without)}", STYLES[Style.NOTE]))
+    if validation.without:
+        parts.append((f"; {escaped(validation.without)}", STYLES[Style.NOTE]))
     return Text.assemble(*parts)
 
 
