@@ -124,7 +124,7 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         "averaged": lambda references: np.zeros_like(references.times),
     },
     "friction_power": _resolved("friction_power"),
-    "reversals": _resolved("reversals"),
+    "reversals": _resolved("at_end", reversal_counts),
     "reversals_in_run": {
         **_resolved("in_run", reversal_counts),
         "averaged": lambda references: no_tube(np.zeros_like(references.times)),

@@ -9,9 +9,6 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import DEVIATIONS, Device
 
-RATES = ("phase_rate", "load_rate", "ratio_rate")
-"""The rates of inputs, in rad/s, N/s and 1/s."""
-
 
 @dataclass(frozen=True)
 class HeldInputs:
@@ -74,32 +71,11 @@ def with_steady_phase(held: Sequence[HeldInputs], device: Device) -> list[HeldIn
     return steady
 
 
-def check_contiguous(held: Sequence[HeldInputs], *, rates: Sequence[str] = ()) -> None:
-    """Raise ValueError unless ``held`` is a gapless sequence of intervals of positive length.
-
-    ``rates`` are those of the inputs that may differ from 0.
-    """
-    if not held:
-        raise ValueError("held inputs: at least one interval is needed, got none")
-    for index, inputs in enumerate(held):
-        for name in RATES:
-            rate = getattr(inputs, name)
-            if rate and name not in rates:
-                raise ValueError(f"held inputs {index}: {name} = {rate!r}: must be 0")
-        if not inputs.stop > inputs.start:
-            raise ValueError(
-                f"held inputs {index}: stop = {inputs.stop!r} s must be greater than "
-                f"start = {inputs.start!r} s"
-            )
-        if index and inputs.start != held[index - 1].stop:
-            raise ValueError(
-                f"held inputs {index}: start = {inputs.start!r} s must equal the stop of the "
-                f"interval before, {held[index - 1].stop!r} s"
-            )
-
-
 def check_times(times: Array, held: Sequence[HeldInputs]) -> None:
-    """Raise ValueError unless ``times`` (s) are one ascending row within the held inputs."""
+    """Raise ValueError unless ``times`` (s) are one ascending row within the held inputs.
+
+    These are a gapless sequence of at least one interval of positive length.
+    """
     start, stop = held[0].start, held[-1].stop
     if times.ndim != 1 or not (np.diff(times) >= 0.0).all():
         raise ValueError(f"times of shape {times.shape!r} must be one ascending row")

@@ -71,12 +71,6 @@ def nearest(points: Array, targets: Array) -> NDArray[np.intp]:
     return np.where(nearer, before, after)
 
 
-def _read_only(values: Array) -> Array:
-    """Return the same array, which nobody can write to any more."""
-    values.flags.writeable = False
-    return values
-
-
 @dataclass(frozen=True)
 class Schedule:
     """The communication points (s), shape (n,), starting at 0, and the `signals` of inputs by name.
@@ -90,7 +84,7 @@ class Schedule:
     With `interpolates` inputs are straight lines between the communication points, and the FMU gets
     their derivatives; tuning is held all the same.
 
-    The values at the communication points are computed once, and their arrays are read-only.
+    The values at the communication points are computed once; nobody may write to their arrays.
     """
 
     times: Array
@@ -115,7 +109,7 @@ class Schedule:
     @cached_property
     def sampled(self) -> Array:
         """Phase (rad), load (N), frequency ratio at each communication point, (n, 3)."""
-        return _read_only(np.column_stack([signal.over(self.times) for signal in self._inputs]))
+        return np.column_stack([signal.over(self.times) for signal in self._inputs])
 
     @cached_property
     def rates(self) -> Array:
@@ -128,7 +122,7 @@ class Schedule:
             ramped = [not signal.hold and len(signal.times) > 1 for signal in self._inputs]
             slopes = np.diff(self.sampled, axis=0) / np.diff(self.times)[:, None]
             rates[:-1] = np.where(ramped, slopes, 0.0)
-        return _read_only(rates)
+        return rates
 
     @property
     def ramps(self) -> bool:
@@ -139,7 +133,7 @@ class Schedule:
     def tuned(self) -> Array:
         """The parameters of `tuning` at each communication point, (n, k)."""
         columns = [signal.over(self.times) for signal in self.tuning.values()]
-        return _read_only(np.array(columns, dtype=np.float64).reshape(-1, len(self.times)).T)
+        return np.array(columns, dtype=np.float64).reshape(-1, len(self.times)).T
 
     @cached_property
     def changes(self) -> NDArray[np.intp]:
@@ -148,9 +142,7 @@ class Schedule:
         Nothing is set at the last point.
         """
         values = np.column_stack([self.sampled, self.rates, self.tuned])[:-1]
-        changes = np.flatnonzero(np.any(values[1:] != values[:-1], axis=1)) + 1
-        changes.flags.writeable = False
-        return changes
+        return np.flatnonzero(np.any(values[1:] != values[:-1], axis=1)) + 1
 
     def readings(self) -> Array:
         """Return the times (s) at which outputs are read, (r,): the communication points.

@@ -80,9 +80,7 @@ class ExpectTable(KeyTable):
         kinds = ("reference", "value", "at_most", "at_least")
         given = [*self.given(kinds)]
         exactly_one("expect", given, ", ".join(kinds))
-        quantity = QUANTITIES.get(self.quantity)
-        if quantity is None:
-            return self
+        quantity = QUANTITIES[self.quantity]
         if self.reference is not None and self.reference not in quantity.references:
             name = f"reference for {self.quantity}"
             raise ValueError(unknown_name(name, self.reference, quantity.references))

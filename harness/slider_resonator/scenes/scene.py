@@ -195,9 +195,7 @@ class Scene(Shown):
 
     def with_step(self, step_size: float) -> "Scene":
         """Return the scene, which must have a run, with communication steps of a size in s."""
-        assert self.run is not None
-        step = {"step_size": step_size, "steps_per_period": None, "step_sizes": None}
-        return replace(self, run=self.run.model_copy(update=step))
+        return self._with_run(step_size=step_size, steps_per_period=None, step_sizes=None)
 
     def lasting(self, stop_time: float) -> "Scene":
         """Return the scene with a run of another length in s, in steps of the same size.
@@ -206,8 +204,7 @@ class Scene(Shown):
         """
         if self.run is None:
             raise SceneError(f"{self.source}: scene {self.name} has no [run] that could last")
-        last = {"stop_time": stop_time, "drive_periods": None}
-        return replace(self, run=self.run.model_copy(update=last))
+        return self._with_run(stop_time=stop_time, drive_periods=None)
 
     @property
     def interpolates(self) -> bool:
@@ -216,9 +213,11 @@ class Scene(Shown):
 
     def interpolating(self, interpolate: bool) -> "Scene":
         """Return the scene with straight lines of inputs passed on as derivatives, or held."""
-        if self.run is None:
-            return self
-        return replace(self, run=self.run.model_copy(update={"interpolate": interpolate}))
+        return self._with_run(interpolate=interpolate) if self.run else self
+
+    def _with_run(self, **changed: float | None) -> "Scene":
+        assert self.run is not None
+        return replace(self, run=self.run.model_copy(update=changed))
 
     def lines_reach(self, interpolates: bool) -> str | None:
         """Return how straight lines of inputs reach an FMU, None without any.

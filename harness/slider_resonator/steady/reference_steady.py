@@ -59,7 +59,6 @@ def reference_blocking_force(
     device: Device,
     phase: float,
     ratio: float,
-    guess: float = 0.0,
     *,
     simulate: Simulate = simulate_resolved,
     tolerance: float = TOLERANCE,
@@ -73,8 +72,8 @@ def reference_blocking_force(
         return None
     period_map = _ReferencePeriodMap(device, phase, ratio, count, simulate)
     # Without preload the load varies alone and friction is of the order of its amplitude.
-    warm = period_map.warm_up(0.0, guess)
-    found = blocked_point(period_map, warm, guess, device.max_friction, tolerance=tolerance)
+    warm = period_map.warm_up(0.0, 0.0)
+    found = blocked_point(period_map, warm, 0.0, device.max_friction, tolerance=tolerance)
     return found.load if isinstance(found, FixedPoint) else None
 
 

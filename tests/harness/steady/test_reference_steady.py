@@ -69,8 +69,8 @@ def steady_velocity(
     return found
 
 
-def blocking_force(device: Device, phase: float, guess: float) -> float:
-    found = reference_blocking_force(device, phase, 1.0, guess, simulate=simulate)
+def blocking_force(device: Device, phase: float) -> float:
+    found = reference_blocking_force(device, phase, 1.0, simulate=simulate)
     assert found is not None, "there is a load that stops the device"
     return found
 
@@ -89,7 +89,7 @@ def test_uniform_average_errors_fall_with_the_frequency(
         errors.append(
             (
                 velocity - steady_velocity(device, 1.0, guess=velocity),
-                force - blocking_force(device, 1.0, guess=force),
+                force - blocking_force(device, 1.0),
             )
         )
     for coarse, fine in zip(*errors, strict=True):

@@ -119,7 +119,7 @@ def test_soft_and_hard_bristles_match_the_reference(
     assert motion.periods <= 100, "as few as with Coulomb friction"
     assert blocking.periods <= 100, "as few as with Coulomb friction"
     velocity = reference_steady_velocity(device, 0.0, 0.0, 1.0, motion.predicted)
-    force = reference_blocking_force(device, 0.0, 1.0, blocking.predicted)
+    force = reference_blocking_force(device, 0.0, 1.0)
     assert motion.steady_velocity == pytest.approx(velocity, abs=1e-7), "the bristle as a state"
     assert blocking.blocking_force == pytest.approx(force, abs=1e-7), "the bristle as a state"
 

@@ -45,8 +45,8 @@ def full_friction(device: Device, phase: float, ratio: float) -> float:
 
     ``phase`` in rad is that of the normal load, which counts only at ratio 0.
     """
-    share = averaged_coulomb.mean_friction(1.0, 1.0, device.amplitude_ratio, phase, ratio)
-    return device.mean_friction * share
+    load = mean_load(device.normal_preload, device.normal_amplitude, phase, ratio)
+    return device.friction_faces * device.friction_coefficient * load
 
 
 def steady_velocity(device: Device, phase: float, load: float, ratio: float) -> float:

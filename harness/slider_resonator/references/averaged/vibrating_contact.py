@@ -44,9 +44,8 @@ def closed_spans(
 ) -> list[tuple[float, float]]:
     """Return the spans (from, to) of theta within ``[start, end]`` in which the contact is closed.
 
-    They ascend. Raises ValueError as `check_amplitude_ratio` does.
+    They ascend.
     """
-    check_amplitude_ratio(amplitude_ratio)
     if amplitude_ratio <= 1.0:
         return [(start, end)]
     if ratio == 0.0:
@@ -63,11 +62,3 @@ def closed_spans(
             spans.append((min(edges), max(edges)))
         turn += 1
     return sorted(spans)
-
-
-def check_amplitude_ratio(amplitude_ratio: float) -> None:
-    """Raise ValueError unless an amplitude ratio is a finite number of at least 0."""
-    if not 0.0 <= amplitude_ratio < math.inf:
-        raise ValueError(
-            f"amplitude_ratio = {amplitude_ratio!r}: must be a finite number of at least 0"
-        )

@@ -11,9 +11,7 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import (
-    RATES,
     HeldInputs,
-    check_contiguous,
     check_times,
     turning_apart,
     with_steady_phase,
@@ -55,10 +53,9 @@ class ModeSequence:
 
         A sample on a boundary between held inputs belongs to the inputs before it. Counts and
         event times cover the whole span of the inputs, whatever the times. Raises ValueError for
-        inputs with gaps or times outside them, RuntimeError for a contact that cannot be
-        resolved in floating point numbers.
+        times outside the inputs, RuntimeError for a contact that cannot be resolved in floating
+        point numbers.
         """
-        check_contiguous(held, rates=RATES)
         check_times(self._recorder.times, held)
         for inputs in turning_apart(with_steady_phase(held, self._device)):
             self._equations = equations_of(inputs.tuned_device(self._device))

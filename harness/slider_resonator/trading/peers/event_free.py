@@ -17,9 +17,7 @@ from scipy.integrate import LSODA
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import (
-    RATES,
     HeldInputs,
-    check_contiguous,
     check_times,
     with_steady_phase,
 )
@@ -55,8 +53,8 @@ def simulate(
     that of its bristle. ``method`` is a solver of scipy, ``atol`` in fractions of characteristic
     sizes of the states. ``contact_mode`` is the sign of the velocity (2 where the contact is open),
     ``reversals`` counts its changes between steps, chatter included; there are no sticks and no
-    event times. Raises ValueError for inputs with gaps and times outside them, RuntimeError where a
-    step fails or the right hand side is evaluated more than ``max_evaluations`` times.
+    event times. Raises ValueError for times outside the inputs, RuntimeError where a step
+    fails or the right hand side is evaluated more than ``max_evaluations`` times.
     """
     limits = (rtol, atol, width, max_evaluations)
     follow = partial(_integrate, method=method, limits=limits)
@@ -86,7 +84,6 @@ class RunWithoutEvents:
 
         `follow` advances `state` through some, keeping samples and counts.
         """
-        check_contiguous(held, rates=RATES)
         check_times(self.recorder.times, held)
         for inputs in with_steady_phase(held, self.device):
             self.equations = equations_of(inputs.tuned_device(self.device))

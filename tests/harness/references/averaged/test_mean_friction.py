@@ -90,18 +90,10 @@ def test_mean_friction_matches_an_integrated_bristle(
     assert found == pytest.approx(mean, abs=2e-7), "the explicit periodic response is the response"
 
 
-@pytest.mark.parametrize(("stiffness", "frequency"), [(0.0, 1.0), (1.0, 0.0), (math.nan, 1.0)])
-def test_invalid_bristles_are_refused_by_name(stiffness: float, frequency: float) -> None:
-    with pytest.raises(ValueError, match="must be greater than 0"):
-        uniform_average.mean_friction(0.1, LugreCase(), stiffness, frequency)
-
-
-@pytest.mark.parametrize("value", [-0.1, math.inf, math.nan])
-def test_invalid_amplitudes_are_refused(value: float) -> None:
-    with pytest.raises(ValueError, match=f"amplitude_ratio = {value!r}"):
-        contact.check_amplitude_ratio(value)
-    with pytest.raises(ValueError, match="amplitude_ratio"):
-        contact.closed_spans(0.0, 1.0, value, 0.0, 1.0)
+@pytest.mark.parametrize("stiffness", [0.0, math.nan])
+def test_invalid_bristles_are_refused_by_name(stiffness: float) -> None:
+    with pytest.raises(ValueError, match=r"stiffness = .* must be greater than 0"):
+        uniform_average.mean_friction(0.1, LugreCase(), stiffness, 1.0)
 
 
 @pytest.mark.parametrize(
@@ -135,18 +127,5 @@ def test_blocking_force_stops_the_motion(alpha: float, ratio: float) -> None:
 def test_invalid_arguments_are_refused_by_name() -> None:
     with pytest.raises(ValueError, match=r"load = 0\.201"):
         steady_velocity(Device(), 0.0, 0.201, 3.0)
-    with pytest.raises(ValueError, match=r"amplitude_ratio = -0\.2"):
-        coulomb.mean_friction(0.0, 1.0, -0.2, 0.0)
-    with pytest.raises(ValueError, match="strength = 0"):
-        coulomb.mean_friction(0.0, 0.0, 1.0, 0.0)
     with pytest.raises(ValueError, match=r"load = 0\.32"):
         steady_velocity(Device(normal_amplitude=3.0), 0.0, 0.32, 1.0)
-
-
-@pytest.mark.parametrize(
-    ("name", "value"),
-    [("strength", 0.0), ("friction_coefficient", -0.1), ("damping", -1.0), ("amplitude_ratio", -1)],
-)
-def test_an_invalid_case_is_refused_by_name(name: str, value: float) -> None:
-    with pytest.raises(ValueError, match=name):
-        LugreCase(**{name: value})

@@ -77,8 +77,6 @@ def test_fidelity_1_has_the_equivalent_force_of_the_closed_forms(device: Device)
     ("parameters", "message"),
     [
         ({"fidelity": 0}, "fidelity = 0"),
-        ({"normal_preload": -1.0}, r"normal_preload = -1\.0 N must be at least 0"),
-        ({"normal_amplitude": math.nan}, "normal_amplitude = nan N"),
         (
             {"fidelity": 1, "damping_ratio": 0.0, "resonator_frequency": 3500.0 / math.sqrt(1.1)},
             r"damping_ratio = 0\.0 .* greater than 0",
@@ -107,8 +105,7 @@ def test_lugre_friction_follows_equation_8_on_every_face() -> None:
     ("name", "value"),
     [
         ("friction_coefficient", 0.0),
-        ("bristle_stiffness", math.inf),
-        ("bristle_damping", math.nan),
+        ("bristle_stiffness", 0.0),
         ("fidelity", 0),
     ],
 )
