@@ -21,11 +21,6 @@ CALLED: Mapping[str, str] = {
 """What checks compare with, by what tables call it, in 8 letters: a log has room for no more."""
 
 
-def called(against: str) -> str:
-    """Return what a check compares with, in words for a table."""
-    return CALLED.get(against, against.replace("_", " "))
-
-
 def title(check: Check) -> str:
     """Return the quantity, its reference, the tube and the point of the sweep."""
     tube = "" if check.tube is None else f" in a tube of {check.tube:g} periods"

@@ -57,21 +57,11 @@ class Facts:
         return 2.0 * pi / self["drive_frequency"]
 
     @property
-    def mean_normal_force(self) -> float:
-        """Normal force (N) of a face averaged over the drive, with lift-off."""
-        load = (self["normal_preload"], self["normal_amplitude"])
-        return mean_load(*load, self["phase"], self["frequency_ratio"])
-
-    @property
     def friction_limit(self) -> float:
         """Mean friction force (N) of a slider that slides one way all the time."""
-        return self["friction_faces"] * self["friction_coefficient"] * self.mean_normal_force
-
-    @property
-    def velocity_floor(self) -> float:
-        """Change of velocity (m/s) by friction in a drive period: the scale of a device at rest."""
-        mass = self["slider_mass"] + self["resonator_mass"]
-        return max(self.friction_limit / mass * self.drive_period, 1e-9)
+        load = (self["normal_preload"], self["normal_amplitude"])
+        normal = mean_load(*load, self["phase"], self["frequency_ratio"])
+        return self["friction_faces"] * self["friction_coefficient"] * normal
 
 
 def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
@@ -173,8 +163,12 @@ class FmuPeriodMap(PeriodicRun):
         return states, travel
 
     def scale(self, sizes: Vector) -> Vector:
-        """Return the scale of each state; of the slider and resonator at least that of friction."""
-        floor = self.facts.velocity_floor
+        """Return the scale of each state.
+
+        That of a velocity is at least its change by friction in a drive period.
+        """
+        mass = self.facts["slider_mass"] + self.facts["resonator_mass"]
+        floor = max(self.facts.friction_limit / mass * self.drive_period, 1e-9)
         scale = np.maximum(sizes[:3], [floor, floor * self.drive_period / (2.0 * pi), floor])
         return scale if self.bristle is None else np.append(scale, self.bristle.scale)
 

@@ -12,8 +12,8 @@ from fmpy.fmi1 import FMICallException
 from slider_resonator.checks.conduct.findings import (
     differences,
     is_refused,
-    other_inputs,
     other_value,
+    unequal,
 )
 from slider_resonator.checks.conduct.output_derivatives import derivative_faults, status_faults
 from slider_resonator.checks.fmu_side import FmuSide
@@ -23,7 +23,6 @@ from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.run import Running
 from slider_resonator.fmu.saved_state import SavedState
-from slider_resonator.rounding import is_same
 
 Rows = Sequence[Sequence[float]]
 
@@ -144,8 +143,7 @@ def restored_differences(fmu: FmuSide) -> list[str]:
 def _detour(running: Running, step: int) -> None:
     """Take a few steps with other inputs and tunables."""
     instance = running.instance
-    instance.set_inputs(other_inputs(running.inputs[0].tolist()))
-    present = instance.read(TUNABLES)
+    present = {**running.first, **instance.read(TUNABLES)}
     instance.set({name: other_value(name, value) for name, value in present.items()})
     for index in range(step, min(step + DETOUR, running.steps)):
         instance.step_by(running.step_size(index))
@@ -197,21 +195,13 @@ def beside_differences(fmu: FmuSide) -> list[str]:
                 first.advance(step + late)
             second.advance(step)
         found = plain.differences("beside another instance", first.rows)
-        found += _kept("beside another", fmu.instance, plain.parameters)
-        found += _kept("the other instance", other, beside.parameters)
+        for one, given, when in (
+            (fmu.instance, plain.parameters, "beside another instance"),
+            (other, beside.parameters, "in the other instance"),
+        ):
+            found += unequal(one, {n: v for n, v in given.items() if n not in TUNABLES}, when)
         outputs, times = fmu.instance.fmu.outputs, own.readings()
         return found + differences("the other instance", outputs, times, second.rows, alone)
-
-
-def _kept(what: str, instance: Instance, given: Mapping[str, float]) -> list[str]:
-    """Return which fixed parameters are not as they were given."""
-    fixed = {name: value for name, value in given.items() if name not in TUNABLES}
-    wrong = [
-        name
-        for name, value in instance.read(list(fixed)).items()
-        if not is_same(value, fixed[name])
-    ]
-    return [f"{what}: {name} is not what was set" for name in wrong]
 
 
 def overwritten_differences(fmu: FmuSide) -> list[str]:

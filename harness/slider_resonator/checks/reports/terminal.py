@@ -8,7 +8,7 @@ from rich.text import Text
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.headline import headline
 from slider_resonator.checks.validate import Validation, worst_of_sweeps
-from slider_resonator.checks.verdict import called, near_zero, place, sentence, sizes, value_text
+from slider_resonator.checks.verdict import CALLED, near_zero, place, sentence, sizes, value_text
 from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
 from slider_resonator.output.terminal import STYLES, aligned, rendered, words
@@ -167,7 +167,7 @@ def _table(checks: Sequence[tuple[Check, int]], details: bool) -> Table:
             rows.append([Cell(f"{scene}, {points} points" if points > 1 else scene, Style.HEADING)])
         cells = [f" {_quantity(check)}", *([place(check.at)] if swept else [])]
         cells += [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
-        cells.append(called(check.against))
+        cells.append(CALLED.get(check.against, check.against))
         cells += [_size(size) for size in sizes(check)[:2]]
         rows.append((*cells, verdict(check.passed)))
         if details:
@@ -182,7 +182,8 @@ def _quantity(check: Check) -> str:
 
 
 def _of_peak(check: Check) -> bool:
-    return QUANTITIES[check.quantity].relative_to_peak and not near_zero(check)
+    quantity = QUANTITIES[check.quantity]
+    return quantity.kind == "signal" and not (quantity.in_periods or near_zero(check))
 
 
 def _size(size: float | None) -> str:
