@@ -6,10 +6,10 @@ import io
 import re
 from collections.abc import Sequence
 from dataclasses import replace
-from math import isfinite
 from pathlib import Path
 
 from slider_resonator.device.signal import Signal, ramp, steps
+from slider_resonator.device.values import finite_number
 
 SEPARATORS = (";", "\t")
 """What programs write between two columns where numbers may have a decimal comma."""
@@ -102,11 +102,4 @@ def csv_signal(path: Path, column: str, between: str) -> Signal:
 
 def csv_number(name: str, row: Sequence[str], index: int) -> float:
     """Return the number in a column of a row; ValueError with name and text for any other."""
-    text = row[index].strip() if index < len(row) else ""
-    try:
-        number = float(text)
-    except ValueError:
-        number = float("nan")
-    if not isfinite(number):
-        raise ValueError(f"{name} = {text!r}: must be a finite number")
-    return number
+    return finite_number(name, row[index].strip() if index < len(row) else "")
