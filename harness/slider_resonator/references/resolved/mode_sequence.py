@@ -122,7 +122,6 @@ class ModeSequence:
         result = self._follow(segment)
         if len(result.samples):
             self._keep(mode, now, samples[: len(result.samples)], result.samples)
-        self._recorder.stay(result.duration)
         self._recorder.steps += result.steps
         self._recorder.evaluations += result.evaluations
         return result
