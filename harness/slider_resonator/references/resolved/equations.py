@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.equivalent_force import steady_vibration
 from slider_resonator.references.resolved.contact import LIFTED, STICK
 
@@ -19,18 +20,6 @@ State = tuple[float, ...]
 deflection of the bristle, m."""
 
 Number = TypeVar("Number", float, Array)
-
-
-@dataclass(frozen=True)
-class Instant:
-    """Angles (rad) of drive and normal load, load (N), its rate (N/s), ratio and its rate (1/s)."""
-
-    theta: float
-    angle: float
-    load: float
-    load_rate: float
-    ratio: float
-    ratio_rate: float
 
 
 @dataclass(frozen=True)
@@ -96,19 +85,21 @@ class Equations:
     def slopes(
         self,
         mode: int | None,
-        now: Instant,
+        theta: float,
+        angle: float,
+        now: HeldInputs,
         width: float = 0.0,
     ) -> Callable[[float, Array], list[float]]:
         """Return the time derivative of the state as a function of time (s) and state (4).
 
-        Angles and inputs are those of ``now`` at time 0. Within a contact mode the derivative is
-        smooth; with mode None friction follows the sign of the velocity at every instant, or with a
-        ``width`` in m/s its regularisation tanh(velocity / width), or in a state with a bristle (5)
-        that.
+        The angles (rad) of drive and normal load and the inputs ``now`` are those at time 0. Within
+        a contact mode the derivative is smooth; with mode None friction follows the sign of the
+        velocity at every instant, or with a ``width`` in m/s its regularisation
+        tanh(velocity / width), or in a state with a bristle (5) that.
         """
         sin, cos, tanh = math.sin, math.cos, math.tanh
-        theta, angle, load, load_rate = now.theta, now.angle, now.load, now.load_rate
-        rate, angle_rate = self.drive_frequency, now.ratio * self.drive_frequency
+        load, load_rate = now.load, now.load_rate
+        rate, angle_rate = self.drive_frequency, now.frequency_ratio * self.drive_frequency
         half_acceleration = 0.5 * now.ratio_rate * self.drive_frequency
         coupling_damping, coupling_stiffness = self.coupling_damping, self.coupling_stiffness
         force_sine, force_cosine = self.force_sine, self.force_cosine

@@ -25,7 +25,7 @@ from slider_resonator.references.resolved.contact import (
     is_lifted,
     time_to_contact_change,
 )
-from slider_resonator.references.resolved.equations import Instant, equations_of, initial_state
+from slider_resonator.references.resolved.equations import equations_of, initial_state
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.segment import Follow, Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
@@ -105,16 +105,14 @@ class ModeSequence:
         """Follow a mode; ``now`` are the inputs as they are at present."""
         local = elapsed.until(self._recorder.pending(inputs.stop) - inputs.start)
         samples = local[: np.searchsorted(local, span, side="right")] if len(local) else local
-        instant = Instant(
-            *(self._theta, self._psi + now.phase, now.load, now.load_rate),
-            *(now.frequency_ratio, now.ratio_rate),
-        )
         segment = Segment(
             equations=self._equations,
             mode=mode,
             start=inputs.start + elapsed.seconds,
             state=self.state,
-            now=instant,
+            theta=self._theta,
+            angle=self._psi + now.phase,
+            now=now,
             span=span,
             samples=samples,
             direction=self._direction if self._bends else mode,

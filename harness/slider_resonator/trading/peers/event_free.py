@@ -23,7 +23,6 @@ from slider_resonator.device.held_inputs import (
 )
 from slider_resonator.references.resolved.contact import LIFTED, SLIP_FORWARD
 from slider_resonator.references.resolved.equations import (
-    Instant,
     Number,
     equations_of,
     initial_state,
@@ -127,14 +126,7 @@ def _integrate(
         scales = np.append(scales, 1.0 / equations.path_rate)
         ratio = max(inputs.frequency_ratio, inputs.later(span).frequency_ratio, key=abs)
         longest = 2.0 * np.pi / equations.fastest_rate(ratio) / STEPS_PER_FASTEST_PERIOD
-    slopes = equations.slopes(
-        None,
-        Instant(
-            *(run.theta, run.psi + inputs.phase, inputs.load, inputs.load_rate),
-            *(inputs.frequency_ratio, inputs.ratio_rate),
-        ),
-        width,
-    )
+    slopes = equations.slopes(None, run.theta, run.psi + inputs.phase, inputs, width)
     solver = method(slopes, 0.0, run.state, span, max_step=longest, rtol=rtol, atol=atol * scales)
     while solver.status == "running":
         take_step(solver, inputs.start, "use a greater atol")
