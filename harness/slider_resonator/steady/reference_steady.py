@@ -14,12 +14,7 @@ from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.simulate import simulate as simulate_resolved
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.steady.newton import Matrix, Vector
-from slider_resonator.steady.shooting import (
-    FixedPoint,
-    PeriodicRun,
-    blocked_point,
-    steady_point,
-)
+from slider_resonator.steady.shooting import FixedPoint, PeriodicRun, blocked_point, steady_point
 
 STATE = ("velocity", "resonator_displacement", "resonator_velocity", "bristle_deflection")
 _INITIAL = tuple(f"initial_{name}" for name in ("position", *STATE))

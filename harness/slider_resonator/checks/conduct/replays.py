@@ -9,12 +9,7 @@ from functools import partial
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
-from slider_resonator.checks.conduct.findings import (
-    differences,
-    is_refused,
-    other_value,
-    unequal,
-)
+from slider_resonator.checks.conduct.findings import differences, is_refused, other_value, unequal
 from slider_resonator.checks.conduct.output_derivatives import derivative_faults, status_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import PARAMETERS, TUNABLES, VARIABLES

@@ -16,11 +16,7 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import (
-    HeldInputs,
-    check_times,
-    with_steady_phase,
-)
+from slider_resonator.device.held_inputs import HeldInputs, check_times, with_steady_phase
 from slider_resonator.references.averaged.device_average import (
     fast_motion,
     full_friction,

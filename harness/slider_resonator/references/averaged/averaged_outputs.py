@@ -13,10 +13,7 @@ from numpy.typing import NDArray
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, with_steady_phase
-from slider_resonator.references.averaged.averaged_motion import (
-    AveragedMotion,
-    slow_ratio,
-)
+from slider_resonator.references.averaged.averaged_motion import AveragedMotion, slow_ratio
 from slider_resonator.references.averaged.device_average import full_friction, mean_friction
 from slider_resonator.references.equivalent_force import EquivalentForce, equivalent_force
 from slider_resonator.references.phase import advanced
