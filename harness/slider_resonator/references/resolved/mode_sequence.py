@@ -124,13 +124,7 @@ class ModeSequence:
         self._recorder.evaluations += result.evaluations
         return result
 
-    def _keep(
-        self,
-        mode: int,
-        inputs: HeldInputs,
-        local: Array,
-        states: Array,
-    ) -> None:
+    def _keep(self, mode: int, inputs: HeldInputs, local: Array, states: Array) -> None:
         equations = self._equations
         theta = self._theta + equations.drive_frequency * local
         rate, half = equations.drive_frequency, 0.5 * inputs.ratio_rate
