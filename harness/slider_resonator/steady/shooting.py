@@ -26,9 +26,6 @@ from slider_resonator.steady.newton import (
     solve,
 )
 
-LoadedPeriodMap = Callable[[Vector, float], tuple[Vector, float]]
-"""The same, with the load (N) that acts during the period."""
-
 WARM_UP = 20
 """Drive periods run before shooting, so that the resonator's own transient is mostly gone."""
 SAMPLES = 8
@@ -97,7 +94,7 @@ def fixed_point(
     scale: Vector,
     *,
     load: float = 0.0,
-    tolerance: float = 1e-11,
+    tolerance: float = TOLERANCE,
 ) -> FixedPoint | NoFixedPoint:
     """Find a state that the map returns to, starting from `guess` (n,).
 
@@ -122,37 +119,6 @@ def fixed_point(
             multipliers[0] = max(sides, key=abs)
     _, displacement = period_map(root.x)
     return FixedPoint(root.x, displacement, load, root.iterations, root.residual, multipliers)
-
-
-def blocking_point(
-    period_map: LoadedPeriodMap,
-    guess: Vector,
-    load_guess: float,
-    scale: Vector,
-    load_scale: float,
-    displacement_scale: float,
-    *,
-    tolerance: float = 1e-11,
-) -> FixedPoint | NoFixedPoint:
-    """Find the load and the state of the repeating motion without displacement over a period.
-
-    One more unknown and one more equation than `fixed_point`: the load (N) and displacement = 0.
-    """
-    bordered_scale = np.append(scale, load_scale)
-
-    def change(unknowns: Vector) -> Vector:
-        state, load = unknowns[:-1], float(unknowns[-1])
-        end, displacement = period_map(state, load)
-        return np.append(end - state, displacement * load_scale / displacement_scale)
-
-    root = solve(change, np.append(guess, load_guess), bordered_scale, tolerance=tolerance)
-    if root.status != "converged":
-        return _failure(root)
-    jacobian = _fresh_jacobian(change, root, bordered_scale)
-    state, load = root.x[:-1], float(root.x[-1])
-    _, displacement = period_map(state, load)
-    multipliers = _multipliers(jacobian[:-1, :-1])
-    return FixedPoint(state, displacement, load, root.iterations, root.residual, multipliers)
 
 
 def _fresh_jacobian(function: Callable[[Vector], Vector], root: Root, scale: Vector) -> Matrix:
@@ -323,10 +289,23 @@ def steady_point(
 def blocked_point(
     run: PeriodicRun, warm: WarmedUp, load: float, load_scale: float, tolerance: float = TOLERANCE
 ) -> FixedPoint | NoFixedPoint:
-    """Find the load of the repeating motion without displacement, near `load` (N).
+    """Find the load of the repeating motion without displacement over a period, near `load` (N).
 
-    `warm` comes from a warm-up under that load, `load_scale` (N) is a typical load.
+    `warm` comes from a warm-up under that load, `load_scale` (N) is a typical load. One more
+    unknown and one more equation than `fixed_point`: the load and displacement = 0.
     """
-    displacement = float(warm.scale[0]) * run.period
-    scales = (warm.scale, load_scale, displacement)
-    return blocking_point(run, warm.shifted(0.0), load, *scales, tolerance=tolerance)
+    scale = np.append(warm.scale, load_scale)
+    displacement_scale = float(warm.scale[0]) * run.period
+
+    def change(unknowns: Vector) -> Vector:
+        state, load = unknowns[:-1], float(unknowns[-1])
+        end, displacement = run(state, load)
+        return np.append(end - state, displacement * load_scale / displacement_scale)
+
+    root = solve(change, np.append(warm.shifted(0.0), load), scale, tolerance=tolerance)
+    if root.status != "converged":
+        return _failure(root)
+    multipliers = _multipliers(_fresh_jacobian(change, root, scale)[:-1, :-1])
+    state, load = root.x[:-1], float(root.x[-1])
+    _, displacement = run(state, load)
+    return FixedPoint(state, displacement, load, root.iterations, root.residual, multipliers)
