@@ -9,9 +9,9 @@ from slider_resonator.scenes.key_table import (
     Number,
     Parameters,
     Point,
+    device_schema,
     exactly_one,
     key,
-    parameters,
 )
 
 
@@ -133,8 +133,11 @@ class BesideTable(KeyTable):
         "Needed by the quantity `beside_differences` alone: the two instances step in turn.",
     )
 
-    device: Parameters = parameters(
-        "parameters of the second instance that differ from table 1", {"damping_ratio": 0.02}
+    device: Parameters = key(
+        "parameters of the second instance that differ from table 1",
+        {"damping_ratio": 0.02},
+        default={},
+        **device_schema(),
     )
     inputs: InputsTable = key(
         "inputs of the second instance", {"phase": 1.0}, default=InputsTable()

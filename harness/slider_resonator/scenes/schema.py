@@ -18,9 +18,9 @@ from slider_resonator.scenes.key_table import (
     Number,
     Parameters,
     Positive,
+    device_schema,
     exactly_one,
     key,
-    parameters,
     required,
 )
 from slider_resonator.scenes.need_table import RUN_NEEDS, STEADY_NEEDS, NeedTable
@@ -84,11 +84,7 @@ class SweepTable(KeyTable):
         "At least one value. Without the sweep the variable must be constant in the run.",
     )
 
-    variable: str = Field(
-        description="the parameter or input that varies",
-        examples=["load"],
-        json_schema_extra={"enum": [*SETTABLE]},
-    )
+    variable: str = required("the parameter or input that varies", "load", enum=[*SETTABLE])
     values: Annotated[tuple[Number, ...], Field(min_length=1)] = required(
         "its values", [0.0, 0.02, 0.04]
     )
@@ -126,8 +122,11 @@ class SceneTable(KeyTable):
     )
     title: Line = required("one line for lists and plots", "The load steps up")
     description: str = key("what the scene shows, and why", "A step of load.", default="")
-    device: Parameters = parameters(
-        "parameters that differ from table 1", {"friction_coefficient": 0.12}
+    device: Parameters = key(
+        "parameters that differ from table 1",
+        {"friction_coefficient": 0.12},
+        default={},
+        **device_schema(),
     )
     inputs: AllInputsTable = key("inputs over time", {"phase": 0.4}, default=AllInputsTable())
     tuning: TuningTable = key(
