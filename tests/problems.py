@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
@@ -25,7 +26,7 @@ class Problem:
     """Parameters other than table 1, and (start [s], inputs) pieces over DURATION."""
 
     parameters: dict[str, float] = field(default_factory=dict)
-    pieces: tuple[tuple[float, dict[str, float]], ...] = ((0.0, {}),)
+    pieces: tuple[tuple[float, dict[str, Any]], ...] = ((0.0, {}),)
 
     @property
     def device(self) -> Device:
@@ -45,7 +46,7 @@ class Problem:
         ]
 
 
-def under(**inputs: float) -> tuple[tuple[float, dict[str, float]], ...]:
+def under(**inputs: float) -> tuple[tuple[float, dict[str, Any]], ...]:
     return ((0.0, inputs),)
 
 

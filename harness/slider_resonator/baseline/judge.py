@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from slider_resonator.checks.compare import Check, Comparison, Tolerance, compare
+from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.curves import Curves, curves_of
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measuring import Measurement, measure
@@ -95,12 +95,11 @@ def compare_golden(
                 f"{point.scene.source}: the run of {point.scene.name} has other points than when "
                 "it was recorded; record it again with --replace"
             )
-        quantity, allowed = QUANTITIES[name], Tolerance(relative=tolerance)
-        if quantity.exact:
-            allowed = Tolerance()
-        elif quantity.in_periods:
-            allowed = Tolerance(tube=tolerance)
-        comparison = Comparison(name, AGAINST, allowed, "the recorded result")
+        quantity, comparison = QUANTITIES[name], Comparison(name, AGAINST, "the recorded result")
+        if quantity.in_periods:
+            comparison = replace(comparison, tube=tolerance)
+        elif not quantity.exact:
+            comparison = replace(comparison, relative=tolerance)
         check = compare(comparison, measured, recorded.value, point)
         if measured.value is None and recorded.value is None:
             check = replace(check, passed=True)

@@ -16,13 +16,7 @@ import fmpy
 import numpy as np
 
 from slider_resonator import __version__
-from slider_resonator.baseline.judge import (
-    MAX_POINTS,
-    NUMBERS_AND_WORDS,
-    SIGNALS,
-    Golden,
-    order,
-)
+from slider_resonator.baseline.judge import MAX_POINTS, NUMBERS_AND_WORDS, SIGNALS, Golden, order
 from slider_resonator.checks.compare import Value
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.errors import HarnessError, unknown_name

@@ -8,35 +8,13 @@ from typing import Any
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.measures import Tube, mismatch_share, no_tube, peak, share_of
+from slider_resonator.checks.measures import Tube, no_tube, peak, share_of
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.natural_scale import smallest_reference
 from slider_resonator.rounding import beyond_rounding, is_same
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.scene import Scene, ScenePoint
 from slider_resonator.scenes.vocabulary import QUANTITIES
-
-
-@dataclass(frozen=True)
-class Tolerance:
-    """Allowed deviation: `absolute + relative * |reference|`, in the unit of the quantity.
-
-    Without an `absolute`, be it 0, a reference counts as no smaller than a share of its natural
-    scale. For a signal `relative` is a share of the reference's peak, and `absolute` beside it is
-    for a reference near zero. `tube` is the half width of a tube in drive periods; of a quantity
-    measured in drive periods it is the tolerance.
-    """
-
-    absolute: float | None = None
-    relative: float = 0.0
-    tube: float | None = None
-
-    @classmethod
-    def of(cls, expect: ExpectTable) -> "Tolerance":
-        """Return the tolerance that a scene file gives."""
-        given = "absolute" in expect.model_fields_set
-        return cls(expect.absolute if given else None, expect.relative, expect.tube)
-
 
 Value = float | str | None
 
@@ -77,29 +55,37 @@ class Check:
     @property
     def severity(self) -> float:
         """Deviation over the allowed deviation."""
-        if self.deviation is None or not isfinite(self.deviation):
-            return 0.0 if self.passed else float("inf")
-        if self.allowed:
+        if self.allowed and self.deviation is not None and isfinite(self.deviation):
             return self.deviation / self.allowed
         return 0.0 if self.passed else float("inf")
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """The reference of a quantity, its tolerance and the reason of the expectation."""
+    """What a quantity is compared with, the reason, and the tolerance.
+
+    A deviation of `absolute + relative * |reference|`, in the unit of the quantity, is allowed.
+    Without an `absolute`, be it 0, a reference counts as no smaller than a share of its natural
+    scale. For a signal `relative` is a share of the reference's peak, and `absolute` beside it is
+    for a reference near zero. `tube` is the half width of a tube in drive periods; of a quantity
+    measured in drive periods it is the tolerance.
+    """
 
     quantity: str
     against: str
-    tolerance: Tolerance
     why: str
+    absolute: float | None = None
+    relative: float = 0.0
+    tube: float | None = None
 
     @classmethod
     def of(cls, expect: ExpectTable) -> "Comparison":
         """Return the comparison of an expectation in a scene file."""
         bounds = {AT_MOST: expect.at_most, AT_LEAST: expect.at_least}
         bound = next((name for name, value in bounds.items() if value is not None), "value")
-        against = expect.reference or bound
-        return cls(expect.quantity, against, Tolerance.of(expect), expect.why)
+        absolute = expect.absolute if "absolute" in expect.model_fields_set else None
+        tolerance = (absolute, expect.relative, expect.tube)
+        return cls(expect.quantity, expect.reference or bound, expect.why, *tolerance)
 
 
 def compare(
@@ -108,7 +94,7 @@ def compare(
     """Compare a measurement with the expected value: number, word, None, signal (n,) or a tube."""
     quantity = QUANTITIES[comparison.quantity]
     floor = 0.0
-    if comparison.tolerance.absolute is None:
+    if comparison.absolute is None:
         floor = smallest_reference(comparison.quantity, point.scene.device)
     if quantity.kind == "signal":
         clock = _clock_rounding(point.scene)
@@ -123,7 +109,7 @@ def compare(
         why=comparison.why,
         note=measured.note,
         at=point.at,
-        tube=comparison.tolerance.tube,
+        tube=comparison.tube,
         **difference,
     )
 
@@ -136,11 +122,10 @@ def _difference_of_values(
     if isinstance(measured, str | None) or isinstance(expected, str | None):
         passed = measured is not None and measured == expected
         return {**values, "deviation": None, "allowed": None, "passed": passed}
-    tolerance = comparison.tolerance
     off = measured - expected  # a bound counts by how much it is exceeded; NaN stays NaN
     excess = {AT_MOST: max(off, 0.0), AT_LEAST: max(-off, 0.0)}.get(comparison.against, abs(off))
     deviation = 0.0 if is_same(measured, expected) else excess
-    allowed = (tolerance.absolute or 0.0) + tolerance.relative * max(abs(expected), floor)
+    allowed = (comparison.absolute or 0.0) + comparison.relative * max(abs(expected), floor)
     passed = deviation <= allowed
     return {**values, "deviation": deviation, "allowed": allowed, "passed": passed}
 
@@ -156,18 +141,19 @@ def _difference_of_signals(
 
     `clock` is the share of the peak that rounded times account for.
     """
-    quantity, tolerance = QUANTITIES[comparison.quantity], comparison.tolerance
+    quantity = QUANTITIES[comparison.quantity]
     tube = expected if isinstance(expected, Tube) else no_tube(expected)
     outside = beyond_rounding(tube.outside(measured.value), tube.middle)
     size = peak(tube.middle)
-    allowed, scale = tolerance.relative, None
+    allowed, scale = comparison.relative, None
     if quantity.exact:
-        deviation, limit = mismatch_share(outside), 0.5
+        limit = 0.5  # of integers; an error that is not finite counts as a difference
+        deviation = float(np.mean(~(outside <= limit)))
     elif quantity.in_periods:
-        allowed = limit = tolerance.tube or 0.0
+        allowed = limit = comparison.tube or 0.0
         deviation = peak(outside)
     else:
-        near_zero = tolerance.absolute / allowed if tolerance.absolute else max(0.0, floor - size)
+        near_zero = comparison.absolute / allowed if comparison.absolute else max(0.0, floor - size)
         scale = size + near_zero
         allowed += clock
         deviation, limit = share_of(peak(outside), scale), allowed * scale

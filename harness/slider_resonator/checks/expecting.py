@@ -64,10 +64,10 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         "averaged": lambda references: references.steady.predicted_blocking_force,
     },
     "predicted_velocity_in_run": {
-        "averaged": lambda references: references.predictions("predicted_velocity"),
+        "averaged": lambda references: references.predictions("predicted_velocity")
     },
     "predicted_blocking_force_in_run": {
-        "averaged": lambda references: references.predictions("predicted_blocking_force"),
+        "averaged": lambda references: references.predictions("predicted_blocking_force")
     },
     "final_predicted_velocity": {
         "located_events": lambda references: references.steady_at_end.full_device.steady_velocity,
@@ -77,21 +77,13 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         "located_events": lambda references: references.steady_at_end.full_device.blocking_force,
         "averaged": lambda references: references.steady_at_end.predicted_blocking_force,
     },
-    "prediction_valid": {
-        "averaged": lambda references: references.steady_at_end.prediction_valid,
-    },
+    "prediction_valid": {"averaged": lambda references: references.steady_at_end.prediction_valid},
     **{
-        output: {
-            **_resolved("signal", output),
-            "averaged": attrgetter(f"averaged_motion.{output}"),
-        }
+        output: {**_resolved("signal", output), "averaged": attrgetter(f"averaged_motion.{output}")}
         for output in ("position", "velocity")
     },
     **{
-        output: {
-            **_resolved(method, output),
-            "averaged": attrgetter(f"averaged_outputs.{output}"),
-        }
+        output: {**_resolved(method, output), "averaged": attrgetter(f"averaged_outputs.{output}")}
         for method, output in (
             ("signal", "resonator_displacement"),
             ("signal", "resonator_velocity"),
@@ -124,7 +116,7 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
         "averaged": lambda references: np.zeros_like(references.times),
     },
     "friction_power": _resolved("friction_power"),
-    "reversals": _resolved("reversals"),
+    "reversals": _resolved("at_end", reversal_counts),
     "reversals_in_run": {
         **_resolved("in_run", reversal_counts),
         "averaged": lambda references: no_tube(np.zeros_like(references.times)),

@@ -20,14 +20,6 @@ def share_of(difference: float, size: float) -> float:
     return difference / size if size > 0.0 else float("inf")
 
 
-def mismatch_share(error: Array) -> float:
-    """Return the share of points at which two signals of integers differ, from the error (n,).
-
-    An error that is not finite counts as a difference.
-    """
-    return float(np.mean(~(error <= 0.5)))
-
-
 @dataclass(frozen=True)
 class Tube:
     """A reference signal `middle` and its `lower` and `upper` bounds, all shape (n,)."""

@@ -83,7 +83,7 @@ def measure(quantity: str, fmu: FmuSide) -> Measurement:
     """
     try:
         with fmu.instance.explained():
-            value = MEASURES[quantity](fmu)
+            value = MEASURES[quantity](fmu) if quantity in MEASURES else _output(quantity, fmu)
     except NotApplicable as error:
         return Measurement(None, str(error), applicable=False)
     except (NoOscillation, np.linalg.LinAlgError, ArithmeticError) as error:
@@ -107,18 +107,25 @@ def measure_all(fmu: FmuSide) -> tuple[Measurement, ...]:
     return tuple(measure(expect.quantity, fmu) for expect in fmu.scene.expect)
 
 
-def _output(name: str) -> Callable[[FmuSide], Array]:
-    return lambda fmu: fmu.record[name]
+def _output(quantity: str, fmu: FmuSide) -> Any:
+    """Return the output that a quantity is: in the run, or at its end.
+
+    Raises NotApplicable for one at the end that the FMU lacks.
+    """
+    name = OUTPUTS.get(quantity, quantity.removesuffix("_in_run"))
+    if QUANTITIES[quantity].kind == "signal":
+        return fmu.record[name]
+    fmu.instance.fmu.variable(name)
+    return fmu.record.final(name)
 
 
-def _final(name: str) -> Callable[[FmuSide], float]:
-    """Return a function for an output at the end of the run; NotApplicable where it is lacking."""
-
-    def final(fmu: FmuSide) -> float:
-        fmu.instance.fmu.variable(name)
-        return fmu.record.final(name)
-
-    return final
+OUTPUTS: Mapping[str, str] = {
+    "predicted_velocity_in_run": "steady_velocity",
+    "predicted_blocking_force_in_run": "blocking_force",
+    "final_predicted_velocity": "steady_velocity",
+    "final_predicted_blocking_force": "blocking_force",
+}
+"""Quantities that are outputs of the FMU, and are called otherwise."""
 
 
 def _later_half(times: Array, signal: Array) -> tuple[Array, Array]:
@@ -135,35 +142,14 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "blocking_periods": lambda fmu: fmu.blocking.periods,
     "predicted_velocity": lambda fmu: fmu.steady.predicted,
     "predicted_blocking_force": lambda fmu: fmu.blocking.predicted,
-    "predicted_velocity_in_run": _output("steady_velocity"),
-    "predicted_blocking_force_in_run": _output("blocking_force"),
-    "final_predicted_velocity": _final("steady_velocity"),
-    "final_predicted_blocking_force": _final("blocking_force"),
-    "prediction_valid": _final("prediction_valid"),
-    "position": _output("position"),
-    "velocity": _output("velocity"),
-    "resonator_displacement": _output("resonator_displacement"),
-    "resonator_velocity": _output("resonator_velocity"),
-    "normal_force": _output("normal_force"),
-    "friction_force": _output("friction_force"),
-    "contact_mode": _output("contact_mode"),
     "slow_displacement": lambda fmu: slow_displacement(
         fmu.record.times, fmu.record["position"], fmu.scene.drive_period
     ),
-    "mean_velocity": _final("mean_velocity"),
-    "mean_velocity_in_run": _output("mean_velocity"),
     "last_step_velocity": lambda fmu: last_step_velocity(fmu.record.times, fmu.record["position"]),
-    "slow_motion_error": _final("slow_motion_error"),
     "error_over_estimate": error_over_estimate,
-    "stick_fraction": _final("stick_fraction"),
-    "stick_fraction_in_run": _output("stick_fraction"),
-    "friction_power": _final("friction_power"),
-    "reversals": _final("reversals"),
-    "reversals_in_run": _output("reversals"),
     "event_times": lambda fmu: (
         (fmu.record["last_event_time"] - fmu.scene.start_time) / fmu.scene.drive_period
     ),
-    "last_event_time": _final("last_event_time"),
     "ripple_amplitude": lambda fmu: ripple_amplitude(
         fmu.record.times, fmu.record["position"], fmu.scene.drive_period
     ),
@@ -191,4 +177,5 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "host_faults": host_faults,
     "state_faults": state_faults,
 }
-"""Quantity to the function that measures it; None stands for a value that does not exist."""
+"""Quantity to the function that measures it; all others are outputs of the FMU. None stands for a
+value that does not exist."""

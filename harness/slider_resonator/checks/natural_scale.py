@@ -6,6 +6,7 @@ left of a transient of the resonator does not move them.
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from math import pi
 
 from slider_resonator.arrays import Array
@@ -36,14 +37,8 @@ def largest_fast_velocity(device: Device, held: Sequence[HeldInputs]) -> float:
     return max(fast_velocity(inputs.tuned_device(device)) for inputs in held)
 
 
-def _ripple(device: Device) -> float:
-    return _amplitude(device, "ripple_amplitude")
-
-
-def _resonator(device: Device) -> float:
-    return _amplitude(device, "resonator_amplitude")
-
-
+_ripple = partial(_amplitude, name="ripple_amplitude")
+_resonator = partial(_amplitude, name="resonator_amplitude")
 _SCALES: Mapping[str, Callable[[Device], float]] = {
     "steady_velocity": fast_velocity,
     "predicted_velocity": fast_velocity,

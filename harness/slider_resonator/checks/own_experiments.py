@@ -4,7 +4,6 @@ import re
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from math import isfinite, nan
 from pathlib import Path
 from time import perf_counter
 from xml.etree import ElementTree as ET
@@ -12,12 +11,13 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.compare import Check, Comparison, Tolerance, compare
+from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.curves import Curves
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.validate import RunFailure, Validation
 from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import INPUTS, PARAMETERS
+from slider_resonator.device.values import finite_number
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.opening import lacking, open_fmu
@@ -69,7 +69,7 @@ def own_experiments(fmu: Path) -> list[OwnExperiment]:
                 for file in [_source(related, folder, opened.folder)]
                 for entry in _root(file).iter("Experiment")
             ]
-        except ValueError as error:  # of a table
+        except ValueError as error:  # of a number or a table
             raise SceneError(str(error)) from error
     if not found:
         raise SceneError(f"{fmu}: carries no experiments: {MANIFEST} names none")
@@ -128,12 +128,8 @@ def _judged(
     judged = []
     for name, expected in experiment.results.items():
         measured = Measurement(record[name][rows], times=times)
-        comparison = Comparison(
-            name,
-            "own result",
-            Tolerance(relative=experiment.allowed),
-            "the FMU carries this result of its experiment",
-        )
+        why = "the FMU carries this result of its experiment"
+        comparison = Comparison(name, "own result", why, relative=experiment.allowed)
         check = compare(comparison, measured, expected, point)
         judged.append(Curves(check, times, measured.value, expected))
     return judged
@@ -161,9 +157,9 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
             "device": _parameters(sources["Parameters"]) if "Parameters" in sources else {},
             "inputs": _inputs(sources["Stimuli"]) if "Stimuli" in sources else {},
             "run": {
-                "stop_time": _number(run.get("stopTime"), f"{where}: stopTime"),
-                "step_size": _number(run.get("stepSize"), f"{where}: stepSize"),
-                "start_time": _number(run.get("startTime", "0"), f"{where}: startTime"),
+                "stop_time": finite_number(f"{where}: stopTime", run.get("stopTime")),
+                "step_size": finite_number(f"{where}: stepSize", run.get("stepSize")),
+                "start_time": finite_number(f"{where}: startTime", run.get("startTime", "0")),
             },
         },
         where,
@@ -172,7 +168,7 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
     annotation = entry.find(f"References/Annotations/Annotation[@type='{ALLOWED}']")
     allowed = USUAL_DEVIATION
     if annotation is not None:
-        allowed = _number(annotation.text, f"{where}: {ALLOWED}")
+        allowed = finite_number(f"{where}: {ALLOWED}", annotation.text)
     if not 0.0 < allowed < 1.0:
         raise SceneError(f"{where}: {ALLOWED} = {allowed:g}: must be a share between 0 and 1")
     return OwnExperiment(scene, times, results, allowed)
@@ -185,9 +181,8 @@ def _parameters(file: Path) -> dict[str, float]:
         name = entry.get("name", "")
         if name not in PARAMETERS:
             raise SceneError(f"{file.name}: {unknown_name('parameter', name, PARAMETERS)}")
-        found[name] = _number(
-            next((one.get("value") for one in entry), None), f"{file.name}: {name}"
-        )
+        text = next((one.get("value") for one in entry), None)
+        found[name] = finite_number(f"{file.name}: {name}", text)
     return found
 
 
@@ -232,13 +227,3 @@ def _root(file: Path) -> ET.Element:
         return ET.fromstring(file.read_bytes())
     except (ET.ParseError, LookupError, ValueError) as error:  # the latter two for encodings
         raise SceneError(f"{file.name}: {error}; must be XML") from error
-
-
-def _number(text: str | None, where: str) -> float:
-    try:
-        number = float(text or "")
-    except ValueError:
-        number = nan
-    if not isfinite(number):
-        raise SceneError(f"{where} = {text!r}: must be a finite number")
-    return number

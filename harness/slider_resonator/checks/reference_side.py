@@ -10,11 +10,7 @@ from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.measures import Tube, no_tube
-from slider_resonator.checks.period_means import (
-    COINCIDENCE,
-    last_events,
-    quadrature,
-)
+from slider_resonator.checks.period_means import COINCIDENCE, last_events, quadrature
 from slider_resonator.checks.steady_references import SteadyReferences
 from slider_resonator.device.device import FULL
 from slider_resonator.device.drive_periods import DrivePeriods
@@ -93,21 +89,22 @@ class ReferenceSide:
         upper = np.where(coincide, around.upper, signal)
         return Tube(signal, lower, upper)
 
-    def reversals(self, reference: str) -> int:
-        """Return the number of reversals up to the end."""
-        run = self.trajectory(reference)
-        return run.reversals - int(np.sum(run.reversal_times > self.times[-1]))
-
     def in_run(
         self, reference: str, measure: Callable[[Trajectory, Array, DrivePeriods], Any]
     ) -> Any:
         """Return a measure of `period_means` at the communication points."""
         return measure(self.trajectory(reference), self.times, self.scene.drive_periods)
 
+    def at_end(
+        self, reference: str, measure: Callable[[Trajectory, Array, DrivePeriods], Array | Tube]
+    ) -> float:
+        """Return a measure of `period_means` at the end of the run."""
+        found = measure(self.trajectory(reference), self.times[-1:], self.scene.drive_periods)
+        return float((found.middle if isinstance(found, Tube) else found)[0])
+
     def last_event_time(self, reference: str) -> float:
         """Return the time (s) of the last event, that of the start without any."""
-        run, end = self.trajectory(reference), self.times[-1:]
-        last = float(last_events(run, end, self.scene.drive_periods).middle[0])
+        last = self.at_end(reference, last_events)
         return self.scene.start_time + last * self.scene.drive_period
 
     @property
@@ -134,14 +131,6 @@ class ReferenceSide:
     def averaged_outputs(self) -> AveragedOutputs:
         """Resonator, contact and forces of the averaged motion, at the communication points."""
         return averaged_outputs(self.device, self.scene.schedule().held(), self.averaged_motion)
-
-    def at_end(
-        self, reference: str, measure: Callable[[Trajectory, Array, DrivePeriods], Array]
-    ) -> float:
-        """Return a measure of `period_means` over the last whole drive period of the run."""
-        return float(
-            measure(self.trajectory(reference), self.times[-1:], self.scene.drive_periods)[0]
-        )
 
     def friction_power(self, reference: str) -> float:
         """Return the mean power (W) of friction over the last whole drive period of the run."""

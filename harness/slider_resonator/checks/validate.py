@@ -34,6 +34,11 @@ class RunFailure:
     reason: str
     at: Mapping[str, float]
 
+    @property
+    def where(self) -> str:
+        """Scene and point, with a colon; empty where it is the whole FMU."""
+        return f"{self.scene}{place(self.at, ' at ')}: " if self.scene else ""
+
     @classmethod
     def of(cls, fmu: Path, point: ScenePoint | None, error: Exception | None) -> "RunFailure":
         """Return the failure at a point; without a point that of the FMU, with its file name."""
@@ -85,7 +90,40 @@ class Validation(Shown, Tabular):
         """0 for a pass, 1 for a failed check, 2 when a scene could not run or nothing applies."""
         if self.run_failures or not self.checks:
             return 2
-        return int(not all(check.passed for check in self.checks))
+        return int(bool(self.failed))
+
+    @property
+    def failed(self) -> list[Check]:
+        """The checks that have failed."""
+        return [check for check in self.checks if not check.passed]
+
+    @property
+    def scenes(self) -> dict[str, list[Check]]:
+        """The checks by scene."""
+        scenes: dict[str, list[Check]] = {}
+        for check in self.checks:
+            scenes.setdefault(check.scene, []).append(check)
+        return scenes
+
+    @property
+    def without(self) -> str:
+        """What the FMU lacks and how many checks do not apply to it, "" for neither."""
+        parts = []
+        if self.lacks:
+            parts.append(
+                f"judged without {', '.join(self.lacks)}, which came with a later interface"
+            )
+        if count := len(self.not_applied):
+            parts.append(f"{count} {'check does' if count == 1 else 'checks do'} not apply")
+        return "; ".join(parts)
+
+    @property
+    def inapplicable(self) -> list[tuple[str, str, str]]:
+        """Scene with its point, quantity and reason of each check that does not apply."""
+        return [
+            (f"{one.scene}{place(one.at, ' at ')}", one.quantity, one.reason)
+            for one in self.not_applied
+        ]
 
     def table(self) -> dict[str, list[Any]]:
         """Return the checks in columns."""
@@ -94,22 +132,16 @@ class Validation(Shown, Tabular):
 
     def describe(self) -> list[str]:
         """Return the verdict, and a line for each scene that could not run and failed check."""
-        failed = [check for check in self.checks if not check.passed]
-        scenes = len({check.scene for check in self.checks})
         verdict = "passed" if self.passed else "FAILED" if self.exit_code == 1 else "could not run"
-        without = judged_without(self)
+        passed = len(self.checks) - len(self.failed)
+        scenes = number_of(len(self.scenes), "scene")
         return [
-            f"{verdict}: {len(self.checks) - len(failed)} of "
-            f"{number_of(len(self.checks), 'check')} passed in {number_of(scenes, 'scene')}, "
+            f"{verdict}: {passed} of {number_of(len(self.checks), 'check')} passed in {scenes}, "
             f"{self.wall_time:.1f} s",
             self.fmu,
-            *([without] if without else []),
-            *(
-                f"could not run: {one.scene}{place(one.at, ' at ')}{': ' if one.scene else ''}"
-                f"{one.reason}"
-                for one in self.run_failures
-            ),
-            *(f"FAIL {check.scene}: {title(check)}: {sentence(check)}" for check in failed),
+            *([self.without] if self.without else []),
+            *(f"could not run: {one.where}{one.reason}" for one in self.run_failures),
+            *(f"FAIL {check.scene}: {title(check)}: {sentence(check)}" for check in self.failed),
         ]
 
 
@@ -227,27 +259,6 @@ def _measure(
 def provenance_of_all(validations: Sequence[Validation]) -> Provenance:
     """Return the provenance of the verdicts on some FMUs."""
     return provenance_of(*(v.identity or identity_of(v.fmu) for v in validations))
-
-
-def judged_without(validation: Validation) -> str:
-    """Return what the FMU lacks and how many checks do not apply to it, "" for neither."""
-    parts = []
-    if validation.lacks:
-        parts.append(
-            f"judged without {', '.join(validation.lacks)}, which came with a later interface"
-        )
-    count = len(validation.not_applied)
-    if count:
-        parts.append(f"{count} {'check does' if count == 1 else 'checks do'} not apply")
-    return "; ".join(parts)
-
-
-def not_applied(validation: Validation) -> list[tuple[str, str, str]]:
-    """Return scene, quantity and reason of each check that does not apply."""
-    return [
-        (f"{one.scene}{place(one.at, ' at ')}", one.quantity, one.reason)
-        for one in validation.not_applied
-    ]
 
 
 def worst_of_sweeps(checks: Sequence[Check]) -> list[tuple[Check, int]]:

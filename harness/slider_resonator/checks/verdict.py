@@ -21,11 +21,6 @@ CALLED: Mapping[str, str] = {
 """What checks compare with, by what tables call it, in 8 letters: a log has room for no more."""
 
 
-def called(against: str) -> str:
-    """Return what a check compares with, in words for a table."""
-    return CALLED.get(against, against.replace("_", " "))
-
-
 def title(check: Check) -> str:
     """Return the quantity, its reference, the tube and the point of the sweep."""
     tube = "" if check.tube is None else f" in a tube of {check.tube:g} periods"
@@ -65,34 +60,34 @@ def place(at: Mapping[str, float], before: str = "") -> str:
     return before + values if at else ""
 
 
-def value_text(value: Value, digits: int) -> str:
-    """Return a value as tables show it."""
+def value_text(value: Value, digits: int, unit: str = "") -> str:
+    """Return a value as it is shown, a number with its unit."""
     if value is None:
         return "none"
-    return value if isinstance(value, str) else readable(value, digits)
+    return value if isinstance(value, str) else readable(value, digits) + unit
 
 
 def sentence(check: Check) -> str:
     """Return the deviation of the FMU, its time and its ratio to the tolerance."""
     unit = "" if check.unit in ("", "1") else f" {check.unit}"
+    fmu, reference = (value_text(one, DIGITS, unit) for one in (check.fmu, check.reference))
     if check.fmu is None:
-        return f"the FMU gives none, expected {_value(check.reference, unit)}: {check.note}"
+        return f"the FMU gives none, expected {reference}: {check.note}"
     if check.reference is None:
-        return f"the FMU gives {_value(check.fmu, unit)}, the reference has none"
+        return f"the FMU gives {fmu}, the reference has none"
     if check.deviation is None or check.allowed is None:
         return f"the FMU gives {check.fmu!r}, expected {check.reference!r}"
     if QUANTITIES[check.quantity].kind == "signal":
-        return _signal_sentence(check, unit)
+        return _signal_sentence(check, unit, reference)
     bound = f"{check.against} " if check.against in (AT_MOST, AT_LEAST) else ""
     reason = f": {check.note}" if check.note else ""
     return (
-        f"the FMU gives {_value(check.fmu, unit)}, expected {bound}"
-        f"{_value(check.reference, unit)}: off by {check.deviation:.2g}{unit}, {_times(check)}"
-        f"{reason}"
+        f"the FMU gives {fmu}, expected {bound}{reference}: "
+        f"off by {check.deviation:.2g}{unit}, {_times(check)}{reason}"
     )
 
 
-def _signal_sentence(check: Check, unit: str) -> str:
+def _signal_sentence(check: Check, unit: str, peak: str) -> str:
     assert check.deviation is not None
     quantity = QUANTITIES[check.quantity]
     if quantity.exact:
@@ -102,7 +97,6 @@ def _signal_sentence(check: Check, unit: str) -> str:
     else:
         tube = f"a tube of {check.tube:g} drive periods to each side " if check.tube else ""
         size = "outside " + tube if tube else "off "
-        peak = _value(check.reference, unit)
         if near_zero(check):
             size += f"by {sizes(check)[0]:.2g}{unit}, where the peak is {peak}"
         else:
@@ -119,9 +113,3 @@ def _times(check: Check) -> str:
         return "must be 0"
     unit = f" {check.unit}" if near_zero(check) and check.unit != "1" else ""
     return f"{check.severity:.3g} times the allowed {sizes(check)[1]:.2g}{unit}"
-
-
-def _value(value: Value, unit: str) -> str:
-    return (
-        repr(value) if value is None or isinstance(value, str) else readable(value, DIGITS) + unit
-    )

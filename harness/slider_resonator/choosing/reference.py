@@ -12,7 +12,7 @@ from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.errors import Readings
 from slider_resonator.choosing.steady_need import timed_run
 from slider_resonator.device.model import Model
-from slider_resonator.device.schedule import Schedule, communication_points, in_order
+from slider_resonator.device.schedule import Schedule, communication_points
 from slider_resonator.device.signal import Signal
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
@@ -54,7 +54,7 @@ def exact_schedule(scene: Scene, points: Array, step: float, *, interpolates: bo
             lines = {name: signal for name, signal in table.items() if is_line(signal, stop)}
             means = {name: tuple(s.over(middles).tolist()) for name, s in lines.items()}
             table |= {name: Signal(tuple(times.tolist()), values) for name, values in means.items()}
-    return Schedule(times, *in_order(signals), tuning=tuning, interpolates=interpolates)
+    return Schedule(times, signals, tuning=tuning, interpolates=interpolates)
 
 
 FINEST_TOLERANCE = 1e-13

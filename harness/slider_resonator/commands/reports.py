@@ -14,7 +14,6 @@ from slider_resonator.checks.reports.junit import write_junit
 from slider_resonator.checks.reports.step_summary import VARIABLE, append_summary
 from slider_resonator.checks.reports.terminal import print_validation
 from slider_resonator.checks.validate import RunFailure, Validation
-from slider_resonator.checks.verdict import place
 from slider_resonator.commands.options import Parsed, target
 from slider_resonator.output.console import output
 from slider_resonator.output.readable import indented
@@ -111,7 +110,6 @@ def print_verdicts(
 def print_run_failures(fmu: str, run_failures: Sequence[RunFailure]) -> None:
     """Print the run failures on standard error."""
     for failure in run_failures:
-        scene = f"{failure.scene}{place(failure.at, ' at ')}"
-        where = f"{fmu}: scene {scene}: " if failure.scene else ""
+        where = f"{fmu}: scene {failure.where}" if failure.scene else ""
         message = indented(f"error: {where}{failure.reason}")
         click.echo(fitting(message, terminal_width(err=True)), err=True)

@@ -1,7 +1,7 @@
 """Inputs over an interval: held, or straight lines, as an FMU has them in a communication step."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
 import numpy as np
@@ -9,15 +9,13 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import DEVIATIONS, Device
 
-RATES = ("phase_rate", "load_rate", "ratio_rate")
-"""The rates of inputs, in rad/s, N/s and 1/s."""
-
 
 @dataclass(frozen=True)
 class HeldInputs:
     """Inputs over ``[start, stop]`` (s): phase (rad), load (N), frequency_ratio (1).
 
-    They are the values at ``start``, which stay, or change at constant rates per second.
+    They are the values at ``start``, which stay, or change at constant rates per second. ``tuned``
+    is what a run tunes, by name: parameters, deviations of the drive.
     """
 
     start: float
@@ -28,6 +26,7 @@ class HeldInputs:
     phase_rate: float = 0.0
     load_rate: float = 0.0
     ratio_rate: float = 0.0
+    tuned: tuple[tuple[str, float], ...] = field(default=(), kw_only=True)
 
     @property
     def vary(self) -> bool:
@@ -50,21 +49,10 @@ class HeldInputs:
         return ratio * frequency * duration
 
     def tuned_device(self, device: Device) -> Device:
-        """Return the device of a run as it is over these inputs."""
-        return device
-
-
-@dataclass(frozen=True)
-class TunedInputs(HeldInputs):
-    """Held inputs together with what a run tunes, by name: parameters, deviations of the drive."""
-
-    tuned: tuple[tuple[str, float], ...] = ()
-
-    def tuned_device(self, device: Device) -> Device:
         """Return the device of a run with the parameters as they are over these inputs."""
         values = dict(self.tuned)
         parameters: dict[str, Any] = {n: v for n, v in values.items() if n not in DEVIATIONS}
-        return replace(device, **parameters).deviating(values)
+        return replace(device, **parameters).deviating(values) if values else device
 
 
 def with_steady_phase(held: Sequence[HeldInputs], device: Device) -> list[HeldInputs]:
@@ -83,32 +71,11 @@ def with_steady_phase(held: Sequence[HeldInputs], device: Device) -> list[HeldIn
     return steady
 
 
-def check_contiguous(held: Sequence[HeldInputs], *, rates: Sequence[str] = ()) -> None:
-    """Raise ValueError unless ``held`` is a gapless sequence of intervals of positive length.
-
-    ``rates`` are those of the inputs that may differ from 0.
-    """
-    if not held:
-        raise ValueError("held inputs: at least one interval is needed, got none")
-    for index, inputs in enumerate(held):
-        for name in RATES:
-            rate = getattr(inputs, name)
-            if rate and name not in rates:
-                raise ValueError(f"held inputs {index}: {name} = {rate!r}: must be 0")
-        if not inputs.stop > inputs.start:
-            raise ValueError(
-                f"held inputs {index}: stop = {inputs.stop!r} s must be greater than "
-                f"start = {inputs.start!r} s"
-            )
-        if index and inputs.start != held[index - 1].stop:
-            raise ValueError(
-                f"held inputs {index}: start = {inputs.start!r} s must equal the stop of the "
-                f"interval before, {held[index - 1].stop!r} s"
-            )
-
-
 def check_times(times: Array, held: Sequence[HeldInputs]) -> None:
-    """Raise ValueError unless ``times`` (s) are one ascending row within the held inputs."""
+    """Raise ValueError unless ``times`` (s) are one ascending row within the held inputs.
+
+    These are a gapless sequence of at least one interval of positive length.
+    """
     start, stop = held[0].start, held[-1].stop
     if times.ndim != 1 or not (np.diff(times) >= 0.0).all():
         raise ValueError(f"times of shape {times.shape!r} must be one ascending row")

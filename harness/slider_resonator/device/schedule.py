@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.held_inputs import HeldInputs, TunedInputs
+from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.device.interface import INPUT_STARTS
 from slider_resonator.device.signal import GRID_TOLERANCE, Signal, constant
 
@@ -71,33 +71,24 @@ def nearest(points: Array, targets: Array) -> NDArray[np.intp]:
     return np.where(nearer, before, after)
 
 
-def _read_only(values: Array) -> Array:
-    """Return the same array, which nobody can write to any more."""
-    values.flags.writeable = False
-    return values
-
-
 @dataclass(frozen=True)
 class Schedule:
-    """The first three inputs and the communication points (s), shape (n,), starting at 0.
+    """The communication points (s), shape (n,), starting at 0, and the `signals` of inputs by name.
 
-    Inputs are sampled at each communication point and held until the next, and so is the `tuning`
-    of tunable parameters and deviations of the drive, by name. `start_time` (s) is what the FMU
-    gets as time 0. With `reads_twice` outputs are read where values change, both before and after
-    they are set.
+    Signals are of the first three inputs; those left out keep their start. Inputs are sampled at
+    each communication point and held until the next, and so is the `tuning` of tunable parameters
+    and deviations of the drive, by name. `start_time` (s) is what the FMU gets as time 0. With
+    `reads_twice` outputs are read where values change, both before and after they are set. Raises
+    ValueError for a signal of another name.
 
     With `interpolates` inputs are straight lines between the communication points, and the FMU gets
     their derivatives; tuning is held all the same.
 
-    The values at the communication points are computed once, and their arrays are read-only.
+    The values at the communication points are computed once; nobody may write to their arrays.
     """
 
     times: Array
-    phase: Signal = field(default_factory=lambda: constant(INPUT_STARTS["phase"]))
-    load: Signal = field(default_factory=lambda: constant(INPUT_STARTS["load"]))
-    frequency_ratio: Signal = field(
-        default_factory=lambda: constant(INPUT_STARTS["frequency_ratio"])
-    )
+    signals: Mapping[str, Signal] = field(default_factory=dict)
 
     _: KW_ONLY
     tuning: Mapping[str, Signal] = field(default_factory=dict)
@@ -105,14 +96,20 @@ class Schedule:
     reads_twice: bool = False
     interpolates: bool = False
 
+    def __post_init__(self) -> None:
+        unknown = self.signals.keys() - INPUT_STARTS.keys()
+        if unknown:
+            names = ", ".join(sorted(unknown))
+            raise ValueError(f"inputs {names}: must be {', '.join(INPUT_STARTS)}")
+
     @property
-    def _signals(self) -> tuple[Signal, Signal, Signal]:
-        return self.phase, self.load, self.frequency_ratio
+    def _inputs(self) -> list[Signal]:
+        return [self.signals.get(name, constant(start)) for name, start in INPUT_STARTS.items()]
 
     @cached_property
     def sampled(self) -> Array:
         """Phase (rad), load (N), frequency ratio at each communication point, (n, 3)."""
-        return _read_only(np.column_stack([signal.over(self.times) for signal in self._signals]))
+        return np.column_stack([signal.over(self.times) for signal in self._inputs])
 
     @cached_property
     def rates(self) -> Array:
@@ -122,10 +119,10 @@ class Schedule:
         """
         rates = np.zeros((len(self.times), 3))
         if self.interpolates:
-            ramped = [not signal.hold and len(signal.times) > 1 for signal in self._signals]
+            ramped = [not signal.hold and len(signal.times) > 1 for signal in self._inputs]
             slopes = np.diff(self.sampled, axis=0) / np.diff(self.times)[:, None]
             rates[:-1] = np.where(ramped, slopes, 0.0)
-        return _read_only(rates)
+        return rates
 
     @property
     def ramps(self) -> bool:
@@ -136,7 +133,7 @@ class Schedule:
     def tuned(self) -> Array:
         """The parameters of `tuning` at each communication point, (n, k)."""
         columns = [signal.over(self.times) for signal in self.tuning.values()]
-        return _read_only(np.array(columns, dtype=np.float64).reshape(-1, len(self.times)).T)
+        return np.array(columns, dtype=np.float64).reshape(-1, len(self.times)).T
 
     @cached_property
     def changes(self) -> NDArray[np.intp]:
@@ -145,9 +142,7 @@ class Schedule:
         Nothing is set at the last point.
         """
         values = np.column_stack([self.sampled, self.rates, self.tuned])[:-1]
-        changes = np.flatnonzero(np.any(values[1:] != values[:-1], axis=1)) + 1
-        changes.flags.writeable = False
-        return changes
+        return np.flatnonzero(np.any(values[1:] != values[:-1], axis=1)) + 1
 
     def readings(self) -> Array:
         """Return the times (s) at which outputs are read, (r,): the communication points.
@@ -165,23 +160,17 @@ class Schedule:
 
         Those within `distance` (s) of a point of this schedule are left out; all of these stay.
         """
-        return replace(
-            self,
-            times=_merged(times, self.times, distance),
-            phase=self._as_seen(self.phase),
-            load=self._as_seen(self.load),
-            frequency_ratio=self._as_seen(self.frequency_ratio),
-            tuning=self.held_tuning,
-        )
+        signals = {
+            name: self._sampled(signal, hold=signal.hold or not self.interpolates)
+            for name, signal in self.signals.items()
+        }
+        times = _merged(times, self.times, distance)
+        return replace(self, times=times, signals=signals, tuning=self.held_tuning)
 
     @property
     def held_tuning(self) -> dict[str, Signal]:
         """The `tuning` as it is held between the points of this schedule."""
         return {name: self._sampled(signal, hold=True) for name, signal in self.tuning.items()}
-
-    def _as_seen(self, signal: Signal) -> Signal:
-        """Return an input as it is between the points of this schedule: held, or a line."""
-        return self._sampled(signal, hold=signal.hold or not self.interpolates)
 
     def _sampled(self, signal: Signal, *, hold: bool) -> Signal:
         if len(signal.times) == 1:
@@ -192,18 +181,12 @@ class Schedule:
         """Return the inputs as the FMU sees them, equal neighbours merged into one interval."""
         sampled, tuned = np.column_stack([self.sampled, self.rates]), self.tuned
         changes = self.changes.tolist()
-        starts = [0, *changes]
-        stops = [*changes, len(sampled) - 1]
-        held = [
-            HeldInputs(float(self.times[i]), float(self.times[j]), *map(float, sampled[i]))
-            for i, j in zip(starts, stops, strict=True)
-        ]
-        if not self.tuning:
-            return held
-        names = tuple(self.tuning)
         return [
-            TunedInputs(**vars(inputs), tuned=tuple(zip(names, tuned[i].tolist(), strict=True)))
-            for inputs, i in zip(held, starts, strict=True)
+            HeldInputs(
+                *(float(self.times[i]), float(self.times[j]), *map(float, sampled[i])),
+                tuned=tuple(zip(self.tuning, tuned[i].tolist(), strict=True)),
+            )
+            for i, j in zip([0, *changes], [*changes, len(sampled) - 1], strict=True)
         ]
 
 
@@ -225,18 +208,4 @@ def schedule(
     if interpolates:
         points += [time for signal in signals.values() for time in signal.times]
     times = communication_points(stop, step, points)
-    return Schedule(times, *in_order(signals), tuning=tuning, interpolates=interpolates)
-
-
-def in_order(signals: Mapping[str, Signal]) -> tuple[Signal, Signal, Signal]:
-    """Return phase, load and frequency ratio; those left out keep their start.
-
-    Raises ValueError for another name.
-    """
-    unknown = signals.keys() - INPUT_STARTS.keys()
-    if unknown:
-        raise ValueError(f"inputs {', '.join(sorted(unknown))}: must be {', '.join(INPUT_STARTS)}")
-    phase, load, ratio = (
-        signals.get(name) or constant(start) for name, start in INPUT_STARTS.items()
-    )
-    return phase, load, ratio
+    return Schedule(times, signals, tuning=tuning, interpolates=interpolates)

@@ -28,11 +28,6 @@ class Signal:
     def __post_init__(self) -> None:
         if not self.times:
             raise ValueError("a signal needs at least one point")
-        if len(self.times) != len(self.values):
-            raise ValueError(
-                f"a signal needs as many values as times: {len(self.times)} times, "
-                f"{len(self.values)} values"
-            )
         if not np.all(np.isfinite([*self.times, *self.values])):
             raise ValueError("a signal needs finite times and values")
         for before, after in zip(self.times, self.times[1:], strict=False):

@@ -79,6 +79,13 @@ def is_number(text: str) -> bool:
         return False
 
 
+def finite_number(name: str, text: str | None) -> float:
+    """Return the number that a text is; ValueError with name and text for any other text."""
+    if text is None or not is_number(text):
+        raise ValueError(f"{name} = {text!r}: must be a finite number")
+    return float(text)
+
+
 def si_value(name: str, text: str) -> float:
     """Return the value of a parameter or input in its SI unit, as `si_number` does."""
     variable = VARIABLES[name]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import ALL_OUTPUTS, HELD, INPUTS, PARAMETERS
-from slider_resonator.device.schedule import Schedule, in_order
+from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import steps
 from slider_resonator.device.values import is_number, si_value, with_unit
 from slider_resonator.errors import HarnessError, unknown_name
@@ -237,7 +237,7 @@ def _run(columns: _Columns) -> Measurements:
             f"{source}: begins at {with_unit(TIME, times[1])}; the device starts at time 0 in its "
             "initial state, at drive phase 0, and has the inputs of the first row until then"
         )
-    schedule = Schedule(times, *in_order(inputs), tuning=tuning)
+    schedule = Schedule(times, inputs, tuning=tuning)
     return Measurements(
         runs=(Run(source, schedule, outputs, deviations, rows),), notes=tuple(notes)
     )

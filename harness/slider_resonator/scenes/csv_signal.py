@@ -6,10 +6,10 @@ import io
 import re
 from collections.abc import Sequence
 from dataclasses import replace
-from math import isfinite
 from pathlib import Path
 
 from slider_resonator.device.signal import Signal, ramp, steps
+from slider_resonator.device.values import finite_number
 
 SEPARATORS = (";", "\t")
 """What programs write between two columns where numbers may have a decimal comma."""
@@ -70,22 +70,10 @@ def check_cells(path: Path, header: Sequence[str], rows: Sequence[tuple[int, lis
 
 
 def csv_signal(path: Path, column: str, between: str) -> Signal:
-    """Return a column over time, as `csv_points` finds it; `between` its rows "hold" or "linear".
+    """Return a column over time, of a file with the columns `time` and `column`, or `value`.
 
-    Raises ValueError as that does, and for times that do not increase.
-    """
-    points = csv_points(path, column)
-    try:
-        signal = steps(points) if between == "hold" else ramp(points)
-    except ValueError as error:
-        raise ValueError(f"csv {path}: {error}") from error
-    return replace(signal, file=path)
-
-
-def csv_points(path: Path, column: str) -> list[tuple[float, float]]:
-    """Return (time, value) of a CSV file with the columns `time` and `column`, or `value`.
-
-    Raises ValueError naming the file, the line and what is wrong.
+    `between` its rows it is "hold" or "linear". Raises ValueError naming the file, the line and
+    what is wrong.
     """
     header, rows = csv_rows(path)
     if not header or header[0] != "time":
@@ -105,16 +93,13 @@ def csv_points(path: Path, column: str) -> list[tuple[float, float]]:
         except ValueError as error:
             raise ValueError(f"csv {path} line {line}: {error}") from error
     check_cells(path, header, rows)
-    return points
+    try:
+        signal = steps(points) if between == "hold" else ramp(points)
+    except ValueError as error:
+        raise ValueError(f"csv {path}: {error}") from error
+    return replace(signal, file=path)
 
 
 def csv_number(name: str, row: Sequence[str], index: int) -> float:
     """Return the number in a column of a row; ValueError with name and text for any other."""
-    text = row[index].strip() if index < len(row) else ""
-    try:
-        number = float(text)
-    except ValueError:
-        number = float("nan")
-    if not isfinite(number):
-        raise ValueError(f"{name} = {text!r}: must be a finite number")
-    return number
+    return finite_number(name, row[index].strip() if index < len(row) else "")

@@ -37,16 +37,13 @@ class ExpectTable(KeyTable):
         "quantity.",
     )
 
-    quantity: str = Field(
-        description="what is compared; the list is below",
-        examples=["position"],
-        json_schema_extra={"enum": list(QUANTITIES)},
+    quantity: str = required(
+        "what is compared; the list is below", "position", enum=list(QUANTITIES)
     )
-    reference: str | None = Field(
-        default=None,
-        description="reference that gives the expected value; which the quantity has is below",
-        examples=["located_events"],
-        json_schema_extra={"enum": list(REFERENCES)},
+    reference: str | None = key(
+        "reference that gives the expected value; which the quantity has is below",
+        "located_events",
+        enum=list(REFERENCES),
     )
     value: float | str | None = key("expected number or word", 0.126667)
     at_most: Number | None = key("upper bound of a number", 100.0)
@@ -80,9 +77,7 @@ class ExpectTable(KeyTable):
         kinds = ("reference", "value", "at_most", "at_least")
         given = [*self.given(kinds)]
         exactly_one("expect", given, ", ".join(kinds))
-        quantity = QUANTITIES.get(self.quantity)
-        if quantity is None:
-            return self
+        quantity = QUANTITIES[self.quantity]
         if self.reference is not None and self.reference not in quantity.references:
             name = f"reference for {self.quantity}"
             raise ValueError(unknown_name(name, self.reference, quantity.references))

@@ -4,16 +4,14 @@ from typing import ClassVar, Literal
 
 from pydantic import model_validator
 
-from slider_resonator.device.device import DEVIATIONS
-from slider_resonator.device.interface import TUNABLES
 from slider_resonator.scenes.key_table import (
     KeyTable,
     Number,
     Parameters,
     Point,
+    device_schema,
     exactly_one,
     key,
-    parameters,
 )
 
 
@@ -101,11 +99,6 @@ class AllInputsTable(InputsTable):
         "deviation of drive_frequency, relative to it", 0.01, unit="1"
     )
 
-    @property
-    def deviations(self) -> dict[str, InputTable]:
-        """The deviations that are given, by name."""
-        return self.given(DEVIATIONS)
-
 
 class TuningTable(KeyTable):
     """Tunable parameters over time, given as inputs are; those left out stay as in [device]."""
@@ -132,11 +125,6 @@ class TuningTable(KeyTable):
         "friction coefficient", {"csv": "friction.csv", "column": "mu"}, unit="1"
     )
 
-    @property
-    def tuned(self) -> dict[str, InputTable]:
-        """The tuned parameters by name."""
-        return self.given(TUNABLES)
-
 
 class BesideTable(KeyTable):
     """A second instance of the FMU, with a device and inputs of its own, beside the first."""
@@ -145,8 +133,11 @@ class BesideTable(KeyTable):
         "Needed by the quantity `beside_differences` alone: the two instances step in turn.",
     )
 
-    device: Parameters = parameters(
-        "parameters of the second instance that differ from table 1", {"damping_ratio": 0.02}
+    device: Parameters = key(
+        "parameters of the second instance that differ from table 1",
+        {"damping_ratio": 0.02},
+        default={},
+        **device_schema(),
     )
     inputs: InputsTable = key(
         "inputs of the second instance", {"phase": 1.0}, default=InputsTable()

@@ -92,17 +92,17 @@ class KeyTable(BaseModel):
         return {name: value for name, value in values.items() if value is not None}
 
 
-def key(meaning: str, example: Any, *, unit: str = "", default: Any = None) -> Any:
-    """Return the field of a key that may be left out; `example` is a value that it may have."""
-    unit_of: dict[str, Any] = {"unit": unit} if unit else {}
-    return Field(
-        default=default, description=meaning, examples=[example], json_schema_extra=unit_of
-    )
+def key(meaning: str, example: Any, *, default: Any = None, **schema: Any) -> Any:
+    """Return the field of a key that may be left out; `example` is a value that it may have.
+
+    `schema` is what else its JSON schema has, such as the `unit`.
+    """
+    return Field(default=default, description=meaning, examples=[example], json_schema_extra=schema)
 
 
-def required(meaning: str, example: Any) -> Any:
+def required(meaning: str, example: Any, **schema: Any) -> Any:
     """Return the field of a key that must be given, as `key` does."""
-    return Field(description=meaning, examples=[example])
+    return Field(description=meaning, examples=[example], json_schema_extra=schema)
 
 
 def units_of(table: type[KeyTable]) -> dict[str, str]:
@@ -138,13 +138,3 @@ def checked_device(device: dict[str, float]) -> dict[str, float]:
 
 Parameters = Annotated[dict[str, Number], AfterValidator(checked_device)]
 """Device parameters by name."""
-
-
-def parameters(meaning: str, example: Any) -> Any:
-    """Return the field of a table of parameters, as `key` does."""
-    return Field(
-        default={},
-        description=meaning,
-        examples=[example],
-        json_schema_extra=device_schema(),
-    )

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 
 from slider_resonator.device.device import DEVIATIONS, Device
 from slider_resonator.device.drive_periods import DrivePeriods, drive_periods
-from slider_resonator.device.interface import INPUTS
+from slider_resonator.device.interface import INPUTS, TUNABLES
 from slider_resonator.device.schedule import Schedule, schedule, step_count
 from slider_resonator.device.signal import Signal, constant, ramp, steps
 from slider_resonator.device.values import check_value
@@ -195,9 +195,7 @@ class Scene(Shown):
 
     def with_step(self, step_size: float) -> "Scene":
         """Return the scene, which must have a run, with communication steps of a size in s."""
-        assert self.run is not None
-        step = {"step_size": step_size, "steps_per_period": None, "step_sizes": None}
-        return replace(self, run=self.run.model_copy(update=step))
+        return self._with_run(step_size=step_size, steps_per_period=None, step_sizes=None)
 
     def lasting(self, stop_time: float) -> "Scene":
         """Return the scene with a run of another length in s, in steps of the same size.
@@ -206,8 +204,7 @@ class Scene(Shown):
         """
         if self.run is None:
             raise SceneError(f"{self.source}: scene {self.name} has no [run] that could last")
-        last = {"stop_time": stop_time, "drive_periods": None}
-        return replace(self, run=self.run.model_copy(update=last))
+        return self._with_run(stop_time=stop_time, drive_periods=None)
 
     @property
     def interpolates(self) -> bool:
@@ -216,9 +213,11 @@ class Scene(Shown):
 
     def interpolating(self, interpolate: bool) -> "Scene":
         """Return the scene with straight lines of inputs passed on as derivatives, or held."""
-        if self.run is None:
-            return self
-        return replace(self, run=self.run.model_copy(update={"interpolate": interpolate}))
+        return self._with_run(interpolate=interpolate) if self.run else self
+
+    def _with_run(self, **changed: float | None) -> "Scene":
+        assert self.run is not None
+        return replace(self, run=self.run.model_copy(update=changed))
 
     def lines_reach(self, interpolates: bool) -> str | None:
         """Return how straight lines of inputs reach an FMU, None without any.
@@ -286,61 +285,50 @@ def only_scene(scenes: Sequence[Scene], source: str) -> Scene:
 def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
     if "name" not in content:
         refuse_other_kinds(content, source, "scene")
-    content, device_files = _with_device(content, source, folder)
+    files: list[Path] = []
+    if isinstance(name := content.get("device"), str):
+        try:
+            read = read_device_file(name, folder)
+        except SceneError as error:
+            raise SceneError(f"{source}: device: {error}") from error
+        content, files = {**content, "device": read.values}, [read.path]
     content = with_si_values(content, source)
     try:
         table = SceneTable.model_validate(content)
     except ValidationError as error:
         raise SceneError("\n".join(explanations(source, error, content))) from error
-    tables = table.inputs.given(INPUTS)
-    deviations = table.inputs.deviations
-    given = {**tables, **table.tuning.tuned, **deviations}
-    beside = table.beside.inputs.given(INPUTS) if table.beside else {}
 
     def signals(tables: Mapping[str, InputTable], where: str) -> dict[str, Signal]:
+        files.extend(folder / table.csv for table in tables.values() if table.csv)
         return {n: _signal(t, n, f"{source}: {where}.{n}", folder) for n, t in tables.items()}
 
-    tuning = signals(table.tuning.tuned, "tuning")
+    inputs = signals(table.inputs.given(INPUTS), "inputs")
+    tuning = signals(table.tuning.given(TUNABLES), "tuning")
     starts = {name: s.at(0.0) for name, s in tuning.items()}
-    deviating = signals(deviations, "inputs")
+    deviating = signals(table.inputs.given(DEVIATIONS), "inputs")
     if tuning or any(len(signal.times) > 1 for signal in deviating.values()):
         tuning |= deviating
     else:
         starts |= {name: signal.at(0.0) for name, signal in deviating.items()}
+    beside = None
+    if table.beside:
+        given = signals(table.beside.inputs.given(INPUTS), "beside.inputs")
+        beside = Beside(table.beside.device, given)
     return Scene(
         name=table.name,
         title=table.title,
         description=table.description.strip(),
         source=source,
         parameters={**table.device, **starts},
-        signals=signals(tables, "inputs"),
+        signals=inputs,
         run=table.run,
         expect=table.expect,
         sweep=table.sweep,
         need=table.need,
-        files=(
-            *device_files,
-            *(folder / one.csv for one in (*given.values(), *beside.values()) if one.csv),
-        ),
+        files=tuple(files),
         tuning=tuning,
-        beside=Beside(table.beside.device, signals(beside, "beside.inputs"))
-        if table.beside
-        else None,
+        beside=beside,
     )
-
-
-def _with_device(
-    content: Mapping[str, Any], source: str, folder: Path
-) -> tuple[Mapping[str, Any], tuple[Path, ...]]:
-    """Return the content with a device that it names as a table, and the file of that."""
-    name = content.get("device")
-    if not isinstance(name, str):
-        return content, ()
-    try:
-        read = read_device_file(name, folder)
-        return {**content, "device": read.values}, (read.path,)
-    except SceneError as error:
-        raise SceneError(f"{source}: device: {error}") from error
 
 
 def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:

@@ -5,7 +5,8 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, field_validator, model_validator
 
-from slider_resonator.device.interface import INPUTS, SETTABLE
+from slider_resonator.device.device import DEVIATIONS
+from slider_resonator.device.interface import INPUTS, SETTABLE, TUNABLES
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.expansion import with_bundles
@@ -17,9 +18,9 @@ from slider_resonator.scenes.key_table import (
     Number,
     Parameters,
     Positive,
+    device_schema,
     exactly_one,
     key,
-    parameters,
     required,
 )
 from slider_resonator.scenes.need_table import RUN_NEEDS, STEADY_NEEDS, NeedTable
@@ -83,12 +84,10 @@ class SweepTable(KeyTable):
         "At least one value. Without the sweep the variable must be constant in the run.",
     )
 
-    variable: str = Field(
-        description="the parameter or input that varies",
-        examples=["load"],
-        json_schema_extra={"enum": [*SETTABLE]},
+    variable: str = required("the parameter or input that varies", "load", enum=[*SETTABLE])
+    values: Annotated[tuple[Number, ...], Field(min_length=1)] = required(
+        "its values", [0.0, 0.02, 0.04]
     )
-    values: tuple[Number, ...] = required("its values", [0.0, 0.02, 0.04])
 
     @field_validator("variable")
     @classmethod
@@ -96,13 +95,6 @@ class SweepTable(KeyTable):
         if name not in SETTABLE:
             raise ValueError(unknown_name("parameter or input", name, SETTABLE))
         return name
-
-    @field_validator("values")
-    @classmethod
-    def _some(cls, values: tuple[float, ...]) -> tuple[float, ...]:
-        if not values:
-            raise ValueError("must be a list of at least one number")
-        return values
 
     @model_validator(mode="after")
     def _possible(self) -> "SweepTable":
@@ -130,8 +122,11 @@ class SceneTable(KeyTable):
     )
     title: Line = required("one line for lists and plots", "The load steps up")
     description: str = key("what the scene shows, and why", "A step of load.", default="")
-    device: Parameters = parameters(
-        "parameters that differ from table 1", {"friction_coefficient": 0.12}
+    device: Parameters = key(
+        "parameters that differ from table 1",
+        {"friction_coefficient": 0.12},
+        default={},
+        **device_schema(),
     )
     inputs: AllInputsTable = key("inputs over time", {"phase": 0.4}, default=AllInputsTable())
     tuning: TuningTable = key(
@@ -170,7 +165,7 @@ class SceneTable(KeyTable):
 
     @model_validator(mode="after")
     def _runnable(self) -> "SceneTable":
-        for name in self.tuning.tuned:
+        for name in self.tuning.given(TUNABLES):
             if name in self.device:
                 raise ValueError(
                     f"tuning.{name} is in [device] and in [tuning]; must be in one of them"
@@ -202,7 +197,7 @@ class SceneTable(KeyTable):
 
         Deviations of a drive that is tuned count as such: they are applied to what it is tuned to.
         """
-        deviations = self.inputs.deviations
-        tables = self.inputs.given(INPUTS) | self.tuning.tuned | deviations
-        combined = deviations if self.tuning.tuned else {}
+        tuned, deviations = self.tuning.given(TUNABLES), self.inputs.given(DEVIATIONS)
+        tables = self.inputs.given(INPUTS) | tuned | deviations
+        combined = deviations if tuned else {}
         return [n for n, table in tables.items() if table.constant is None or n in combined]

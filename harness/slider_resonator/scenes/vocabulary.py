@@ -52,11 +52,6 @@ class Quantity:
     needs_constants: bool = False
     needs_beside: bool = False
 
-    @property
-    def relative_to_peak(self) -> bool:
-        """Whether a deviation is a share of the reference's peak."""
-        return self.kind == "signal" and not self.in_periods
-
 
 _steady = partial(Quantity, "number", needs_constants=True)
 _word = partial(Quantity, "word", "", exact=True, needs_constants=True)

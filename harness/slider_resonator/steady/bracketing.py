@@ -10,13 +10,7 @@ equation in one unknown remains, whose sign changes between the bounds.
 import numpy as np
 import scipy
 
-from slider_resonator.steady.newton import (
-    DIFFERENCE,
-    Matrix,
-    PeriodMap,
-    Vector,
-    central_jacobian,
-)
+from slider_resonator.steady.newton import DIFFERENCE, Matrix, PeriodMap, Vector, central_jacobian
 
 DOUBLINGS = 6
 """Maximum doublings of the bounds, which begin at the scale of the slow state."""

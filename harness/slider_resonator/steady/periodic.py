@@ -2,24 +2,24 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import asin, ceil, pi, sin, sqrt
+from math import pi
 
 import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.common_period import common_period
+from slider_resonator.device.schedule import nearest
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.progress import Progress, no_progress
+from slider_resonator.references.averaged.vibrating_contact import mean_load
 from slider_resonator.steady.bristle_reading import bristle_reading
-from slider_resonator.steady.newton import Vector
-from slider_resonator.steady.shooting import WARM_UP, WarmedUp
+from slider_resonator.steady.newton import Matrix, Vector
+from slider_resonator.steady.shooting import WARM_UP, PeriodicRun
 
 STATE = ("velocity", "resonator_displacement", "resonator_velocity")
 """The outputs that are states; the position does not matter, for nothing depends on it."""
-SAMPLES = 8
-"""Points of the last drive period of the warm-up that give the size of each state."""
 SLOW = 0.1
 """Distance of the frequency ratio from an integer, below which the phase runs slowly: a beat."""
 
@@ -57,26 +57,11 @@ class Facts:
         return 2.0 * pi / self["drive_frequency"]
 
     @property
-    def mean_normal_force(self) -> float:
-        """Normal force (N) of a face averaged over the drive, with lift-off."""
-        preload, amplitude = self["normal_preload"], self["normal_amplitude"]
-        if self["frequency_ratio"] == 0.0:
-            return max(0.0, preload + amplitude * sin(self["phase"]))
-        if amplitude <= preload:
-            return preload
-        share = preload / amplitude
-        return preload * (0.5 + asin(share) / pi) + amplitude / pi * sqrt(1.0 - share**2)
-
-    @property
     def friction_limit(self) -> float:
         """Mean friction force (N) of a slider that slides one way all the time."""
-        return self["friction_faces"] * self["friction_coefficient"] * self.mean_normal_force
-
-    @property
-    def velocity_floor(self) -> float:
-        """Change of velocity (m/s) by friction in a drive period: the scale of a device at rest."""
-        mass = self["slider_mass"] + self["resonator_mass"]
-        return max(self.friction_limit / mass * self.drive_period, 1e-9)
+        load = (self["normal_preload"], self["normal_amplitude"])
+        normal = mean_load(*load, self["phase"], self["frequency_ratio"])
+        return self["friction_faces"] * self["friction_coefficient"] * normal
 
 
 def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
@@ -127,7 +112,7 @@ def repeating_periods(facts: Facts, max_denominator: int) -> int | Obstacle:
     )
 
 
-class FmuPeriodMap:
+class FmuPeriodMap(PeriodicRun):
     """State and load (N) at theta = psi = 0 -> state and displacement (m) after q drive periods.
 
     The state has the entries `names`: those of `STATE` and, where there is a LuGre bristle that
@@ -147,51 +132,45 @@ class FmuPeriodMap:
         self.values = values
         self.facts = facts
         self.drive_periods = drive_periods
+        self.drive_period = facts.drive_period
         self.progress = progress
         self.periods = 0
         self.stick_fraction = 0.0
         self.bristle = bristle_reading(facts.values)
         self.names = STATE if self.bristle is None else (*STATE, "bristle_deflection")
-        self._initial = [f"initial_{name}" for name in self.names]
-        self._leads = np.array((0.0,) if self.bristle is None else self.bristle.leads)
-        self._times = np.maximum(0.0, self.period - self._leads)
         self._read = instance.block(
             ["position", *STATE, "friction_force", "normal_force", "stick_fraction"]
         )
 
-    @property
-    def period(self) -> float:
-        """Length of the common period in seconds."""
-        return self.drive_periods * self.facts.drive_period
-
-    def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
-        """Run one common period."""
-        before = self._start(state, load)
-        readings = self._readings(self._times)
-        self._count(self.drive_periods)
-        return self._state(self._times, readings), float(readings[-1, 0]) - before
-
-    def warm_up(self, velocity: float, load: float) -> WarmedUp:
-        """Run some periods with the resonator at rest and the slider at `velocity` (m/s)."""
-        count = ceil(WARM_UP / self.drive_periods) * self.drive_periods
-        period = self.facts.drive_period
-        start = np.zeros(len(self.names))
-        start[0] = velocity
-        self._start(start, load)
-        whole = 0 if self.instance.fmu.takes_equal_steps_only else count - 1
-        samples = np.linspace(whole * period, count * period, (count - whole) * SAMPLES + 1)
-        before_end = np.maximum(0.0, count * period - self._leads)
-        times = np.union1d(samples, before_end)
-        readings = self._readings(times)
-        self._count(count)
-        last = readings[np.searchsorted(times, samples[-SAMPLES - 1 :])]
-        floor = self.facts.velocity_floor
-        sizes = np.abs(last[1:, 1:4]).max(axis=0)
-        scale = np.maximum(sizes, [floor, floor * period / (2.0 * pi), floor])
+    def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
+        """Return states and travel; the deflection of a bristle is that at the end throughout."""
+        initial = zip((f"initial_{name}" for name in self.names), state.tolist(), strict=True)
+        self.instance.start({**self.values, **dict(initial), "load": load})
+        before, end = self._read.read()[0], float(times[-1])
+        leading = np.maximum(0.0, end - np.array(self.bristle.leads if self.bristle else (0.0,)))
+        grid = times
+        if self.instance.fmu.takes_equal_steps_only and len(times) > 1:
+            grid = np.linspace(0.0, end, round(end / float(times[1] - times[0])) + 1)
+        read_at = np.union1d(grid, leading)
+        readings = self._readings(read_at)
+        self._count(round(end / self.drive_period))
+        rows = readings[nearest(read_at, times)]
+        states, travel = rows[:, 1:4], rows[:, 0] - before
         if self.bristle is not None:
-            scale = np.append(scale, self.bristle.scale)
-        state = self._state(before_end, readings[np.searchsorted(times, before_end)])
-        return WarmedUp(state, scale, float(last[-1, 0] - last[0, 0]) / period)
+            seen = readings[np.searchsorted(read_at, leading)][:, (0, 1, 4, 5)].T
+            bent = self.bristle.deflection(leading, *seen)
+            states = np.column_stack([states, np.full(len(rows), bent)])
+        return states, travel
+
+    def scale(self, sizes: Vector) -> Vector:
+        """Return the scale of each state.
+
+        That of a velocity is at least its change by friction in a drive period.
+        """
+        mass = self.facts["slider_mass"] + self.facts["resonator_mass"]
+        floor = max(self.facts.friction_limit / mass * self.drive_period, 1e-9)
+        scale = np.maximum(sizes[:3], [floor, floor * self.drive_period / (2.0 * pi), floor])
+        return scale if self.bristle is None else np.append(scale, self.bristle.scale)
 
     def _count(self, periods: int) -> None:
         """Count drive periods, and report them among those of a search of usual length."""
@@ -200,11 +179,6 @@ class FmuPeriodMap:
         usual = max(WARM_UP + runs * self.drive_periods, self.periods)
         label = f"drive period {self.periods} of some {usual}"
         self.progress(label, self.periods / usual)
-
-    def _start(self, state: Vector, load: float) -> float:
-        initial = dict(zip(self._initial, state.tolist(), strict=True))
-        self.instance.start({**self.values, **initial, "load": load})
-        return self._read.read()[0]
 
     def _readings(self, times: Array) -> Array:
         """Return what is read at the times (s), a row each; `stick_fraction` is then the last."""
@@ -223,12 +197,3 @@ class FmuPeriodMap:
             )
         self.stick_fraction = float(readings[-1, 6])
         return readings
-
-    def _state(self, times: Array, readings: Array) -> Vector:
-        """Return the state at the end of readings."""
-        state = readings[-1, 1:4]
-        if self.bristle is None:
-            return state
-        position, velocity, friction, normal = readings[:, (0, 1, 4, 5)].T
-        bent = self.bristle.deflection(times, position, velocity, friction, normal)
-        return np.append(state, bent)

@@ -139,9 +139,8 @@ def _candidate(
     except HarnessError:
         instance.recreate()
         return None
-    displacement, swing = _vibration(
-        tuple((name, value) for name, value in device.items() if name not in INPUTS)
-    )
+    parameters = {name: value for name, value in device.items() if name not in INPUTS}
+    displacement, swing = _vibration(Device.from_mapping(parameters))
     drive = device["drive_frequency"] * (1.0 + device.get("frequency_deviation", 0.0))
     size = (abs(swing), abs(displacement), abs(displacement) * drive)
     if valid != 1.0 or 0.0 in size or not all(map(isfinite, (velocity, force, *size))):
@@ -160,15 +159,13 @@ def _candidate(
     )
 
 
-@lru_cache
-def _vibration(parameters: tuple[tuple[str, float], ...]) -> tuple[complex, complex]:
+@lru_cache  # points of a sweep often differ by inputs alone
+def _vibration(device: Device) -> tuple[complex, complex]:
     """Return the complex amplitudes of resonator displacement (m) and slider velocity (m/s).
 
-    Those of the steady vibration without friction; 0 where there is none. Points of a sweep often
-    differ by inputs alone, and have the same.
+    Those of the steady vibration without friction; 0 where there is none.
     """
     try:
-        device = Device.from_mapping(dict(parameters))
         displacement, force = steady_vibration(device)
         return displacement, force / (1j * device.drive_frequency * device.total_mass)
     except (ValueError, ArithmeticError):

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from math import ceil, pi
+from math import pi
 from typing import Any
 
 import numpy as np
@@ -13,18 +13,11 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.simulate import simulate as simulate_resolved
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.steady.newton import Vector
-from slider_resonator.steady.shooting import (
-    WARM_UP,
-    FixedPoint,
-    WarmedUp,
-    blocked_point,
-    steady_point,
-)
+from slider_resonator.steady.newton import Matrix, Vector
+from slider_resonator.steady.shooting import FixedPoint, PeriodicRun, blocked_point, steady_point
 
 STATE = ("velocity", "resonator_displacement", "resonator_velocity", "bristle_deflection")
 _INITIAL = tuple(f"initial_{name}" for name in ("position", *STATE))
-SAMPLES = 16
 TOLERANCE = 1e-9
 """Accuracy in units of the scale."""
 
@@ -61,7 +54,6 @@ def reference_blocking_force(
     device: Device,
     phase: float,
     ratio: float,
-    guess: float = 0.0,
     *,
     simulate: Simulate = simulate_resolved,
     tolerance: float = TOLERANCE,
@@ -75,52 +67,35 @@ def reference_blocking_force(
         return None
     period_map = _ReferencePeriodMap(device, phase, ratio, count, simulate)
     # Without preload the load varies alone and friction is of the order of its amplitude.
-    warm = period_map.warm_up(0.0, guess)
-    found = blocked_point(period_map, warm, guess, device.max_friction, tolerance=tolerance)
+    warm = period_map.warm_up(0.0, 0.0)
+    found = blocked_point(period_map, warm, 0.0, device.max_friction, tolerance=tolerance)
     return found.load if isinstance(found, FixedPoint) else None
 
 
-class _ReferencePeriodMap:
-    """The period map of a reference; `count` drive periods are one common period.
+class _ReferencePeriodMap(PeriodicRun):
+    """The period map of a reference.
 
     The state has the entries of `STATE` that there are: no resonator at fidelity 1, where its
     force is given, and no bristle with Coulomb friction.
     """
 
     def __init__(
-        self, device: Device, phase: float, ratio: float, count: int, simulate: Simulate
+        self, device: Device, phase: float, ratio: float, drive_periods: int, simulate: Simulate
     ) -> None:
         self.simulate = simulate
         self.device = device
         self.phase = phase
         self.ratio = ratio
-        self.count = count
+        self.drive_periods = drive_periods
         self.drive_period = 2.0 * pi / device.drive_frequency
-        self.period = count * self.drive_period
         resonator = STATE[1:3] if device.fidelity == 2 else ()
         bristle = STATE[3:] if device.friction_law == 1 else ()
         self.names = (STATE[0], *resonator, *bristle)
         at_rest: dict[str, Any] = dict.fromkeys(_INITIAL, 0.0)
         self._velocity_from_rest = initial_state(replace(device, **at_rest))[1]
 
-    def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
-        """Run one common period."""
-        states, position = self._run(state, load, np.array([self.period]))
-        return states[0], float(position[0])
-
-    def warm_up(self, velocity: float, load: float) -> WarmedUp:
-        """Run some periods with the resonator at rest and the slider at `velocity` (m/s)."""
-        count = ceil(WARM_UP / self.count) * self.count
-        stop = count * self.drive_period
-        times = np.linspace((count - 1) * self.drive_period, stop, SAMPLES + 1)
-        start = np.zeros(len(self.names))
-        start[0] = velocity
-        states, position = self._run(start, load, times)
-        mean = float(position[-1] - position[0]) / self.drive_period
-        return WarmedUp(states[-1], self._scale(np.abs(states).max(axis=0)), mean)
-
-    def _scale(self, sizes: Vector) -> Vector:
-        """Return the scale of each state from its largest magnitudes, all (n,)."""
+    def scale(self, sizes: Vector) -> Vector:
+        """Return the scale of each state; of a bristle it is the deflection when fully bent."""
         seen = dict(zip(self.names, sizes.tolist(), strict=True))
         floor = 1e-6 * max(seen["velocity"], seen.get("resonator_velocity", 0.0), 1e-3)
         scale = {name: max(size, floor) for name, size in seen.items()}
@@ -130,8 +105,8 @@ class _ReferencePeriodMap:
             scale[STATE[3]] = self.device.friction_coefficient / self.device.bristle_stiffness
         return np.array(list(scale.values()))
 
-    def _run(self, state: Vector, load: float, times: Vector) -> tuple[Vector, Vector]:
-        """Return states (m, n) and positions (m,) at times (m,), from a state at time 0."""
+    def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
+        """Return states and travel at the times."""
         initial: dict[str, Any] = dict.fromkeys(_INITIAL, 0.0)
         initial |= {f"initial_{name}": float(x) for name, x in zip(self.names, state, strict=True)}
         initial["initial_velocity"] -= self._velocity_from_rest

@@ -5,10 +5,12 @@ for an accuracy of 1e-6. The fixed point of the map over a single period is foun
 few dozen.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal, Protocol
+from math import ceil
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,11 +26,10 @@ from slider_resonator.steady.newton import (
     solve,
 )
 
-LoadedPeriodMap = Callable[[Vector, float], tuple[Vector, float]]
-"""The same, with the load (N) that acts during the period."""
-
 WARM_UP = 20
 """Drive periods run before shooting, so that the resonator's own transient is mostly gone."""
+SAMPLES = 8
+"""Points of the last of these periods that give the size of each state."""
 TOLERANCE = 1e-11
 """Accuracy of the state in units of its scale, by default."""
 
@@ -93,7 +94,7 @@ def fixed_point(
     scale: Vector,
     *,
     load: float = 0.0,
-    tolerance: float = 1e-11,
+    tolerance: float = TOLERANCE,
 ) -> FixedPoint | NoFixedPoint:
     """Find a state that the map returns to, starting from `guess` (n,).
 
@@ -118,37 +119,6 @@ def fixed_point(
             multipliers[0] = max(sides, key=abs)
     _, displacement = period_map(root.x)
     return FixedPoint(root.x, displacement, load, root.iterations, root.residual, multipliers)
-
-
-def blocking_point(
-    period_map: LoadedPeriodMap,
-    guess: Vector,
-    load_guess: float,
-    scale: Vector,
-    load_scale: float,
-    displacement_scale: float,
-    *,
-    tolerance: float = 1e-11,
-) -> FixedPoint | NoFixedPoint:
-    """Find the load and the state of the repeating motion without displacement over a period.
-
-    One more unknown and one more equation than `fixed_point`: the load (N) and displacement = 0.
-    """
-    bordered_scale = np.append(scale, load_scale)
-
-    def change(unknowns: Vector) -> Vector:
-        state, load = unknowns[:-1], float(unknowns[-1])
-        end, displacement = period_map(state, load)
-        return np.append(end - state, displacement * load_scale / displacement_scale)
-
-    root = solve(change, np.append(guess, load_guess), bordered_scale, tolerance=tolerance)
-    if root.status != "converged":
-        return _failure(root)
-    jacobian = _fresh_jacobian(change, root, bordered_scale)
-    state, load = root.x[:-1], float(root.x[-1])
-    _, displacement = period_map(state, load)
-    multipliers = _multipliers(jacobian[:-1, :-1])
-    return FixedPoint(state, displacement, load, root.iterations, root.residual, multipliers)
 
 
 def _fresh_jacobian(function: Callable[[Vector], Vector], root: Root, scale: Vector) -> Matrix:
@@ -258,18 +228,47 @@ class WarmedUp:
         return state
 
 
-class PeriodicRun(Protocol):
-    """A device that is run over its common period of `period` seconds."""
+class PeriodicRun(ABC):
+    """A device that is run over a common period of `drive_periods`, each of `drive_period` s.
+
+    Its state has the entries `names`, the velocity (m/s) first.
+    """
+
+    names: tuple[str, ...]
+    drive_periods: int
+    drive_period: float
 
     @property
     def period(self) -> float:
         """Length of the common period in seconds."""
+        return self.drive_periods * self.drive_period
+
+    @abstractmethod
+    def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
+        """Return states (m, n) and travel (m,), in m, at times (m,), in s, under a load (N).
+
+        The run begins in a state (n,) at theta = psi = 0 and ends with the last of the times, a
+        whole number of drive periods later.
+        """
+
+    @abstractmethod
+    def scale(self, sizes: Vector) -> Vector:
+        """Return the scale of each entry of the state from its largest magnitude, both (n,)."""
 
     def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
         """Return state (n,) and displacement (m) after a common period under a load (N)."""
+        states, travel = self.run(state, load, np.array([self.period]))
+        return states[-1], float(travel[-1])
 
     def warm_up(self, velocity: float, load: float) -> WarmedUp:
         """Run some periods with the resonator at rest and the slider at `velocity` (m/s)."""
+        count = ceil(WARM_UP / self.drive_periods) * self.drive_periods
+        start = np.zeros(len(self.names))
+        start[0] = velocity
+        times = np.linspace(count - 1, count, SAMPLES + 1) * self.drive_period
+        states, travel = self.run(start, load, times)
+        mean = float(travel[-1] - travel[0]) / self.drive_period
+        return WarmedUp(states[-1], self.scale(np.abs(states[1:]).max(axis=0)), mean)
 
 
 def steady_point(
@@ -290,10 +289,23 @@ def steady_point(
 def blocked_point(
     run: PeriodicRun, warm: WarmedUp, load: float, load_scale: float, tolerance: float = TOLERANCE
 ) -> FixedPoint | NoFixedPoint:
-    """Find the load of the repeating motion without displacement, near `load` (N).
+    """Find the load of the repeating motion without displacement over a period, near `load` (N).
 
-    `warm` comes from a warm-up under that load, `load_scale` (N) is a typical load.
+    `warm` comes from a warm-up under that load, `load_scale` (N) is a typical load. One more
+    unknown and one more equation than `fixed_point`: the load and displacement = 0.
     """
-    displacement = float(warm.scale[0]) * run.period
-    scales = (warm.scale, load_scale, displacement)
-    return blocking_point(run, warm.shifted(0.0), load, *scales, tolerance=tolerance)
+    scale = np.append(warm.scale, load_scale)
+    displacement_scale = float(warm.scale[0]) * run.period
+
+    def change(unknowns: Vector) -> Vector:
+        state, load = unknowns[:-1], float(unknowns[-1])
+        end, displacement = run(state, load)
+        return np.append(end - state, displacement * load_scale / displacement_scale)
+
+    root = solve(change, np.append(warm.shifted(0.0), load), scale, tolerance=tolerance)
+    if root.status != "converged":
+        return _failure(root)
+    multipliers = _multipliers(_fresh_jacobian(change, root, scale)[:-1, :-1])
+    state, load = root.x[:-1], float(root.x[-1])
+    _, displacement = run(state, load)
+    return FixedPoint(state, displacement, load, root.iterations, root.residual, multipliers)

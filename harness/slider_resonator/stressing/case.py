@@ -10,7 +10,7 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import TunedInputs
+from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.device.model import Model
 
 SUBSTEPS = 3
@@ -140,12 +140,12 @@ class Case:
         return np.concatenate([[0.0], np.cumsum(self.sizes)])
 
     @property
-    def held(self) -> list[TunedInputs]:
+    def held(self) -> list[HeldInputs]:
         """The inputs for references, from time 0 on, equal neighbours merged."""
         ends = self.times[[0, *accumulate(hold.count for hold in self.holds)]].tolist()
-        held: list[TunedInputs] = []
+        held: list[HeldInputs] = []
         for (start, stop), hold in zip(pairwise(ends), self.holds, strict=True):
-            one = TunedInputs(start, stop, *hold.inputs, tuned=hold.tuned)
+            one = HeldInputs(start, stop, *hold.inputs, tuned=hold.tuned)
             if held and replace(held[-1], start=start, stop=stop) == one:
                 held[-1] = replace(held[-1], stop=stop)
             else:

@@ -6,6 +6,7 @@ from math import inf
 import numpy as np
 
 from slider_resonator.errors import HarnessError
+from slider_resonator.references.resolved.contact import STICK
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trading.method import STEADY
 from slider_resonator.trading.peer_methods import shoot
@@ -36,7 +37,6 @@ def find_reference(problem: Problem) -> Reference:
         held, periods = problem.lines(problem.periods), problem.periods
         run = simulate(problem.device, held, problem.readings(periods))
         found = windows(problem, solution_of(run, located=True), periods)
-        first = simulate(problem.device, problem.lines(1), np.empty(0)).stick_time
         answers = dict.fromkeys(STEADY, None)
         if problem.steady:
             answers = {n: shoot(problem, n, simulate, SHOOTING, inf)[1].value for n in STEADY}
@@ -44,4 +44,6 @@ def find_reference(problem: Problem) -> Reference:
         raise HarnessError(
             f"scene {problem.name}: the reference cannot follow it: {error}"
         ) from error
-    return Reference(found, run.stick_time > first + 1e-9 * problem.period, **answers)
+    edges = np.concatenate([[0.0], run.event_times, [inf]])
+    later = np.diff(np.maximum(edges, problem.period)) > 1e-9 * problem.period
+    return Reference(found, bool(np.any(later & (run.modes == STICK))), **answers)

@@ -129,7 +129,8 @@ def test_an_event_beyond_the_end_is_not_counted() -> None:
     late = 1e-7 * whole.scene.drive_period
     references = side_until("", (reversal - late) / whole.scene.drive_period)
     counts = references.in_run("located_events", reversal_counts)
-    assert references.reversals("located_events") == counts.middle[-1] == counts.lower[-1]
+    at_end = references.at_end("located_events", reversal_counts)
+    assert at_end == counts.middle[-1] == counts.lower[-1]
     assert counts.upper[-1] == counts.middle[-1] + 1.0, "the next coincides with the end"
     force = references.beside_events("located_events", "friction_force")
     assert force.lower[-1] < 0.0 < force.upper[-1], "friction changes its sign there"

@@ -75,7 +75,7 @@ def test_a_datasheet_is_solved_without_intervals(instance: Instance) -> None:
 
 
 def test_a_run_is_fitted_over_time(instance: Instance) -> None:
-    schedule = Schedule(np.linspace(0.0, 0.2, 41), phase=constant(0.4))
+    schedule = Schedule(np.linspace(0.0, 0.2, 41), {"phase": constant(0.4)})
     empty = Run("run.csv", schedule, {"velocity": np.zeros(41), "position": np.zeros(41)})
     true = {"friction_coefficient": 0.17, "slider_mass": 1.3}
     velocity, position = np.split(predict(instance, true, Measurements(runs=(empty,))), 2)
@@ -264,7 +264,7 @@ def test_an_end_at_a_bound_of_the_search_is_none(instance: Instance) -> None:
 
 
 def test_a_recording_cut_out_of_a_run_gives_the_parameters(instance: Instance) -> None:
-    schedule = Schedule(np.linspace(0.0, 0.4, 81), phase=constant(0.4))
+    schedule = Schedule(np.linspace(0.0, 0.4, 81), {"phase": constant(0.4)})
     whole = Run("run.csv", schedule, {"velocity": np.zeros(81)})
     true = {"friction_coefficient": 0.17, "slider_mass": 1.3}
     velocity = predict(instance, true, Measurements(runs=(whole,)))[30:]

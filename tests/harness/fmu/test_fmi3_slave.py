@@ -22,7 +22,7 @@ TIMES = np.linspace(0.0, 0.04, 41)
 
 
 def recorded(path: Path, law: int, fidelity: int) -> Record:
-    schedule = Schedule(TIMES, phase=constant(0.4), load=constant(0.02))
+    schedule = Schedule(TIMES, {"phase": constant(0.4), "load": constant(0.02)})
     with open_fmu(path) as fmu, instantiate(fmu) as instance:
         return run(instance, {"friction_law": law, "fidelity": fidelity}, schedule)
 

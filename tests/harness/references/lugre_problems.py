@@ -1,6 +1,7 @@
 """Motions on bristles that tests of references share."""
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +12,7 @@ DURATION = 0.012
 TIMES = np.linspace(0.0, DURATION, 121)
 
 
-def constant(**inputs: float) -> list[HeldInputs]:
+def constant(**inputs: Any) -> list[HeldInputs]:
     return [HeldInputs(0.0, DURATION, **inputs)]
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs, TunedInputs
+from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.phase import Elapsed, advanced
 from slider_resonator.references.resolved.contact import LIFTED
@@ -99,7 +99,7 @@ EDGES = (0.0, 2.1e-3, 4.7e-3, 7e-3)
 
 def held(*tuned: tuple[tuple[str, float], ...]) -> list[HeldInputs]:
     return [
-        TunedInputs(start, stop, phase=0.4, tuned=own)
+        HeldInputs(start, stop, phase=0.4, tuned=own)
         for (start, stop), own in zip(pairwise(EDGES), tuned, strict=True)
     ]
 
@@ -136,8 +136,8 @@ def test_a_block_slows_down_by_the_friction_of_the_moment() -> None:
     block = Device(resonator_mass=0.0, base_amplitude=0.0, normal_amplitude=0.0)
     block = replace(block, drive_frequency=1.0, initial_velocity=0.5)
     inputs = [
-        TunedInputs(0.0, 1.0, tuned=(("friction_coefficient", 0.1),)),
-        TunedInputs(1.0, 2.0, tuned=(("friction_coefficient", 0.3),)),
+        HeldInputs(0.0, 1.0, tuned=(("friction_coefficient", 0.1),)),
+        HeldInputs(1.0, 2.0, tuned=(("friction_coefficient", 0.3),)),
     ]
     motion = simulate(block, inputs, np.array([0.5, 1.0, 1.25, 2.0]))
     assert motion.velocity == pytest.approx([0.4, 0.3, 0.15, 0.0], abs=1e-12)
@@ -148,8 +148,8 @@ def test_another_drive_frequency_changes_a_rate_and_no_phase() -> None:
     """Without friction a rigid slider under F sin(theta) has M v = F (1 - cos theta) / w."""
     slider = Device(resonator_mass=0.0, friction_coefficient=0.0, tangential_force=2.0)
     inputs = [
-        TunedInputs(0.0, 0.3, tuned=(("drive_frequency", 10.0),)),
-        TunedInputs(0.3, 0.6, tuned=(("drive_frequency", 17.0),)),
+        HeldInputs(0.0, 0.3, tuned=(("drive_frequency", 10.0),)),
+        HeldInputs(0.3, 0.6, tuned=(("drive_frequency", 17.0),)),
     ]
     motion = simulate(slider, inputs, np.array([0.3, 0.6]))
     first = 2.0 * (1.0 - math.cos(3.0)) / 10.0
@@ -164,8 +164,8 @@ def test_averaged_motion_takes_over_what_the_resolved_device_has(at: float) -> N
     """Whatever the angle at which the drive changes, the slow velocity must be that of the pair."""
     device = Device(damping_ratio=0.2)
     inputs = [
-        TunedInputs(0.0, at, tuned=(("base_amplitude", 1e-4), ("drive_frequency", 3500.0))),
-        TunedInputs(at, 0.15, tuned=(("base_amplitude", 5e-5), ("drive_frequency", 3200.0))),
+        HeldInputs(0.0, at, tuned=(("base_amplitude", 1e-4), ("drive_frequency", 3500.0))),
+        HeldInputs(at, 0.15, tuned=(("base_amplitude", 5e-5), ("drive_frequency", 3200.0))),
     ]
     period = 2.0 * math.pi / 3200.0
     times = 0.15 - np.array([1.0, 0.0]) * period

@@ -7,7 +7,7 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes.csv_signal import csv_points
+from slider_resonator.scenes.csv_signal import csv_signal
 from slider_resonator.scenes.device_file import (
     device_content,
     example_devices,
@@ -117,11 +117,16 @@ def test_numbers_that_may_be_hertz_are_named(table: dict[str, object], named: li
     assert [slip.split()[0] for slip in possible_slips(table)] == named
 
 
+def points(path: Path, column: str) -> list[tuple[float, float]]:
+    signal = csv_signal(path, column, "hold")
+    return list(zip(signal.times, signal.values, strict=True))
+
+
 def test_the_named_column_wins_over_value(tmp_path: Path) -> None:
     path = tmp_path / "in.csv"
     path.write_text("time, value, load\n0,1,2\n1,3,4\n")
-    assert csv_points(path, "load") == [(0.0, 2.0), (1.0, 4.0)]
-    assert csv_points(path, "phase") == [(0.0, 1.0), (1.0, 3.0)]
+    assert points(path, "load") == [(0.0, 2.0), (1.0, 4.0)]
+    assert points(path, "phase") == [(0.0, 1.0), (1.0, 3.0)]
 
 
 @pytest.mark.parametrize(
@@ -137,7 +142,7 @@ def test_the_named_column_wins_over_value(tmp_path: Path) -> None:
 def test_what_other_programs_write_is_read(tmp_path: Path, text: str) -> None:
     path = tmp_path / "in.csv"
     path.write_text(text, encoding="utf-8")
-    assert csv_points(path, "load") == [(0.0, 0.5), (1.5, -2e-3)]
+    assert points(path, "load") == [(0.0, 0.5), (1.5, -2e-3)]
 
 
 @pytest.mark.parametrize(
@@ -157,7 +162,7 @@ def test_a_csv_that_cannot_be_used_is_named(tmp_path: Path, text: str, message: 
     path = tmp_path / "in.csv"
     path.write_text(text)
     with pytest.raises(ValueError, match=message) as caught:
-        csv_points(path, "load")
+        csv_signal(path, "load", "hold")
     assert str(path) in str(caught.value)
 
 

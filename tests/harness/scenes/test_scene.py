@@ -234,7 +234,7 @@ def test_a_csv_that_a_run_goes_beyond_is_refused(tmp_path: Path, text: str) -> N
 @pytest.mark.parametrize(
     ("text", "parts"),
     [
-        ('[sweep]\nvariable = "load"\nvalues = []\n', ["sweep.values", "at least one"]),
+        ('[sweep]\nvariable = "load"\nvalues = []\n', ["sweep.values", "at least 1"]),
         ("[run]\nstop_time = 1\nsteps_per_period = 1e308\n", ["run", "communication steps"]),
         ("[run]\nstop_time = 1\nstep_sizes = []\n", ["run.step_sizes", "at least 1 number"]),
         ("[run]\nstop_time = 1\nstep_sizes = [0.1, 0]\n", ["run.step_sizes[2]", "above 0"]),

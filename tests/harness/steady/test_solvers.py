@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from slider_resonator.steady.bracketing import bracketed_state
-from slider_resonator.steady.newton import Vector, solve
+from slider_resonator.steady.newton import Matrix, Vector, solve
 from slider_resonator.steady.shooting import (
     FixedPoint,
     NoFixedPoint,
+    PeriodicRun,
     WarmedUp,
     blocked_point,
-    blocking_point,
     fixed_point,
     steady_point,
 )
@@ -188,33 +188,52 @@ def test_stability_follows_the_largest_multiplier(multiplier: float, stability: 
     assert found.multipliers[0] == pytest.approx(multiplier, abs=1e-9)
 
 
-def test_blocking_point_finds_the_load_that_stops_the_drift() -> None:
+class _Drift(PeriodicRun):
     """A damped slow velocity pushed by (0.0852 - load), resonator decoupled."""
 
-    def period_map(state: Vector, load: float) -> tuple[Vector, float]:
-        velocity = state[0] + 1e-3 * (0.0852 - load) - 1e-3 * state[0]
-        return np.array([velocity, 0.3 * state[1]]), 1e-3 * (state[0] - 0.02 + state[1])
+    drive_periods = 1
+    drive_period = 1e-3
 
-    found = blocking_point(period_map, np.array([0.3, 1.0]), 0.0, ONES, 0.1, 1e-3)
+    def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
+        velocity = state[0] + 1e-3 * (0.0852 - load) - 1e-3 * state[0]
+        return np.array([[velocity, 0.3 * state[1]]]), times * (state[0] - 0.02 + state[1])
+
+    def scale(self, sizes: Vector) -> Vector:
+        return np.ones_like(sizes)
+
+
+class _Still(_Drift):
+    """A state that decays without any motion."""
+
+    def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
+        return np.array([0.5 * state]), np.zeros(1)
+
+
+def test_the_load_that_stops_the_drift_is_found() -> None:
+    found = blocked_point(_Drift(), WarmedUp(np.array([0.3, 1.0]), ONES, 0.0), 0.0, 0.1)
     assert isinstance(found, FixedPoint)
     assert found.load == pytest.approx(0.0652, rel=1e-9), "velocity 0.02 must balance the offset"
     assert abs(found.displacement) < 1e-15
     assert found.multipliers[0] == pytest.approx(0.999, abs=1e-8)
 
 
-def test_blocking_point_of_a_map_without_motion_is_singular() -> None:
-    found = blocking_point(lambda s, f: (0.5 * s, 0.0), np.ones(2), 0.1, ONES, 1.0, 1.0)
+def test_no_load_blocks_what_does_not_move() -> None:
+    found = blocked_point(_Still(), WarmedUp(np.ones(2), ONES, 0.0), 0.1, 1.0)
     assert isinstance(found, NoFixedPoint)
 
 
-class _Slider:
+class _Slider(PeriodicRun):
     """A slow velocity that (0.1 - load) pushes, saturated as Coulomb friction is, and a swing."""
 
-    period = 2.0
+    drive_periods = 1
+    drive_period = 2.0
 
-    def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
+    def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
         drift = 0.01 * (0.1 - load - np.clip(state[0], -0.5, 0.5))
-        return np.array([state[0] + drift, 0.3 * state[1]]), self.period * float(state[0])
+        return np.array([[state[0] + drift, 0.3 * state[1]]]), times * state[0]
+
+    def scale(self, sizes: Vector) -> Vector:
+        return np.ones_like(sizes)
 
     def warm_up(self, velocity: float, load: float) -> WarmedUp:
         return WarmedUp(np.array([velocity + 0.02, 0.1]), np.ones(2), velocity + 0.01)
@@ -225,7 +244,7 @@ def test_steady_motion_is_found_from_any_guess(velocity: float) -> None:
     found = steady_point(_Slider(), velocity, 0.03)
     assert isinstance(found, FixedPoint)
     assert found.load == 0.03
-    assert found.displacement / _Slider.period == pytest.approx(0.07, abs=1e-9)
+    assert found.displacement / _Slider().period == pytest.approx(0.07, abs=1e-9)
 
 
 def test_blocking_load_is_found() -> None:

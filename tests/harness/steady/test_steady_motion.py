@@ -119,7 +119,7 @@ def test_soft_and_hard_bristles_match_the_reference(
     assert motion.periods <= 100, "as few as with Coulomb friction"
     assert blocking.periods <= 100, "as few as with Coulomb friction"
     velocity = reference_steady_velocity(device, 0.0, 0.0, 1.0, motion.predicted)
-    force = reference_blocking_force(device, 0.0, 1.0, blocking.predicted)
+    force = reference_blocking_force(device, 0.0, 1.0)
     assert motion.steady_velocity == pytest.approx(velocity, abs=1e-7), "the bristle as a state"
     assert blocking.blocking_force == pytest.approx(force, abs=1e-7), "the bristle as a state"
 
@@ -171,10 +171,11 @@ def facts(**values: float) -> Facts:
 
 
 @pytest.mark.parametrize("amplitude", [0.0, 0.5, 1.0, 1.5, 4.0])
-def test_mean_normal_force_is_that_of_the_clipped_sine(amplitude: float) -> None:
+def test_friction_limit_is_that_of_the_clipped_sine(amplitude: float) -> None:
     angle = (np.arange(200_000) + 0.5) / 200_000 * 2.0 * pi
     mean = np.maximum(0.0, 1.0 + amplitude * np.sin(angle)).mean()
-    assert facts(normal_amplitude=amplitude).mean_normal_force == pytest.approx(mean, rel=1e-9)
+    limit = facts(normal_amplitude=amplitude).friction_limit
+    assert limit == pytest.approx(2.0 * 0.1 * mean, rel=1e-9), "faces mu N"
 
 
 @pytest.mark.parametrize(
@@ -217,5 +218,5 @@ def test_maps_can_be_chained(instance: Instance, stiffness: float | None) -> Non
 
 def test_normal_force_at_ratio_0_is_constant() -> None:
     still = facts(frequency_ratio=0.0, phase=-pi / 6.0)
-    assert still.mean_normal_force == pytest.approx(0.5)
-    assert facts(frequency_ratio=0.0, phase=-2.0, normal_amplitude=3.0).mean_normal_force == 0.0
+    assert still.friction_limit == pytest.approx(2.0 * 0.1 * 0.5), "faces mu N"
+    assert facts(frequency_ratio=0.0, phase=-2.0, normal_amplitude=3.0).friction_limit == 0.0

@@ -117,7 +117,11 @@ def _infinite(instance: Instance, values: str) -> Iterator[str]:
 
 def _in_a_run(instance: Instance, one: Meaningless) -> Iterator[str]:
     """Turn a good device into the bad one; the run must then go on as if nothing was tried."""
-    good = {name: _harmless(name, value) for name, value in one.cause.items()}
+    starts = {name: VARIABLES[name].start or 0.0 for name in one.cause}
+    good = {
+        name: (1.0 + NEXT_TO) * start if start == one.cause[name] else start
+        for name, start in starts.items()
+    }
     with instance.explained():
         instance.start({**one.device, **good})
         instance.step_by(STEP)
@@ -140,11 +144,6 @@ def _in_a_run(instance: Instance, one: Meaningless) -> Iterator[str]:
         instance.step_by(STEP)
         if instance.read(instance.fmu.outputs) != expected:
             yield f"a run goes on differently after {one.what} is refused in it"
-
-
-def _harmless(name: str, bad: float) -> float:
-    start = VARIABLES[name].start or 0.0
-    return start if start != bad else (1.0 + NEXT_TO) * start
 
 
 def _told(instance: Instance, one: Meaningless, error: FMICallException) -> Iterator[str]:

@@ -13,12 +13,7 @@ from slider_resonator.checks.conduct.findings import is_refused
 from slider_resonator.fmu.instance import Instance, load
 from slider_resonator.fmu.opening import Fmu
 
-DEVICE = {
-    "normal_amplitude": 1.8,
-    "base_amplitude": 3e-6,
-    "phase": 0.4,
-    "load": 0.02,
-}
+DEVICE = {"normal_amplitude": 1.8, "base_amplitude": 3e-6, "phase": 0.4, "load": 0.02}
 """A slider that sticks, slides both ways and flies in each period."""
 
 STEP = 0.9 * tau / 3500.0

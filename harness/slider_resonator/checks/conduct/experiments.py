@@ -26,10 +26,7 @@ STEPS_ACCEPTED: Sequence[tuple[float, Mapping[str, float]]] = (
             "initial_velocity": 1e-7,
         },
     ),
-    (
-        1e-3,
-        {"fidelity": 1.0, "damping_ratio": 1e-9, "resonator_frequency": 3500.0 / sqrt(1.1)},
-    ),
+    (1e-3, {"fidelity": 1.0, "damping_ratio": 1e-9, "resonator_frequency": 3500.0 / sqrt(1.1)}),
 )
 """Steps (s) that must be accepted, and devices: of 2000 drive periods, of 11 million that are not
 resolved, of a slider that trembles on hard bristles under a slow drive, of next to no damping at

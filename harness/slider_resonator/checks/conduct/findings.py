@@ -1,15 +1,16 @@
 """What is found wrong with the conduct of an FMU, and other values to try it with."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.interface import INPUTS, VARIABLES
+from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.rounding import is_same
 
 
 def differences(
@@ -21,19 +22,13 @@ def differences(
 ) -> list[str]:
     """Return where rows of outputs, at times (s) of shape (n,), are not equal to the last bit.
 
-    `what` begins each finding. Rows that are missing or too many count as one difference each.
+    `what` begins each finding.
     """
-    count = min(len(rows), len(expected))
-    seen, right = np.array(rows[:count]), np.array(expected[:count])
-    shape = count, len(outputs)
-    places = np.argwhere(seen.reshape(shape) != right.reshape(shape))
-    found = [
-        f"{what}: {outputs[column]} at {times[row]:.9g} s is {float(seen[row, column])!r}, was "
-        f"{float(right[row, column])!r}"
-        for row, column in places.tolist()
+    return [
+        f"{what}: {outputs[column]} at {times[row]:.9g} s is {rows[row][column]!r}, was "
+        f"{expected[row][column]!r}"
+        for row, column in np.argwhere(np.array(rows) != np.array(expected)).tolist()
     ]
-    counts = f"{what}: {len(rows)} readings, expected {len(expected)}"
-    return found + [counts] * abs(len(rows) - len(expected))
 
 
 SHARE = 0.37
@@ -51,9 +46,11 @@ def other_value(name: str, value: float) -> float:
     return value + SHARE * (abs(value) or variable.nominal or 1.0)
 
 
-def other_inputs(values: Sequence[float]) -> list[float]:
-    """Return other values of the inputs, in the order of the interface."""
-    return [other_value(name, value) for name, value in zip(INPUTS, values, strict=True)]
+def unequal(instance: Instance, values: Mapping[str, float], when: str) -> Iterator[str]:
+    """Yield which variables do not have these values."""
+    for name, found in instance.read(list(values)).items():
+        if not is_same(found, values[name]):
+            yield f"{name} is {found!r} {when}, must be {values[name]!r}"
 
 
 @contextmanager

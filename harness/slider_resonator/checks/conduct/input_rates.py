@@ -4,14 +4,13 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from slider_resonator.checks.conduct.findings import differences
+from slider_resonator.checks.conduct.replays import Replay
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.blocks import Derivatives
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.record import Record
-from slider_resonator.fmu.run import Running, run
+from slider_resonator.fmu.run import Running
 from slider_resonator.fmu.saved_state import SavedState
 
 AWAY = 1e-4
@@ -29,42 +28,40 @@ def rate_differences(fmu: FmuSide) -> list[str]:
 
     An input that is set without a derivative after a step is held from then on.
     """
-    instance, schedule = fmu.instance, fmu.scene.schedule()
+    instance = fmu.instance
     instance.fmu.require("canInterpolateInputs")
-    plain = run(instance, fmu.scene.parameters, schedule)
-    expected = np.column_stack([plain[name] for name in instance.fmu.outputs]).tolist()
+    plain = Replay(fmu)
     found: list[str] = []
     for what, set_inputs in WAYS.items():
-        running = Running(instance, schedule)
-        running.start(fmu.scene.parameters)
+        running = Running(instance, plain.schedule)
+        running.start(plain.parameters)
         with instance.explained():
             running.read()
             for step in range(running.steps):
-                set_inputs(instance, schedule, step)
+                set_inputs(instance, plain.schedule, step)
                 instance.step_by(running.step_size(step))
                 running.read()
-        outputs, times = instance.fmu.outputs, schedule.readings()
-        found += differences(what, outputs, times, running.rows, expected)
-    return found + _kept(fmu, plain) + _begun(fmu)
+        found += plain.differences(what, running.rows)
+    return found + _kept(plain) + _begun(fmu)
 
 
-def _kept(fmu: FmuSide, plain: Record) -> list[str]:
+def _kept(plain: Replay) -> list[str]:
     """Set values and derivatives at the corners of lines only: derivatives last until then."""
-    instance, schedule = fmu.instance, fmu.scene.schedule()
-    rates = schedule.rates
-    running = Running(instance, schedule, ["position"])
-    running.start(fmu.scene.parameters)
+    instance, rates = plain.instance, plain.schedule.rates
+    running = Running(instance, plain.schedule)
+    running.start(plain.parameters)
     with instance.explained():
         running.read()
         for step in range(running.steps):
             if step == 0 or not np.allclose(rates[step], rates[step - 1], rtol=1e-9, atol=1e-12):
-                running.instance.set_inputs(running.inputs[step].tolist())
+                instance.set_inputs(running.inputs[step].tolist())
                 instance.set_input_rates(rates[step].tolist())
             _through_a_state(instance)
             instance.step_by(running.step_size(step))
             running.read()
-    position = np.array(running.rows)[:, 0]
-    off = float(np.abs(position - plain["position"]).max() / np.abs(plain["position"]).max())
+    place = instance.fmu.outputs.index("position")
+    expected, position = (np.array(rows)[:, place] for rows in (plain.rows, running.rows))
+    off = float(np.abs(position - expected).max() / np.abs(expected).max())
     if off <= ROUNDING:
         return []
     return [f"position is off by {off:.2g} of its peak where derivatives are kept"]

@@ -11,12 +11,8 @@ from typing import Any
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Fatal
 
-from slider_resonator.checks.conduct.findings import (
-    adding_refusal,
-    differences,
-    other_value,
-)
-from slider_resonator.checks.conduct.replays import plain_rows
+from slider_resonator.checks.conduct.findings import adding_refusal, other_value
+from slider_resonator.checks.conduct.replays import Replay
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES, Variable
 from slider_resonator.fmu.instance import Instance
@@ -97,11 +93,13 @@ class Trial:
     ) -> None:
         """Make a call; it must fail and change nothing, with a log that has `name` and `values`."""
         before = self._values()
+        # pythonfmu makes each refusal Fatal.
+        ending = ENDING if self.instance.fmu.runs_without_python else (fmi2Discard,)
         del self.instance.messages[:]
         try:
             attempt()
         except FMICallException as error:
-            if error.status in self._ending():
+            if error.status in ending:
                 version = str(error.function)[: len("fmi2")]
                 status = f"{version}{ENDING[error.status]}"
                 self.faults.append(f"{what} gives {status}, at which hosts end a run")
@@ -120,10 +118,6 @@ class Trial:
         else:
             self.faults.append(f"{what} is accepted")
 
-    def _ending(self) -> Sequence[int]:
-        """Return the statuses that no refusal may have; pythonfmu makes each of them Fatal."""
-        return tuple(ENDING) if self.instance.fmu.runs_without_python else (fmi2Discard,)
-
     def _values(self) -> Mapping[str, float]:
         names = [name for name, v in VARIABLES.items() if v.causality != "output"]
         known = [n for n in names if n in self.instance.fmu.variables]
@@ -139,7 +133,7 @@ class Trial:
                 if variable.name in SHARPER:
                     told = []
                 what = f"{variable.name} = {bad!r} {when}"
-                self.refuses(what, partial(self._set, variable, bad), variable.name, told)
+                self.refuses(what, partial(self._set, {variable: bad}), variable.name, told)
         for kind in ("Real", "Integer"):
             alike = [v for v in variables if v.kind == kind][:2]
             if len(alike) == 2:
@@ -147,7 +141,7 @@ class Trial:
                 good = other_value(first.name, first.start or 0.0)
                 both = {first: good, second: bad_values(second)[0]}
                 what = f"{second.name} = {both[second]!r} with another {first.name} {when}"
-                self.refuses(what, partial(self._set_all, both), second.name)
+                self.refuses(what, partial(self._set, both), second.name)
 
     def refuses_all(self, when: str, variables: Iterable[Variable]) -> None:
         """Set variables, which must not be set at all, to other values."""
@@ -156,7 +150,7 @@ class Trial:
             if variable.start is not None:
                 value = other_value(variable.name, variable.start)
             what = f"{variable.name} = {value!r} {when}"
-            self.refuses(what, partial(self._set, variable, value), variable.name)
+            self.refuses(what, partial(self._set, {variable: value}), variable.name)
 
     def refuses_calls(self, when: str) -> None:
         """Make the calls that are out of order."""
@@ -213,7 +207,7 @@ class Trial:
                 if bound is None:
                     continue
                 try:
-                    self._set(variable, bound)
+                    self._set({variable: bound})
                 except FMICallException:
                     self.faults.append(f"{variable.name} = {bound!r} is refused, a bound")
 
@@ -222,10 +216,7 @@ class Trial:
         arguments = (c_uint * 1)(reference), 1, (c_int * 1)(order), (c_double * 1)(value)
         self.instance.call("fmi2SetRealInputDerivatives", *arguments)
 
-    def _set(self, variable: Variable, value: float) -> None:
-        self._set_all({variable: value})
-
-    def _set_all(self, values: Mapping[Variable, float]) -> None:
+    def _set(self, values: Mapping[Variable, float]) -> None:
         """Set variables of one type in one call."""
         references = [self.instance.fmu.reference(variable.name) for variable in values]
         if next(iter(values)).kind == "Integer":
@@ -256,17 +247,13 @@ def bad_values(variable: Variable) -> list[float]:
 
 def refusal_faults(fmu: FmuSide) -> list[str]:
     """Try what must be refused before, in and after the run of the scene; the run goes on."""
-    instance, schedule = fmu.instance, fmu.scene.schedule()
-    expected = plain_rows(instance, fmu.scene.parameters, schedule)
-    running = Running(instance, schedule)
-    start = {**fmu.scene.parameters, **running.first}
-    trial = Trial(instance, [])
-    with adding_refusal(instance, trial.faults):
-        _try_all(trial, running, start, schedule.start_time)
-        what = "a run with refused calls"
-        outputs, times = instance.fmu.outputs, schedule.readings()
-        found = differences(what, outputs, times, running.rows, expected)
-        return trial.faults + found
+    plain = Replay(fmu)
+    running = Running(fmu.instance, plain.schedule)
+    start = {**plain.parameters, **running.first}
+    trial = Trial(fmu.instance, [])
+    with adding_refusal(fmu.instance, trial.faults):
+        _try_all(trial, running, start, plain.schedule.start_time)
+        trial.faults += plain.differences("a run with refused calls", running.rows)
     return trial.faults
 
 

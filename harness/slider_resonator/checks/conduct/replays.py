@@ -9,21 +9,15 @@ from functools import partial
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
-from slider_resonator.checks.conduct.findings import (
-    differences,
-    is_refused,
-    other_inputs,
-    other_value,
-)
+from slider_resonator.checks.conduct.findings import differences, is_refused, other_value, unequal
 from slider_resonator.checks.conduct.output_derivatives import derivative_faults, status_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import PARAMETERS, TUNABLES, VARIABLES
-from slider_resonator.device.schedule import Schedule, in_order
+from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.run import Running
 from slider_resonator.fmu.saved_state import SavedState
-from slider_resonator.rounding import is_same
 
 Rows = Sequence[Sequence[float]]
 
@@ -37,20 +31,27 @@ DETOUR = 3
 """Steps under other values before a state is restored."""
 
 
-class _Comparison:
-    """The run of a scene on an instance, and how the rows of another way of it differ."""
+class Replay:
+    """The run of a scene on an instance, and how the rows of the same run in another way differ."""
 
     def __init__(self, fmu: FmuSide) -> None:
         self.instance = fmu.instance
         self.schedule = fmu.scene.schedule()
         self.parameters = fmu.scene.parameters
-        self.rows = plain_rows(self.instance, self.parameters, self.schedule)
-        self._times = self.schedule.readings()
+        self.rows = self.again()
 
-    def of(self, what: str, rows: Rows, *, begin: int = 0) -> list[str]:
+    def again(self) -> Rows:
+        """Return the rows of the run."""
+        return plain_rows(self.instance, self.parameters, self.schedule)
+
+    def started(self) -> Running:
+        """Return the run, started anew, with its first reading."""
+        return _started(self.instance, self.parameters, self.schedule)
+
+    def differences(self, what: str, rows: Rows, *, begin: int = 0) -> list[str]:
         """Return how rows from the reading `begin` on differ from those of the run."""
-        outputs = self.instance.fmu.outputs
-        return differences(what, outputs, self._times[begin:], rows, self.rows[begin:])
+        outputs, times = self.instance.fmu.outputs, self.schedule.readings()
+        return differences(what, outputs, times[begin:], rows, self.rows[begin:])
 
 
 def _started(instance: Instance, parameters: Mapping[str, float], schedule: Schedule) -> Running:
@@ -81,17 +82,14 @@ def _another(instance: Instance) -> Iterator[Instance]:
 def reset_differences(fmu: FmuSide) -> list[str]:
     """Compare a run on a new instance with one after a reset: after a run, and in its middle."""
     fmu.instance.renew()
-    first = _Comparison(fmu)
-    instance, schedule = fmu.instance, first.schedule
-    again = plain_rows(instance, first.parameters, schedule)
-    found = first.of("after a reset", again)
-    with instance.explained():
-        running = _started(instance, first.parameters, schedule)
+    first = Replay(fmu)
+    found = first.differences("after a reset", first.again())
+    with fmu.instance.explained():
+        running = first.started()
         for step in range(running.steps // 2):
             running.advance(step)
-        instance.terminate()
-    again = plain_rows(instance, first.parameters, schedule)
-    return found + first.of("after a run that was terminated and reset", again)
+        fmu.instance.terminate()
+    return found + first.differences("after a run that was terminated and reset", first.again())
 
 
 def restored_differences(fmu: FmuSide) -> list[str]:
@@ -101,7 +99,7 @@ def restored_differences(fmu: FmuSide) -> list[str]:
     start of averages of first order, whose fast part sets in with the first step.
     """
     fmu.instance.fmu.require("canGetAndSetFMUstate")
-    plain = _Comparison(fmu)
+    plain = Replay(fmu)
     instance = fmu.instance
     found: list[str] = []
     wrong: list[str] = []
@@ -110,7 +108,7 @@ def restored_differences(fmu: FmuSide) -> list[str]:
     largest = np.abs(np.array(plain.rows)).max(axis=0).tolist()
     peaks = dict(zip(instance.fmu.outputs, largest, strict=True))
     with instance.explained():
-        running = _started(instance, plain.parameters, plain.schedule)
+        running = plain.started()
         steps = sorted({int(share * running.steps) for share in SAVED_AT})
         saved: list[tuple[int, int, SavedState]] = []
         try:
@@ -121,7 +119,7 @@ def restored_differences(fmu: FmuSide) -> list[str]:
                         frequency = instance.value("drive_frequency")
                         wrong += derivative_faults(instance, saved[-1][-1], frequency, peaks)
                 running.advance(step)
-            found += plain.of("while states are saved", running.rows)
+            found += plain.differences("while states are saved", running.rows)
             for step, rows, state in reversed(saved):
                 state.restore()
                 _detour(running, step)
@@ -130,7 +128,7 @@ def restored_differences(fmu: FmuSide) -> list[str]:
                 running.read()
                 running.finish(step)
                 what = f"restored after step {step}"
-                found += plain.of(what, running.rows, begin=rows - 1)
+                found += plain.differences(what, running.rows, begin=rows - 1)
         finally:
             for _, _, state in saved:
                 state.free()
@@ -140,8 +138,7 @@ def restored_differences(fmu: FmuSide) -> list[str]:
 def _detour(running: Running, step: int) -> None:
     """Take a few steps with other inputs and tunables."""
     instance = running.instance
-    instance.set_inputs(other_inputs(running.inputs[0].tolist()))
-    present = instance.read(TUNABLES)
+    present = {**running.first, **instance.read(TUNABLES)}
     instance.set({name: other_value(name, value) for name, value in present.items()})
     for index in range(step, min(step + DETOUR, running.steps)):
         instance.step_by(running.step_size(index))
@@ -151,11 +148,11 @@ def transferred_differences(fmu: FmuSide) -> list[str]:
     """Go on in another instance, at first new and then used, from serialised states."""
     fmu.instance.fmu.require("canGetAndSetFMUstate")
     fmu.instance.fmu.require("canSerializeFMUstate")
-    plain = _Comparison(fmu)
+    plain = Replay(fmu)
     instance = fmu.instance
     found: list[str] = []
     with _another(instance) as other, instance.explained():
-        running = _started(instance, plain.parameters, plain.schedule)
+        running = plain.started()
         taken = Running(other, plain.schedule)
         steps = {int(share * running.steps) for share in TRANSFERRED_AT}
         for step in range(running.steps):
@@ -169,9 +166,9 @@ def transferred_differences(fmu: FmuSide) -> list[str]:
                 taken.read()
                 taken.finish(step)
                 what = f"in another instance from step {step} on"
-                found += plain.of(what, taken.rows, begin=len(running.rows) - 1)
+                found += plain.differences(what, taken.rows, begin=len(running.rows) - 1)
             running.advance(step)
-        found += plain.of("while its state is taken over", running.rows)
+        found += plain.differences("while its state is taken over", running.rows)
     return found
 
 
@@ -179,12 +176,11 @@ def beside_differences(fmu: FmuSide) -> list[str]:
     """Step two instances in turn, the second started later, and compare each with itself alone."""
     assert fmu.scene.beside is not None
     beside = fmu.scene.beside
-    plain = _Comparison(fmu)
-    phase, load, ratio = in_order(beside.signals)
-    own = replace(plain.schedule, phase=phase, load=load, frequency_ratio=ratio, tuning={})
+    plain = Replay(fmu)
+    own = replace(plain.schedule, signals=beside.signals, tuning={})
     with _another(fmu.instance) as other, fmu.instance.explained(), other.explained():
         alone = plain_rows(other, beside.parameters, own)
-        first = _started(fmu.instance, plain.parameters, plain.schedule)
+        first = plain.started()
         late = min(1, first.steps)
         for step in range(late):
             first.advance(step)
@@ -193,22 +189,14 @@ def beside_differences(fmu: FmuSide) -> list[str]:
             if step + late < first.steps:
                 first.advance(step + late)
             second.advance(step)
-        found = plain.of("beside another instance", first.rows)
-        found += _kept("beside another", fmu.instance, plain.parameters)
-        found += _kept("the other instance", other, beside.parameters)
+        found = plain.differences("beside another instance", first.rows)
+        for one, given, when in (
+            (fmu.instance, plain.parameters, "beside another instance"),
+            (other, beside.parameters, "in the other instance"),
+        ):
+            found += unequal(one, {n: v for n, v in given.items() if n not in TUNABLES}, when)
         outputs, times = fmu.instance.fmu.outputs, own.readings()
         return found + differences("the other instance", outputs, times, second.rows, alone)
-
-
-def _kept(what: str, instance: Instance, given: Mapping[str, float]) -> list[str]:
-    """Return which fixed parameters are not as they were given."""
-    fixed = {name: value for name, value in given.items() if name not in TUNABLES}
-    wrong = [
-        name
-        for name, value in instance.read(list(fixed)).items()
-        if not is_same(value, fixed[name])
-    ]
-    return [f"{what}: {name} is not what was set" for name in wrong]
 
 
 def overwritten_differences(fmu: FmuSide) -> list[str]:
@@ -216,21 +204,23 @@ def overwritten_differences(fmu: FmuSide) -> list[str]:
 
     Before the run outputs are read under the other values.
     """
-    plain = _Comparison(fmu)
-    instance, schedule = fmu.instance, plain.schedule
-    running = Running(instance, schedule)
+    plain = Replay(fmu)
+    instance, running = fmu.instance, Running(fmu.instance, plain.schedule)
     values = dict(instance.fmu.settings({**plain.parameters, **running.first}))
     accepted: list[str] = []
+
+    def set_others(name: str, value: float) -> None:
+        instance.set({name: other_value(name, value)})
+        accepted.extend(_refused(instance, name))
+
     with instance.explained():
-        instance.set_up(running.stop_time, start_time=schedule.start_time)
+        instance.set_up(running.stop_time, start_time=plain.schedule.start_time)
         for name, value in values.items():
-            instance.set({name: other_value(name, value)})
-            accepted += _refused(instance, name)
+            set_others(name, value)
         instance.set(values)
         instance.call("fmi2EnterInitializationMode")
         for name, value in reversed(values.items()):
-            instance.set({name: other_value(name, value)})
-            accepted += _refused(instance, name)
+            set_others(name, value)
             with suppress(FMICallException):  # some values have no meaning together
                 instance.read(instance.fmu.outputs)
             instance.set({name: value})
@@ -239,11 +229,10 @@ def overwritten_differences(fmu: FmuSide) -> list[str]:
         for step in range(running.steps):
             present = running.values_at(step)
             for name, value in present.items():
-                instance.set({name: other_value(name, value)})
-                accepted += _refused(instance, name)
+                set_others(name, value)
             instance.set(present)
             running.advance(step)
-    found = plain.of("with values set again", running.rows)
+    found = plain.differences("with values set again", running.rows)
     return found + list(dict.fromkeys(accepted))
 
 
@@ -253,13 +242,12 @@ def separate_differences(fmu: FmuSide) -> list[str]:
     Initialization ends under a load that breaks a stick; that of the scene is set after it, as many
     hosts do.
     """
-    plain = _Comparison(fmu)
-    instance, schedule = fmu.instance, plain.schedule
-    running = Running(instance, schedule)
+    plain = Replay(fmu)
+    instance, running = fmu.instance, Running(fmu.instance, plain.schedule)
     before = running.first
     load = before["load"]
     loaded = {**plain.parameters, **before, "load": load + BREAKING_LOAD}
-    instance.start(loaded, running.stop_time, start_time=schedule.start_time)
+    instance.start(loaded, running.stop_time, start_time=plain.schedule.start_time)
     with instance.explained():
         instance.set({"load": load})
         running.read()
@@ -270,7 +258,7 @@ def separate_differences(fmu: FmuSide) -> list[str]:
                     instance.set({name: value})
             before = present
             running.advance(step)
-    return plain.of("with values set one by one", running.rows)
+    return plain.differences("with values set one by one", running.rows)
 
 
 def _refused(instance: Instance, name: str) -> list[str]:
@@ -286,9 +274,8 @@ def _refused(instance: Instance, name: str) -> list[str]:
 
 def reading_differences(fmu: FmuSide) -> list[str]:
     """Read all variables, one by one and backwards, and the status, between any two calls."""
-    plain = _Comparison(fmu)
-    instance, schedule = fmu.instance, plain.schedule
-    running = Running(instance, schedule)
+    plain = Replay(fmu)
+    instance, running = fmu.instance, Running(fmu.instance, plain.schedule)
     names = [name for name, v in instance.fmu.variables.items() if v.type == "Real"]
     blocks = [instance.block([name]) for name in names]
     backwards = instance.block(list(reversed(names)))
@@ -302,7 +289,7 @@ def reading_differences(fmu: FmuSide) -> list[str]:
                 unequal.append(f"{name} read twice is {first!r} and {second!r}")
 
     with instance.explained():
-        instance.set_up(running.stop_time, start_time=schedule.start_time)
+        instance.set_up(running.stop_time, start_time=plain.schedule.start_time)
         instance.set({**plain.parameters, **running.first})
         instance.call("fmi2EnterInitializationMode")
         read_all()
@@ -313,7 +300,7 @@ def reading_differences(fmu: FmuSide) -> list[str]:
             running.advance(step, read_all)
             read_all()
             unequal += status_faults(instance)
-    return plain.of("with more readings", running.rows) + unequal
+    return plain.differences("with more readings", running.rows) + unequal
 
 
 def other_device_differences(fmu: FmuSide) -> list[str]:
@@ -321,20 +308,19 @@ def other_device_differences(fmu: FmuSide) -> list[str]:
 
     Each of them is the first on its instance. A device that the FMU refuses is left out.
     """
-    instance, schedule, given = fmu.instance, fmu.scene.schedule(), fmu.scene.parameters
+    instance = fmu.instance
     instance.renew()
-    plain = plain_rows(instance, given, schedule)
+    plain = Replay(fmu)
     found: list[str] = []
     for name in PARAMETERS:
-        if name not in instance.fmu.variables or name in schedule.tuning:
+        if name not in instance.fmu.variables or name in plain.schedule.tuning:
             continue
-        value = given.get(name, VARIABLES[name].start or 0.0)
+        value = plain.parameters.get(name, VARIABLES[name].start or 0.0)
+        other = {**plain.parameters, name: other_value(name, value)}
         instance.renew()  # for the other device to be the first one that is prepared
         try:
-            plain_rows(instance, {**given, name: other_value(name, value)}, schedule)
+            plain_rows(instance, other, plain.schedule)
         except Refusal:
             continue
-        rows = plain_rows(instance, given, schedule)
-        what = f"after a device of another {name}"
-        found += differences(what, instance.fmu.outputs, schedule.readings(), rows, plain)
+        found += plain.differences(f"after a device of another {name}", plain.again())
     return found

@@ -2,11 +2,10 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from slider_resonator.checks.conduct.findings import other_value
+from slider_resonator.checks.conduct.findings import other_value, unequal
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.rounding import is_same
 
 
 def start_faults(fmu: FmuSide) -> list[str]:
@@ -26,21 +25,21 @@ def start_faults(fmu: FmuSide) -> list[str]:
     others |= {"fidelity": 2.0, "friction_law": 0.0}
     faults: list[str] = []
     with instance.explained():
-        faults += _unequal(instance, starts, "at first")
+        faults += unequal(instance, starts, "at first")
         instance.set_up()
         for name, value in others.items():
             instance.set({name: value})
-        faults += _unequal(instance, others, "after it was set")
+        faults += unequal(instance, others, "after it was set")
         faults += _in_one_call(instance, others)
         instance.call("fmi2EnterInitializationMode")
         first = _one_by_one(instance, instance.fmu.outputs)
         instance.begin()
-        faults += _unequal(instance, others, "in a run")
-        faults += _unequal(instance, first, "after initialization, as it was read in it")
+        faults += unequal(instance, others, "in a run")
+        faults += unequal(instance, first, "after initialization, as it was read in it")
         instance.step_by(1e-3)
-        faults += _unequal(instance, others, "after a step")
+        faults += unequal(instance, others, "after a step")
         instance.set_up()
-        faults += _unequal(instance, starts, "after a reset")
+        faults += unequal(instance, starts, "after a reset")
     return faults
 
 
@@ -53,7 +52,7 @@ def _in_one_call(instance: Instance, others: Mapping[str, float]) -> Iterator[st
     for name, found in zip(integers, instance.slave.getInteger(references), strict=True):
         if found != others[name]:
             yield f"{name} is {found!r} among others in one call, must be {others[name]!r}"
-    yield from _unequal(instance, others, "after it was set with others")
+    yield from unequal(instance, others, "after it was set with others")
 
 
 def _one_by_one(instance: Instance, names: Iterable[str]) -> dict[str, float]:
@@ -61,9 +60,3 @@ def _one_by_one(instance: Instance, names: Iterable[str]) -> dict[str, float]:
     variables = instance.fmu.variables
     ordered = sorted(names, key=lambda name: (variables[name].type, name))
     return {name: instance.read([name])[name] for name in ordered}
-
-
-def _unequal(instance: Instance, values: Mapping[str, float], when: str) -> Iterator[str]:
-    for name, found in instance.read(list(values)).items():
-        if not is_same(found, values[name]):
-            yield f"{name} is {found!r} {when}, must be {values[name]!r}"

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from slider_resonator.checks.compare import Check, Value
+from slider_resonator.checks.compare import Check
 from slider_resonator.checks.verdict import place, value_text
 from slider_resonator.output.table import Cell, Row, Style, verdict
 
@@ -27,7 +27,7 @@ def headline(checks: Sequence[Check]) -> Iterator[tuple[Cell, list[Row]]]:
         if not found:
             continue
         first = min(found, key=lambda check: check.scene != scene)
-        rows: list[Row] = [("FMU", _value(first.fmu, first.unit), "", "")]
+        rows: list[Row] = [("FMU", value_text(first.fmu, DIGITS, f" {first.unit}"), "", "")]
         answers = {
             c.against: c for c in reversed(found) if (c.scene, c.at) == (first.scene, first.at)
         }
@@ -36,11 +36,6 @@ def headline(checks: Sequence[Check]) -> Iterator[tuple[Cell, list[Row]]]:
                 off = (
                     "" if check.deviation is None else f"off by {check.deviation:.1e} {check.unit}"
                 )
-                value = _value(check.reference, check.unit)
+                value = value_text(check.reference, DIGITS, f" {check.unit}")
                 rows.append((called, value, off, verdict(check.passed)))
         yield Cell(f"{name}: {first.scene}{place(first.at, ', ')}", Style.HEADING), rows
-
-
-def _value(value: Value, unit: str) -> str:
-    shown = value_text(value, DIGITS)
-    return f"{shown} {unit}" if isinstance(value, float | int) else shown

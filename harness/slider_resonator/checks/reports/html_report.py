@@ -9,23 +9,11 @@ import numpy as np
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.curves import Curves
 from slider_resonator.checks.reports.headline import headline
-from slider_resonator.checks.validate import (
-    Validation,
-    judged_without,
-    not_applied,
-    provenance_of_all,
-    worst_of_sweeps,
-)
-from slider_resonator.checks.verdict import TITLE, place, sentence, sizes, title, value_text
+from slider_resonator.checks.validate import Validation, provenance_of_all, worst_of_sweeps
+from slider_resonator.checks.verdict import TITLE, sentence, sizes, title, value_text
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.fmu.provenance import provenance_html
-from slider_resonator.output.hover_plot import (
-    Axis,
-    HoverPlot,
-    Series,
-    plot_html,
-    write_plot_page,
-)
+from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, plot_html, write_plot_page
 from slider_resonator.output.html_page import escaped, folded, rendered, section
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.start_beyond import range_after_start, words_for_start
@@ -51,8 +39,7 @@ def write_html(
 
 
 def _section(number: int, validation: Validation) -> list[str]:
-    failed = [check for check in validation.checks if not check.passed]
-    passed = len(validation.checks) - len(failed)
+    passed = len(validation.checks) - len(validation.failed)
     outcome = ("pass", "fail", "could not be run")[validation.exit_code]
     colour = "pass" if validation.passed else "fail"
     parts = [
@@ -64,20 +51,18 @@ def _section(number: int, validation: Validation) -> list[str]:
         cells = [(name, passed, value, off) for name, value, off, passed in rows]
         answer = Table((*texts("", ""), *numbers("", "")), cells)
         parts.append(f"<h3>{escaped(heading.text)}</h3>{rendered(answer)}")
-    without = judged_without(validation)
-    if without:
-        parts.append(f"<p>{escaped(without)}</p>")
+    if validation.without:
+        parts.append(f"<p>{escaped(validation.without)}</p>")
     for failure in validation.run_failures:
-        where = f"{failure.scene}{place(failure.at, ' at ')}: " if failure.scene else ""
-        parts.append(f'<p class="fail">{escaped(where + failure.reason)}</p>')
+        parts.append(f'<p class="fail">{escaped(failure.where + failure.reason)}</p>')
     pictures = {id(curves.check): curves for curves in validation.curves}
-    for index, (check, _) in enumerate(worst_of_sweeps(failed)):
+    for index, (check, _) in enumerate(worst_of_sweeps(validation.failed)):
         parts += _failure(check, pictures.get(id(check)) if index < MAX_PICTURES else None)
     if validation.checks:
         parts += scene_sections(validation, f"scene-{number}")
     if validation.not_applied:
         columns = texts("scene", "quantity", "not applicable because")
-        table = Table(columns, not_applied(validation))
+        table = Table(columns, validation.inapplicable)
         label = "not applicable: " + number_of(len(validation.not_applied), "check")
         parts.append(folded(label, rendered(table)))
     return parts
@@ -122,9 +107,7 @@ def scene_sections(validation: Validation, prefix: str) -> list[str]:
 
     The ids of the sections begin with `prefix`, which is unique in the page.
     """
-    scenes: dict[str, list[Check]] = {}
-    for check in validation.checks:
-        scenes.setdefault(check.scene, []).append(check)
+    scenes = validation.scenes
     overviews = {overview.check.scene: overview for overview in validation.overviews}
     ids = {scene: f"{prefix}-{number}" for number, scene in enumerate(scenes)}
     columns = (*texts("scene", ""), *numbers("checks", "failed", "largest share of a tolerance"))

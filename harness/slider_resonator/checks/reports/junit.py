@@ -5,13 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
-from slider_resonator.checks.validate import (
-    RunFailure,
-    Validation,
-    judged_without,
-    not_applied,
-    provenance_of_all,
-)
+from slider_resonator.checks.validate import RunFailure, Validation, provenance_of_all
 from slider_resonator.checks.verdict import TITLE, place, sentence, title
 from slider_resonator.fmu.provenance import Provenance, provenance_properties
 from slider_resonator.output.atomic import replacing
@@ -50,18 +44,17 @@ def _suite(root: ET.Element, validation: Validation, provenance: Provenance) -> 
         tests=str(
             len(validation.checks) + len(validation.run_failures) + len(validation.not_applied)
         ),
-        failures=str(sum(not check.passed for check in validation.checks)),
+        failures=str(len(validation.failed)),
         errors=str(len(validation.run_failures)),
         skipped=str(len(validation.not_applied)),
         time=f"{validation.wall_time:.3f}",
     )
-    without = judged_without(validation)
-    facts = {"judged": without} if without else {}
+    facts = {"judged": validation.without} if validation.without else {}
     facts |= provenance_properties(provenance, validation.identity)
     properties = ET.SubElement(suite, "properties")
     for name, value in facts.items():
         ET.SubElement(properties, "property", name=name, value=_text(value))
-    for scene, quantity, reason in not_applied(validation):
+    for scene, quantity, reason in validation.inapplicable:
         case = ET.SubElement(suite, "testcase", classname=scene, name=quantity)
         ET.SubElement(case, "skipped", message=_text(f"not applicable: {reason}"))
     for check in validation.checks:

@@ -3,12 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from slider_resonator.checks.validate import (
-    Validation,
-    judged_without,
-    not_applied,
-    provenance_of_all,
-)
+from slider_resonator.checks.validate import Validation, provenance_of_all
 from slider_resonator.checks.verdict import TITLE, place, sentence, title
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.provenance import provenance_markdown
@@ -48,14 +43,14 @@ def _parts(validations: Sequence[Validation], error: str) -> list[str]:
         rows = [_fmu(validation) for validation in validations]
         parts.append(rendered(Table([*texts("FMU", "verdict"), *columns], rows)))
     parts += [
-        escaped(f"{Path(validation.fmu).name}: {without}")
+        escaped(f"{Path(validation.fmu).name}: {validation.without}")
         for validation in validations
-        if (without := judged_without(validation))
+        if validation.without
     ]
     skipped: list[Row] = [
         (Path(validation.fmu).name, *row)
         for validation in validations
-        for row in not_applied(validation)[:MAX_ROWS]
+        for row in validation.inapplicable[:MAX_ROWS]
     ]
     if skipped:
         columns = texts("FMU", "scene", "quantity", "not applicable because")
@@ -68,7 +63,7 @@ def _parts(validations: Sequence[Validation], error: str) -> list[str]:
 
 
 def _fmu(validation: Validation) -> Row:
-    failed = sum(not check.passed for check in validation.checks)
+    failed = len(validation.failed)
     counts = (
         *(len(validation.checks) - failed, failed),
         *(len(validation.run_failures), len(validation.not_applied)),
@@ -82,7 +77,7 @@ def _failures(validation: Validation) -> list[Row]:
         (run_failure.scene, place(run_failure.at) or "-", run_failure.reason)
         for run_failure in validation.run_failures
     ]
-    found += [(c.scene, title(c), sentence(c)) for c in validation.checks if not c.passed]
+    found += [(c.scene, title(c), sentence(c)) for c in validation.failed]
     name = Path(validation.fmu).name
     rows: list[Row] = [(name, *row) for row in found[:MAX_ROWS]]
     if len(found) > MAX_ROWS:

@@ -7,13 +7,8 @@ from rich.text import Text
 
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.reports.headline import headline
-from slider_resonator.checks.validate import (
-    Validation,
-    judged_without,
-    not_applied,
-    worst_of_sweeps,
-)
-from slider_resonator.checks.verdict import called, near_zero, place, sentence, sizes, value_text
+from slider_resonator.checks.validate import Validation, worst_of_sweeps
+from slider_resonator.checks.verdict import CALLED, near_zero, place, sentence, sizes, value_text
 from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
 from slider_resonator.output.terminal import STYLES, aligned, rendered, words
@@ -46,13 +41,11 @@ def print_validation(
     """
     if not only_failed:
         _print_headline(console, validation.checks)
-    scenes: dict[str, list[Check]] = {}
-    for check in validation.checks:
-        scenes.setdefault(check.scene, []).append(check)
+    scenes = validation.scenes
     if len(scenes) > MAX_DETAILED and not (details or only_failed):
         _print_overview(console, scenes)
         only_failed = True
-    checks = [check for check in validation.checks if not (only_failed and check.passed)]
+    checks = validation.failed if only_failed else validation.checks
     rows = [(check, 1) for check in checks] if details else worst_of_sweeps(checks)
     count = len(rows)
     if only_failed and not details:
@@ -77,7 +70,7 @@ def print_validation(
 def _not_applied_lines(validation: Validation, details: bool) -> Iterator[str]:
     """Yield a line for each check, or without `details` one for many of the same reason."""
     by_reason: dict[str, list[tuple[str, str]]] = {}
-    for scene, quantity, reason in not_applied(validation):
+    for scene, quantity, reason in validation.inapplicable:
         by_reason.setdefault(reason, []).append((scene, quantity))
     for reason, checks in by_reason.items():
         if details or len(checks) <= MAX_NOT_APPLIED:
@@ -102,16 +95,15 @@ def _print_line(console: Console, line: Text) -> None:
 
 
 def _summary(validation: Validation) -> Text:
-    failed = sum(not check.passed for check in validation.checks)
+    failed = len(validation.failed)
     parts = [(f"{escaped(validation.fmu)}: ", "")]
     for count, what in ((failed, "failed"), (len(validation.run_failures), "could not be run")):
         if count:
             parts += [(f"{count} {what}", STYLES[Style.FAIL]), (", ", "")]
     count = len(validation.checks)
     parts.append((f"{count - failed} of {count} checks passed in {validation.wall_time:.1f} s", ""))
-    without = judged_without(validation)
-    if without:
-        parts.append((f"; {escaped(without)}", STYLES[Style.NOTE]))
+    if validation.without:
+        parts.append((f"; {escaped(validation.without)}", STYLES[Style.NOTE]))
     return Text.assemble(*parts)
 
 
@@ -175,7 +167,7 @@ def _table(checks: Sequence[tuple[Check, int]], details: bool) -> Table:
             rows.append([Cell(f"{scene}, {points} points" if points > 1 else scene, Style.HEADING)])
         cells = [f" {_quantity(check)}", *([place(check.at)] if swept else [])]
         cells += [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
-        cells.append(called(check.against))
+        cells.append(CALLED.get(check.against, check.against))
         cells += [_size(size) for size in sizes(check)[:2]]
         rows.append((*cells, verdict(check.passed)))
         if details:
@@ -190,7 +182,8 @@ def _quantity(check: Check) -> str:
 
 
 def _of_peak(check: Check) -> bool:
-    return QUANTITIES[check.quantity].relative_to_peak and not near_zero(check)
+    quantity = QUANTITIES[check.quantity]
+    return quantity.kind == "signal" and not (quantity.in_periods or near_zero(check))
 
 
 def _size(size: float | None) -> str:

@@ -9,7 +9,6 @@ zero upward. The contact may lift (``amplitude_ratio`` > 1).
 import math
 
 from slider_resonator.references.averaged.vibrating_contact import (
-    check_amplitude_ratio,
     closed_spans,
     mean_load,
     turns_until_repeat,
@@ -24,19 +23,14 @@ def mean_friction(
     The fast velocity is ``velocity - strength cos(theta)``; at and beyond ``strength`` friction no
     longer changes sign. An integer ratio n gives
     ``1 - 2 theta / pi - 2 alpha / (n pi) sin(n theta) sin(phase)`` for a contact that never lifts;
-    where the load never repeats (see `turns_until_repeat`) only its mean counts. Raises ValueError
-    unless ``strength`` > 0 and ``amplitude_ratio`` is finite and at least 0.
+    where the load never repeats (see `turns_until_repeat`) only its mean counts. ``strength`` is
+    above 0.
     """
-    if not strength > 0.0:
-        raise ValueError(f"strength = {strength!r} must be greater than 0")
-    check_amplitude_ratio(amplitude_ratio)
     angle = math.acos(max(-1.0, min(1.0, velocity / strength)))
     slide = 1.0 - 2.0 * angle / math.pi
-    if ratio == 0.0:
-        return slide * max(0.0, 1.0 + amplitude_ratio * math.sin(phase))
     turns = turns_until_repeat(amplitude_ratio, ratio)
-    if turns == 0:
-        return slide * mean_load(amplitude_ratio)
+    if turns == 0 or ratio == 0.0:
+        return slide * mean_load(1.0, amplitude_ratio, phase, ratio)
     if amplitude_ratio > 1.0:
         total = 0.0
         for turn in range(turns):

@@ -13,10 +13,7 @@ from numpy.typing import NDArray
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, with_steady_phase
-from slider_resonator.references.averaged.averaged_motion import (
-    AveragedMotion,
-    slow_ratio,
-)
+from slider_resonator.references.averaged.averaged_motion import AveragedMotion, slow_ratio
 from slider_resonator.references.averaged.device_average import full_friction, mean_friction
 from slider_resonator.references.equivalent_force import EquivalentForce, equivalent_force
 from slider_resonator.references.phase import advanced
@@ -54,12 +51,24 @@ def averaged_outputs(
     for index, inputs in enumerate(with_steady_phase(held, device)):
         here = pieces == index
         tuned = inputs.tuned_device(device)
-        frequency = tuned.drive_frequency
-        turned = frequency * (motion.time[here] - inputs.start)
-        ratios = inputs.frequency_ratio + inputs.ratio_rate * (motion.time[here] - inputs.start)
-        middle = 0.5 * (inputs.frequency_ratio + ratios)
-        at = theta + turned, psi + inputs.phase + middle * turned, ratios
-        rows[here] = _rows(tuned, inputs, at, motion.velocity[here], motion.mean_velocity[here])
+        force, frequency = equivalent_force(tuned), tuned.drive_frequency
+        past = motion.time[here] - inputs.start
+        angle = theta + frequency * past
+        ratios = inputs.frequency_ratio + inputs.ratio_rate * past
+        turned = 0.5 * (inputs.frequency_ratio + ratios) * frequency * past
+        load_angle = psi + inputs.phase + turned
+        normal = tuned.normal_preload + tuned.normal_amplitude * np.sin(load_angle)
+        sampled = np.column_stack([angle, load_angle, ratios, motion.mean_velocity[here]])
+        swing = angle - force.resonator_angle
+        rows[here] = np.column_stack(
+            [
+                force.resonator_amplitude * np.sin(swing),
+                frequency * force.resonator_amplitude * np.cos(swing),
+                np.maximum(0.0, normal),
+                [_friction(tuned, force, inputs.load, *one) for one in sampled.tolist()],
+                np.where(normal > 0.0, np.sign(motion.velocity[here]), float(_LIFTED)),
+            ]
+        )
         span = frequency * (inputs.stop - inputs.start)
         theta = advanced(theta, span)
         psi = advanced(psi, inputs.turned(inputs.stop - inputs.start, frequency))
@@ -67,42 +76,21 @@ def averaged_outputs(
     return AveragedOutputs(displacement, rate, normal, friction, mode.astype(np.int64))
 
 
-def _rows(
-    device: Device,
-    inputs: HeldInputs,
-    phases: tuple[Array, Array, Array],
-    velocity: Array,
-    slow: Array,
-) -> Array:
-    """Return the outputs as columns under one of the held inputs, shape (n, 5).
-
-    ``phases`` are the angles of drive and normal load (rad) and the frequency ratio.
-    """
-    force = equivalent_force(device)
-    theta, chi, ratios = phases
-    angle = theta - force.resonator_angle
-    displacement = force.resonator_amplitude * np.sin(angle)
-    rate = device.drive_frequency * force.resonator_amplitude * np.cos(angle)
-    normal = np.maximum(0.0, device.normal_preload + device.normal_amplitude * np.sin(chi))
-    friction = [
-        _friction(device, force, inputs, (float(t), float(c), float(r)), float(v))
-        for t, c, r, v in zip(theta, chi, ratios, slow, strict=True)
-    ]
-    mode = np.where(normal > 0.0, np.sign(velocity), float(_LIFTED))
-    return np.column_stack([displacement, rate, normal, friction, mode])
-
-
 def _friction(
     device: Device,
     force: EquivalentForce,
-    inputs: HeldInputs,
-    phases: tuple[float, float, float],
+    load: float,
+    angle: float,
+    load_angle: float,
+    ratio: float,
     slow: float,
 ) -> float:
-    """Return the mean friction (N) at a slow velocity (m/s); phases as for `_rows`."""
-    theta, chi, ratio = phases
+    """Return the mean friction (N) at a slow velocity (m/s).
+
+    The angles (rad) are those of drive and normal load.
+    """
     if force.velocity_amplitude == 0.0:
-        full = full_friction(device, chi, ratio)
-        return float(np.clip(-inputs.load, -full, full) if slow == 0.0 else np.sign(slow) * full)
+        full = full_friction(device, load_angle, ratio)
+        return float(np.clip(-load, -full, full) if slow == 0.0 else np.sign(slow) * full)
     _, near = slow_ratio(device, ratio)
-    return mean_friction(device, force, slow, chi - near * theta, near)
+    return mean_friction(device, force, slow, load_angle - near * angle, near)

@@ -45,8 +45,8 @@ def full_friction(device: Device, phase: float, ratio: float) -> float:
 
     ``phase`` in rad is that of the normal load, which counts only at ratio 0.
     """
-    share = averaged_coulomb.mean_friction(1.0, 1.0, device.amplitude_ratio, phase, ratio)
-    return device.mean_friction * share
+    load = mean_load(device.normal_preload, device.normal_amplitude, phase, ratio)
+    return device.friction_faces * device.friction_coefficient * load
 
 
 def steady_velocity(device: Device, phase: float, load: float, ratio: float) -> float:
@@ -145,7 +145,7 @@ def prediction_valid(device: Device, phase: float, load: float, ratio: float) ->
     friction by itself, on the free slider and on one that is held. ``phase`` (rad) is that of the
     normal force relative to the base excitation, ``load`` in N.
     """
-    normal = _mean_normal_force(device, phase, ratio)
+    normal = mean_load(device.normal_preload, device.normal_amplitude, phase, ratio)
     sliding = device.friction_faces * device.friction_coefficient * normal
     if not abs(load) < sliding:
         return False
@@ -155,15 +155,6 @@ def prediction_valid(device: Device, phase: float, load: float, ratio: float) ->
         return False
     held = _force_on_held_slider(device)
     return min(free.amplitude, held) > _resistance(device, normal, free.ripple_amplitude)
-
-
-def _mean_normal_force(device: Device, phase: float, ratio: float) -> float:
-    """Return the normal force (N) averaged over the phases that it takes, one at ratio 0."""
-    if ratio == 0.0:
-        return max(0.0, device.normal_preload + device.normal_amplitude * math.sin(phase))
-    if device.normal_preload == 0.0:
-        return device.normal_amplitude / math.pi
-    return device.normal_preload * mean_load(device.amplitude_ratio)
 
 
 def _resistance(device: Device, normal: float, amplitude: float) -> float:

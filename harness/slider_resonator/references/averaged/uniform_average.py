@@ -36,23 +36,15 @@ class LugreCase:
     """
 
     strength: float = 1.0
-    """q = F_T / Omega."""
+    """q = F_T / Omega, above 0."""
     amplitude_ratio: float = 1.0
     """alpha = dN / N0."""
     phase: float = math.pi / 2.0
     """phi in rad."""
     friction_coefficient: float = 0.4
-    """mu."""
+    """mu, above 0."""
     damping: float = 1.0
     """sigma_1."""
-
-    def __post_init__(self) -> None:
-        for name in ("strength", "friction_coefficient"):
-            if not getattr(self, name) > 0.0:
-                raise ValueError(f"{name} = {getattr(self, name)!r} must be greater than 0")
-        for name in ("amplitude_ratio", "damping"):
-            if not getattr(self, name) >= 0.0:
-                raise ValueError(f"{name} = {getattr(self, name)!r} must be at least 0")
 
 
 def mean_friction(
@@ -64,21 +56,17 @@ def mean_friction(
     sigma_1 and the drive frequency give the same as dimensionless ones. ``ratio`` is that of the
     frequency of the normal load to that of the drive; the phase is the case's. Where the load
     never repeats (see `turns_until_repeat`) only its mean counts.
-    Raises ValueError for a stiffness or frequency that is not greater than 0.
+    Raises ValueError for a stiffness that is not greater than 0.
     """
-    for name, value in (("stiffness", stiffness), ("frequency", frequency)):
-        if not value > 0.0:
-            raise ValueError(f"{name} = {value!r} must be greater than 0")
+    if not stiffness > 0.0:
+        raise ValueError(f"stiffness = {stiffness!r} must be greater than 0")
     q, mu = case.strength, case.friction_coefficient
     turns = turns_until_repeat(case.amplitude_ratio, ratio)
+    load = mean_load(1.0, case.amplitude_ratio, case.phase, ratio)
     if turns == 0:
         constant = replace(case, amplitude_ratio=0.0)
-        mean = mean_load(case.amplitude_ratio)
-        return mean * mean_friction(velocity, constant, stiffness, frequency)
+        return load * mean_friction(velocity, constant, stiffness, frequency)
     if abs(velocity) >= q:
-        load = mean_load(case.amplitude_ratio)
-        if ratio == 0:
-            load = max(0.0, 1.0 + case.amplitude_ratio * math.sin(case.phase))
         return math.copysign(mu, velocity) * load
     turn = math.acos(velocity / q)
     rate = stiffness / (mu * frequency)

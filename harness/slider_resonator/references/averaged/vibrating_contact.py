@@ -10,13 +10,18 @@ MAX_TURNS = 4
 """Turns of the drive up to which a clipped load that repeats after them has a slow phase."""
 
 
-def mean_load(amplitude_ratio: float) -> float:
-    """Return the load averaged over all its angles, 1 for a contact that never lifts."""
-    if amplitude_ratio <= 1.0:
-        return 1.0
-    before = math.asin(1.0 / amplitude_ratio)
-    closed = math.pi + 2.0 * before
-    return (closed + 2.0 * amplitude_ratio * math.cos(before)) / (2.0 * math.pi)
+def mean_load(preload: float, amplitude: float, phase: float, ratio: float) -> float:
+    """Return the load averaged over the angles that it takes, in the unit of preload and amplitude.
+
+    It takes all, at ratio 0 only its ``phase``. The contact may lift.
+    """
+    if ratio == 0.0:
+        return max(0.0, preload + amplitude * math.sin(phase))
+    if amplitude <= preload:
+        return preload
+    share = preload / amplitude
+    closed = preload * (0.5 + math.asin(share) / math.pi)
+    return closed + amplitude / math.pi * math.sqrt(1.0 - share**2)
 
 
 def turns_until_repeat(amplitude_ratio: float, ratio: float, share: float = 1e-12) -> int:
@@ -39,9 +44,8 @@ def closed_spans(
 ) -> list[tuple[float, float]]:
     """Return the spans (from, to) of theta within ``[start, end]`` in which the contact is closed.
 
-    They ascend. Raises ValueError as `check_amplitude_ratio` does.
+    They ascend.
     """
-    check_amplitude_ratio(amplitude_ratio)
     if amplitude_ratio <= 1.0:
         return [(start, end)]
     if ratio == 0.0:
@@ -58,11 +62,3 @@ def closed_spans(
             spans.append((min(edges), max(edges)))
         turn += 1
     return sorted(spans)
-
-
-def check_amplitude_ratio(amplitude_ratio: float) -> None:
-    """Raise ValueError unless an amplitude ratio is a finite number of at least 0."""
-    if not 0.0 <= amplitude_ratio < math.inf:
-        raise ValueError(
-            f"amplitude_ratio = {amplitude_ratio!r}: must be a finite number of at least 0"
-        )

@@ -10,16 +10,6 @@ LIFTED = 2
 _TURN = 2.0 * math.pi
 
 
-def mode_at_rest(needed_force: float, friction_limit: float) -> int:
-    """Return the contact mode of a slider whose velocity is zero.
-
-    ``needed_force`` (N) would hold it, friction holds at most ``friction_limit`` (N).
-    """
-    if abs(needed_force) <= friction_limit:
-        return STICK
-    return SLIP_FORWARD if needed_force > 0.0 else SLIP_BACKWARD
-
-
 def time_to_contact_change(
     lifted: bool,
     preload: float,

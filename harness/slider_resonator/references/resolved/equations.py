@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
+from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.equivalent_force import steady_vibration
 from slider_resonator.references.resolved.contact import LIFTED, STICK
 
@@ -19,18 +20,6 @@ State = tuple[float, ...]
 deflection of the bristle, m."""
 
 Number = TypeVar("Number", float, Array)
-
-
-@dataclass(frozen=True)
-class Instant:
-    """Angles (rad) of drive and normal load, load (N), its rate (N/s), ratio and its rate (1/s)."""
-
-    theta: float
-    angle: float
-    load: float
-    load_rate: float
-    ratio: float
-    ratio_rate: float
 
 
 @dataclass(frozen=True)
@@ -96,19 +85,21 @@ class Equations:
     def slopes(
         self,
         mode: int | None,
-        now: Instant,
+        theta: float,
+        angle: float,
+        now: HeldInputs,
         width: float = 0.0,
     ) -> Callable[[float, Array], list[float]]:
         """Return the time derivative of the state as a function of time (s) and state (4).
 
-        Angles and inputs are those of ``now`` at time 0. Within a contact mode the derivative is
-        smooth; with mode None friction follows the sign of the velocity at every instant, or with a
-        ``width`` in m/s its regularisation tanh(velocity / width), or in a state with a bristle (5)
-        that.
+        The angles (rad) of drive and normal load and the inputs ``now`` are those at time 0. Within
+        a contact mode the derivative is smooth; with mode None friction follows the sign of the
+        velocity at every instant, or with a ``width`` in m/s its regularisation
+        tanh(velocity / width), or in a state with a bristle (5) that.
         """
         sin, cos, tanh = math.sin, math.cos, math.tanh
-        theta, angle, load, load_rate = now.theta, now.angle, now.load, now.load_rate
-        rate, angle_rate = self.drive_frequency, now.ratio * self.drive_frequency
+        load, load_rate = now.load, now.load_rate
+        rate, angle_rate = self.drive_frequency, now.frequency_ratio * self.drive_frequency
         half_acceleration = 0.5 * now.ratio_rate * self.drive_frequency
         coupling_damping, coupling_stiffness = self.coupling_damping, self.coupling_stiffness
         force_sine, force_cosine = self.force_sine, self.force_cosine
@@ -187,14 +178,7 @@ class Equations:
         They are what the forces, apart from the resonator's, would reach in 1 / drive_frequency.
         Never zero, even without any force.
         """
-        velocity = self.force_scale(load) / (self.inertia * self.drive_frequency)
-        displacement = velocity / self.drive_frequency
-        scales = np.array([displacement, velocity, displacement, velocity])
-        return scales.clip(min=float(np.finfo(float).tiny))
-
-    def force_scale(self, load: float) -> float:
-        """Return a force in N that bounds what moves the slider apart from the resonator."""
-        return (
+        force = (
             self.inertia * self.base_acceleration
             + abs(self.force_sine)
             + abs(self.force_cosine)
@@ -202,20 +186,20 @@ class Equations:
             + self.friction_amplitude
             + abs(load)
         )
+        velocity = force / (self.inertia * self.drive_frequency)
+        displacement = velocity / self.drive_frequency
+        scales = np.array([displacement, velocity, displacement, velocity])
+        return scales.clip(min=float(np.finfo(float).tiny))
 
 
 def equations_of(device: Device) -> Equations:
     """Return the equations of motion of a device.
 
-    Raises ValueError for fidelity 0, for a negative normal load, for LuGre friction without
-    stiffness or coefficient or with negative damping, and in fidelity 1 for an undamped resonator
-    at its slipping resonance, where (32) has no value.
+    Raises ValueError for fidelity 0, for LuGre friction without stiffness or coefficient, and in
+    fidelity 1 for an undamped resonator at its slipping resonance, where (32) has no value.
     """
     if device.fidelity not in (1, 2):
         raise ValueError(f"fidelity = {device.fidelity!r}: only 1 and 2 are covered")
-    for name in ("normal_preload", "normal_amplitude"):
-        if not getattr(device, name) >= 0.0:
-            raise ValueError(f"{name} = {getattr(device, name)!r} N must be at least 0")
     coefficient = device.friction_faces * device.friction_coefficient
     contact = {
         "friction_mean": coefficient * device.normal_preload,
@@ -254,10 +238,8 @@ def _bristle(device: Device) -> dict[str, float]:
         return {}
     for name in ("friction_coefficient", "bristle_stiffness"):
         value = getattr(device, name)
-        if not 0.0 < value < math.inf:
+        if not value > 0.0:
             raise ValueError(f"{name} = {value!r} must be greater than 0 for LuGre friction")
-    if not 0.0 <= device.bristle_damping < math.inf:
-        raise ValueError(f"bristle_damping = {device.bristle_damping!r} s/m must be at least 0")
     return {
         "path_rate": device.bristle_stiffness / device.friction_coefficient,
         "path_damping": device.bristle_damping / device.friction_coefficient,

@@ -11,9 +11,7 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import (
-    RATES,
     HeldInputs,
-    check_contiguous,
     check_times,
     turning_apart,
     with_steady_phase,
@@ -25,10 +23,9 @@ from slider_resonator.references.resolved.contact import (
     SLIP_FORWARD,
     STICK,
     is_lifted,
-    mode_at_rest,
     time_to_contact_change,
 )
-from slider_resonator.references.resolved.equations import Instant, equations_of, initial_state
+from slider_resonator.references.resolved.equations import equations_of, initial_state
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.segment import Follow, Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
@@ -56,10 +53,9 @@ class ModeSequence:
 
         A sample on a boundary between held inputs belongs to the inputs before it. Counts and
         event times cover the whole span of the inputs, whatever the times. Raises ValueError for
-        inputs with gaps or times outside them, RuntimeError for a contact that cannot be
-        resolved in floating point numbers.
+        times outside the inputs, RuntimeError for a contact that cannot be resolved in floating
+        point numbers.
         """
-        check_contiguous(held, rates=RATES)
         check_times(self._recorder.times, held)
         for inputs in turning_apart(with_steady_phase(held, self._device)):
             self._equations = equations_of(inputs.tuned_device(self._device))
@@ -109,16 +105,14 @@ class ModeSequence:
         """Follow a mode; ``now`` are the inputs as they are at present."""
         local = elapsed.until(self._recorder.pending(inputs.stop) - inputs.start)
         samples = local[: np.searchsorted(local, span, side="right")] if len(local) else local
-        instant = Instant(
-            *(self._theta, self._psi + now.phase, now.load, now.load_rate),
-            *(now.frequency_ratio, now.ratio_rate),
-        )
         segment = Segment(
             equations=self._equations,
             mode=mode,
             start=inputs.start + elapsed.seconds,
             state=self.state,
-            now=instant,
+            theta=self._theta,
+            angle=self._psi + now.phase,
+            now=now,
             span=span,
             samples=samples,
             direction=self._direction if self._bends else mode,
@@ -126,18 +120,11 @@ class ModeSequence:
         result = self._follow(segment)
         if len(result.samples):
             self._keep(mode, now, samples[: len(result.samples)], result.samples)
-        self._recorder.stay(result.duration)
         self._recorder.steps += result.steps
         self._recorder.evaluations += result.evaluations
         return result
 
-    def _keep(
-        self,
-        mode: int,
-        inputs: HeldInputs,
-        local: Array,
-        states: Array,
-    ) -> None:
+    def _keep(self, mode: int, inputs: HeldInputs, local: Array, states: Array) -> None:
         equations = self._equations
         theta = self._theta + equations.drive_frequency * local
         rate, half = equations.drive_frequency, 0.5 * inputs.ratio_rate
@@ -168,13 +155,13 @@ class ModeSequence:
         if self._bends:
             return self._direction
         _, velocity, displacement, resonator_velocity = self.state
-        if velocity:
-            return SLIP_FORWARD if velocity > 0.0 else SLIP_BACKWARD
         needed = self._equations.needed_force(
             inputs.load, self._theta, displacement, resonator_velocity
         )
         limit = self._equations.friction_limit(self._psi + inputs.phase)
-        return mode_at_rest(needed, max(0.0, limit))
+        if not velocity and abs(needed) <= max(0.0, limit):
+            return STICK
+        return SLIP_FORWARD if (velocity or needed) > 0.0 else SLIP_BACKWARD
 
     def _mode_after_event(self, mode: int, event: int, inputs: HeldInputs) -> int:
         position, _, *others = self.state

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.references.resolved.contact import SLIP_BACKWARD, SLIP_FORWARD, STICK
+from slider_resonator.references.resolved.contact import SLIP_BACKWARD, SLIP_FORWARD
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 
@@ -20,8 +20,6 @@ class Recorder:
         self.event_times: list[float] = []
         self.reversal_times: list[float] = []
         self.modes: list[int] = []
-        self.sticks = 0
-        self.stick_time = 0.0
         self.steps = 0
         self.evaluations = 0
         self._direction = 0  # of the last motion, 0 before the first
@@ -60,7 +58,6 @@ class Recorder:
             return
         if self.modes:
             self.event_times.append(time)
-            self.sticks += mode == STICK
         if mode in (SLIP_BACKWARD, SLIP_FORWARD):
             self.slide(mode, time)
         self.modes.append(mode)
@@ -73,11 +70,6 @@ class Recorder:
         if direction * self._direction < 0:
             self.reversal_times.append(time)
         self._direction = direction or self._direction
-
-    def stay(self, duration: float) -> None:
-        """Stay in the present mode for a duration in s."""
-        if self.modes and self.modes[-1] == STICK:
-            self.stick_time += duration
 
     def trajectory(self) -> Trajectory:
         """Return the trajectory of all samples."""
@@ -93,8 +85,6 @@ class Recorder:
             bristle_deflection=signals[:, 6],
             contact_mode=signals[:, 7].astype(np.int64),
             reversals=len(self.reversal_times),
-            sticks=self.sticks,
-            stick_time=self.stick_time,
             event_times=np.array(self.event_times),
             reversal_times=np.array(self.reversal_times),
             modes=np.array(self.modes, dtype=np.int64),

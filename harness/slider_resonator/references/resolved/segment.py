@@ -4,23 +4,26 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from slider_resonator.arrays import Array
-from slider_resonator.references.resolved.equations import Equations, Instant, State
+from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.resolved.equations import Equations, State
 
 
 @dataclass(frozen=True)
 class Segment:
     """A contact mode, to be followed for at most ``span`` s.
 
-    It obeys ``equations`` and begins ``start`` s into the run, where angles and inputs are those of
-    ``now``. The motion is sampled at ``samples`` (shape (n,), ascending, within (0, span], s from
-    its start).
+    It obeys ``equations`` and begins ``start`` s into the run, under the inputs ``now`` and at the
+    angles (rad) ``theta`` of the drive and ``angle`` of the normal load. The motion is sampled at
+    ``samples`` (shape (n,), ascending, within (0, span], s from its start).
     """
 
     equations: Equations
     mode: int
     start: float
     state: State
-    now: Instant
+    theta: float
+    angle: float
+    now: HeldInputs
     span: float
     samples: Array
     direction: int
@@ -28,7 +31,8 @@ class Segment:
     @property
     def largest_ratio(self) -> float:
         """The largest magnitude of the ratio within the span."""
-        return max(abs(self.now.ratio), abs(self.now.ratio + self.now.ratio_rate * self.span))
+        first = self.now.frequency_ratio
+        return max(abs(first), abs(first + self.now.ratio_rate * self.span))
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,5 @@
 """A contact mode followed by Taylor series to its first event, to rounding."""
 
-from dataclasses import replace
 from itertools import accumulate, repeat
 from operator import mul
 
@@ -36,20 +35,13 @@ def follow_series(segment: Segment) -> SegmentResult:
     longest = LONGEST * frequency / equations.fastest_rate(segment.largest_ratio)
     span, times = segment.span * frequency, segment.samples * frequency
     elapsed = Elapsed()
-    start = segment.now
-    theta, angle = start.theta, start.angle
+    now, theta, angle = segment.now, segment.theta, segment.angle
     kept = [np.empty((0, len(units)))]
     sampled = steps = event = 0
     while not event and (remaining := elapsed.until(span)) > 0.0:
-        passed = (elapsed.seconds + elapsed.carry) / frequency
-        now = replace(
-            start,
-            theta=theta,
-            angle=angle,
-            load=start.load + start.load_rate * passed,
-            ratio=start.ratio + start.ratio_rate * passed,
-        )
-        series = motion_series(equations, mode, segment.direction, now, states)
+        if now.vary:
+            now = segment.now.later((elapsed.seconds + elapsed.carry) / frequency)
+        series = motion_series(equations, mode, segment.direction, theta, angle, now, states)
         step = min(remaining, longest)
         if series.bends:
             step = min(step, _step_of(series))
@@ -72,7 +64,8 @@ def follow_series(segment: Segment) -> SegmentResult:
         steps += 1
         elapsed.add(step)
         theta = advanced(theta, step)
-        angle = advanced(angle, (now.ratio + 0.5 * now.ratio_rate / frequency * step) * step)
+        ratio = now.frequency_ratio + 0.5 * now.ratio_rate / frequency * step
+        angle = advanced(angle, ratio * step)
     samples = np.concatenate(kept) * units
     samples[:, 0] += segment.state[0]
     way, *others = (state * unit for state, unit in zip(states, units, strict=True))

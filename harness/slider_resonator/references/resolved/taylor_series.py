@@ -14,8 +14,9 @@ from functools import lru_cache
 from math import cos, factorial, sin
 from operator import mul
 
+from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import LIFTED, STICK
-from slider_resonator.references.resolved.equations import Equations, Instant
+from slider_resonator.references.resolved.equations import Equations
 
 ORDER = 24
 """Order of the series: over `LONGEST` rad of the fastest rate the rest is below rounding."""
@@ -44,14 +45,23 @@ class MotionSeries:
 
 
 def motion_series(
-    equations: Equations, mode: int, direction: int, now: Instant, states: list[float]
+    equations: Equations,
+    mode: int,
+    direction: int,
+    theta: float,
+    angle: float,
+    now: HeldInputs,
+    states: list[float],
 ) -> MotionSeries:
-    """Return the series of the motion from `states` on, in a mode and direction."""
+    """Return the series of the motion from `states` on, in a mode and direction.
+
+    The angles (rad) are those of drive and normal load, `now` are the inputs there.
+    """
     frequency = equations.drive_frequency
     unit = 1.0 / (equations.inertia * frequency)
     damping, spring = unit * equations.coupling_damping, unit * equations.coupling_stiffness
     spring /= frequency
-    sine, cosine = sin(now.theta), cos(now.theta)
+    sine, cosine = sin(theta), cos(theta)
     force = _sine_series(
         unit * (equations.force_sine * sine + equations.force_cosine * cosine),
         unit * (equations.force_sine * cosine - equations.force_cosine * sine),
@@ -59,7 +69,7 @@ def motion_series(
     )
     force[0] -= unit * now.load
     force[1] -= unit * now.load_rate / frequency
-    limit = _normal_series(now, unit * equations.friction_amplitude, frequency)
+    limit = _normal_series(angle, now, unit * equations.friction_amplitude, frequency)
     limit[0] += unit * equations.friction_mean
     base_acceleration = equations.base_acceleration / frequency
     base = _sine_series(base_acceleration * sine, base_acceleration * cosine, _INVERSE_FACTORIALS)
@@ -104,15 +114,15 @@ def motion_series(
     return MotionSeries([*rows, stretch] if stretch else rows, needed, limit, bends)
 
 
-def _normal_series(now: Instant, amplitude: float, frequency: float) -> Series:
+def _normal_series(angle: float, now: HeldInputs, amplitude: float, frequency: float) -> Series:
     """Return the series of `amplitude` sin(angle + ratio t + chirp t^2 / 2)."""
-    sine, cosine = amplitude * sin(now.angle), amplitude * cos(now.angle)
-    chirp = now.ratio_rate / frequency
+    sine, cosine = amplitude * sin(angle), amplitude * cos(angle)
+    ratio, chirp = now.frequency_ratio, now.ratio_rate / frequency
     if not chirp:
-        return _sine_series(sine, cosine, _powers(now.ratio))
-    terms = [complex(cosine, sine), 1j * now.ratio * complex(cosine, sine)]
+        return _sine_series(sine, cosine, _powers(ratio))
+    terms = [complex(cosine, sine), 1j * ratio * complex(cosine, sine)]
     for order in range(1, ORDER):
-        following = 1j * (now.ratio * terms[order] + chirp * terms[order - 1]) / (order + 1)
+        following = 1j * (ratio * terms[order] + chirp * terms[order - 1]) / (order + 1)
         terms.append(following)
     return [term.imag for term in terms]
 

@@ -15,15 +15,13 @@ class Trajectory:
     ``contact_mode`` is -1 slip backward, 0 stick, 1 slip forward, 2 lifted. ``friction_force`` is F
     as it acts in M X'' = -F - load + ... (in stick the force that holds the slider).
     ``reversals`` counts slips that start opposite to the slip before them, whether directly, after
-    a stick or after a flight; ``sticks`` counts stick phases that begin after the first instant.
-    ``event_times`` are the instants of every change of contact mode, s, and ``modes`` the contact
-    modes at the first instant and from each of them on: one more. ``reversal_times`` (s) are those
-    of the reversals, NaN where they are not located; ``stick_time`` is in s.
+    a stick or after a flight. ``event_times`` are the instants of every change of contact mode, s,
+    and ``modes`` the contact modes at the first instant and from each of them on: one more.
+    ``reversal_times`` (s) are those of the reversals, NaN where they are not located.
 
     ``bristle_deflection`` is z of (8) in m, 0 with Coulomb friction. Bristles never stick: with
-    them ``contact_mode`` is the sign of the velocity (2 while lifted), ``sticks`` and
-    ``stick_time`` are 0, and ``reversals`` counts every change of sign of the velocity, those in
-    flight too.
+    them ``contact_mode`` is the sign of the velocity (2 while lifted), and ``reversals`` counts
+    every change of sign of the velocity, those in flight too.
     """
 
     time: Array
@@ -36,8 +34,6 @@ class Trajectory:
     bristle_deflection: Array
     contact_mode: NDArray[np.int64]
     reversals: int
-    sticks: int
-    stick_time: float
     event_times: Array
     reversal_times: Array
     modes: NDArray[np.int64]

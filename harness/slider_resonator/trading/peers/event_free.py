@@ -16,20 +16,9 @@ from scipy.integrate import LSODA
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import (
-    RATES,
-    HeldInputs,
-    check_contiguous,
-    check_times,
-    with_steady_phase,
-)
+from slider_resonator.device.held_inputs import HeldInputs, check_times, with_steady_phase
 from slider_resonator.references.resolved.contact import LIFTED, SLIP_FORWARD
-from slider_resonator.references.resolved.equations import (
-    Instant,
-    Number,
-    equations_of,
-    initial_state,
-)
+from slider_resonator.references.resolved.equations import Number, equations_of, initial_state
 from slider_resonator.references.resolved.recorder import Recorder
 from slider_resonator.references.resolved.trajectory import Trajectory
 
@@ -55,8 +44,8 @@ def simulate(
     that of its bristle. ``method`` is a solver of scipy, ``atol`` in fractions of characteristic
     sizes of the states. ``contact_mode`` is the sign of the velocity (2 where the contact is open),
     ``reversals`` counts its changes between steps, chatter included; there are no sticks and no
-    event times. Raises ValueError for inputs with gaps and times outside them, RuntimeError where a
-    step fails or the right hand side is evaluated more than ``max_evaluations`` times.
+    event times. Raises ValueError for times outside the inputs, RuntimeError where a step
+    fails or the right hand side is evaluated more than ``max_evaluations`` times.
     """
     limits = (rtol, atol, width, max_evaluations)
     follow = partial(_integrate, method=method, limits=limits)
@@ -86,7 +75,6 @@ class RunWithoutEvents:
 
         `follow` advances `state` through some, keeping samples and counts.
         """
-        check_contiguous(held, rates=RATES)
         check_times(self.recorder.times, held)
         for inputs in with_steady_phase(held, self.device):
             self.equations = equations_of(inputs.tuned_device(self.device))
@@ -130,14 +118,7 @@ def _integrate(
         scales = np.append(scales, 1.0 / equations.path_rate)
         ratio = max(inputs.frequency_ratio, inputs.later(span).frequency_ratio, key=abs)
         longest = 2.0 * np.pi / equations.fastest_rate(ratio) / STEPS_PER_FASTEST_PERIOD
-    slopes = equations.slopes(
-        None,
-        Instant(
-            *(run.theta, run.psi + inputs.phase, inputs.load, inputs.load_rate),
-            *(inputs.frequency_ratio, inputs.ratio_rate),
-        ),
-        width,
-    )
+    slopes = equations.slopes(None, run.theta, run.psi + inputs.phase, inputs, width)
     solver = method(slopes, 0.0, run.state, span, max_step=longest, rtol=rtol, atol=atol * scales)
     while solver.status == "running":
         take_step(solver, inputs.start, "use a greater atol")

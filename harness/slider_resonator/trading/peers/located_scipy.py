@@ -57,7 +57,7 @@ def _follow(segment: Segment, rtol: float, atol: float, steps_per_period: int) -
     longest = 2.0 * math.pi / equations.fastest_rate(segment.largest_ratio) / steps_per_period
     method: Callable[..., Any] = DOP853
     solver = method(
-        equations.slopes(segment.mode, segment.now),
+        equations.slopes(segment.mode, segment.theta, segment.angle, segment.now),
         0.0,
         np.array([0.0, *segment.state[1:]]),
         segment.span,
@@ -125,9 +125,9 @@ def _margin(segment: Segment, dense: Dense, event: int, time: float | Array) -> 
         return np.asarray(segment.mode * velocity)
     local, now = np.asarray(time), segment.now
     rate, half = equations.drive_frequency, 0.5 * now.ratio_rate
-    angle = now.angle + (now.ratio + half * local) * rate * local
+    angle = segment.angle + (now.frequency_ratio + half * local) * rate * local
     load = now.load + now.load_rate * local
-    theta = now.theta + rate * local
+    theta = segment.theta + rate * local
     needed = equations.needed_force(load, theta, displacement, resonator_velocity)
     return np.asarray(equations.friction_limit(angle) - event * needed)
 

@@ -53,7 +53,6 @@ def _follow(run: RunWithoutEvents, inputs: HeldInputs, *, steps_per_period: int)
     limit_mean, limit_amplitude = equations.friction_mean, equations.friction_amplitude
     x, v, y, u = run.state.tolist()
     path = array("d", (x, v, y, u, run.friction))
-    sticking = False
     for index in range(count):
         middle = (index + 0.5) * step
         pulled = load + load_rate * middle
@@ -70,10 +69,6 @@ def _follow(run: RunWithoutEvents, inputs: HeldInputs, *, steps_per_period: int)
         v, u = next_v, next_u
         path.extend((x, v, y, u, impulse / step))
         recorder.slide((v > 0.0) - (v < 0.0))
-        if stopped:
-            recorder.sticks += not sticking
-            recorder.stick_time += step
-        sticking = stopped
     recorder.steps += count
     recorder.evaluations += count
     rows = np.array(path).reshape(-1, 5)

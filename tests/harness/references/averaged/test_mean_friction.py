@@ -1,8 +1,6 @@
 """Averages of friction: against quadrature, closed forms and resolved motion."""
 
 import math
-import re
-from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -92,6 +90,12 @@ def test_mean_friction_matches_an_integrated_bristle(
     assert found == pytest.approx(mean, abs=2e-7), "the explicit periodic response is the response"
 
 
+@pytest.mark.parametrize("stiffness", [0.0, math.nan])
+def test_invalid_bristles_are_refused_by_name(stiffness: float) -> None:
+    with pytest.raises(ValueError, match=r"stiffness = .* must be greater than 0"):
+        uniform_average.mean_friction(0.1, LugreCase(), stiffness, 1.0)
+
+
 @pytest.mark.parametrize(
     ("amplitude_ratio", "ratio", "turns"),
     [(1.0, 2.0, 1), (1.0, 1.5, 0), (1.1, 1.5, 2), (3.0, -2 / 3, 3), (3.0, 0.25, 4), (3.0, 0.2, 0)],
@@ -120,27 +124,8 @@ def test_blocking_force_stops_the_motion(alpha: float, ratio: float) -> None:
     assert velocity == pytest.approx(0.0, abs=1e-12), "the velocity under the blocking force is 0"
 
 
-@pytest.mark.parametrize(
-    ("call", "refused"),
-    [
-        (lambda: uniform_average.mean_friction(0.1, LugreCase(), 0.0, 1.0), "greater than 0"),
-        (lambda: uniform_average.mean_friction(0.1, LugreCase(), 1.0, 0.0), "greater than 0"),
-        (lambda: uniform_average.mean_friction(0.1, LugreCase(), math.nan, 1.0), "greater than 0"),
-        (lambda: contact.check_amplitude_ratio(-0.1), "amplitude_ratio = -0.1"),
-        (lambda: contact.check_amplitude_ratio(math.inf), "amplitude_ratio = inf"),
-        (lambda: contact.check_amplitude_ratio(math.nan), "amplitude_ratio = nan"),
-        (lambda: contact.closed_spans(0.0, 1.0, -0.1, 0.0, 1.0), "amplitude_ratio"),
-        (lambda: contact.closed_spans(0.0, 1.0, math.nan, 0.0, 1.0), "amplitude_ratio"),
-        (lambda: coulomb.mean_friction(0.0, 1.0, -0.2, 0.0), "amplitude_ratio = -0.2"),
-        (lambda: coulomb.mean_friction(0.0, 0.0, 1.0, 0.0), "strength = 0"),
-        (lambda: steady_velocity(Device(), 0.0, 0.201, 3.0), "load = 0.201"),
-        (lambda: steady_velocity(Device(normal_amplitude=3.0), 0.0, 0.32, 1.0), "load = 0.32"),
-        (lambda: LugreCase(strength=0.0), "strength"),
-        (lambda: LugreCase(friction_coefficient=-0.1), "friction_coefficient"),
-        (lambda: LugreCase(damping=-1.0), "damping"),
-        (lambda: LugreCase(amplitude_ratio=-1.0), "amplitude_ratio"),
-    ],
-)
-def test_invalid_arguments_are_refused_by_name(call: Callable[[], object], refused: str) -> None:
-    with pytest.raises(ValueError, match=re.escape(refused)):
-        call()
+def test_invalid_arguments_are_refused_by_name() -> None:
+    with pytest.raises(ValueError, match=r"load = 0\.201"):
+        steady_velocity(Device(), 0.0, 0.201, 3.0)
+    with pytest.raises(ValueError, match=r"load = 0\.32"):
+        steady_velocity(Device(normal_amplitude=3.0), 0.0, 0.32, 1.0)

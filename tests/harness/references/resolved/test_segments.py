@@ -107,7 +107,8 @@ def test_rest_is_reassessed_when_inputs_change() -> None:
     motion = run(BLOCK, held, [0.5, 1.5, 2.5])
     assert motion.contact_mode.tolist() == [0, -1, 1], "friction holds 0.2 N, not 0.5 N"
     assert motion.event_times.tolist() == [1.0, 2.0]
-    assert (motion.reversals, motion.sticks, motion.stick_time) == (1, 0, 1.0)
+    assert motion.modes.tolist() == [STICK, SLIP_BACKWARD, SLIP_FORWARD]
+    assert motion.reversals == 1
 
 
 def test_phase_change_jumps_and_ratio_change_does_not() -> None:
@@ -188,8 +189,6 @@ def test_random_polynomials_agree_with_a_fine_grid() -> None:
             assert Polynomial(coefficients)(found) == pytest.approx(0.0, abs=1e-6)
 
 
-def test_gaps_and_times_outside_are_refused() -> None:
-    with pytest.raises(ValueError, match="held inputs 1"):
-        run(BLOCK, [HeldInputs(0.0, 1.0), HeldInputs(1.5, 2.0)], [])
+def test_times_outside_are_refused() -> None:
     with pytest.raises(ValueError, match="must lie within"):
         run(BLOCK, [HeldInputs(0.0, 1.0)], [1.5])
