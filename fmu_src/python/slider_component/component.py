@@ -1,20 +1,21 @@
 """The component between numerics and FMI: values by name, lifecycle, steps, outputs."""
 
+import cmath
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict, astuple, replace
 from math import inf, isfinite, log10, nan, remainder, tau, ulp
 from typing import Any
 
 from . import refusal_texts
+from .averaged import Averaged
 from .constants import MAX_TURNS, PYTHON_SLOWDOWN, STOP_TIME_SLACK, TIME_SLACK
 from .device import Device, System
 from .leap import Leaping
 from .moment import Moment
-from .motion import Resolved
 from .outputs import OUTPUTS, View
 from .parameters import Inputs
 from .prediction import theory_range
-from .slow_motion import Averaged
+from .resolved import Resolved
 from .snapshot import FORMAT, entries, moment_from_plain, number
 from .values import BY_NAME, SETTABLE, Lifecycle, Refusal, checked, require
 from .variable import Variable
@@ -207,8 +208,11 @@ def _prepare(values: Mapping[str, Any]) -> Motion:
     inputs = replace(inputs, phase=remainder(inputs.phase, tau))
     try:
         motion = motion_of(device, inputs)
-        finite = all(map(isfinite, (*_coefficients(motion.system), *theory_range(device))))
-        finite = finite and motion.system.mass_fraction < 1.0  # beside it, the slider's mass counts
+        system = motion.system
+        numbers = [*vars(system).values(), *astuple(system.slip), *astuple(system.stick)]
+        numbers += theory_range(device)
+        finite = all(cmath.isfinite(x) for x in numbers if isinstance(x, (float, complex)))
+        finite = finite and system.mass_fraction < 1.0  # beside it, the slider's mass counts
     except ArithmeticError:
         finite = False
     if not finite:
@@ -275,13 +279,3 @@ def _extreme(values: Mapping[str, Any]) -> Refusal:
     furthest = max(SETTABLE, key=distance)
     shown = {"value": repr(values[furthest.name]), "start": repr(furthest.start)}
     return Refusal(refusal_texts.EXTREME_VALUE, name=furthest.name, **shown)
-
-
-def _coefficients(system: System) -> tuple[float, ...]:
-    complex_ones = system.drive, system.holding_drive
-    return (
-        *(system.total_mass, system.mass_fraction, system.normal_frequency),
-        *(system.slip.decay, system.slip.stiffness, system.stick.decay, system.stick.stiffness),
-        *(part for number in complex_ones for part in (number.real, number.imag)),
-        *(system.base_acceleration, system.spring, system.damper),
-    )

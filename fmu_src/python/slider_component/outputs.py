@@ -4,11 +4,11 @@ from collections.abc import Callable
 from math import remainder, sin, tau
 from typing import NamedTuple
 
+from .averaged import Averaged
 from .contact import STICK
 from .moment import Moment
-from .motion import Resolved
 from .prediction import Prediction, prediction, turns_of_load
-from .slow_motion import Averaged
+from .resolved import Resolved
 
 LEAD_DIGITS = 9
 """Decimals to which leads of the normal load [rad] are rounded: without the rounding errors of

@@ -10,8 +10,8 @@ from typing import Any
 
 from . import refusal_texts
 from .contact import BACKWARD, FORWARD, LIFTED
-from .events import MARK_TOLERANCE
 from .moment import Moment
+from .resolved import MARK_TOLERANCE
 from .values import Refusal, is_finite_number
 
 FORMAT = f"{__name__.rpartition('.')[0]} state"

@@ -14,16 +14,23 @@ EXACT = 1e-12
 """Distance of a ratio from a fraction up to which it is due to rounding."""
 
 
-def turns_to_repeat(device: Device, ratio: float, tolerance: float) -> int | None:
-    """Number of turns q of the drive after which the load repeats, at a ratio n / q; None for none.
+def turns_to_repeat(ratio: float, max_turns: int, near: float = 0.0) -> int | None:
+    """Smallest number of turns q of the drive after which a load repeats; None above `max_turns`.
 
-    `tolerance` is the largest distance of q ratio from an integer, times q. Without flight the load
-    is a sine and q is 1: over several turns it would average out.
+    Then q ratio is an integer, but for rounding or a distance of at most `near` / q.
     """
-    for turns in range(1, MAX_TURNS_TO_REPEAT + 1 if device.lifts else 2):
-        if abs(turns * ratio - round(turns * ratio)) <= tolerance / turns:
+    for turns in range(1, max_turns + 1):
+        if abs(turns * ratio - round(turns * ratio)) <= max(near / turns, EXACT):
             return turns
     return None
+
+
+def max_turns(device: Device) -> int:
+    """Turns after which a load may repeat for its phase to count in averages.
+
+    Without flight it is a sine: over several turns it would average out.
+    """
+    return MAX_TURNS_TO_REPEAT if device.lifts else 1
 
 
 class VibratingLoad:
@@ -41,7 +48,7 @@ class VibratingLoad:
         self._constant: float | None = None
         if abs(ratio) <= EXACT:  # the integral below would lose its digits to 1 / n
             self._constant = self._load(delta)
-        turns = turns_to_repeat(device, ratio, EXACT)
+        turns = turns_to_repeat(ratio, max_turns(device))
         self._turns = turns or 1
         if turns is None:
             self._constant = self._per_turn / tau
