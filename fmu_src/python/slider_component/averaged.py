@@ -17,7 +17,7 @@ from math import ceil, copysign, cos, hypot, inf, isfinite, pi, sin, tau
 from .budget import too_much_work
 from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .contact import LIFTED, direction_of
-from .device import Device, System, Vibration, full_friction, steady_swing, vibration
+from .device import System, full_friction, steady_swing, vibration
 from .dormand_prince import Rates, dormand_prince, linear_step, step_growth
 from .mean_friction import MAX_WAVES, MeanFriction
 from .moment import Moment
@@ -75,10 +75,8 @@ class Averaged:
         """Raises Refusal where undamped resonance leaves no steady vibration."""
         device, ratio = system.device, system.inputs.frequency_ratio
         self.system, self.fast = system, vibration(device)
-        self.law, turns = (
-            MeanFriction(device, self.fast.velocity),
-            turns_to_repeat(ratio, max_turns(device), NEAR),
-        )
+        self.law = MeanFriction(device, self.fast.velocity)
+        turns = turns_to_repeat(ratio, max_turns(device), NEAR)
         self.waves = round(turns * ratio) / turns if turns else ratio
         self.drift = (ratio - self.waves) * device.drive_frequency
         self.beat = tau / (turns * abs(self.drift)) if turns and self.drift else inf
@@ -143,14 +141,29 @@ class Averaged:
         return steady_swing(self.fast.resonator, now.theta, self.system.drive_frequency)
 
     def slow_motion_error(self, now: Moment) -> float:
-        """The estimate of the error of the slow velocity [m/s]."""
-        device, fast = self.system.device, self.fast
-        share = friction_share(device, fast) if fast.velocity > 0.0 else 0.0
-        if not share > 0.0:
+        """The estimate of the error of the slow velocity [m/s].
+
+        Averages expand by the share of friction in the inertia of the vibration, faces mu N0 /
+        (Mt w v_q). What bristles damp while they bend counts, too: by the impulse of 2 mu s1/s0 per
+        normal load after each reversal, but no more than s1 v_q. What averages leave out lasts as
+        long as the slowest transient of resonator and bristle.
+        """
+        device, w, fast = self.system.device, self.system.drive_frequency, self.fast.velocity
+        friction, decay = full_friction(device), inf
+        if not (fast > 0.0 and friction > 0.0):
             return 0.0
-        decay = decay_in_turn(device, fast)
+        if device.resonator_mass > 0.0:
+            decay = -self.system.slip.eigenvalues[0].real * tau / w
+        if device.friction_law == 1:
+            stiffness, mu = device.bristle_stiffness, device.friction_coefficient
+            damped = device.bristle_damping * fast / mu
+            if stiffness > 0.0:
+                damped = min(damped, 2.0 / pi * device.bristle_damping / stiffness * w)
+            friction *= hypot(1.0, damped)
+            decay = min(decay, stiffness * 4.0 * fast / w / mu)
+        share = friction / (device.total_mass * w * fast)
         swing = 1.0 + (1.0 / decay if decay > 0.0 else inf)
-        return min(FIRST_ORDER * share * swing, 1.0) * fast.velocity
+        return min(FIRST_ORDER * share * swing, 1.0) * fast
 
     def _slow_velocity(self, now: Moment) -> float:
         momentum = now.velocity + self.system.device.mass_fraction * now.rate
@@ -168,18 +181,6 @@ class Averaged:
 
     def _too_many_steps(self, duration: float, reached: float) -> Refusal:
         return too_much_work(duration, reached, self.max_steps, "steps of averaged motion")
-
-    def _smooth_until(self, t: float, phase: float, end: float) -> float:
-        """The time [s] up to which friction is smooth from `t` on, `end` at most.
-
-        Near ratio 0 the load itself is slow, with kinks where the contact lifts or touches down;
-        its phase is `phase` [rad] at `t`.
-        """
-        if self.waves:
-            return end
-        window = self.system.window
-        ahead = window.time_to_switch(phase, self.drift, window.is_lifted(phase, self.drift))
-        return min(end, t + max(ahead, MIN_SHARE * self.beat))
 
     def _integrated(self, phase: float, velocity: float, duration: float) -> tuple[float, float]:
         """Slow velocity [m/s] and displacement [m] after `duration` [s], by Dormand and Prince.
@@ -206,8 +207,12 @@ class Averaged:
             if drift == 0.0 and tried > 0:
                 to = linear_step(rates, t, velocity, h, first, gain, max_change)
             if to is None or to.error > SETTLED * tolerance:
-                smooth = self._smooth_until(t, phase + drift * t, duration)
-                h = min(step, longest, smooth - t)
+                h = min(h, step, longest)
+                if not self.waves:
+                    # The load itself is slow, with kinks where the contact lifts or touches down.
+                    window, chi = system.window, phase + drift * t
+                    ahead = window.time_to_switch(chi, drift, window.is_lifted(chi, drift))
+                    h = min(h, max(ahead, MIN_SHARE * self.beat))
                 to = dormand_prince(rates, t, velocity, h, first)
             tried += 1
             if not to.error > tolerance:
@@ -250,31 +255,3 @@ def _block(
         return 0.0, moved
     acceleration = -copysign(spare, load) / mass
     return acceleration * duration, moved + 0.5 * acceleration * duration * duration
-
-
-def friction_share(device: Device, fast: Vibration) -> float:
-    """Share of friction in the inertia of the vibration, faces mu N0 / (Mt w v_q).
-
-    It is the small number by which averages expand. What bristles damp while they bend counts, too:
-    by the impulse of 2 mu s1/s0 per normal load after each reversal, but no more than s1 v_q.
-    """
-    friction = full_friction(device)
-    if device.friction_law == 1:
-        damped = device.bristle_damping * fast.velocity / device.friction_coefficient
-        if device.bristle_stiffness > 0.0:
-            bends = 2.0 / pi * device.bristle_damping / device.bristle_stiffness
-            damped = min(damped, bends * device.drive_frequency)
-        friction *= hypot(1.0, damped)
-    return friction / (device.total_mass * device.drive_frequency * fast.velocity)
-
-
-def decay_in_turn(device: Device, fast: Vibration) -> float:
-    """Decay of the slowest transient of resonator and bristle in a turn of the drive."""
-    decays = [inf]
-    if device.resonator_mass > 0.0:
-        slow = max(z.real for z in device.slip_oscillator.eigenvalues)
-        decays.append(-slow * tau / device.drive_frequency)
-    if device.friction_law == 1:
-        path = 4.0 * fast.velocity / device.drive_frequency
-        decays.append(device.bristle_stiffness * path / device.friction_coefficient)
-    return min(decays)

@@ -182,24 +182,22 @@ class SlowMotion:
         self.last = found
         return found.acceleration, found.travel
 
-    def first_step(self) -> float:
-        """The step that the solver may accept first, in periods."""
-        acceleration, gain = abs(self.here.acceleration), abs(self.here.gain)
-        if gain == 0.0:
-            return inf
-        return FIRST_STEP / gain * float((self.allowed * gain / acceleration) ** 0.2)
-
     def integrate(self, longest: float, error: float) -> tuple[float, float, float]:
         """Integrate over at most `longest` periods, as far as that goes.
 
         Returns the periods passed, the travel [m], and the error of the slow velocity [m/s], which
         is `error` before.
         """
-        n, travel, h = 0.0, 0.0, self.first_step()
+        n, travel, h, gain = 0.0, 0.0, inf, abs(self.here.gain)
+        if gain > 0.0:
+            h = FIRST_STEP / gain * (self.allowed * gain / abs(self.here.acceleration)) ** 0.2
         in_beat = MAX_STEP_DRIFT / abs(self.map.drift) if self.varies else inf
         while True:
-            here = self.here
-            h = float(floor(min(h, in_beat, self._to_grazing(), longest - n)))
+            here, to_grazing = self.here, inf
+            if here.acceleration != 0.0:
+                distance = abs(here.velocity) - self.map.speed
+                to_grazing = TO_GRAZING * abs(distance / here.acceleration)
+            h = float(floor(min(h, in_beat, to_grazing, longest - n)))
             if h < SHORTEST_STEP:
                 return n, travel, error
             try:
@@ -216,11 +214,6 @@ class SlowMotion:
                 self.here = self.last
             h = passed * step_growth(of_step, self.allowed)
 
-    def _to_grazing(self) -> float:
-        """Periods that a step may pass before sliding ends, or begins, to reverse."""
-        distance, acceleration = abs(self.here.velocity) - self.map.speed, self.here.acceleration
-        return TO_GRAZING * abs(distance / acceleration) if acceleration else inf
-
     def _step(self, n: float, h: float, left: float) -> tuple[float, Step, float]:
         """All periods that are `left` in one step near a steady velocity, or `h` of them.
 
@@ -234,7 +227,7 @@ class SlowMotion:
                 to = linear_step(self.rates, n, here.velocity, left, first, here.gain, max_change)
                 if to is not None and to.error <= self.allowed:
                     return left, to, to.error
-        self.last = here
+            self.last = here
         to = dormand_prince(self.rates, n, here.velocity, h, first)
         return h, to, ERROR_SHARE * to.error
 
