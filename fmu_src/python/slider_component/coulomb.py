@@ -90,10 +90,4 @@ def _mode_in_contact(system: System, now: Moment) -> int:
     if now.velocity != 0.0:
         return direction_of(now.velocity)
     needed = _needed_force(system, now)
-    # In most cases the largest limit decides, without a sine.
-    limit = system.friction_preload + system.friction_amplitude
-    if -limit <= needed <= limit:
-        limit = system.friction_limit(now.psi)
-    if needed > limit:
-        return FORWARD
-    return BACKWARD if needed < -limit else STICK
+    return STICK if abs(needed) <= system.friction_limit(now.psi) else direction_of(needed)
