@@ -12,7 +12,7 @@ where e = -i exp(i theta). At fidelity 1 the resonator acts through its steady f
 
 from cmath import phase as argument
 from dataclasses import dataclass
-from math import asin, cos, hypot, inf, pi, sin, tau
+from math import asin, cos, inf, pi, sin, tau
 from typing import NamedTuple
 
 from . import refusal_texts
@@ -220,15 +220,3 @@ def flight_window(device: Device) -> Window:
         return Window(0.0, 0.0)
     dip = asin(device.normal_preload / device.normal_amplitude)
     return Window(pi + dip, tau - dip)
-
-
-def velocity_scale(system: System, velocity: float, displacement: float, rate: float) -> float:
-    """The scale of velocities [m/s] to which tolerances refer.
-
-    The sum of the velocity amplitude of the drive, the velocity that friction and load change in a
-    radian of the drive, and the velocities of slider and resonator.
-    """
-    w = system.drive_frequency
-    forces = system.friction_preload + system.friction_amplitude + abs(system.load)
-    swing = system.mass_fraction * hypot(rate, system.stick.frequency * displacement)
-    return abs(system.drive) / w + forces / (system.total_mass * w) + abs(velocity) + swing

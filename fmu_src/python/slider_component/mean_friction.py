@@ -76,7 +76,7 @@ class MeanFriction:
 
     def mean(self, load: VibratingLoad, turning: float) -> float:
         """Mean friction [N] of one face when sliding turns forward at tau = `turning` [rad]."""
-        if self.is_expensive and abs(load.wave_number) > MAX_WAVES:
+        if self.is_expensive and abs(load.waves) > MAX_WAVES:
             load = load.flattened()
         total = load.integral(turning, tau - turning) - load.integral(-turning, turning)
         total *= self.coefficient
@@ -88,7 +88,7 @@ class MeanFriction:
 
     def power(self, load: VibratingLoad, velocity: float) -> float:
         """Mean power of friction [W] of one face at a slow velocity [m/s]."""
-        if abs(load.wave_number) > (MAX_WAVES if self.is_expensive else MAX_POWER_WAVES):
+        if abs(load.waves) > (MAX_WAVES if self.is_expensive else MAX_POWER_WAVES):
             load = load.flattened()
         turning = self.turning(velocity)
         beyond = velocity - self.fast * cos(turning)
@@ -179,7 +179,7 @@ def _nodes(arc: _Arc, last: float, load: VibratingLoad) -> Iterator[tuple[float,
     """
     kinks = (kink - arc.begin for kink in load.kinks(arc.begin, arc.begin + last))
     for low, high in pairwise(sorted([0.0, last, *kinks])):
-        panels = 1 + int(abs(load.wave_number) * (high - low) / WIDEST)
+        panels = 1 + int(abs(load.waves) * (high - low) / WIDEST)
         half = 0.5 * (high - low) / panels
         for i in range(panels):
             for node, weight in _RULE:

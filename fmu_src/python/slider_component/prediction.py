@@ -55,8 +55,13 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
     turns = turns_of_load(device, inputs.frequency_ratio)
     if turns is None:
         return replace(first, valid=False)
+    full = replace(device, fidelity=2)
+    if device.resonator_mass == 0.0:
+        # It moves nothing: one that settles within a period takes its place, so that the search
+        # need not wait for it.
+        w = device.drive_frequency
+        full = replace(full, resonator_frequency=w, damping_ratio=1.0)
     try:
-        full = full_device(device)
         period_map = PeriodMap(System(full, inputs), turns)
         psi = (normal_lead + inputs.frequency_ratio * period_map.section) % tau
         steady = PeriodicMotion(period_map, psi, inputs.load, blocked=False)
@@ -64,18 +69,6 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
         return Prediction(steady.found(first.steady_velocity), blocked.found(0.0), valid=True)
     except (ArithmeticError, ValueError):
         return replace(first, valid=False)
-
-
-def full_device(device: Device) -> Device:
-    """The device of whose motion predictions are.
-
-    A resonator without mass moves nothing: one that settles within a period takes its place, so
-    that the search need not wait for it.
-    """
-    if device.resonator_mass > 0.0:
-        return replace(device, fidelity=2)
-    w = device.drive_frequency
-    return replace(device, fidelity=2, resonator_frequency=w, damping_ratio=1.0)
 
 
 def turns_of_load(device: Device, ratio: float) -> int | None:

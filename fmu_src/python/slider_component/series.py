@@ -6,11 +6,11 @@ near resonance without damping, near critical damping, on soft resonators, under
 
 from cmath import rect
 from functools import cached_property
-from math import inf
+from math import hypot, inf
 from operator import mul, truediv
 
 from .contact import LIFTED
-from .device import EPSILON, Device, System, velocity_scale
+from .device import EPSILON, Device, System
 from .first_zero import Watch
 from .moment import Moment, Place
 
@@ -85,7 +85,12 @@ class Series:
             limit.append(normal.real)
         self._velocity, self._displacement, self._rate = v, y, u
         self._position = [0.0, *map(truediv, v, _COUNT)]
-        scale = velocity_scale(system, now.velocity, now.displacement, now.rate)
+        # The scale of velocities [m/s] is the sum of that of the drive, of what friction and load
+        # change in a radian of it, and of those of slider and resonator.
+        forces = system.friction_preload + system.friction_amplitude + abs(system.load)
+        swing = hypot(now.rate, system.stick.frequency * now.displacement)
+        scale = abs(system.drive) / w + forces / (system.total_mass * w)
+        scale += abs(now.velocity) + system.mass_fraction * swing
         self.reach = min(
             _reach(v, tolerance, scale), _reach(u, tolerance, scale / (system.mass_fraction or 1.0))
         )

@@ -36,71 +36,57 @@ def max_turns(device: Device) -> int:
 class VibratingLoad:
     """N(n tau + delta) with lift-off, in N, as a function of the drive angle within a turn.
 
-    Averages are taken over the turns after which it repeats, see `turns_to_repeat`; if it never
-    does, over all angles.
+    It has `waves` waves over a turn of the drive. Averages are taken over the turns after which it
+    repeats, see `turns_to_repeat`; if it never does, over all angles.
     """
 
     def __init__(self, device: Device, ratio: float, delta: float) -> None:
         self._preload, self._amplitude = device.normal_preload, device.normal_amplitude
-        self._ratio, self._delta = ratio, delta
-        self._dip = asin(self._preload / self._amplitude) if self.lifts else 0.5 * pi
-        self._per_turn = self._in_turn(pi + 2.0 * self._dip)
-        self._constant: float | None = None
-        if abs(ratio) <= EXACT:  # the integral below would lose its digits to 1 / n
-            self._constant = self._load(delta)
-        turns = turns_to_repeat(ratio, max_turns(device))
+        self.waves, self._delta, turns = ratio, delta, turns_to_repeat(ratio, max_turns(device))
         self._turns = turns or 1
-        if turns is None:
-            self._constant = self._per_turn / tau
+        self._dip = asin(self._preload / self._amplitude) if device.lifts else 0.5 * pi
+        self._per_turn = self._in_turn(pi + 2.0 * self._dip)
+        if abs(ratio) <= EXACT:  # the integral below would lose its digits to 1 / n
+            self._flatten(self._load(delta))
+        elif turns is None:
+            self._flatten(self._per_turn / tau)
 
     def flattened(self) -> "VibratingLoad":
         """The same load with its mean alone, for ratios other than 0."""
         flat = copy(self)
-        flat._constant = self._per_turn / tau
+        flat._flatten(self._per_turn / tau)
         return flat
-
-    @property
-    def wave_number(self) -> float:
-        """Waves of the load over a turn of the drive; 0 for a constant load."""
-        return 0.0 if self._constant is not None else self._ratio
-
-    @property
-    def lifts(self) -> bool:
-        """Whether the contact lifts at times."""
-        return self._amplitude > self._preload
 
     def kinks(self, begin: float, end: float) -> list[float]:
         """Drive angles in (begin, end) [rad] at which the contact lifts or touches down."""
-        if self._constant is not None or self._dip == 0.5 * pi:
+        if self._dip == 0.5 * pi:
             return []
         found = []
         for shift in self._shifts():
-            first, last = sorted((self._ratio * begin + shift, self._ratio * end + shift))
+            first, last = sorted((self.waves * begin + shift, self.waves * end + shift))
             for kink in (-self._dip, pi + self._dip):
                 turns = range(ceil((first - kink) / tau), floor((last - kink) / tau) + 1)
-                found += [(kink + tau * turn - shift) / self._ratio for turn in turns]
+                found += [(kink + tau * turn - shift) / self.waves for turn in turns]
         return [angle for angle in found if begin < angle < end]
 
     def at(self, angle: float) -> float:
         """Normal load [N] at drive angle `angle` [rad]."""
-        if self._constant is not None:
-            return self._constant
-        if self._turns == 1:
-            return self._load(self._ratio * angle + self._delta)
-        loads = (self._load(self._ratio * angle + shift) for shift in self._shifts())
-        return sum(loads) / self._turns
+        return sum(self._load(self.waves * angle + s) for s in self._shifts()) / self._turns
 
     def integral(self, begin: float, end: float) -> float:
         """Integral over the drive angle from `begin` to `end` [N rad]."""
-        if self._constant is not None:
-            return self._constant * (end - begin)
-        n = self._ratio
+        n = self.waves
         parts = (self._up_to(n * end + s) - self._up_to(n * begin + s) for s in self._shifts())
         return sum(parts) / (n * self._turns)
 
+    def _flatten(self, load: float) -> None:
+        """Become a constant load [N]: a wave without amplitude."""
+        self._preload, self._amplitude, self._dip, self._per_turn = load, 0.0, 0.5 * pi, tau * load
+        self.waves, self._turns = 1.0, 1
+
     def _shifts(self) -> list[float]:
         """The phase of the load in each of its turns [rad]."""
-        return [self._delta + self._ratio * tau * turn for turn in range(self._turns)]
+        return [self._delta + self.waves * tau * turn for turn in range(self._turns)]
 
     def _load(self, chi: float) -> float:
         load = self._preload + self._amplitude * sin(chi)
