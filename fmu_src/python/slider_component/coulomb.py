@@ -67,10 +67,8 @@ def slide(system: System, now: Moment, direction: int) -> Segment:
 def _needed_force(system: System, now: Moment) -> float:
     """Friction force [N] that holds a slider at rest."""
     direct, theta = system.holding_drive, now.theta
-    needed = system.spring * now.displacement + system.damper * now.rate - system.load
-    if not direct:
-        return needed
-    return needed + direct.real * sin(theta) + direct.imag * cos(theta)
+    resonator = system.spring * now.displacement + system.damper * now.rate
+    return resonator - system.load + direct.real * sin(theta) + direct.imag * cos(theta)
 
 
 def _just_released(system: System, now: Moment) -> bool:

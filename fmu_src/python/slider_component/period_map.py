@@ -17,6 +17,11 @@ from .contact import LIFTED, STICK
 from .device import System, full_friction, vibration
 from .moment import Moment
 from .resolved import Resolved
+from .vibrating_load import turns_to_repeat
+
+NEAR = 0.014
+"""Largest distance of q times the frequency ratio from an integer, times q, at which a load counts
+as repeating after q turns. Beyond it more than an eighth of a beat passes in the shortest leap."""
 
 MAP_TOLERANCE = 1e-10
 """Largest tolerance of LuGre friction in a map: differences of high order amplify its error."""
@@ -44,20 +49,23 @@ class PeriodMap:
     """
 
     def __init__(self, system: System, max_turns: int) -> None:
-        """Raises NoMapError without vibration, or where transients do not decay.
+        """Raises NoMapError where there is none.
 
-        Raises Refusal where undamped resonance leaves no steady vibration.
+        That is without vibration, where transients do not decay, and where the load is far from
+        repeating after up to `max_turns` turns of the drive. Raises Refusal where undamped
+        resonance leaves no steady vibration.
         """
         device, w = system.device, system.drive_frequency
         self.vibration = fast = vibration(device)
         self.tolerance = device.tolerance
         tight = replace(device, tolerance=min(device.tolerance, MAP_TOLERANCE))
         self.motion = Resolved(System(tight, system.inputs))
-        turns, self.drift = _turns_to_repeat_best(system, max_turns)
-        self.period, self.section = tau * turns / w, (fast.lag + pi) % tau
-        self.speed = fast.velocity
-        if not fast.velocity > 0.0:
+        ratio = system.inputs.frequency_ratio if device.normal_amplitude > 0.0 else 0.0
+        turns, self.speed = turns_to_repeat(ratio, max_turns, NEAR), fast.velocity
+        if turns is None or not self.speed > 0.0:
             raise NoMapError
+        self.drift = tau * (turns * ratio - round(turns * ratio))
+        self.period, self.section = tau * turns / w, (fast.lag + pi) % tau
         self.share = full_friction(device) * self.period / (device.total_mass * self.speed)
         swing = abs(fast.resonator) or self.speed / w
         if device.resonator_mass > 0.0:
@@ -127,17 +135,3 @@ class PeriodMap:
     def size(self, change: Fast) -> float:
         """Size of a change of the fast state, over the scales."""
         return max(abs(part) / scale for part, scale in zip(change, self.scale[2:], strict=True))
-
-
-def _turns_to_repeat_best(system: System, max_turns: int) -> tuple[int, float]:
-    """Smallest number of turns, up to `max_turns`, after which the load repeats best.
-
-    One more turn must halve its drift [rad] at least.
-    """
-    ratio = system.normal_frequency / system.drive_frequency
-    best, drift = 1, tau * (ratio - round(ratio))
-    for turns in range(2, max_turns + 1):
-        off = tau * (turns * ratio - round(turns * ratio))
-        if abs(off) < 0.5 * abs(drift):
-            best, drift = turns, off
-    return (best, drift) if system.device.normal_amplitude > 0.0 else (1, 0.0)

@@ -73,7 +73,7 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
 
 def turns_of_load(device: Device, ratio: float) -> int | None:
     """Number of turns of the drive after which the normal load repeats; None if it never does."""
-    return turns_to_repeat(ratio, MAX_TURNS) if device.normal_amplitude > 0.0 else 1
+    return turns_to_repeat(ratio if device.normal_amplitude > 0.0 else 0.0, MAX_TURNS)
 
 
 def theory_range(device: Device) -> tuple[float, ...]:

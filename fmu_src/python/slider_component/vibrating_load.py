@@ -42,8 +42,10 @@ class VibratingLoad:
 
     def __init__(self, device: Device, ratio: float, delta: float) -> None:
         self._preload, self._amplitude = device.normal_preload, device.normal_amplitude
-        self.waves, self._delta, turns = ratio, delta, turns_to_repeat(ratio, max_turns(device))
-        self._turns = turns or 1
+        turns = turns_to_repeat(ratio, max_turns(device))
+        # The phase of the load [rad] at the begin of each of its turns.
+        self._phases = [delta + ratio * tau * turn for turn in range(turns or 1)]
+        self.waves = ratio
         self._dip = asin(self._preload / self._amplitude) if device.lifts else 0.5 * pi
         self._per_turn = self._in_turn(pi + 2.0 * self._dip)
         if abs(ratio) <= EXACT:  # the integral below would lose its digits to 1 / n
@@ -62,31 +64,28 @@ class VibratingLoad:
         if self._dip == 0.5 * pi:
             return []
         found = []
-        for shift in self._shifts():
-            first, last = sorted((self.waves * begin + shift, self.waves * end + shift))
+        for phase in self._phases:
+            first, last = sorted((self.waves * begin + phase, self.waves * end + phase))
             for kink in (-self._dip, pi + self._dip):
                 turns = range(ceil((first - kink) / tau), floor((last - kink) / tau) + 1)
-                found += [(kink + tau * turn - shift) / self.waves for turn in turns]
+                found += [(kink + tau * turn - phase) / self.waves for turn in turns]
         return [angle for angle in found if begin < angle < end]
 
     def at(self, angle: float) -> float:
         """Normal load [N] at drive angle `angle` [rad]."""
-        return sum(self._load(self.waves * angle + s) for s in self._shifts()) / self._turns
+        loads = [self._load(self.waves * angle + phase) for phase in self._phases]
+        return sum(loads) / len(loads)
 
     def integral(self, begin: float, end: float) -> float:
         """Integral over the drive angle from `begin` to `end` [N rad]."""
         n = self.waves
-        parts = (self._up_to(n * end + s) - self._up_to(n * begin + s) for s in self._shifts())
-        return sum(parts) / (n * self._turns)
+        parts = [self._up_to(n * end + p) - self._up_to(n * begin + p) for p in self._phases]
+        return sum(parts) / (n * len(parts))
 
     def _flatten(self, load: float) -> None:
         """Become a constant load [N]: a wave without amplitude."""
         self._preload, self._amplitude, self._dip, self._per_turn = load, 0.0, 0.5 * pi, tau * load
-        self.waves, self._turns = 1.0, 1
-
-    def _shifts(self) -> list[float]:
-        """The phase of the load in each of its turns [rad]."""
-        return [self._delta + self.waves * tau * turn for turn in range(self._turns)]
+        self.waves, self._phases = 1.0, [0.0]
 
     def _load(self, chi: float) -> float:
         load = self._preload + self._amplitude * sin(chi)
