@@ -266,19 +266,18 @@ def _leap(
     Returns the moment a few resolved periods behind the landing, the periods passed, and how many
     are to be resolved before the next leap.
     """
-    n, maps = 0.0, ORDER
+    now, passed, maps = begin, 0.0, ORDER
     with suppress(ArithmeticError, ValueError):
         slow = SlowMotion(period_map, begin, budget, longest)
         n, travel, error = slow.integrate(longest - ORDER, begin.leap_error)
         maps = slow.maps
-    if n == 0.0:
-        return begin, 0.0, max(MIN_PAUSE, PAUSE * maps)
-    sections = slow.here.sections
-    now, passed = sections[-1], n + ORDER
-    now.position += travel
-    now.leap_error = error
-    now.reversals += round(n * (now.reversals - sections[-2].reversals))
-    now.sticks += round(n * (now.sticks - sections[-2].sticks))
-    if now.event_age >= ORDER * period_map.period:
-        now.event_age += n * period_map.period
+        if n > 0.0:
+            before, now = slow.here.sections[-2:]
+            passed = n + ORDER
+            now.position += travel
+            now.leap_error = error
+            now.reversals += round(n * (now.reversals - before.reversals))
+            now.sticks += round(n * (now.sticks - before.sticks))
+            if now.event_age >= ORDER * period_map.period:
+                now.event_age += n * period_map.period
     return now, passed, max(MIN_PAUSE, PAUSE * (maps - passed))
