@@ -67,8 +67,10 @@ def slide(system: System, now: Moment, direction: int) -> Segment:
 def _needed_force(system: System, now: Moment) -> float:
     """Friction force [N] that holds a slider at rest."""
     direct, theta = system.holding_drive, now.theta
-    resonator = system.spring * now.displacement + system.damper * now.rate
-    return resonator - system.load + direct.real * sin(theta) + direct.imag * cos(theta)
+    needed = system.spring * now.displacement + system.damper * now.rate - system.load
+    if not direct:
+        return needed
+    return needed + direct.real * sin(theta) + direct.imag * cos(theta)
 
 
 def _just_released(system: System, now: Moment) -> bool:
@@ -88,4 +90,10 @@ def _mode_in_contact(system: System, now: Moment) -> int:
     if now.velocity != 0.0:
         return direction_of(now.velocity)
     needed = _needed_force(system, now)
-    return STICK if abs(needed) <= system.friction_limit(now.psi) else direction_of(needed)
+    # In most cases the largest limit decides, without a sine.
+    limit = system.friction_preload + system.friction_amplitude
+    if -limit <= needed <= limit:
+        limit = system.friction_limit(now.psi)
+    if needed > limit:
+        return FORWARD
+    return BACKWARD if needed < -limit else STICK

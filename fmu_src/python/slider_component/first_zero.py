@@ -108,12 +108,14 @@ def _newton(watch: Watch, t: float, limit: float, max_steps: int) -> tuple[float
         value, slope, bound = signal(t)
         if not slope < 0.0:
             break
-        step = max(-value / slope, -t)
+        step = -value / slope
         t += step
-        if not t < limit:
+        if t < 0.0:
+            t = 0.0
+        elif not t < limit:
             break
-        # The next step would be below the resolution, or is rounding.
-        if bound * step * step * fastest <= -slope * RESOLUTION or abs(value) <= noise:
+        # The next step would be below the resolution, or this one is rounding.
+        if bound * step * step * fastest <= -slope * RESOLUTION or -noise <= value <= noise:
             return t, slope
     return inf, 0.0
 

@@ -58,22 +58,31 @@ def watch_of(
 
     Its `fastest` frequency [rad/s]; a zero may be `expected` at a time [s].
     """
+    parts, size, bound = [], abs(k0), 0.0
+    for z, v, _ in terms:
+        amplitude = abs(v)
+        size += amplitude
+        bound += amplitude * abs(z * z)
+        if side < 0:
+            v = -v
+        parts.append((z, v, z * v))
+    noise = 2.0 * EPSILON * size
+    (z1, a1, b1), (z2, a2, b2), *others = parts if len(parts) > 1 else [*parts, (0j, 0j, 0j)]
     k0, k1 = side * k0, side * k1
-    parts = [(z, side * v, side * z * v) for z, v, _ in terms]
-    noise = 2.0 * EPSILON * (abs(k0) + sum(abs(v) for _, v, _ in parts))
-    bound = sum(abs(z * a) for z, _, a in parts)
 
     def signal(t: float) -> tuple[float, float, float]:
-        swing = change = 0j
-        for z, v, a in parts:
-            turn = exp(z * t)
-            swing += v * turn
-            change += a * turn
+        turn, own = exp(z1 * t), exp(z2 * t)
+        swing, change = a1 * turn + a2 * own, b1 * turn + b2 * own
+        if others:
+            for z, a, b in others:
+                turn = exp(z * t)
+                swing += a * turn
+                change += b * turn
         return k0 + k1 * t + swing.real, k1 + change.real, bound
 
     def signal_that_decays(t: float) -> tuple[float, float, float]:
         value, slope, _ = signal(t)
-        return value, slope, sum(abs(z * a) * exp(z.real * t).real for z, _, a in parts)
+        return value, slope, sum(abs(a) * abs(z * z) * exp(z.real * t).real for z, a, _ in parts)
 
     decays = not terms[-1][0].imag
     return Watch(signal_that_decays if decays else signal, noise, fastest, expected)
@@ -82,6 +91,7 @@ def watch_of(
 class Exponentials:
     """A motion of such terms (methods as of `Segment`)."""
 
+    __slots__ = ("_k0", "_k1", "_offset", "_terms", "direction")
     reach = inf
     rests = False
     _k0: float
@@ -110,6 +120,8 @@ class Slide(Exponentials):
 
     The velocity is watched in that direction, unless it is 0.
     """
+
+    __slots__ = ("_constant", "_fastest", "_frequency", "_swinging")
 
     def __init__(self, system: System, now: Moment, direction: int) -> None:
         assert system.slide_split is not None
@@ -150,14 +162,11 @@ class Slide(Exponentials):
         work = self._constant * travelled
         if self._swinging:
             z = complex(0.0, self._frequency)
-            turn = exp(z * t)
-            growth = (turn - 1.0) / z
-            swung = self._k0 * growth + self._k1 * (t * turn - growth) / z
+            growth = (exp(z * t) - 1.0) / z
+            swung = self._k0 * growth + self._k1 * (t * exp(z * t) - growth) / z
             for rate, v, _ in self._terms:
-                v, grown = 0.5 * v, exp(rate * t)
-                swung += v * _integral(z + rate, turn * grown, t)
-                v, grown, rate = v.conjugate(), grown.conjugate(), rate.conjugate()
-                swung += v * _integral(z + rate, turn * grown, t)
+                swung += 0.5 * v * _integral(z + rate, t)
+                swung += 0.5 * v.conjugate() * _integral(z + rate.conjugate(), t)
             work += (self._swinging * swung).imag
         return work
 
@@ -175,10 +184,10 @@ class Slide(Exponentials):
         return (watch_of(direction, k0, self._k1, terms, self._fastest, expected),)
 
 
-def _integral(z: complex, grown: complex, t: float) -> complex:
-    """Integral of exp(z t) from 0 to `t`, where it is `grown`."""
+def _integral(z: complex, t: float) -> complex:
+    """Integral of exp(z t) from 0 to `t`."""
     if abs(z) * t > SMALL:
-        return (grown - 1.0) / z
+        return (exp(z * t) - 1.0) / z
     half = 0.5 * t * z
     return t * exp(half) * sinh(half) / half if half else complex(t)
 
@@ -186,6 +195,7 @@ def _integral(z: complex, grown: complex, t: float) -> complex:
 class Rest(Exponentials):
     """Rest: the resonator swings against the slider, while |needed force| <= F0 + F1 sin(chi)."""
 
+    __slots__ = ("_direct", "_normal", "_sys")
     rests = True
 
     def __init__(self, system: System, now: Moment) -> None:
