@@ -112,9 +112,10 @@ class Resolved:
                 raise too_much_work(budget.step_size, clock.elapsed, MAX_TURN_SEGMENTS, what)
             if budget.left == 0:
                 raise budget.refusal(clock.elapsed)
-            in_turn, budget.left = in_turn + 1, budget.left - 1
+            in_turn += 1
+            budget.left -= 1
             longest = min(remaining, arc)
-            t = self._follow(now, longest, counts_work=remaining - longest <= counted)
+            t = self._follow(now, longest, remaining - longest <= counted)
             if modes is not None and modes[-1] != now.mode:
                 modes.append(now.mode)
             remaining = clock.advance(t) if t != remaining else 0.0

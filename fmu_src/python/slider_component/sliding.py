@@ -176,10 +176,11 @@ class Slide(Exponentials):
         if direction == 0:
             return ()
         z, drive, _ = terms[0]
-        if abs(drive) > abs(k0):
+        amplitude = abs(drive)
+        if -amplitude < k0 < amplitude:
             # Where the drive alone would stop the slider: its cosine falls through -k0 in its first
             # half turn, and rises through it before.
-            stop = direction * acos(-k0 / abs(drive)) - argument(drive)
+            stop = direction * acos(-k0 / amplitude) - argument(drive)
             expected = stop % tau / z.imag
         return (watch_of(direction, k0, self._k1, terms, self._fastest, expected),)
 
