@@ -2,18 +2,19 @@
 
 Standard library and relative imports only: the build renames the package for each FMU.
 
-How a step flows: `slave` (pythonfmu) calls `component`, which asks the `motion` of the device under
-the present inputs to advance a `moment`, the state and what outputs count. There are three motions.
+How a step flows: `slave` (pythonfmu) calls `component`, which asks the motion of the device under
+the present inputs to advance a `moment`, which holds all that the motion carries from one step to
+the next. There are three motions.
 
-- Resolved: `events` loops over segments, without an event inside. A friction law (`coulomb`,
-  `lugre`) begins each. It ends at the first zero of what it watches (`first_zero`), at the latest
-  where the contact lifts (`contact`); the law says what succeeds it. `sliding` has the closed forms
-  of a segment, on `device` and `oscillator`. Where these lose digits, and while bristles bend,
-  `series` follows it.
-- Averaged to first order: `slow_motion`, under the `slow_friction` that `mean_friction` and a
-  `vibrating_load` give.
-- Leaping over periods: `leap`, on the `period_map` of resolved motion.
+- `resolved`: a loop over segments, without an event inside. A friction law (`coulomb`, `lugre`)
+  begins each. It ends at the first zero of what it watches (`first_zero`), at the latest where the
+  contact lifts (`contact`); the law says what succeeds it. `sliding` has the closed forms of a
+  segment, on `device` and `oscillator`. Where these lose digits, and while bristles bend, `series`
+  follows it.
+- `averaged` to first order, under the `mean_friction` of a `vibrating_load`.
+- `leap`: over periods, by the `period_map` of resolved motion.
 
 `prediction` balances mean friction and load, then refines both by `steady_motion`. The interface is
-`variables`; `values`, `snapshot`, `outputs` and `budget` keep its promises.
+`variables`; `values`, `outputs` and `budget` keep its promises. `snapshot` has the state of the
+component, and what a stored one must be.
 """

@@ -4,37 +4,34 @@ from dataclasses import dataclass
 from math import floor, log10
 
 from . import refusal_texts
+from .constants import MAX_STEP_SEGMENTS, PYTHON_SLOWDOWN
 from .values import Refusal
+
+MAX_SEGMENTS = MAX_STEP_SEGMENTS // PYTHON_SLOWDOWN
+"""Segments of motion in one communication step up to which its work is accepted."""
 
 
 @dataclass(slots=True)
 class Budget:
-    """The work of a step of `step_size` [s]; `spent` is the share of it that is spent.
-
-    All parts of a step draw from one budget.
-    """
+    """The segments that are `left` to a step of `step_size` [s]; all its parts draw from them."""
 
     step_size: float
-    spent: float = 0.0
+    left: int = MAX_SEGMENTS
 
-    def left(self, max_count: int) -> int:
-        """How much is left of a kind of work of which a whole budget buys `max_count`."""
-        return int((1.0 - self.spent) * max_count) if self.spent < 1.0 else 0
+    def refusal(self, reached: float) -> Refusal:
+        """Return the refusal of more segments; a step up to `reached` [s] takes less."""
+        return too_much_work(self.step_size, reached, MAX_SEGMENTS, "segments of motion")
 
-    def spend(self, count: int, max_count: int) -> None:
-        """Spend `count` of that work."""
-        self.spent += count / max_count
 
-    def refusal(self, reached: float, max_count: int, what: str) -> Refusal:
-        """Return the refusal of work of which a whole budget buys `max_count` of `what`.
+def too_much_work(step_size: float, reached: float, max_count: int, what: str) -> Refusal:
+    """Return the refusal of a step that takes more than `max_count` of `what`.
 
-        A step up to `reached` [s] takes less: the text names the power of ten below it.
-        """
-        work = {"step_size": self.step_size, "max_count": max_count, "what": what}
-        if reached > 0.0:
-            exponent = floor(log10(reached))
-            return Refusal(refusal_texts.TOO_MUCH_WORK, exponent=exponent, **work)
-        return Refusal(refusal_texts.TOO_MUCH_WORK_AT_ONCE, **work)
+    A step up to `reached` [s] takes less: the text names the power of ten below it.
+    """
+    work = {"step_size": step_size, "max_count": max_count, "what": what}
+    if reached > 0.0:
+        return Refusal(refusal_texts.TOO_MUCH_WORK, exponent=floor(log10(reached)), **work)
+    return Refusal(refusal_texts.TOO_MUCH_WORK_AT_ONCE, **work)
 
 
 @dataclass(slots=True)

@@ -1,22 +1,23 @@
 """The component between numerics and FMI: values by name, lifecycle, steps, outputs."""
 
+import cmath
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, replace
+from dataclasses import astuple, replace
 from math import inf, isfinite, log10, nan, remainder, tau, ulp
 from typing import Any
 
 from . import refusal_texts
+from .averaged import Averaged
 from .constants import MAX_TURNS, PYTHON_SLOWDOWN, STOP_TIME_SLACK, TIME_SLACK
 from .device import Device, System
 from .leap import Leaping
 from .moment import Moment
-from .motion import Resolved
 from .outputs import OUTPUTS, View
 from .parameters import Inputs
 from .prediction import theory_range
-from .slow_motion import Averaged
-from .snapshot import FORMAT, entries, moment_from_plain, number
-from .values import BY_NAME, SETTABLE, Lifecycle, Refusal, checked, require
+from .resolved import Resolved
+from .snapshot import Lifecycle, State, from_plain, to_plain
+from .values import BY_NAME, SETTABLE, Refusal, checked
 from .variable import Variable
 
 Motion = Resolved | Averaged
@@ -30,12 +31,7 @@ class Component:
     """
 
     def __init__(self) -> None:
-        self.lifecycle = Lifecycle.INSTANTIATED
-        self.time = 0.0
-        self._stop_time = inf
-        self._last_event_time = 0.0
-        self._values: dict[str, float] = {v.name: checked(v, v.start) for v in SETTABLE}
-        self._moment: Moment | None = None
+        self._state = State()
         self._prepared: Motion | None = None
 
     def setup_experiment(
@@ -45,7 +41,7 @@ class Component:
 
         The tolerance is checked and not used: that of LuGre friction is a parameter.
         """
-        require("setupExperiment", self.lifecycle, Lifecycle.INSTANTIATED)
+        state = self._required("setupExperiment", Lifecycle.INSTANTIATED)
         if not isfinite(start_time):
             raise Refusal(refusal_texts.BAD_START_TIME, start_time=start_time)
         if stop_time is not None and not stop_time >= start_time:
@@ -53,31 +49,31 @@ class Component:
             raise Refusal(refusal_texts.BAD_STOP_TIME, **times)
         if tolerance is not None and not (isfinite(tolerance) and tolerance > 0.0):
             raise Refusal(refusal_texts.BAD_TOLERANCE, tolerance=tolerance)
-        self.time = self._last_event_time = start_time
-        self._stop_time = inf if stop_time is None else stop_time
+        state.time = state.last_event_time = start_time
+        state.stop_time = inf if stop_time is None else stop_time
 
     def enter_initialization(self) -> None:
         """Begin initialization mode."""
-        require("enterInitializationMode", self.lifecycle, Lifecycle.INSTANTIATED)
-        self.lifecycle = Lifecycle.INITIALIZATION
+        state = self._required("enterInitializationMode", Lifecycle.INSTANTIATED)
+        state.lifecycle = Lifecycle.INITIALIZATION
 
     def exit_initialization(self) -> None:
         """Fix the parameters and the first moment."""
-        require("exitInitializationMode", self.lifecycle, Lifecycle.INITIALIZATION)
-        self._moment = self._motion.start()
-        self.lifecycle = Lifecycle.STEP_COMPLETE
+        state = self._required("exitInitializationMode", Lifecycle.INITIALIZATION)
+        state.moment = self._motion.start()
+        state.lifecycle = Lifecycle.STEP_COMPLETE
 
     def terminate(self) -> None:
         """End the simulation; outputs stay readable."""
-        require("terminate", self.lifecycle, Lifecycle.STEP_COMPLETE)
-        self.lifecycle = Lifecycle.TERMINATED
+        self._required("terminate", Lifecycle.STEP_COMPLETE).lifecycle = Lifecycle.TERMINATED
 
     def set(self, new: Mapping[str, object]) -> None:
         """Set inputs and parameters by name: all of them or, if one is refused, none."""
-        if self.lifecycle == Lifecycle.TERMINATED:
-            require(f"setting {', '.join(new)}", self.lifecycle, Lifecycle.STEP_COMPLETE)
-        running = self.lifecycle == Lifecycle.STEP_COMPLETE
-        values = dict(self._values)
+        state = self._state
+        if state.lifecycle == Lifecycle.TERMINATED:
+            self._required(f"setting {', '.join(new)}", Lifecycle.STEP_COMPLETE)
+        running = state.lifecycle == Lifecycle.STEP_COMPLETE
+        values = dict(state.values)
         for name, value in new.items():
             variable = BY_NAME[name]
             if variable.causality == "output":
@@ -86,10 +82,10 @@ class Component:
                 text = refusal_texts.FIXED_WHILE_RUNNING
                 raise Refusal(text, name=name, value=repr(value))
             values[name] = checked(variable, value)
-        if values == self._values:
+        if values == state.values:
             return
         self._prepared = _prepare(values) if running else None
-        self._values = values
+        state.values = values
 
     def get(self, *names: str) -> list[float]:
         """Return values of any variables; outputs from initialization mode on."""
@@ -98,7 +94,7 @@ class Component:
         for name in names:
             output = OUTPUTS.get(name)
             if output is None:
-                found.append(self._values[name])
+                found.append(self._state.values[name])
             else:
                 view = view or self._view(name)
                 found.append(_finite_output(name, output, view))
@@ -106,85 +102,59 @@ class Component:
 
     def step(self, time: float, step_size: float) -> None:
         """Advance from the present `time` [s] by `step_size` > 0 [s], inputs held."""
-        require("doStep", self.lifecycle, Lifecycle.STEP_COMPLETE)
+        state = self._required("doStep", Lifecycle.STEP_COMPLETE)
         if not (isfinite(step_size) and step_size > 0.0):
             raise Refusal(refusal_texts.BAD_STEP_SIZE, step_size=step_size)
         # Hosts sum up time themselves, so theirs may differ from this one by rounding.
-        slack = TIME_SLACK * step_size + 4.0 * ulp(self.time)
-        if not abs(time - self.time) <= slack:
-            raise Refusal(refusal_texts.BAD_STEP_START, time=time, now=self.time)
+        slack = TIME_SLACK * step_size + 4.0 * ulp(state.time)
+        if not abs(time - state.time) <= slack:
+            raise Refusal(refusal_texts.BAD_STEP_START, time=time, now=state.time)
         end = time + step_size
-        if end > self._stop_time + slack + STOP_TIME_SLACK * abs(self._stop_time):
-            limits = {"step_size": step_size, "stop_time": self._stop_time}
+        if end > state.stop_time + slack + STOP_TIME_SLACK * abs(state.stop_time):
+            limits = {"step_size": step_size, "stop_time": state.stop_time}
             raise Refusal(refusal_texts.STEP_BEYOND_STOP, **limits)
-        self._require_bounded_work(step_size)
+        frequency, max_turns = self._motion.system.fastest, MAX_TURNS // PYTHON_SLOWDOWN
+        if state.values["fidelity"] > 0 and step_size * frequency > tau * max_turns:
+            limits = {"frequency": frequency, "max_turns": max_turns}
+            raise Refusal(refusal_texts.TOO_MANY_TURNS, step_size=step_size, **limits)
         age_before = self._present().event_age
         moment = self._advanced(step_size)
         # Without an event the age grows by the step size, up to rounding.
         if moment.event_age < step_size + 0.5 * age_before:
-            self._last_event_time = time + max(0.0, step_size - moment.event_age)
-        self._moment = moment
-        self.time = end
+            state.last_event_time = time + max(0.0, step_size - moment.event_age)
+        state.moment, state.time = moment, end
 
     def snapshot(self) -> dict[str, Any]:
         """Return the complete state, of plain numbers and names."""
-        return {
-            "format": FORMAT,
-            "lifecycle": self.lifecycle.value,
-            "time": self.time,
-            "stop_time": self._stop_time,
-            "last_event_time": self._last_event_time,
-            "values": dict(self._values),
-            "moment": None if self._moment is None else asdict(self._moment),
-        }
+        return to_plain(self._state)
 
     def restore(self, plain: object) -> None:
         """Restore a snapshot, of this or another instance. Raises Refusal for anything else."""
-        try:
-            self._restore(plain)
-        except RecursionError:
-            raise Refusal("FMU state refused: its entries are nested too deeply") from None
+        state = from_plain(plain)
+        self._prepared = None if state.moment is None else _prepare(state.values)
+        self._state = state
 
-    def _restore(self, plain: object) -> None:
-        stored_format = plain.get("format") if isinstance(plain, Mapping) else type(plain).__name__
-        if stored_format != FORMAT:
-            formats = {"found": repr(stored_format), "own": FORMAT}
-            raise Refusal("FMU state refused: its format is {found}; must be {own!r}", **formats)
-        state = entries("the state", plain, self.snapshot())
-        try:
-            lifecycle = Lifecycle(state["lifecycle"])
-        except ValueError as error:
-            raise Refusal("FMU state refused: {error}", error=error) from error
-        times = [number(name, state[name]) for name in ("time", "stop_time", "last_event_time")]
-        stored, moment = entries("values", state["values"], self._values), state["moment"]
-        values = {name: checked(BY_NAME[name], value) for name, value in stored.items()}
-        restored = None if moment is None else moment_from_plain(moment)
-        if restored is None and lifecycle in (Lifecycle.STEP_COMPLETE, Lifecycle.TERMINATED):
-            raise Refusal(refusal_texts.STATE_WITHOUT_MOTION)
-        self._prepared = None if restored is None else _prepare(values)
-        self.lifecycle, self._values, self._moment = lifecycle, values, restored
-        self.time, self._stop_time, self._last_event_time = times
+    def _required(self, call: str, required: Lifecycle) -> State:
+        """Return the state. Raises Refusal for a call in any state of life but `required`."""
+        if self._state.lifecycle != required:
+            names = {"state": self._state.lifecycle, "required": required}
+            raise Refusal(refusal_texts.WRONG_STATE, call=call, **names)
+        return self._state
 
     def _view(self, name: str) -> View:
-        if self.lifecycle == Lifecycle.INSTANTIATED:
-            require(f"reading {name}", self.lifecycle, Lifecycle.INITIALIZATION)
+        if self._state.lifecycle == Lifecycle.INSTANTIATED:
+            self._required(f"reading {name}", Lifecycle.INITIALIZATION)
         motion, now = self._motion, self._present()
-        return View(motion, now, motion.mode(now), self._last_event_time)
+        return View(motion, now, motion.mode(now), self._state.last_event_time)
 
     @property
     def _motion(self) -> Motion:
         if self._prepared is None:
-            self._prepared = _prepare(self._values)
+            self._prepared = _prepare(self._state.values)
         return self._prepared
 
     def _present(self) -> Moment:
-        return self._moment if self._moment is not None else self._motion.start()
-
-    def _require_bounded_work(self, step_size: float) -> None:
-        frequency, max_turns = self._motion.system.fastest, MAX_TURNS // PYTHON_SLOWDOWN
-        if self._values["fidelity"] > 0 and step_size * frequency > tau * max_turns:
-            limits = {"frequency": frequency, "max_turns": max_turns}
-            raise Refusal(refusal_texts.TOO_MANY_TURNS, step_size=step_size, **limits)
+        return self._state.moment or self._motion.start()
 
     def _advanced(self, step_size: float) -> Moment:
         try:
@@ -207,8 +177,11 @@ def _prepare(values: Mapping[str, Any]) -> Motion:
     inputs = replace(inputs, phase=remainder(inputs.phase, tau))
     try:
         motion = motion_of(device, inputs)
-        finite = all(map(isfinite, (*_coefficients(motion.system), *theory_range(device))))
-        finite = finite and motion.system.mass_fraction < 1.0  # beside it, the slider's mass counts
+        system = motion.system
+        numbers = [*vars(system).values(), *astuple(system.slip), *astuple(system.stick)]
+        numbers += theory_range(device)
+        finite = all(cmath.isfinite(x) for x in numbers if isinstance(x, (float, complex)))
+        finite = finite and system.mass_fraction < 1.0  # beside it, the slider's mass counts
     except ArithmeticError:
         finite = False
     if not finite:
@@ -275,13 +248,3 @@ def _extreme(values: Mapping[str, Any]) -> Refusal:
     furthest = max(SETTABLE, key=distance)
     shown = {"value": repr(values[furthest.name]), "start": repr(furthest.start)}
     return Refusal(refusal_texts.EXTREME_VALUE, name=furthest.name, **shown)
-
-
-def _coefficients(system: System) -> tuple[float, ...]:
-    complex_ones = system.drive, system.holding_drive
-    return (
-        *(system.total_mass, system.mass_fraction, system.normal_frequency),
-        *(system.slip.decay, system.slip.stiffness, system.stick.decay, system.stick.stiffness),
-        *(part for number in complex_ones for part in (number.real, number.imag)),
-        *(system.base_acceleration, system.spring, system.damper),
-    )

@@ -37,11 +37,9 @@ class Window(NamedTuple):
         inside = (chi - self.first) % tau
         if tau - inside < REACHED:
             inside -= tau
-        if frequency > 0.0:
-            return -REACHED < inside < width - REACHED
-        if frequency < 0.0:
-            return REACHED < inside < width + REACHED
-        return -REACHED < inside < width + REACHED
+        first = REACHED if frequency < 0.0 else -REACHED
+        last = width - REACHED if frequency > 0.0 else width + REACHED
+        return first < inside < last
 
     def time_to_switch(self, chi: float, frequency: float, lifted: bool) -> float:
         """Time [s] until the contact lifts, or touches down when `lifted`; infinite if never.

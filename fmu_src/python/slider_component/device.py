@@ -12,7 +12,8 @@ where e = -i exp(i theta). At fidelity 1 the resonator acts through its steady f
 
 from cmath import phase as argument
 from dataclasses import dataclass
-from math import asin, cos, hypot, inf, pi, sin, tau
+from math import asin, cos, inf, pi, sin, tau
+from typing import NamedTuple
 
 from . import refusal_texts
 from .contact import Window
@@ -64,38 +65,33 @@ class Device(Parameters):
         return Oscillator(self.damping_ratio * wn, wn * wn)
 
 
-@dataclass(frozen=True, slots=True)
-class Vibration:
-    """The steady vibration without friction, in closed form (32)-(34).
+class Vibration(NamedTuple):
+    """The steady vibration without friction or load, in closed form (31)-(34), with direct drive.
 
-    Velocity amplitudes [m/s], lag theta_1 [rad], and the resonator's complex amplitude of e [m].
-    `velocity` is v_q of the slider, `pair_velocity` the one that the drive force gives to the pair.
+    Velocity amplitudes [m/s], lag theta_1 [rad], and complex amplitudes of e: of the `force` on
+    slider and resonator together, F_T* exp(-i theta_1) [N], and of the `resonator` [m]. `velocity`
+    is v_q of the slider, `pair_velocity` the one that the drive force gives to the pair.
     """
 
     velocity: float
     pair_velocity: float
     lag: float
+    force: complex
     resonator: complex
 
 
-def steady_resonator(device: Device) -> complex:
-    """Steady displacement of the resonator, complex amplitude of e [m] (eqs 31-32).
-
-    Friction and load are left out, a direct drive is kept. Raises Refusal where it is unbounded.
-    """
-    w, oscillator = device.drive_frequency, device.slip_oscillator
-    if _is_unbounded(device, oscillator):
+def vibration(device: Device) -> Vibration:
+    """Raises Refusal where undamped resonance leaves no steady vibration."""
+    w, m, direct = device.drive_frequency, device.resonator_mass, device.tangential_force
+    if _is_unbounded(device, device.slip_oscillator):
         shown = {"damping_ratio": device.damping_ratio, "drive_frequency": w}
         raise Refusal(refusal_texts.UNBOUNDED_RESONANCE, **shown)
-    base = device.base_amplitude * w * w - device.tangential_force / device.slider_mass
-    return base * oscillator.transfer(w)
-
-
-def equivalent_force(device: Device) -> complex:
-    """F_T* exp(-i theta_1) of eqs (33)-(34) with the direct drive added, in N."""
-    w2 = device.drive_frequency * device.drive_frequency
-    shaken = device.base_amplitude + steady_resonator(device)
-    return device.resonator_mass * w2 * shaken + device.tangential_force
+    base = device.base_amplitude * w * w - direct / device.slider_mass
+    resonator = base * device.slip_oscillator.transfer(w)
+    force = m * (w * w) * (device.base_amplitude + resonator) + direct
+    inertia = device.total_mass * w
+    pair = m * device.base_amplitude * w * w + direct
+    return Vibration(abs(force) / inertia, pair / inertia, -argument(force), force, resonator)
 
 
 def held_amplitude(device: Device) -> float:
@@ -107,8 +103,7 @@ def held_amplitude(device: Device) -> float:
     if _is_unbounded(device, oscillator):
         return inf
     amplitude = device.base_amplitude * (1.0 + w * w * oscillator.transfer(w))
-    force = device.resonator_mass * w * w * amplitude + device.tangential_force
-    return hypot(force.real, force.imag)
+    return abs(device.resonator_mass * w * w * amplitude + device.tangential_force)
 
 
 def _is_unbounded(device: Device, oscillator: Oscillator) -> bool:
@@ -117,19 +112,16 @@ def _is_unbounded(device: Device, oscillator: Oscillator) -> bool:
     return near and device.damping_ratio == 0.0
 
 
-def vibration(device: Device) -> Vibration:
-    """Raises Refusal where undamped resonance leaves no steady vibration."""
-    w, force = device.drive_frequency, equivalent_force(device)
-    inertia = device.total_mass * w
-    pair = device.resonator_mass * device.base_amplitude * w * w + device.tangential_force
-    resonator = steady_resonator(device)
-    return Vibration(abs(force) / inertia, pair / inertia, -argument(force), resonator)
-
-
 def steady_swing(amplitude: complex, theta: float, frequency: float) -> tuple[float, float]:
     """Displacement [m] and velocity [m/s] of amplitude e at drive phase `theta` [rad]."""
     real, imag, sine, cosine = amplitude.real, amplitude.imag, sin(theta), cos(theta)
     return real * sine + imag * cosine, frequency * (real * cosine - imag * sine)
+
+
+def full_friction(device: Device) -> float:
+    """Mean friction [N] of sliding in one direction, but for the shape of a clipped load."""
+    normal = max(device.normal_preload, device.normal_amplitude / pi)
+    return device.friction_faces * device.friction_coefficient * normal
 
 
 Term = tuple[complex, complex, complex]
@@ -177,8 +169,9 @@ class System:
         else:
             self.slider_mass, self.mass_fraction = device.total_mass, 0.0
             self.spring = self.damper = 0.0
-            force = self.holding_drive = equivalent_force(device)
-            self.resonator_amplitude = steady_resonator(device)
+            steady = vibration(device)
+            force = self.holding_drive = steady.force
+            self.resonator_amplitude = steady.resonator
         self.drive, self.arc = force / device.total_mass, LONGEST_ARC / self.fastest
         self.slide_split, self.rest_split = self._slide_split(), self._rest_split()
         free = self.slip.stiffness * self.slider_mass
@@ -227,15 +220,3 @@ def flight_window(device: Device) -> Window:
         return Window(0.0, 0.0)
     dip = asin(device.normal_preload / device.normal_amplitude)
     return Window(pi + dip, tau - dip)
-
-
-def velocity_scale(system: System, velocity: float, displacement: float, rate: float) -> float:
-    """The scale of velocities [m/s] to which tolerances refer.
-
-    The sum of the velocity amplitude of the drive, the velocity that friction and load change in a
-    radian of the drive, and the velocities of slider and resonator.
-    """
-    w = system.drive_frequency
-    forces = system.friction_preload + system.friction_amplitude + abs(system.load)
-    swing = system.mass_fraction * hypot(rate, system.stick.frequency * displacement)
-    return abs(system.drive) / w + forces / (system.total_mass * w) + abs(velocity) + swing

@@ -40,8 +40,11 @@ this, which bounds the work on signals that stay within rounding of zero."""
 
 PATIENCE = 20
 
-MAX_REFINEMENTS = 80
+MAX_NEWTON_STEPS = 80
+"""Steps of Newton's method towards a zero that is simple, far more than it takes."""
+
 MAX_EXPECTING_STEPS = 4
+"""The same towards a zero that is expected."""
 
 RESOLUTION = 1e-16
 """Angle [rad] of the highest frequency to which zeros are located."""
@@ -58,7 +61,8 @@ def first_zero(watch: Watch, limit: float) -> float | None:
     signal, noise, fastest, expected = watch
     zero, steepness = inf, 0.0
     if 0.0 < expected < limit:
-        zero, steepness = _zero_near(watch, limit)
+        # Beyond the limit the bound of the signal may not hold.
+        zero, steepness = _newton(watch, expected, limit, MAX_EXPECTING_STEPS)
     t = before = 0.0
     shortest, short_steps = SHORTEST / fastest, 0
     while t < limit:  # not a number ends the search, too
@@ -67,19 +71,23 @@ def first_zero(watch: Watch, limit: float) -> float | None:
         if value <= noise:
             if value < -noise and t > before:
                 # Only a step of the shortest length can get here.
-                return _refined(watch, before, t, noise)
+                return _bisected(watch, before, t)
             value, margin = noise, 16.0 * noise
         root = sqrt(slope * slope + 2.0 * bound * value)
         if slope < 0.0:
             if slope * slope > bound * margin:
-                found = _refined(watch, t, inf, 0.0)
+                found, _ = _newton(watch, t, inf, MAX_NEWTON_STEPS)
                 return found if found < limit else None
             step = 2.0 * value / (root - slope)
         else:
             step = (slope + root) / bound if bound > 0.0 else inf
         # The parabola from the zero backwards must cover the rest of the way, beyond rounding.
         rest = zero - t
-        if 0.0 < rest < inf and bound * rest < SURE * (slope + root - 2.0 * steepness):
+        if (
+            0.0 < rest < inf
+            and bound * rest < SURE * (slope + root - 2.0 * steepness)
+            and steepness * steepness > 16.0 * noise * bound
+        ):
             return zero
         if step * fastest < SHORT:
             short_steps += 1
@@ -90,45 +98,30 @@ def first_zero(watch: Watch, limit: float) -> float | None:
     return None
 
 
-def _zero_near(watch: Watch, limit: float) -> tuple[float, float]:
-    """The downward zero near the expected one, by Newton's method in a few steps, and the slope.
+def _newton(watch: Watch, t: float, limit: float, max_steps: int) -> tuple[float, float]:
+    """The downward zero near `t` [s], by Newton's method, and the slope there.
 
-    Infinite if none is found, or beyond `limit`, where the bound of the signal may not hold.
+    Infinite if none is found, or if the way to it leads beyond `limit`.
     """
-    t = watch.expected
-    for _ in range(MAX_EXPECTING_STEPS):
-        value, slope, bound = watch.signal(t)
+    signal, noise, fastest, _ = watch
+    for _ in range(max_steps):
+        value, slope, bound = signal(t)
         if not slope < 0.0:
             break
         step = -value / slope
         t += step
-        if not 0.0 < t < limit:
+        if t < 0.0:
+            t = 0.0
+        elif not t < limit:
             break
-        # The next step would be below the resolution.
-        if bound * step * step * watch.fastest <= -slope * RESOLUTION:
-            return (t, slope) if slope * slope > 16.0 * watch.noise * bound else (inf, slope)
+        # The next step would be below the resolution, or this one is rounding.
+        if bound * step * step * fastest <= -slope * RESOLUTION or -noise <= value <= noise:
+            return t, slope
     return inf, 0.0
 
 
-def _refined(watch: Watch, low: float, high: float, noise: float) -> float:
-    """Where the signal falls through -noise after `low` [s], by Newton's method.
-
-    It stays within the bracket that ends at `high`, where the signal is below that, if that is
-    finite: otherwise Newton's method is known to converge.
-    """
-    resolution = RESOLUTION / watch.fastest
-    t = low
-    for _ in range(MAX_REFINEMENTS):
-        value, slope, bound = watch.signal(t)
-        value += noise
-        low, high = (max(low, t), high) if value > 0.0 else (low, min(high, t))
-        following = t - value / slope if slope < 0.0 else inf
-        if not low <= following <= high:
-            if high == inf:
-                break
-            following = 0.5 * (low + high)
-        step, t = following - t, following
-        # The next step would be below the resolution.
-        if bound * step * step <= -slope * resolution or abs(step) <= resolution:
-            break
-    return t
+def _bisected(watch: Watch, low: float, high: float) -> float:
+    """Where the signal falls through -noise between `low` and `high` [s]."""
+    while low < (middle := 0.5 * (low + high)) < high:
+        low, high = (middle, high) if watch.signal(middle)[0] > -watch.noise else (low, middle)
+    return high

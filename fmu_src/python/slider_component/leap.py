@@ -16,12 +16,11 @@ from math import floor, inf, pi, sqrt, tau
 from typing import NamedTuple
 
 from .budget import Budget, Clock
-from .device import System, vibration
+from .device import System
 from .dormand_prince import Rates, Step, dormand_prince, linear_step, step_growth
-from .events import advance
 from .moment import Moment
-from .motion import Resolved
-from .period_map import Fast, NoMapError, PeriodMap, fast_of
+from .period_map import Fast, NoMapError, Numbers, PeriodMap
+from .resolved import Resolved
 from .values import Refusal
 
 ORDER = 3
@@ -92,7 +91,7 @@ class Point(NamedTuple):
     sections: list[Moment]
 
 
-def _differences(rows: list[list[float]]) -> list[list[float]]:
+def _differences(rows: list[Numbers]) -> list[Numbers]:
     """Differences of order 0, 1, ... at the begin of a sequence."""
     found = []
     while rows:
@@ -124,8 +123,8 @@ class SlowMotion:
         self.map, self.begin, self.budget = period_map, begin, budget
         self.allowed = period_map.tolerance * period_map.speed
         self.varies, self.maps = abs(period_map.drift) * longest > NO_DRIFT, 0
-        start = period_map.slow_velocity(begin), fast_of(begin)
-        self.here = self.last = self.point(0.0, *start, max_sequences=1)
+        velocity, _, *fast = period_map.numbers(begin)
+        self.here = self.last = self.point(0.0, velocity, fast, max_sequences=1)
 
     def point(
         self, n: float, velocity: float, fast: Fast, max_sequences: int = MAX_SEQUENCES
@@ -139,12 +138,7 @@ class SlowMotion:
             now = period_map.place(self.begin, velocity, fast, n)
             sections, modes = period_map.sections(now, ORDER, self.budget)
             self.maps += ORDER
-            differences = _differences(
-                [
-                    [period_map.slow_velocity(v), v.position - now.position, *fast_of(v)]
-                    for v in sections
-                ]
-            )
+            differences = _differences([period_map.numbers(section) for section in sections])
             correction = period_map.resolvent(ORDER, [-d for d in differences[ORDER][2:]])
             fast = [y + c for y, c in zip(fast, correction, strict=True)]
             size = period_map.size(correction)
@@ -170,35 +164,23 @@ class SlowMotion:
         return Point(n, velocity, fast, *rates, error, modes, sections)
 
     def rates(self, n: float, velocity: float) -> Rates:
-        """The rates at `n` periods and V [m/s], with fast states guessed along a tangent.
+        """The rates at `n` periods and V [m/s].
 
-        Raises NoMapError where contact modes do not repeat as they did at the start of the step:
-        the rates have a kink in between.
+        Fast states are guessed along the tangent of the last point: by n where rates depend on
+        that or are no larger than their error, by V elsewhere. Raises NoMapError where contact
+        modes do not repeat as they did at the start of the step: the rates have a kink in between.
         """
-        ways = [(self._periods_from(p, n, velocity), p) for p in (self.here, self.last)]
-        way, near = min(ways, key=lambda pair: abs(pair[0]))
-        tangent = zip(near.fast, near.fast_rate, strict=True)
+        last = self.last
+        if self.varies or abs(last.acceleration) <= last.error:
+            way = n - last.n
+        else:
+            way = (velocity - last.velocity) / last.acceleration
+        tangent = zip(last.fast, last.fast_rate, strict=True)
         found = self.point(n, velocity, [y + way * rate for y, rate in tangent])
         if found.modes != self.here.modes:
             raise NoMapError
         self.last = found
         return found.acceleration, found.travel
-
-    def _periods_from(self, point: Point, n: float, velocity: float) -> float:
-        """Periods on the tangent of a point: by the velocity.
-
-        By n if rates depend on that or are no larger than their error.
-        """
-        if self.varies or abs(point.acceleration) <= point.error:
-            return n - point.n
-        return (velocity - point.velocity) / point.acceleration
-
-    def first_step(self) -> float:
-        """The step that the solver may accept first, in periods."""
-        acceleration, gain = abs(self.here.acceleration), abs(self.here.gain)
-        if gain == 0.0:
-            return inf
-        return FIRST_STEP / gain * float((self.allowed * gain / acceleration) ** 0.2)
 
     def integrate(self, longest: float, error: float) -> tuple[float, float, float]:
         """Integrate over at most `longest` periods, as far as that goes.
@@ -206,17 +188,22 @@ class SlowMotion:
         Returns the periods passed, the travel [m], and the error of the slow velocity [m/s], which
         is `error` before.
         """
-        n, travel, h = 0.0, 0.0, self.first_step()
+        n, travel, h, gain = 0.0, 0.0, inf, abs(self.here.gain)
+        if gain > 0.0:
+            h = FIRST_STEP / gain * (self.allowed * gain / abs(self.here.acceleration)) ** 0.2
         in_beat = MAX_STEP_DRIFT / abs(self.map.drift) if self.varies else inf
         while True:
-            here = self.here
-            h = float(floor(min(h, in_beat, self._to_grazing(), longest - n)))
+            here, to_grazing = self.here, inf
+            if here.acceleration != 0.0:
+                distance = abs(here.velocity) - self.map.speed
+                to_grazing = TO_GRAZING * abs(distance / here.acceleration)
+            h = float(floor(min(h, in_beat, to_grazing, longest - n)))
             if h < SHORTEST_STEP:
                 return n, travel, error
             try:
                 passed, to, of_step = self._step(n, h, longest - n)
-            except (NoMapError, ArithmeticError, ValueError):
-                self.last, h = here, 0.5 * h
+            except (ArithmeticError, ValueError):
+                h = 0.5 * h
                 continue
             if of_step <= self.allowed:
                 # Without drift V obeys V' = g(V): its errors grow and decay as g does.
@@ -225,20 +212,14 @@ class SlowMotion:
                 error = decay * error + of_step + passed * max(here.error, self.last.error)
                 n, travel = n + passed, travel + to.travel
                 self.here = self.last
-            self.last = here
             h = passed * step_growth(of_step, self.allowed)
-
-    def _to_grazing(self) -> float:
-        """Periods that a step may pass before sliding ends, or begins, to reverse."""
-        distance, acceleration = abs(self.here.velocity) - self.map.speed, self.here.acceleration
-        return TO_GRAZING * abs(distance / acceleration) if acceleration else inf
 
     def _step(self, n: float, h: float, left: float) -> tuple[float, Step, float]:
         """All periods that are `left` in one step near a steady velocity, or `h` of them.
 
         Returns the periods passed, where they lead, and the error of the step [m/s].
         """
-        here = self.here
+        self.last = here = self.here
         first = here.acceleration, here.travel
         if not self.varies:
             max_change = LINEAR * sqrt(self.map.tolerance) * self.map.speed
@@ -246,6 +227,7 @@ class SlowMotion:
                 to = linear_step(self.rates, n, here.velocity, left, first, here.gain, max_change)
                 if to is not None and to.error <= self.allowed:
                     return left, to, to.error
+            self.last = here
         to = dormand_prince(self.rates, n, here.velocity, h, first)
         return h, to, ERROR_SHARE * to.error
 
@@ -258,11 +240,7 @@ class Leaping(Resolved):
         self._map: PeriodMap | None = None
         # Undamped resonance has no steady vibration: all is resolved.
         with suppress(Refusal, NoMapError):
-            self._map = PeriodMap(system, vibration(system.device), MAX_TURNS)
-
-    def slow_motion_error(self, now: Moment) -> float:
-        """What leaps have erred by so far in the slow velocity [m/s]."""
-        return now.leap_error
+            self._map = PeriodMap(system, MAX_TURNS)
 
     def advance(self, moment: Moment, duration: float) -> Moment:
         """As of `Resolved`."""
@@ -271,13 +249,13 @@ class Leaping(Resolved):
         while period_map is not None and left > (SHORTEST_LEAP + pause) * period_map.period:
             wait = pause * period_map.period + (period_map.section - now.theta) % tau / w
             if wait > 0.0:
-                now, left = advance(self.system, now, wait, budget), clock.advance(wait)
+                now, left = self.resolve(now, wait, budget), clock.advance(wait)
             now = now.copied()
             now.theta = period_map.section
             longest = floor(left / period_map.period)
             now, passed, pause = _leap(period_map, now, longest, budget)
             left = clock.advance(passed * period_map.period)
-        return advance(self.system, now, left, budget) if left > 0.0 else now
+        return self.resolve(now, left, budget) if left > 0.0 else now
 
 
 def _leap(
@@ -288,19 +266,18 @@ def _leap(
     Returns the moment a few resolved periods behind the landing, the periods passed, and how many
     are to be resolved before the next leap.
     """
-    n, maps = 0.0, ORDER
-    with suppress(NoMapError, ArithmeticError, ValueError):
+    now, passed, maps = begin, 0.0, ORDER
+    with suppress(ArithmeticError, ValueError):
         slow = SlowMotion(period_map, begin, budget, longest)
         n, travel, error = slow.integrate(longest - ORDER, begin.leap_error)
         maps = slow.maps
-    if n == 0.0:
-        return begin, 0.0, max(MIN_PAUSE, PAUSE * maps)
-    sections = slow.here.sections
-    now, passed = sections[-1], n + ORDER
-    now.position += travel
-    now.leap_error = error
-    now.reversals += round(n * (now.reversals - sections[-2].reversals))
-    now.sticks += round(n * (now.sticks - sections[-2].sticks))
-    if now.event_age >= ORDER * period_map.period:
-        now.event_age += n * period_map.period
+        if n > 0.0:
+            before, now = slow.here.sections[-2:]
+            passed = n + ORDER
+            now.position += travel
+            now.leap_error = error
+            now.reversals += round(n * (now.reversals - before.reversals))
+            now.sticks += round(n * (now.sticks - before.sticks))
+            if now.event_age >= ORDER * period_map.period:
+                now.event_age += n * period_map.period
     return now, passed, max(MIN_PAUSE, PAUSE * (maps - passed))

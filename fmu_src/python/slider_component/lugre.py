@@ -1,15 +1,13 @@
 """LuGre friction (eq. 8): from one reversal to the next along the bristle's path.
 
 With s the direction of sliding, g = sigma_0 z the friction of the bristle and g_r its value where a
-series starts, the bristle is a function of the path d = |x - x_r| alone:
+segment starts, the bristle is a function of the path alone:
 
-    g = s mu + (g_r - s mu) E,    E = exp(-sigma_0 d / mu),    E' = -(sigma_0 / mu) |v| E
-    F = faces N (g_r + (mu - s g_r) (s (1 - E) + E sigma_1 v / mu))
+    g = s mu + (g_r - s mu) exp(-sigma_0 |x - x_r| / mu)
 
-so no stiff state remains, and deep presliding, where g_r and 1 - E are small, loses no digits.
-Taylor series follow the motion while E matters. After it has decayed the bristle is fully bent,
-friction is Coulomb's, and closed forms take over. The cost does not grow with the stiffness. There
-is no sticking: presliding is resolved as an oscillation on the bristles.
+Taylor series of (8) follow the motion while it bends. Then it is fully bent, friction is Coulomb's,
+and closed forms take over: no stiff state remains, and the cost does not grow with the stiffness.
+There is no sticking: presliding is resolved as an oscillation on the bristles.
 """
 
 from math import copysign, expm1

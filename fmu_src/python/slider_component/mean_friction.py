@@ -8,9 +8,9 @@ quadrature. Soft bristles give the paper's slow manifold (17), hard ones Coulomb
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 from math import acos, cos, exp, expm1, hypot, pi, sin, sqrt, tau
+from typing import NamedTuple
 
 from .device import EPSILON, Device
 from .vibrating_load import VibratingLoad
@@ -40,28 +40,22 @@ SERIES = 1.0
 """Angle [rad] up to which x - sin(x) is summed up as a series."""
 
 
-@dataclass(frozen=True, slots=True)
 class MeanFriction:
-    """Friction under a fast motion of amplitude `fast` [m/s] at the drive `frequency` [rad/s].
+    """Friction of a device under a fast motion of amplitude `fast` [m/s].
 
-    `stiffness` and `damping` of the bristles are sigma_0 and sigma_1, None for Coulomb friction.
+    Of its friction `coefficient`, the `stiffness` sigma_0 [1/m] of its bristles, 0 for Coulomb
+    friction, and their `drag`, the largest friction per unit load beyond mu: above mu, friction may
+    rise with Theta. Where it `is_expensive` each mean costs a quadrature.
     """
 
-    coefficient: float
-    stiffness: float | None
-    damping: float
-    fast: float
-    frequency: float
-
-    @property
-    def is_expensive(self) -> bool:
-        """Whether each mean costs a quadrature."""
-        return self.stiffness is not None
-
-    @property
-    def drag(self) -> float:
-        """Largest friction per unit load beyond mu; above mu, friction may rise with Theta."""
-        return self.damping * self.fast if self.is_expensive else 0.0
+    def __init__(self, device: Device, fast: float) -> None:
+        """Without vibration a bristle is always fully bent: friction is Coulomb's."""
+        self.fast, self._frequency = fast, device.drive_frequency
+        self.coefficient = device.friction_coefficient
+        self.is_expensive = device.friction_law == 1 and fast > 0.0
+        self.stiffness = device.bristle_stiffness if self.is_expensive else 0.0
+        self.damping = device.bristle_damping if self.is_expensive else 0.0
+        self.drag = self.damping * fast
 
     @property
     def grip(self) -> float:
@@ -69,10 +63,10 @@ class MeanFriction:
 
         A vibration far shorter than mu / sigma_0 only bends the bristle.
         """
-        if self.stiffness is None:
+        if not self.is_expensive:
             return self.coefficient
-        bend = hypot(self.stiffness, self.frequency * self.damping)
-        return min(self.coefficient, self.fast / self.frequency * bend)
+        bend = hypot(self.stiffness, self._frequency * self.damping)
+        return min(self.coefficient, self.fast / self._frequency * bend)
 
     def turning(self, velocity: float) -> float:
         """Theta [rad] at a slow velocity [m/s]; 0 or pi where the slider never reverses."""
@@ -82,7 +76,7 @@ class MeanFriction:
 
     def mean(self, load: VibratingLoad, turning: float) -> float:
         """Mean friction [N] of one face when sliding turns forward at tau = `turning` [rad]."""
-        if self.is_expensive and abs(load.wave_number) > MAX_WAVES:
+        if self.is_expensive and abs(load.waves) > MAX_WAVES:
             load = load.flattened()
         total = load.integral(turning, tau - turning) - load.integral(-turning, turning)
         total *= self.coefficient
@@ -94,7 +88,7 @@ class MeanFriction:
 
     def power(self, load: VibratingLoad, velocity: float) -> float:
         """Mean power of friction [W] of one face at a slow velocity [m/s]."""
-        if abs(load.wave_number) > (MAX_WAVES if self.is_expensive else MAX_POWER_WAVES):
+        if abs(load.waves) > (MAX_WAVES if self.is_expensive else MAX_POWER_WAVES):
             load = load.flattened()
         turning = self.turning(velocity)
         beyond = velocity - self.fast * cos(turning)
@@ -109,9 +103,9 @@ class MeanFriction:
 
     def _arcs(self, turning: float) -> tuple["_Arc", "_Arc"]:
         """Sliding forward and backward."""
-        reach, sine, cosine = self.fast / self.frequency, sin(turning), cos(turning)
-        forward = _Arc(reach, 1, turning, tau - 2.0 * turning, sine, cosine)
-        return forward, _Arc(reach, -1, -turning, 2.0 * turning, -sine, cosine)
+        reach = self.fast / self._frequency
+        forward = _Arc(reach, 1, turning, tau - 2.0 * turning)
+        return forward, _Arc(reach, -1, -turning, 2.0 * turning)
 
     def _bending(self, turning: float, load: VibratingLoad) -> list[tuple[float, float, float]]:
         """Quadrature over both arcs of what the bristle still lacks of being fully bent.
@@ -119,7 +113,7 @@ class MeanFriction:
         Angles [rad], velocities [m/s] beyond that where the slider turns, and friction per unit
         load beyond Coulomb's times a weight.
         """
-        mu, stiffness, drag = self.coefficient, self.stiffness or 0.0, self.drag
+        mu, stiffness = self.coefficient, self.stiffness
         forward, backward = self._arcs(turning)
         paths = forward.way(forward.length)[1], backward.way(backward.length)[1]
         begins = _periodic_friction(mu, *(-expm1(-stiffness * path / mu) for path in paths))
@@ -131,43 +125,31 @@ class MeanFriction:
             last = arc.bent_after(BENT * mu, stiffness)
             for ahead, weight in _nodes(arc, last, load):
                 speed, path = arc.way(ahead)
-                lacking = unbent * exp(-stiffness * path / mu) * (1.0 - drag * speed / mu)
+                lacking = unbent * exp(-stiffness * path / mu) * (1.0 - self.drag * speed / mu)
                 swing = arc.direction * self.fast * speed
                 nodes.append((arc.begin + ahead, swing, weight * lacking))
         return nodes
 
 
-def mean_friction(device: Device, fast: float) -> MeanFriction:
-    """Without vibration a bristle is always fully bent: friction is Coulomb's."""
-    bends = device.friction_law == 1 and fast > 0.0
-    stiffness = device.bristle_stiffness if bends else None
-    mu, damping = device.friction_coefficient, device.bristle_damping
-    return MeanFriction(mu, stiffness, damping, fast, device.drive_frequency)
-
-
-@dataclass(slots=True)
-class _Arc:
+class _Arc(NamedTuple):
     """A part of the turn with one direction of sliding, from `begin` on for `length` [rad].
 
     The velocity is v_q (cos(begin) - cos(begin + ahead)); differences of nearly equal numbers are
-    taken in closed form, for hard bristles see short paths. `reach` is v_q / w [m]; `sine` and
-    `cosine` are those of `begin`.
+    taken in closed form, for hard bristles see short paths. `reach` is v_q / w [m].
     """
 
     reach: float
     direction: int
     begin: float
     length: float
-    sine: float
-    cosine: float
 
     def way(self, ahead: float) -> tuple[float, float]:
         """Speed over v_q, and path [m], `ahead` [rad] of where the arc begins."""
-        half_sine, half_cosine = sin(0.5 * ahead), cos(0.5 * ahead)
-        turned = self.sine * half_cosine + self.cosine * half_sine
-        beyond = _beyond_sine(ahead, 2.0 * half_sine * half_cosine)
-        moved = self.cosine * beyond + 2.0 * self.sine * half_sine * half_sine
-        return self.direction * 2.0 * half_sine * turned, self.direction * self.reach * moved
+        half = 0.5 * ahead
+        sine = sin(half)
+        moved = cos(self.begin) * _beyond_sine(ahead) + 2.0 * sin(self.begin) * sine * sine
+        speed = 2.0 * sine * sin(self.begin + half)
+        return self.direction * speed, self.direction * self.reach * moved
 
     def bent_after(self, full: float, stiffness: float) -> float:
         """How far ahead in the arc [rad] the path times `stiffness` [1/m] is `full`."""
@@ -181,33 +163,27 @@ class _Arc:
         return high
 
 
-def _beyond_sine(x: float, sine: float) -> float:
+def _beyond_sine(x: float) -> float:
     """x - sin(x) for x >= 0, without cancellation."""
     if x > SERIES:
-        return x - sine
+        return x - sin(x)
     s = x * x
     beyond_third = 1 - s / 72 * (1 - s / 110 * (1 - s / 156 * (1 - s / 210 * (1 - s / 272))))
     return x * s / 6 * (1 - s / 20 * (1 - s / 42 * beyond_third))
 
 
 def _nodes(arc: _Arc, last: float, load: VibratingLoad) -> Iterator[tuple[float, float]]:
-    """Nodes up to `last` [rad] ahead of where an arc begins, and weights [rad]."""
-    edges = [0.0, last]
-    edges += [kink - arc.begin for kink in load.kinks(arc.begin, arc.begin + last)]
-    for low, high in _panels(edges, load.wave_number):
-        half = 0.5 * (high - low)
-        for node, weight in _RULE:
-            yield low + half * (1.0 + node), weight * half
+    """Nodes up to `last` [rad] ahead of where an arc begins, and weights [rad].
 
-
-def _panels(edges: list[float], wave_number: float) -> list[tuple[float, float]]:
-    """Panels between edges, none wider than WIDEST of the normal load."""
-    panels = []
-    for low, high in pairwise(sorted(edges)):
-        pieces = 1 + int(abs(wave_number) * (high - low) / WIDEST)
-        width = (high - low) / pieces
-        panels += [(low + i * width, low + (i + 1) * width) for i in range(pieces)]
-    return panels
+    Panels part at kinks of the load, and none is wider than WIDEST of it.
+    """
+    kinks = (kink - arc.begin for kink in load.kinks(arc.begin, arc.begin + last))
+    for low, high in pairwise(sorted([0.0, last, *kinks])):
+        panels = 1 + int(abs(load.waves) * (high - low) / WIDEST)
+        half = 0.5 * (high - low) / panels
+        for i in range(panels):
+            for node, weight in _RULE:
+                yield low + half * (2 * i + 1 + node), weight * half
 
 
 def _periodic_friction(mu: float, forward: float, backward: float) -> tuple[float, float]:

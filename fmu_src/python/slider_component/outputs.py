@@ -4,11 +4,11 @@ from collections.abc import Callable
 from math import remainder, sin, tau
 from typing import NamedTuple
 
+from .averaged import Averaged
 from .contact import STICK
 from .moment import Moment
-from .motion import Resolved
 from .prediction import Prediction, prediction, turns_of_load
-from .slow_motion import Averaged
+from .resolved import Resolved
 
 LEAD_DIGITS = 9
 """Decimals to which leads of the normal load [rad] are rounded: without the rounding errors of
@@ -29,14 +29,6 @@ def _normal_force(view: View) -> float:
     return max(0.0, device.normal_preload + device.normal_amplitude * sin(chi))
 
 
-def _mean_velocity(now: Moment) -> float:
-    return now.mean(now.mean_velocity, now.travel, now.velocity)
-
-
-def _stick_fraction(now: Moment, mode: int) -> float:
-    return min(now.mean(now.stick_fraction, now.sticking, float(mode == STICK)), 1.0)
-
-
 def _theory(view: View) -> Prediction:
     device, inputs = view.motion.system.device, view.motion.system.inputs
     ratio = inputs.frequency_ratio
@@ -48,14 +40,18 @@ def _theory(view: View) -> Prediction:
 OUTPUTS: dict[str, Callable[[View], float]] = {
     "position": lambda view: view.now.position,
     "velocity": lambda view: view.now.velocity,
-    "mean_velocity": lambda view: _mean_velocity(view.now),
+    "mean_velocity": lambda view: view.now.mean(
+        view.now.mean_velocity, view.now.travel, view.now.velocity
+    ),
     "resonator_displacement": lambda view: view.motion.resonator(view.now)[0],
     "resonator_velocity": lambda view: view.motion.resonator(view.now)[1],
     "normal_force": _normal_force,
     "friction_force": lambda view: view.motion.friction_force(view.now, view.mode),
     "contact_mode": lambda view: float(view.mode),
     "reversals": lambda view: float(view.now.reversals),
-    "stick_fraction": lambda view: _stick_fraction(view.now, view.mode),
+    "stick_fraction": lambda view: min(
+        view.now.mean(view.now.stick_fraction, view.now.sticking, float(view.mode == STICK)), 1.0
+    ),
     "last_event_time": lambda view: view.last_event_time,
     "steady_velocity": lambda view: _theory(view).steady_velocity,
     "blocking_force": lambda view: _theory(view).blocking_force,

@@ -12,14 +12,13 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import copysign, cos, pi, tau
 
-from .budget import Budget
 from .device import EPSILON, Device, System, held_amplitude, vibration
-from .mean_friction import mean_friction
+from .mean_friction import MeanFriction
 from .parameters import Inputs
-from .period_map import NoMapError, PeriodMap
+from .period_map import PeriodMap
 from .steady_motion import PeriodicMotion
 from .values import Refusal
-from .vibrating_load import EXACT, VibratingLoad
+from .vibrating_load import VibratingLoad, turns_to_repeat
 
 BISECTIONS = 52
 """Halvings of [0, pi] in which the angle of balance is found."""
@@ -54,42 +53,27 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
     if device.averaging_order == 1 or not first.valid:
         return first
     turns = turns_of_load(device, inputs.frequency_ratio)
-    if turns == 0:
+    if turns is None:
         return replace(first, valid=False)
+    full = replace(device, fidelity=2)
+    if device.resonator_mass == 0.0:
+        # It moves nothing: one that settles within a period takes its place, so that the search
+        # need not wait for it.
+        w = device.drive_frequency
+        full = replace(full, resonator_frequency=w, damping_ratio=1.0)
     try:
-        full = full_device(device)
-        period_map = PeriodMap(System(full, inputs), vibration(full), turns)
+        period_map = PeriodMap(System(full, inputs), turns)
         psi = (normal_lead + inputs.frequency_ratio * period_map.section) % tau
-        steady = PeriodicMotion(period_map, psi, blocked=False, budget=Budget(period_map.period))
-        blocked = PeriodicMotion(period_map, psi, blocked=True, budget=Budget(period_map.period))
-        return Prediction(
-            steady.found(first.steady_velocity, 0.0),
-            blocked.found(0.0, first.blocking_force),
-            valid=True,
-        )
-    except (NoMapError, Refusal, ArithmeticError, ValueError):
+        steady = PeriodicMotion(period_map, psi, inputs.load, blocked=False)
+        blocked = PeriodicMotion(period_map, psi, first.blocking_force, blocked=True)
+        return Prediction(steady.found(first.steady_velocity), blocked.found(0.0), valid=True)
+    except (ArithmeticError, ValueError):
         return replace(first, valid=False)
 
 
-def full_device(device: Device) -> Device:
-    """The device of whose motion predictions are.
-
-    A resonator without mass moves nothing: one that settles within a period takes its place, so
-    that the search need not wait for it.
-    """
-    if device.resonator_mass > 0.0:
-        return replace(device, fidelity=2)
-    w = device.drive_frequency
-    return replace(device, fidelity=2, resonator_frequency=w, damping_ratio=1.0)
-
-
-def turns_of_load(device: Device, ratio: float) -> int:
-    """Number of turns of the drive after which the normal load repeats; 0 if it never does."""
-    for turns in range(1, MAX_TURNS + 1):
-        repeats = abs(turns * ratio - round(turns * ratio)) <= EXACT
-        if repeats or device.normal_amplitude == 0.0:
-            return turns
-    return 0
+def turns_of_load(device: Device, ratio: float) -> int | None:
+    """Number of turns of the drive after which the normal load repeats; None if it never does."""
+    return turns_to_repeat(ratio if device.normal_amplitude > 0.0 else 0.0, MAX_TURNS)
 
 
 def theory_range(device: Device) -> tuple[float, ...]:
@@ -128,7 +112,7 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
         return NO_VIBRATION
     ratio, faces = inputs.frequency_ratio, device.friction_faces
     delta = inputs.phase + normal_lead + ratio * fast.lag
-    law, load = mean_friction(device, fast.velocity), VibratingLoad(device, ratio, delta)
+    law, load = MeanFriction(device, fast.velocity), VibratingLoad(device, ratio, delta)
 
     def friction(turning: float) -> float:
         return faces * law.mean(load, turning)

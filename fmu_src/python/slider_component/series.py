@@ -6,11 +6,11 @@ near resonance without damping, near critical damping, on soft resonators, under
 
 from cmath import rect
 from functools import cached_property
-from math import inf
+from math import hypot, inf
 from operator import mul, truediv
 
 from .contact import LIFTED
-from .device import EPSILON, Device, System, velocity_scale
+from .device import EPSILON, Device, System
 from .first_zero import Watch
 from .moment import Moment, Place
 
@@ -85,7 +85,12 @@ class Series:
             limit.append(normal.real)
         self._velocity, self._displacement, self._rate = v, y, u
         self._position = [0.0, *map(truediv, v, _COUNT)]
-        scale = velocity_scale(system, now.velocity, now.displacement, now.rate)
+        # The scale of velocities [m/s] is the sum of that of the drive, of what friction and load
+        # change in a radian of it, and of those of slider and resonator.
+        forces = system.friction_preload + system.friction_amplitude + abs(system.load)
+        swing = hypot(now.rate, system.stick.frequency * now.displacement)
+        scale = abs(system.drive) / w + forces / (system.total_mass * w)
+        scale += abs(now.velocity) + system.mass_fraction * swing
         self.reach = min(
             _reach(v, tolerance, scale), _reach(u, tolerance, scale / (system.mass_fraction or 1.0))
         )
@@ -130,24 +135,25 @@ class Series:
 
 
 class _Bending:
-    """Series of the friction of a bristle that bends from sigma_0 z = `bristle` on; see `lugre`."""
+    """Series of the friction of a bristle that bends (eq. 8), with s the `sign` of the velocity v.
+
+    With g = sigma_0 z, z' = v (1 - s g / mu) and F = faces N (g + sigma_1 z').
+    """
 
     def __init__(self, device: Device, bristle: float, sign: int) -> None:
         mu = device.friction_coefficient
-        self._share, self._bend = bristle / mu, (mu - sign * bristle) / mu
-        self._drag, self._rate = device.bristle_damping / mu, -sign * device.bristle_stiffness / mu
-        self._sign, self._lost = sign, 0.0
-        self._decay, self._bent = [1.0], list[float]()
+        self._g, self._unbent, self._shares = bristle, [(mu - sign * bristle) / mu], list[float]()
+        self._stiffness, self._damping = device.bristle_stiffness, device.bristle_damping
+        self._sign, self._mu = sign, mu
 
     def friction(self, velocity: list[float], limit: list[float], step: float) -> float:
         """The next coefficient of the friction force [N], from those of velocity and limit."""
-        product = sum(map(mul, velocity, reversed(self._decay)))
-        self._bent.append(self._drag * product + self._sign * self._lost)
-        faded = self._rate * product * step
-        self._decay.append(faded)
-        self._lost = -faded
-        bent: float = sum(map(mul, limit, reversed(self._bent)))
-        return self._share * limit[-1] + self._bend * bent
+        drag = sum(map(mul, velocity, reversed(self._unbent)))
+        self._shares.append((self._g + self._damping * drag) / self._mu)
+        self._g = self._stiffness * drag * step
+        self._unbent.append(-self._sign * self._g / self._mu)
+        force: float = sum(map(mul, limit, reversed(self._shares)))
+        return force
 
 
 def _watch(coefficients: list[float], sizes: list[float], horizon: float) -> Watch:

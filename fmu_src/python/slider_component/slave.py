@@ -12,9 +12,9 @@ import ctypes
 import functools
 import os
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, TypeVar
 
 from pythonfmu import Fmi2Slave
 
@@ -24,24 +24,44 @@ from .snapshot import from_bytes, to_bytes
 from .values import Refusal
 from .variables import VARIABLES
 
-P = ParamSpec("P")
 R = TypeVar("R")
 
 
-def _refusing(method: Callable[P, R]) -> Callable[P, R]:
-    """Return a method of the slave that reports refusals to stderr and stays usable after them."""
+def _call(answer: Callable[..., R]) -> Callable[..., R]:
+    """A function of FMI that the component answers; after a refusal the instance stays usable."""
 
-    @functools.wraps(method)
-    def call(*args: P.args, **kwargs: P.kwargs) -> R:
+    def call(slave: "SliderResonatorPy", *arguments: Any) -> R:
         try:
-            return method(*args, **kwargs)
+            return answer(slave.component, *arguments)
         except Exception as error:
-            slave = args[0]
-            if isinstance(slave, SliderResonatorPy):
-                slave.outlive(error)
+            slave.outlive(error)
             raise
 
     return call
+
+
+def _get(kind: str, convert: Callable[[float], R]) -> Callable[..., list[R]]:
+    """The function that returns values of one type, by value reference."""
+
+    def get(component: Component, references: list[int]) -> list[R]:
+        return list(map(convert, component.get(*_names(kind, references))))
+
+    return _call(get)
+
+
+def _set(kind: str) -> Callable[..., None]:
+    """The function that sets values of one type: all of them or, if one is refused, none."""
+
+    def set_values(component: Component, references: list[int], values: list[object]) -> None:
+        component.set(dict(zip(_names(kind, references), values, strict=True)))
+
+    return _call(set_values)
+
+
+def _step(component: Component, time: float, step_size: float) -> bool:
+    """The whole step or a refusal."""
+    component.step(time, step_size)
+    return True
 
 
 class SliderResonatorPy(Fmi2Slave):  # type: ignore[misc]
@@ -55,104 +75,29 @@ class SliderResonatorPy(Fmi2Slave):  # type: ignore[misc]
                 sys.path.remove(kwargs["resources"])
             if sys.platform == "linux":
                 _release_interpreter_at_exit(Path(kwargs["resources"]).parent)
-        self._component = Component()
+        self.component = Component()
 
     def outlive(self, error: Exception) -> None:
-        """Report a refusal and keep pythonfmu from freeing this instance over it."""
+        """Report a refusal to stderr and keep pythonfmu from freeing this instance over it."""
         if sys.stderr is not None:
             print(f"{type(self).__name__} '{self.instance_name}': {error}", file=sys.stderr)
         for owned in (type(self), self, self.log_queue):
             ctypes.pythonapi.Py_IncRef(ctypes.py_object(owned))
 
-    @_refusing
-    def setup_experiment(
-        self, start_time: float, stop_time: float | None, tolerance: float | None
-    ) -> None:
-        """fmi2SetupExperiment."""
-        self._component.setup_experiment(start_time, stop_time, tolerance)
-
-    @_refusing
-    def enter_initialization_mode(self) -> None:
-        """fmi2EnterInitializationMode."""
-        self._component.enter_initialization()
-
-    @_refusing
-    def exit_initialization_mode(self) -> None:
-        """fmi2ExitInitializationMode."""
-        self._component.exit_initialization()
-
-    @_refusing
-    def terminate(self) -> None:
-        """fmi2Terminate."""
-        self._component.terminate()
-
-    @_refusing
-    def do_step(self, current_time: float, step_size: float) -> bool:
-        """fmi2DoStep: the whole step or a refusal."""
-        self._component.step(current_time, step_size)
-        return True
-
-    @_refusing
-    def get_real(self, vrs: list[int]) -> list[float]:
-        """fmi2GetReal."""
-        return self._get("Real", vrs)
-
-    @_refusing
-    def get_integer(self, vrs: list[int]) -> list[int]:
-        """fmi2GetInteger."""
-        return list(map(int, self._get("Integer", vrs)))
-
-    @_refusing
-    def get_boolean(self, vrs: list[int]) -> list[bool]:
-        """fmi2GetBoolean: there are no such variables."""
-        return list(map(bool, self._get("Boolean", vrs)))
-
-    @_refusing
-    def get_string(self, vrs: list[int]) -> list[str]:
-        """fmi2GetString: there are no such variables."""
-        return list(map(str, self._get("String", vrs)))
-
-    @_refusing
-    def set_real(self, vrs: list[int], values: list[float]) -> None:
-        """fmi2SetReal: all values or, if one is refused, none."""
-        self._set("Real", vrs, values)
-
-    @_refusing
-    def set_integer(self, vrs: list[int], values: list[int]) -> None:
-        """fmi2SetInteger: all values or, if one is refused, none."""
-        self._set("Integer", vrs, values)
-
-    @_refusing
-    def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
-        """fmi2SetBoolean: there are no such variables."""
-        self._set("Boolean", vrs, values)
-
-    @_refusing
-    def set_string(self, vrs: list[int], values: list[str]) -> None:
-        """fmi2SetString: there are no such variables."""
-        self._set("String", vrs, values)
-
-    def _get(self, kind: str, references: list[int]) -> list[float]:
-        return self._component.get(*_names(kind, references))
-
-    def _set(self, kind: str, references: list[int], values: Iterable[object]) -> None:
-        self._component.set(dict(zip(_names(kind, references), values, strict=True)))
-
-    @_refusing
-    def _get_fmu_state(self) -> dict[str, Any]:
-        return self._component.snapshot()
-
-    @_refusing
-    def _set_fmu_state(self, state: dict[str, Any]) -> None:
-        self._component.restore(state)
-
-    @staticmethod
-    def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:
-        return to_bytes(state)
-
-    @staticmethod
-    def _fmu_state_from_bytes(state: bytes) -> dict[str, Any]:
-        return from_bytes(state)
+    setup_experiment = _call(Component.setup_experiment)
+    enter_initialization_mode = _call(Component.enter_initialization)
+    exit_initialization_mode = _call(Component.exit_initialization)
+    terminate = _call(Component.terminate)
+    do_step = _call(_step)
+    get_real, set_real = _get("Real", float), _set("Real")
+    get_integer, set_integer = _get("Integer", int), _set("Integer")
+    # There are no variables of these types: all references are refused.
+    get_boolean, set_boolean = _get("Boolean", bool), _set("Boolean")
+    get_string, set_string = _get("String", str), _set("String")
+    _get_fmu_state = _call(Component.snapshot)
+    _set_fmu_state = _call(Component.restore)
+    _fmu_state_to_bytes = staticmethod(to_bytes)
+    _fmu_state_from_bytes = staticmethod(from_bytes)
 
 
 def keep_alive(namespace: dict[str, Any]) -> None:

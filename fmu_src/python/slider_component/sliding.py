@@ -162,14 +162,11 @@ class Slide(Exponentials):
         work = self._constant * travelled
         if self._swinging:
             z = complex(0.0, self._frequency)
-            turn = exp(z * t)
-            growth = (turn - 1.0) / z
-            swung = self._k0 * growth + self._k1 * (t * turn - growth) / z
+            growth = (exp(z * t) - 1.0) / z
+            swung = self._k0 * growth + self._k1 * (t * exp(z * t) - growth) / z
             for rate, v, _ in self._terms:
-                v, grown = 0.5 * v, exp(rate * t)
-                swung += v * _integral(z + rate, turn * grown, t)
-                v, grown, rate = v.conjugate(), grown.conjugate(), rate.conjugate()
-                swung += v * _integral(z + rate, turn * grown, t)
+                swung += 0.5 * v * _integral(z + rate, t)
+                swung += 0.5 * v.conjugate() * _integral(z + rate.conjugate(), t)
             work += (self._swinging * swung).imag
         return work
 
@@ -179,18 +176,19 @@ class Slide(Exponentials):
         if direction == 0:
             return ()
         z, drive, _ = terms[0]
-        if abs(drive) > abs(k0):
+        amplitude = abs(drive)
+        if -amplitude < k0 < amplitude:
             # Where the drive alone would stop the slider: its cosine falls through -k0 in its first
             # half turn, and rises through it before.
-            stop = direction * acos(-k0 / abs(drive)) - argument(drive)
+            stop = direction * acos(-k0 / amplitude) - argument(drive)
             expected = stop % tau / z.imag
         return (watch_of(direction, k0, self._k1, terms, self._fastest, expected),)
 
 
-def _integral(z: complex, grown: complex, t: float) -> complex:
-    """Integral of exp(z t) from 0 to `t`, where it is `grown`."""
+def _integral(z: complex, t: float) -> complex:
+    """Integral of exp(z t) from 0 to `t`."""
     if abs(z) * t > SMALL:
-        return (grown - 1.0) / z
+        return (exp(z * t) - 1.0) / z
     half = 0.5 * t * z
     return t * exp(half) * sinh(half) / half if half else complex(t)
 

@@ -3,16 +3,17 @@
 import hashlib
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import fields
+from dataclasses import asdict, dataclass, field, fields
+from enum import StrEnum
 from math import inf, tau
 from sys import float_info
 from typing import Any
 
 from . import refusal_texts
 from .contact import BACKWARD, FORWARD, LIFTED
-from .events import MARK_TOLERANCE
 from .moment import Moment
-from .values import Refusal, is_finite_number
+from .resolved import MARK_TOLERANCE
+from .values import BY_NAME, SETTABLE, Refusal, checked, is_finite_number
 
 FORMAT = f"{__name__.rpartition('.')[0]} state"
 """The package inside an FMU is named after its content, so this names the build: a state of one
@@ -35,7 +36,71 @@ LIMITS: dict[str, tuple[float, float]] = {
 """Least and largest value of entries that are not any finite number."""
 
 
-def number(name: str, value: object, kind: object = float) -> Any:
+class Lifecycle(StrEnum):
+    """State of an instance, by FMI's names."""
+
+    INSTANTIATED = "instantiated"
+    INITIALIZATION = "initialization mode"
+    STEP_COMPLETE = "step complete"
+    TERMINATED = "terminated"
+
+
+@dataclass(slots=True)
+class State:
+    """The complete state of a component: times [s], the values that can be set, and the motion.
+
+    `stop_time` is infinite where it is open. There is no `moment` before initialization ends.
+    """
+
+    lifecycle: Lifecycle = Lifecycle.INSTANTIATED
+    time: float = 0.0
+    stop_time: float = inf
+    last_event_time: float = 0.0
+    values: dict[str, float] = field(
+        default_factory=lambda: {v.name: checked(v, v.start) for v in SETTABLE}
+    )
+    moment: Moment | None = None
+
+
+def to_plain(state: State) -> dict[str, Any]:
+    """Return a snapshot of the state, of plain numbers and names."""
+    return {"format": FORMAT, **asdict(state)}
+
+
+def from_plain(plain: object) -> State:
+    """Return the state of a snapshot. Raises Refusal for anything else."""
+    try:
+        return _state(plain)
+    except RecursionError:
+        raise Refusal("FMU state refused: its entries are nested too deeply") from None
+
+
+def _state(plain: object) -> State:
+    stored_format = plain.get("format") if isinstance(plain, Mapping) else type(plain).__name__
+    if stored_format != FORMAT:
+        formats = {"found": repr(stored_format), "own": FORMAT}
+        raise Refusal("FMU state refused: its format is {found}; must be {own!r}", **formats)
+    stored = _entries("the state", plain, ["format", *(f.name for f in fields(State))])
+    try:
+        lifecycle = Lifecycle(stored["lifecycle"])
+    except ValueError as error:
+        raise Refusal("FMU state refused: {error}", error=error) from error
+    time, stop, event = (
+        _number(name, stored[name]) for name in ("time", "stop_time", "last_event_time")
+    )
+    values = _entries("values", stored["values"], [v.name for v in SETTABLE])
+    values = {name: checked(BY_NAME[name], value) for name, value in values.items()}
+    moment = None
+    if stored["moment"] is not None:
+        names = [f.name for f in fields(Moment)]
+        numbers = _entries("moment", stored["moment"], names)
+        moment = Moment(*(_number(f.name, numbers[f.name], f.type) for f in fields(Moment)))
+    elif lifecycle in (Lifecycle.STEP_COMPLETE, Lifecycle.TERMINATED):
+        raise Refusal(refusal_texts.STATE_WITHOUT_MOTION)
+    return State(lifecycle, time, stop, event, values, moment)
+
+
+def _number(name: str, value: object, kind: object = float) -> Any:
     """Return a number of a stored state, of type `kind`. Raises Refusal for anything else."""
     low, high = LIMITS.get(name, (-float_info.max, float_info.max))
     if isinstance(value, (int, float)) and low <= value <= high:
@@ -55,13 +120,7 @@ def number(name: str, value: object, kind: object = float) -> Any:
     )
 
 
-def moment_from_plain(plain: object) -> Moment:
-    """The moment of which `asdict` made `plain`. Raises Refusal for odd or unknown entries."""
-    stored = entries("moment", plain, [field.name for field in fields(Moment)])
-    return Moment(*[number(f.name, stored[f.name], f.type) for f in fields(Moment)])
-
-
-def entries(name: str, plain: object, names: Iterable[str]) -> Mapping[str, Any]:
+def _entries(name: str, plain: object, names: Iterable[str]) -> Mapping[str, Any]:
     """Return a part of a stored state. Raises Refusal if its entries are not just `names`."""
     if not isinstance(plain, Mapping):
         text = "FMU state refused: {name} = {value}; must be an object with entries"

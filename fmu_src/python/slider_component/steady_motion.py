@@ -4,13 +4,12 @@ Steady motion is one under the given load, blocked motion one without travel und
 looked for. Newton's method finds both, from first-order averages on.
 """
 
-from dataclasses import dataclass
 from math import inf
 
 from .budget import Budget
 from .device import steady_swing
 from .moment import Moment
-from .period_map import NoMapError, PeriodMap, fast_of
+from .period_map import NoMapError, PeriodMap
 
 Vector = list[float]
 Matrix = list[Vector]
@@ -34,90 +33,82 @@ DECAYED = 0.5
 of its derivatives could make it."""
 
 
-@dataclass(frozen=True, slots=True)
 class PeriodicMotion:
     """A periodic motion that is looked for, at normal phase `psi` [rad] at the section.
 
-    Unknowns are the slow velocity, the fast states and, for motion that is `blocked`, the load.
-    All maps of the search draw from one `budget`.
+    Unknowns are the slow velocity, the load and the fast states, all over their scales. Periodic
+    motion is free under a given load, or else `blocked`: without travel. All maps of the search
+    draw from one budget.
     """
 
-    map: PeriodMap
-    psi: float
-    blocked: bool
-    budget: Budget
+    def __init__(self, period_map: PeriodMap, psi: float, load: float, blocked: bool) -> None:
+        self._map, self._psi, self._blocked = period_map, psi, blocked
+        self._budget = Budget(period_map.period)
+        # The force that stops v_q in a period [N].
+        force = period_map.motion.system.total_mass * period_map.speed / period_map.period
+        speed, _, *fast = period_map.scale
+        self._scale, self._load = [speed, force, *fast], load / force
 
-    @property
-    def force(self) -> float:
-        """The scale of loads: the force that stops v_q in a period [N]."""
-        return self.map.system.total_mass * self.map.speed / self.map.period
-
-    def found(self, velocity: float, load: float) -> float:
+    def found(self, velocity: float) -> float:
         """The mean velocity [m/s] of the steady motion, or the load [N] that blocks it.
 
-        From a velocity and a load on. Raises NoMapError where none is found or it is not stable.
+        From a velocity on. Raises NoMapError where none is found or it is not stable.
         """
-        period_map = self.map
-        fast_count = 3 if period_map.system.device.friction_law == 1 else 2
+        period_map, device = self._map, self._map.motion.system.device
         swing = steady_swing(
-            period_map.vibration.resonator, period_map.section, period_map.system.drive_frequency
+            period_map.vibration.resonator, period_map.section, device.drive_frequency
         )
-        mu = period_map.system.device.friction_coefficient
-        fast = [x / s for x, s in zip((*swing, mu), period_map.scale, strict=True)]
-        unknowns = [velocity / period_map.speed, *fast[:fast_count]]
-        unknowns += [load / self.force] if self.blocked else []
-        change, travel = self._change(unknowns)
-        jacobian = self._jacobian(unknowns, change)
+        bristle = device.friction_coefficient if device.friction_law == 1 else 0.0
+        fast = [x / s for x, s in zip((*swing, bristle), self._scale[2:], strict=True)]
+        unknowns = [velocity / period_map.speed, self._load, *fast]
+        excess, travel = self._excess(unknowns)
+        jacobian = self._jacobian(unknowns, excess)
         for _ in range(MAX_ITERATIONS):
-            step = solved(jacobian, [-c for c in change])
+            step = solved(jacobian, [-e for e in excess])
             largest = max(map(abs, step))
             share = min(1.0, MAX_CHANGE / largest) if largest > 0.0 else 1.0
             step = [share * s for s in step]
             unknowns = [u + s for u, s in zip(unknowns, step, strict=True)]
-            expected = [(1.0 - share) * c for c in change]
-            change, travel = self._change(unknowns)
+            expected = [(1.0 - share) * e for e in excess]
+            excess, travel = self._excess(unknowns)
             if largest <= CONVERGED:
-                if self.blocked:
-                    return unknowns[-1] * self.force
-                if not _is_stable(self._jacobian(unknowns, change)):
+                if self._blocked:
+                    return unknowns[1] * self._scale[1]
+                if not _is_stable(self._jacobian(unknowns, excess)):
                     break
                 return travel / period_map.period
             # Broyden's update: what the Jacobian did not expect.
             square = sum(s * s for s in step)
-            for row, c, e in zip(jacobian, change, expected, strict=True):
+            for row, e, x in zip(jacobian, excess, expected, strict=True):
                 for j, s in enumerate(step):
-                    row[j] += (c - e) * s / square
+                    row[j] += (e - x) * s / square
         raise NoMapError
 
-    def _change(self, unknowns: Vector) -> tuple[Vector, float]:
-        """What a period changes, over the scales, and the travel in it [m].
+    def _excess(self, unknowns: Vector) -> tuple[Vector, float]:
+        """What periodic motion has none of, over the scales, and the travel in a period [m].
 
-        Of velocity, fast states and, for blocked motion, the position.
+        That is what a period changes, of the position only in blocked motion; otherwise it is what
+        the load is beyond the given one.
         """
-        period_map, scale, states = self.map, self.map.scale, unknowns[1:]
-        if self.blocked:
-            *states, load = states
-            period_map = period_map.under_load(load * self.force)
-        fast = [x * s for x, s in zip(states, scale, strict=False)]
-        y, u, bristle = (*fast, 0.0)[:3]
-        begin = Moment(0.0, 0.0, 0.0, 0.0, psi=self.psi)
-        begin = period_map.place(begin, unknowns[0] * period_map.speed, (y, u, bristle))
-        (first, last), _ = period_map.sections(begin, 1, self.budget)
-        slow = period_map.slow_velocity(last) - period_map.slow_velocity(first)
-        parts = zip(fast_of(last), fast_of(first), scale, strict=True)
-        change = [slow / period_map.speed, *((b - a) / s for b, a, s in parts)][: 1 + len(fast)]
-        travel = last.position - first.position
-        if self.blocked:
-            change.append(travel / (period_map.speed * period_map.period))
-        return change, travel
+        velocity, load, *fast = (u * s for u, s in zip(unknowns, self._scale, strict=True))
+        period_map = self._map.under_load(load)
+        begin = period_map.place(Moment(0.0, 0.0, 0.0, 0.0, psi=self._psi), velocity, fast)
+        sections, _ = period_map.sections(begin, 1, self._budget)
+        first, last = map(period_map.numbers, sections)
+        excess = [(b - a) / s for a, b, s in zip(first, last, period_map.scale, strict=True)]
+        if not self._blocked:
+            excess[1] = self._load - unknowns[1]
+        if period_map.motion.system.device.friction_law == 0:
+            excess[-1] = -unknowns[-1]
+        return excess, last[1]
 
-    def _jacobian(self, unknowns: Vector, change: Vector) -> Matrix:
+    def _jacobian(self, unknowns: Vector, excess: Vector) -> Matrix:
         columns = []
         for j in range(len(unknowns)):
             beside = list(unknowns)
             beside[j] += BESIDE
-            changed, _ = self._change(beside)
-            columns.append([(b - c) / BESIDE for b, c in zip(changed, change, strict=True)])
+            changed, _ = self._excess(beside)
+            columns.append([(b - e) / BESIDE for b, e in zip(changed, excess, strict=True)])
         return [list(row) for row in zip(*columns, strict=True)]
 
 

@@ -1,6 +1,5 @@
-"""What a call must respect: the states of FMI, and the bounds of values."""
+"""The bounds of values, and what is raised for others."""
 
-from enum import StrEnum
 from math import isfinite
 from typing import TypeGuard
 
@@ -18,21 +17,6 @@ class Refusal(ValueError):
     def __init__(self, text: str, **arguments: object) -> None:
         """By a text with the names of its arguments in braces."""
         super().__init__(text.format(**arguments))
-
-
-class Lifecycle(StrEnum):
-    """State of an instance, by FMI's names."""
-
-    INSTANTIATED = "instantiated"
-    INITIALIZATION = "initialization mode"
-    STEP_COMPLETE = "step complete"
-    TERMINATED = "terminated"
-
-
-def require(call: str, state: Lifecycle, required: Lifecycle) -> None:
-    """Raise Refusal for a call in any state but `required`."""
-    if state != required:
-        raise Refusal(refusal_texts.WRONG_STATE, call=call, state=state, required=required)
 
 
 def checked(variable: Variable, value: object) -> float:

@@ -14,86 +14,78 @@ EXACT = 1e-12
 """Distance of a ratio from a fraction up to which it is due to rounding."""
 
 
-def turns_to_repeat(device: Device, ratio: float, tolerance: float) -> int | None:
-    """Number of turns q of the drive after which the load repeats, at a ratio n / q; None for none.
+def turns_to_repeat(ratio: float, max_turns: int, near: float = 0.0) -> int | None:
+    """Smallest number of turns q of the drive after which a load repeats; None above `max_turns`.
 
-    `tolerance` is the largest distance of q ratio from an integer, times q. Without flight the load
-    is a sine and q is 1: over several turns it would average out.
+    Then q ratio is an integer, but for rounding or a distance of at most `near` / q.
     """
-    for turns in range(1, MAX_TURNS_TO_REPEAT + 1 if device.lifts else 2):
-        if abs(turns * ratio - round(turns * ratio)) <= tolerance / turns:
+    for turns in range(1, max_turns + 1):
+        if abs(turns * ratio - round(turns * ratio)) <= max(near / turns, EXACT):
             return turns
     return None
+
+
+def max_turns(device: Device) -> int:
+    """Turns after which a load may repeat for its phase to count in averages.
+
+    Without flight it is a sine: over several turns it would average out.
+    """
+    return MAX_TURNS_TO_REPEAT if device.lifts else 1
 
 
 class VibratingLoad:
     """N(n tau + delta) with lift-off, in N, as a function of the drive angle within a turn.
 
-    Averages are taken over the turns after which it repeats, see `turns_to_repeat`; if it never
-    does, over all angles.
+    It has `waves` waves over a turn of the drive. Averages are taken over the turns after which it
+    repeats, see `turns_to_repeat`; if it never does, over all angles.
     """
 
     def __init__(self, device: Device, ratio: float, delta: float) -> None:
         self._preload, self._amplitude = device.normal_preload, device.normal_amplitude
-        self._ratio, self._delta = ratio, delta
-        self._dip = asin(self._preload / self._amplitude) if self.lifts else 0.5 * pi
+        turns = turns_to_repeat(ratio, max_turns(device))
+        # The phase of the load [rad] at the begin of each of its turns.
+        self._phases = [delta + ratio * tau * turn for turn in range(turns or 1)]
+        self.waves = ratio
+        self._dip = asin(self._preload / self._amplitude) if device.lifts else 0.5 * pi
         self._per_turn = self._in_turn(pi + 2.0 * self._dip)
-        self._constant: float | None = None
         if abs(ratio) <= EXACT:  # the integral below would lose its digits to 1 / n
-            self._constant = self._load(delta)
-        turns = turns_to_repeat(device, ratio, EXACT)
-        self._turns = turns or 1
-        if turns is None:
-            self._constant = self._per_turn / tau
+            self._flatten(self._load(delta))
+        elif turns is None:
+            self._flatten(self._per_turn / tau)
 
     def flattened(self) -> "VibratingLoad":
         """The same load with its mean alone, for ratios other than 0."""
         flat = copy(self)
-        flat._constant = self._per_turn / tau
+        flat._flatten(self._per_turn / tau)
         return flat
-
-    @property
-    def wave_number(self) -> float:
-        """Waves of the load over a turn of the drive; 0 for a constant load."""
-        return 0.0 if self._constant is not None else self._ratio
-
-    @property
-    def lifts(self) -> bool:
-        """Whether the contact lifts at times."""
-        return self._amplitude > self._preload
 
     def kinks(self, begin: float, end: float) -> list[float]:
         """Drive angles in (begin, end) [rad] at which the contact lifts or touches down."""
-        if self._constant is not None or self._dip == 0.5 * pi:
+        if self._dip == 0.5 * pi:
             return []
         found = []
-        for shift in self._shifts():
-            first, last = sorted((self._ratio * begin + shift, self._ratio * end + shift))
+        for phase in self._phases:
+            first, last = sorted((self.waves * begin + phase, self.waves * end + phase))
             for kink in (-self._dip, pi + self._dip):
                 turns = range(ceil((first - kink) / tau), floor((last - kink) / tau) + 1)
-                found += [(kink + tau * turn - shift) / self._ratio for turn in turns]
+                found += [(kink + tau * turn - phase) / self.waves for turn in turns]
         return [angle for angle in found if begin < angle < end]
 
     def at(self, angle: float) -> float:
         """Normal load [N] at drive angle `angle` [rad]."""
-        if self._constant is not None:
-            return self._constant
-        if self._turns == 1:
-            return self._load(self._ratio * angle + self._delta)
-        loads = (self._load(self._ratio * angle + shift) for shift in self._shifts())
-        return sum(loads) / self._turns
+        loads = [self._load(self.waves * angle + phase) for phase in self._phases]
+        return sum(loads) / len(loads)
 
     def integral(self, begin: float, end: float) -> float:
         """Integral over the drive angle from `begin` to `end` [N rad]."""
-        if self._constant is not None:
-            return self._constant * (end - begin)
-        n = self._ratio
-        parts = (self._up_to(n * end + s) - self._up_to(n * begin + s) for s in self._shifts())
-        return sum(parts) / (n * self._turns)
+        n = self.waves
+        parts = [self._up_to(n * end + p) - self._up_to(n * begin + p) for p in self._phases]
+        return sum(parts) / (n * len(parts))
 
-    def _shifts(self) -> list[float]:
-        """The phase of the load in each of its turns [rad]."""
-        return [self._delta + self._ratio * tau * turn for turn in range(self._turns)]
+    def _flatten(self, load: float) -> None:
+        """Become a constant load [N]: a wave without amplitude."""
+        self._preload, self._amplitude, self._dip, self._per_turn = load, 0.0, 0.5 * pi, tau * load
+        self.waves, self._phases = 1.0, [0.0]
 
     def _load(self, chi: float) -> float:
         load = self._preload + self._amplitude * sin(chi)

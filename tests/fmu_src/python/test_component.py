@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from fmu_src.python.slider_component import events, lugre
+from fmu_src.python.slider_component import lugre, resolved
 from fmu_src.python.slider_component.component import Component, motion_of
 from fmu_src.python.slider_component.device import Device
 from fmu_src.python.slider_component.first_zero import Watch, first_zero
@@ -169,7 +169,7 @@ def test_searches_for_a_zero_are_few(monkeypatch: pytest.MonkeyPatch) -> None:
         searches.append(1)
         return first_zero(watch, limit)
 
-    monkeypatch.setattr(events, "first_zero", counted)
+    monkeypatch.setattr(resolved, "first_zero", counted)
     after(100, TABLE_1)
     assert len(searches) <= 3 * 100
     searches.clear()

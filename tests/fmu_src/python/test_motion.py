@@ -120,7 +120,8 @@ def test_on_a_boundary_the_direction_decides(share: float, past: float) -> None:
 def test_twice_the_nodes_change_no_mean(
     monkeypatch: pytest.MonkeyPatch, stiffness: float, n: float
 ) -> None:
-    friction = MeanFriction(0.1, stiffness, 0.01, 0.2366, 3500.0)
+    device = Device(friction_law=1, bristle_stiffness=stiffness, bristle_damping=0.01)
+    friction = MeanFriction(device, 0.2366)
     load = VibratingLoad(Device(normal_amplitude=1.5), n, 0.7)
     turnings = (1e-3, 0.3, 1.1, 2.0, 3.1)
     means = [friction.mean(load, turning) for turning in turnings]
@@ -130,7 +131,7 @@ def test_twice_the_nodes_change_no_mean(
 
 
 def test_beyond_a_thousand_waves_only_the_mean_counts() -> None:
-    friction = MeanFriction(0.1, 1e4, 10.0, 0.2366, 3500.0)
+    friction = MeanFriction(Device(friction_law=1, bristle_stiffness=1e4), 0.2366)
     waves = [VibratingLoad(Device(), float(MAX_WAVES + more), 0.4) for more in (0, 1)]
     counted, beyond = (friction.mean(load, 1.1) for load in waves)
     assert beyond == pytest.approx(friction.mean(waves[0].flattened(), 1.1), abs=1e-13)

@@ -1,0 +1,257 @@
+"""Averaged motion of first order: the slow motion of the pair under mean friction.
+
+With D the amplitude of the drive force on the pair, its momentum over the total mass is
+P = X' + r_m Y' = V - D cos(theta) / (w (M + m)), and its centre is X + r_m Y. Both are continuous,
+also where a parameter is tuned. V is the slow velocity: (M + m) V' = -mean friction - load. The
+fast parts of all outputs are the steady vibration (32)-(33), added in closed form.
+
+The normal load counts with its phase near integer frequency ratios n, where that phase drifts by
+(ratio - n) w (Appendix A for n = 1), and with its mean elsewhere. A load that lifts the contact has
+harmonics, and counts with its phase near fractions too.
+
+The bristle follows the motion periodically; it has no state here.
+"""
+
+from math import ceil, copysign, cos, hypot, inf, isfinite, pi, sin, tau
+
+from .budget import too_much_work
+from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
+from .contact import LIFTED, direction_of
+from .device import System, full_friction, steady_swing, vibration
+from .dormand_prince import Rates, dormand_prince, linear_step, step_growth
+from .mean_friction import MAX_WAVES, MeanFriction
+from .moment import Moment
+from .values import Refusal
+from .vibrating_load import VibratingLoad, max_turns, turns_to_repeat
+
+NEAR = 0.1
+"""Largest distance of the frequency ratio from an integer at which the phase counts as slow. Under
+a lifting contact: largest distance of q times the ratio, times q, for q up to a few turns."""
+
+WAVES = 10.0
+"""Number of waves of the normal load over a turn that doubles the cost of a quadrature."""
+
+FEW_WAVES = 8.0
+"""Waves up to which a quadrature costs as much as without."""
+
+MIN_STEPS = 16
+"""Lower limit of the number of steps that is accepted."""
+
+MIN_SHARE = 1e-9
+"""Part of a beat up to which a kink ahead counts as the one just passed."""
+
+TOLERANCE = 2e-10
+"""Error per step of the slow motion, relative to the fast velocity."""
+
+FIRST_STEP = 0.1
+"""Step tried first, as a share of the time in which friction changes the fast velocity."""
+
+BEAT_SHARE = 0.125
+"""Part of a beat that a step may have: its stages then see all phases of the normal load."""
+
+PIECES = 256
+"""Pieces of a beat, with constant friction in each, in motion without vibration."""
+
+LINEAR = 4e-6
+"""Change of the velocity up to which its rate may be linear, over the fast velocity."""
+
+SETTLED = 0.01
+"""Share of the tolerance for the error of the last step: no other one corrects it."""
+
+FIRST_ORDER = 2.0
+"""Error in friction shares and v_q: of the average, and of what the average leaves out, the
+resonator's first swing and the first bend of bristles."""
+
+
+class Averaged:
+    """Motion averaged to first order (methods as of `Resolved`).
+
+    The normal load has `waves` waves in a turn of the drive. Their phase drifts by `drift` [rad/s]
+    and repeats after `beat` [s], which is infinite if it does not drift. One communication step may
+    take `max_steps` steps.
+    """
+
+    def __init__(self, system: System) -> None:
+        """Raises Refusal where undamped resonance leaves no steady vibration."""
+        device, ratio = system.device, system.inputs.frequency_ratio
+        self.system, self.fast = system, vibration(device)
+        self.law = MeanFriction(device, self.fast.velocity)
+        turns = turns_to_repeat(ratio, max_turns(device), NEAR)
+        self.waves = round(turns * ratio) / turns if turns else ratio
+        self.drift = (ratio - self.waves) * device.drive_frequency
+        self.beat = tau / (turns * abs(self.drift)) if turns and self.drift else inf
+        self.max_steps = MAX_SLOW_STEPS // PYTHON_SLOWDOWN
+        many = device.lifts or abs(self.waves) > FEW_WAVES
+        if self.law.is_expensive and many and turns and self.waves:
+            steps = MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN
+            waves = min(abs(self.waves), MAX_WAVES)
+            self.max_steps = max(MIN_STEPS, int(steps / (1.0 + waves / WAVES)))
+
+    def start(self) -> Moment:
+        """Initial velocities determine the momentum of the pair, not the vibration."""
+        device = self.system.device
+        now = Moment(
+            device.initial_velocity,
+            device.initial_resonator_displacement,
+            device.initial_resonator_velocity,
+            device.initial_position,
+        )
+        now.mode, now.complete = self.mode(now), True
+        now.mean_velocity = self._slow_velocity(now)
+        return now
+
+    def advance(self, moment: Moment, duration: float) -> Moment:
+        """The moment `duration` > 0 [s] later. Raises Refusal for too many steps."""
+        system, fast, now = self.system, self.fast, moment.copied()
+        w, share = system.drive_frequency, system.device.mass_fraction
+        reach = fast.pair_velocity / w
+        slow = self._slow_velocity(now)
+        centre = now.position + share * now.displacement + reach * sin(now.theta)
+        passed = self._integrated if fast.velocity > 0.0 else self._unshaken
+        slow, moved = passed(self._load_phase(now), slow, duration)
+        now.theta = (now.theta + w * duration) % tau
+        now.psi = (now.psi + system.normal_frequency * duration) % tau
+        now.displacement, now.rate = steady_swing(fast.resonator, now.theta, w)
+        now.velocity = slow - fast.pair_velocity * cos(now.theta) - share * now.rate
+        now.position = centre + moved - reach * sin(now.theta) - share * now.displacement
+        now.mean_velocity, now.mode = slow, self.mode(now)
+        return now
+
+    def mode(self, now: Moment) -> int:
+        """Contact mode, by the sign of the velocity with its fast part."""
+        return LIFTED if self.system.is_lifted(now.psi) else direction_of(now.velocity)
+
+    def friction_force(self, now: Moment, mode: int) -> float:
+        """Mean friction force [N] over a drive period, positive against +X."""
+        velocity, phase = now.mean_velocity, self._load_phase(now)
+        if self.fast.velocity == 0.0 and velocity == 0.0:
+            full = self._mean_friction(phase, inf)
+            return max(-full, min(full, -self.system.load))
+        return self._mean_friction(phase, velocity)
+
+    def friction_power(self, now: Moment, mode: int) -> float:
+        """Mean power of friction [W] over a drive period, of slow motion and vibration."""
+        if self.fast.velocity == 0.0:
+            return self.friction_force(now, mode) * now.mean_velocity
+        load = VibratingLoad(self.system.device, self.waves, self._load_phase(now))
+        return self.system.device.friction_faces * self.law.power(load, now.mean_velocity)
+
+    def resonator(self, now: Moment) -> tuple[float, float]:
+        """Displacement [m] and velocity [m/s] of the steady vibration."""
+        return steady_swing(self.fast.resonator, now.theta, self.system.drive_frequency)
+
+    def slow_motion_error(self, now: Moment) -> float:
+        """The estimate of the error of the slow velocity [m/s].
+
+        Averages expand by the share of friction in the inertia of the vibration, faces mu N0 /
+        (Mt w v_q). What bristles damp while they bend counts, too: by the impulse of 2 mu s1/s0 per
+        normal load after each reversal, but no more than s1 v_q. What averages leave out lasts as
+        long as the slowest transient of resonator and bristle.
+        """
+        device, w, fast = self.system.device, self.system.drive_frequency, self.fast.velocity
+        friction, decay = full_friction(device), inf
+        if not (fast > 0.0 and friction > 0.0):
+            return 0.0
+        if device.resonator_mass > 0.0:
+            decay = -self.system.slip.eigenvalues[0].real * tau / w
+        if device.friction_law == 1:
+            stiffness, mu = device.bristle_stiffness, device.friction_coefficient
+            damped = device.bristle_damping * fast / mu
+            if stiffness > 0.0:
+                damped = min(damped, 2.0 / pi * device.bristle_damping / stiffness * w)
+            friction *= hypot(1.0, damped)
+            decay = min(decay, stiffness * 4.0 * fast / w / mu)
+        share = friction / (device.total_mass * w * fast)
+        swing = 1.0 + (1.0 / decay if decay > 0.0 else inf)
+        return min(FIRST_ORDER * share * swing, 1.0) * fast
+
+    def _slow_velocity(self, now: Moment) -> float:
+        momentum = now.velocity + self.system.device.mass_fraction * now.rate
+        return momentum + self.fast.pair_velocity * cos(now.theta)
+
+    def _load_phase(self, now: Moment) -> float:
+        """Phase [rad] of the waves of the load in the angle of the fast velocity."""
+        return self.system.phase + now.psi - self.waves * (now.theta - self.fast.lag)
+
+    def _mean_friction(self, phase: float, velocity: float) -> float:
+        """Mean friction [N] of all faces at a phase of the load [rad] and a slow velocity [m/s]."""
+        device = self.system.device
+        load = VibratingLoad(device, self.waves, phase)
+        return device.friction_faces * self.law.mean(load, self.law.turning(velocity))
+
+    def _too_many_steps(self, duration: float, reached: float) -> Refusal:
+        return too_much_work(duration, reached, self.max_steps, "steps of averaged motion")
+
+    def _integrated(self, phase: float, velocity: float, duration: float) -> tuple[float, float]:
+        """Slow velocity [m/s] and displacement [m] after `duration` [s], by Dormand and Prince.
+
+        A velocity that settles takes few steps, however long the duration is.
+        """
+        system, fast, drift = self.system, self.fast.velocity, self.drift
+        longest, max_change, tolerance = BEAT_SHARE * self.beat, LINEAR * fast, TOLERANCE * fast
+        strongest = system.friction_preload + system.friction_amplitude + abs(system.load)
+        step = FIRST_STEP * fast * system.total_mass / strongest if strongest > 0.0 else duration
+
+        def rates(t: float, v: float) -> Rates:
+            friction = self._mean_friction(phase + drift * t, v)
+            return -(friction + system.load) / system.total_mass, v
+
+        # No step is longer than a share of a beat: too many of them are refused before the first.
+        if duration > self.max_steps * longest:
+            raise self._too_many_steps(duration, self.max_steps * longest)
+        t, moved, tried, first, gain = 0.0, 0.0, 0, rates(0.0, velocity), 0.0
+        while t < duration and isfinite(velocity):
+            if tried == self.max_steps:
+                raise self._too_many_steps(duration, t)
+            h, to = duration - t, None
+            if drift == 0.0 and tried > 0:
+                to = linear_step(rates, t, velocity, h, first, gain, max_change)
+            if to is None or to.error > SETTLED * tolerance:
+                h = min(h, step, longest)
+                if not self.waves:
+                    # The load itself is slow, with kinks where the contact lifts or touches down.
+                    window, chi = system.window, phase + drift * t
+                    ahead = window.time_to_switch(chi, drift, window.is_lifted(chi, drift))
+                    h = min(h, max(ahead, MIN_SHARE * self.beat))
+                to = dormand_prince(rates, t, velocity, h, first)
+            tried += 1
+            if not to.error > tolerance:
+                velocity, moved, t = to.velocity, moved + to.travel, t + h
+                first, gain = to.rates, to.gain
+            step = h * step_growth(to.error, tolerance)
+        return velocity, moved
+
+    def _unshaken(self, phase: float, velocity: float, duration: float) -> tuple[float, float]:
+        """The same without vibration, where friction is constant in pieces of a beat."""
+        system, longest = self.system, duration
+        if not self.waves:
+            longest = min(duration, self.beat / PIECES)
+        pieces = ceil(duration / longest)
+        if pieces > self.max_steps:
+            raise self._too_many_steps(duration, self.max_steps * longest)
+        moved, piece = 0.0, duration / pieces
+        for k in range(pieces):
+            friction = self._mean_friction(phase + self.drift * (k + 0.5) * piece, inf)
+            velocity, passed = _block(velocity, friction, system.load, system.total_mass, piece)
+            moved += passed
+        return velocity, moved
+
+
+def _block(
+    velocity: float, friction: float, load: float, mass: float, duration: float
+) -> tuple[float, float]:
+    """Velocity [m/s] and displacement [m] of a block without vibration, under constant forces."""
+    moved = 0.0
+    if velocity != 0.0:
+        deceleration = (copysign(friction, velocity) + load) / mass
+        stop = velocity / deceleration if deceleration * velocity > 0.0 else inf
+        time = min(stop, duration)
+        moved = velocity * time - 0.5 * deceleration * time * time
+        if stop >= duration:
+            return velocity - deceleration * duration, moved
+        duration -= stop
+    spare = abs(load) - friction
+    if spare <= 0.0:
+        return 0.0, moved
+    acceleration = -copysign(spare, load) / mass
+    return acceleration * duration, moved + 0.5 * acceleration * duration * duration
