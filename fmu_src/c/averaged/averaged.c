@@ -32,8 +32,9 @@ typedef struct {
     double turning, excess;
 } Point;
 
-static Balance balance_of(const Law *law, const FastVibration *fast, double normal_lead) {
+static Balance balance_of(const Law *law, double normal_lead) {
     const Device *device = &law->device;
+    const FastVibration *fast = &law->fast;
     Balance balance = {.law = law, .opposing = law->inputs.load};
     double ratio = law->inputs.frequency_ratio, faces = device->friction_faces;
     double delta = law->inputs.phase + normal_lead + ratio * fast->lag;
@@ -104,12 +105,10 @@ static bool breaks_loose(const Balance *balance, double friction) {
 }
 
 Averaged averaged(const Law *law, double normal_lead) {
-    FastVibration fast;
-    Refusal refusal;
-    if (!fast_vibration_prepare(&fast, &law->device, &refusal) || fast.velocity == 0.0) {
+    if (law->fast.velocity == 0.0) {
         return (Averaged){0.0, 0.0, false};
     }
-    Balance balance = balance_of(law, &fast, normal_lead);
+    Balance balance = balance_of(law, normal_lead);
     double first = friction_at(&balance, 0.0), last = friction_at(&balance, PI);
     double load = law->inputs.load;
     if (first == last) {

@@ -94,7 +94,7 @@ static void block_pass(SlowPoint *now, double friction, double load, double rate
 /* Motion without vibration, with constant friction in each piece of time. */
 static bool pass_unshaken(const SlowFriction *friction, double duration, Budget *budget,
                           SlowPoint *now, Refusal *refusal) {
-    const Plant *plant = &friction->law->held.plant;
+    const Plant *plant = &friction->law->plant;
     double longest = friction->stands ? fmin(duration, friction->beat / PIECES) : duration;
     double pieces = ceil(duration / longest), piece = duration / pieces;
     int allowed = budget_left(budget, MAX_SLOW_STEPS);
@@ -112,7 +112,7 @@ static bool pass_unshaken(const SlowFriction *friction, double duration, Budget 
 
 static bool rate_at(void *motion, double t, double velocity, SlowRate *rate) {
     const SlowFriction *friction = motion;
-    const Plant *plant = &friction->law->held.plant;
+    const Plant *plant = &friction->law->plant;
     double load = plant->load + plant->load_rate * t;
     double force = slow_friction_at(friction, t, velocity) + load;
     *rate = (SlowRate){-force / plant->total_mass, velocity};
@@ -123,7 +123,7 @@ static bool rate_at(void *motion, double t, double velocity, SlowRate *rate) {
 static int max_steps(const SlowFriction *friction) {
     bool costs_quadratures = is_elastic(&friction->bristle) && friction->table == NULL;
     if (!costs_quadratures) {
-        bool grows = friction->law->held.plant.load_rate != 0.0;
+        bool grows = friction->law->plant.load_rate != 0.0;
         return grows ? MAX_SLOW_STEPS / GROWING : MAX_SLOW_STEPS;
     }
     double waves = fmin(fabs(friction->law->inputs.frequency_ratio), MAX_WAVES);
@@ -133,7 +133,7 @@ static int max_steps(const SlowFriction *friction) {
 /* The step [s] to try first; without force all the `duration`. */
 static double first_step(const SlowFriction *friction, double duration) {
     const Law *law = friction->law;
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     double last_load = plant->load + plant->load_rate * duration;
     double strongest = plant->friction_preload + plant->friction_amplitude +
                        fmax(fabs(plant->load), fabs(last_load));
@@ -145,7 +145,7 @@ static double first_step(const SlowFriction *friction, double duration) {
  * on the velocity; by the acceleration of now and its growth, beyond the edge exactly. Steps that end there leave no visit
  * across an edge between their stages. Infinite under a constant load, where the steps find an edge by their error. */
 static double time_to_edge(const SlowFriction *friction, const SlowPoint *now) {
-    const Plant *plant = &friction->law->held.plant;
+    const Plant *plant = &friction->law->plant;
     int side = now->velocity > 0.0 ? 1 : -1;
     double beyond = side * now->velocity - friction->fast.velocity, jerk = -plant->load_rate / plant->total_mass;
     double sway = slow_friction_sway(friction) / plant->total_mass;
@@ -165,7 +165,7 @@ bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoi
         return pass_unshaken(friction, end, budget, now, refusal);
     }
     SlowFriction own = *friction;
-    bool varies = own.fastest != 0.0 || own.chirp != 0.0 || own.law->held.plant.load_rate != 0.0;
+    bool varies = own.fastest != 0.0 || own.chirp != 0.0 || own.law->plant.load_rate != 0.0;
     double first = first_step(&own, end), longest = BEAT_SHARE * own.beat, h = first;
     int tried = 0, max_count = max_steps(&own), allowed = budget_left(budget, max_count);
     /* No step is longer than a share of a beat: too many of them are refused before the first. */

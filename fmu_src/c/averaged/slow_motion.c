@@ -15,16 +15,9 @@
  * out, the resonator's first swing and the first bend of bristles. */
 #define FIRST_ORDER 2.0
 
-/* Slow velocity V [m/s] of a state at drive phase `theta` [rad]. */
-static double slow_velocity(const Law *law, const State *state, double theta) {
-    double momentum = state->velocity + device_mass_fraction(&law->device) * state->rate;
-    return momentum + law->fast.pair_velocity * cos(theta);
-}
-
 /* Contact mode: lifted, or the direction of sliding with the fast vibration; STICK only at rest. */
 static int mode(const Law *law, const Moment *moment) {
-    const Held *held = &law->held;
-    return mode_by_velocity(&held->window, &held->plant, moment->state.velocity, moment->psi);
+    return mode_by_velocity(&law->plant, moment->state.velocity, moment->psi);
 }
 
 /* The initial values determine the momentum of the pair, not its vibration: the first step takes care of that. */
@@ -46,7 +39,7 @@ static bool averaged_advance(const Law *law, const Moment *moment, double durati
                              EventSearch *search, Budget *budget, Moment *after,
                              Refusal *refusal) {
     (void)search;
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     double w = plant->drive_frequency, drive = law->fast.pair_velocity;
     double share = device_mass_fraction(&law->device);
     double theta = moment->theta, psi = moment->psi;
@@ -97,8 +90,8 @@ static double power(const Law *law, const Moment *moment) {
 
 /* The slow acceleration and the steady vibration. */
 static Rates rates(const Law *law, const Moment *moment) {
-    double w = law->held.plant.drive_frequency, share = device_mass_fraction(&law->device);
-    double slow = -(force(law, moment, STICK) + law->inputs.load) / law->held.plant.total_mass;
+    double w = law->plant.drive_frequency, share = device_mass_fraction(&law->device);
+    double slow = -(force(law, moment, STICK) + law->inputs.load) / law->plant.total_mass;
     Response swing = steady_swing(law->fast.resonator, moment->theta, w);
     State state = {.displacement = swing.rate, .rate = -w * w * swing.displacement};
     state.velocity =
@@ -128,7 +121,7 @@ static double decay_in_turn(const Law *law) {
     if (device->resonator_mass == 0.0) {
         return bend_decay;
     }
-    return fmin(slower_decay(&law->held.plant.slip) * TAU / w, bend_decay);
+    return fmin(slower_decay(&law->plant.slip) * TAU / w, bend_decay);
 }
 
 /* In proportion to the share of friction in the inertia of the vibration. */
@@ -153,13 +146,8 @@ static double part(const Device *device, const Ramp *ramp, double left) {
     return fmin(left, ahead / fabs(ramp->ratio_rate));
 }
 
-static bool prepare(Law *law, Refusal *refusal) {
-    return fast_vibration_prepare(&law->fast, &law->device, refusal);
-}
-
 const Motion AVERAGED_MOTION = {
     .averages = true,
-    .prepare = prepare,
     .start = start,
     .advance = averaged_advance,
     .mode = mode,

@@ -23,11 +23,9 @@ bool all_finite(const double *numbers, size_t count) {
  * velocity [m^2/s^2], the drag over mu, and the integrals of load and friction [N]. The slider's mass must count beside the
  * resonator's. */
 static bool law_is_finite(const Law *law) {
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     const Device *device = &law->device;
-    FastVibration vibration;
-    Refusal unbounded;
-    double fast = fast_vibration_prepare(&vibration, device, &unbounded) ? vibration.velocity : 0.0;
+    double fast = law->fast.velocity;
     double mu = law->bristle.coefficient;
     double drag = law->bristle.damping * fmax(fast, fabs(device->initial_velocity));
     double drag_over_mu = drag / (mu > 0.0 ? mu : 1.0); /* without friction there is no drag */
@@ -120,7 +118,7 @@ bool prepare_law(const double values[SETTABLE_COUNT], Tables *tables, Law *law, 
                                      frequency->requirement);
     }
     const Motion *motion = motion_of(&device);
-    if (!law_prepare(law, &device, &inputs, refusal) || (motion->prepare != NULL && !motion->prepare(law, refusal))) {
+    if (!law_prepare(law, &device, &inputs, refusal)) {
         return false;
     }
     law->motion = motion;

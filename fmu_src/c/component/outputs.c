@@ -8,7 +8,7 @@
 
 /* Displacement [m] and velocity [m/s] of the resonator. */
 static Response resonator_swing(const Law *law, const Moment *moment) {
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     if (plant->resolves_resonator) {
         return (Response){moment->state.displacement, moment->state.rate};
     }
@@ -90,7 +90,7 @@ double output_value(unsigned reference, const Law *law, const Moment *moment,
 
 static double normal_force_rate(const Law *law, const Moment *moment, double phase_rate) {
     double chi = moment->psi + law->inputs.phase, amplitude = law->device.normal_amplitude;
-    double frequency = law->held.plant.normal_frequency + phase_rate;
+    double frequency = law->plant.normal_frequency + phase_rate;
     bool touches = law->device.normal_preload + amplitude * sin(chi) > 0.0;
     return touches ? amplitude * cos(chi) * frequency : 0.0;
 }

@@ -3,7 +3,7 @@
  * Events are a stop of the slider (then it sticks if friction can hold it, and reverses otherwise),
  * a release, and the lift-off and touchdown of the contact. There is no step size, no tolerance. */
 #include "../base/elementary.h"
-#include "law.h"
+#include "leg.h"
 
 /* Relative difference of the forces on a slider up to which they count as balanced. */
 #define BALANCED 1e-12
@@ -55,8 +55,8 @@ static bool just_released(const Plant *plant, const Moment *moment) {
 }
 
 static int mode(const Law *law, const Moment *moment) {
-    const Plant *plant = &law->held.plant;
-    if (is_lifted(&law->held.window, moment->psi + plant->phase, plant->normal_frequency)) {
+    const Plant *plant = &law->plant;
+    if (is_lifted(plant, moment->psi + plant->phase, plant->normal_frequency)) {
         return LIFTED;
     }
     return just_released(plant, moment) ? moment->mode : mode_in_contact(plant, moment);
@@ -67,9 +67,9 @@ static double force(const Law *law, const Moment *moment, int mode) {
         return 0.0;
     }
     if (mode == STICK) {
-        return needed_force(&law->held.plant, moment);
+        return needed_force(&law->plant, moment);
     }
-    return mode * friction_limit(&law->held.plant, moment->psi);
+    return mode * friction_limit(&law->plant, moment->psi);
 }
 
 /* A time [s] up to which a slider released in direction `sign` is guaranteed to move on; 0 if there is no
@@ -110,24 +110,23 @@ static double departure_time(const Plant *plant, int sign, const State *state, d
     return 3.0 * jerk >= force_bound * horizon ? horizon : 3.0 * jerk / force_bound;
 }
 
-static void follow(Leg *leg, const Law *law, Moment *now, double longest) {
-    const Held *held = &law->held;
+static void begin(Leg *leg, const Law *law, const Moment *now, double longest) {
+    (void)longest;
+    const Plant *plant = &law->plant;
     if (now->mode == STICK) {
-        leg_begin_rest(leg, held, now);
-        leg_follow(leg, held, now, longest);
+        leg_begin_rest(leg, plant, now);
         return;
     }
     int direction = now->mode == LIFTED ? 0 : now->mode;
-    leg_begin_slide(leg, held, now, direction);
+    leg_begin_slide(leg, law, now, direction);
     if (direction != 0 && leg->departs) {
-        leg->watched_from = departure_time(&held->plant, direction, &now->state, now->theta,
-                                           now->psi + held->plant.phase);
+        leg->watched_from =
+            departure_time(plant, direction, &now->state, now->theta, now->psi + plant->phase);
     }
-    leg_follow(leg, held, now, longest);
 }
 
 static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) {
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     int mode = leg->mode;
     if (leg_released(leg)) {
         mode = leg->zero_of == 0 ? FORWARD : BACKWARD;
@@ -145,6 +144,6 @@ const FrictionLaw COULOMB = {
     .prepare = prepare,
     .mode = mode,
     .force = force,
-    .follow = follow,
+    .begin = begin,
     .succeed = succeed,
 };

@@ -175,11 +175,11 @@ static bool is_stable(const Search *search) {
  * without friction. The scale of loads is the force that stops v_q in a period. */
 static Search search_of(const PeriodMap *map, double psi, bool blocked, double velocity,
                         double load) {
-    const Plant *plant = &map->law.held.plant;
+    const Plant *plant = &map->law.plant;
     int states = 1 + map->fast_count;
     Search search = {.map = *map, .psi = psi, .blocked = blocked, .count = states + blocked};
     search.budget = budget_of(map->period);
-    Response swing = steady_swing(map->vibration.resonator, map->section, plant->drive_frequency);
+    Response swing = steady_swing(map->law.fast.resonator, map->section, plant->drive_frequency);
     const double fast[MAX_FAST] = {swing.displacement, swing.rate, map->scale[2]};
     search.scale[0] = map->speed;
     search.unknown[0] = velocity / map->speed;

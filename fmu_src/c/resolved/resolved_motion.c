@@ -1,20 +1,15 @@
 /* Resolved motion, event by event: fidelity 1 and 2. */
-#include "resolved_motion.h"
-
 #include <stddef.h>
 
 #include "../base/constants.h"
 #include "../base/elementary.h"
-#include "../base/refusal_texts.h"
-#include "../device/device.h"
-#include "../friction/law.h"
-#include "events.h"
+#include "motion.h"
 
 /* Velocity [m/s] at the start. A resonator that is not resolved vibrates steadily at once; the velocity is
  * chosen so that the momentum of the pair is that of the initial values. */
 static double start_velocity(const Law *law) {
     const Device *device = &law->device;
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     if (plant->resolves_resonator) {
         return device->initial_velocity;
     }
@@ -34,19 +29,15 @@ Moment resolved_start(const Law *law) {
     return first;
 }
 
-/* Refuse a motion that spans too many turns of the fastest oscillation. */
-static bool bounded_work_check(const Law *law, double duration, const Budget *budget,
-                               Refusal *refusal) {
-    double frequency = LONGEST_ARC / law->held.arc;
-    return !(duration * frequency > TAU * MAX_TURNS) ||
-           refuse_too_many_turns(refusal, budget->step_size, frequency, MAX_TURNS);
-}
-
+/* Refuses a motion that spans too many turns of the fastest oscillation. */
 static bool resolved_advance(const Law *law, const Moment *moment, double duration,
                              EventSearch *search, Budget *budget, Moment *after,
                              Refusal *refusal) {
-    return bounded_work_check(law, duration, budget, refusal) &&
-           events_advance(law, moment, duration, search, NULL, budget, after, refusal);
+    double frequency = LONGEST_ARC / law->arc;
+    if (duration * frequency > TAU * MAX_TURNS) {
+        return refuse_too_many_turns(refusal, budget->step_size, frequency, MAX_TURNS);
+    }
+    return events_advance(law, moment, duration, search, NULL, budget, after, refusal);
 }
 
 int resolved_mode(const Law *law, const Moment *moment) {
@@ -64,7 +55,7 @@ double resolved_power(const Law *law, const Moment *moment) {
 
 /* The equations of motion (26)-(27). */
 Rates resolved_rates(const Law *law, const Moment *moment) {
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     double w = plant->drive_frequency, sine = sin(moment->theta), cosine = cos(moment->theta);
     State rates = {.displacement = moment->state.rate};
     int mode = law->friction->mode(law, moment);
