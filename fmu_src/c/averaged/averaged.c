@@ -22,7 +22,7 @@ enum { SORTING = 4 };
  * rounding error of their sum [N]. Several angles may balance where friction rises with the angle. */
 typedef struct {
     const Law *law;
-    double opposing, noise;
+    double noise;
     FastMotion fast;
     VibratingLoad load;
 } Balance;
@@ -35,7 +35,7 @@ typedef struct {
 static Balance balance_of(const Law *law, double normal_lead) {
     const Device *device = &law->device;
     const FastVibration *fast = &law->fast;
-    Balance balance = {.law = law, .opposing = law->inputs.load};
+    Balance balance = {.law = law};
     double ratio = law->inputs.frequency_ratio, faces = device->friction_faces;
     double delta = law->inputs.phase + normal_lead + ratio * fast->lag;
     balance.fast = (FastMotion){fast->velocity, device->drive_frequency};
@@ -52,11 +52,6 @@ static double friction_at(const Balance *balance, double turning) {
     const Law *law = balance->law;
     return law->device.friction_faces *
            mean_friction(&law->bristle, &balance->fast, &balance->load, turning);
-}
-
-static Point point_at(const Balance *balance, double turning) {
-    double sum = friction_at(balance, turning) + balance->opposing;
-    return (Point){turning, sum - balance->noise};
 }
 
 /* Share of the way from the newest point `a` to the opposite one `b`, by inverse quadratic interpolation through
@@ -79,7 +74,9 @@ static double balanced_turning(const Balance *balance, Point low, Point high) {
     double share = 0.5;
     for (int i = 0; high.turning - low.turning > CLOSE; i++) {
         double width = high.turning - low.turning, min_share = CLOSE / (2.0 * width);
-        Point next = point_at(balance, low.turning + share * width);
+        double turning = low.turning + share * width;
+        double sum = friction_at(balance, turning) + balance->law->inputs.load;
+        Point next = {turning, sum - balance->noise};
         bool above = next.excess > 0.0;
         Point before = above ? low : high;
         *(above ? &low : &high) = next;

@@ -27,6 +27,9 @@ static const char *const STEPS = "steps of averaged motion";
 #define LINEAR 4e-6
 #define SETTLED 1e-2
 
+/* Decay over a step below which a velocity is constant. */
+#define NO_DECAY 1e-6
+
 /* Number of waves of the normal load over a turn that doubles the cost of a quadrature, and number beyond
  * which the load counts with its mean. */
 #define WAVES 10.0
@@ -156,6 +159,24 @@ static double time_to_edge(const SlowFriction *friction, const SlowPoint *now) {
     return time_to_stop(fabs(beyond), away * now->rate.acceleration, away * jerk - sway);
 }
 
+/* One step of `h` [s] near a steady velocity, under rates that do not depend on time: the acceleration is linear in the
+ * velocity, with a derivative `gain`; a positive one, which is rounding, counts as 0. The error is what the acceleration at
+ * the end tells. Return false where the velocity would change by more than a share LINEAR of the fast one. */
+static bool linear_step(SlowFriction *friction, const SlowPoint *from, double gain, double h, SlowStep *step) {
+    double acceleration = from->rate.acceleration, z = h * fmin(0.0, gain), decayed = exp(z);
+    double mean = z < -NO_DECAY ? expm1(z) / z : 1.0, change = h * acceleration * mean;
+    if (!(fabs(change) <= LINEAR * friction->fast.velocity)) {
+        return false;
+    }
+    SlowPoint to = {.t = from->t + h, .velocity = from->velocity + change};
+    rate_at(friction, to.t, to.velocity, &to.rate);
+    double weight = z < -NO_DECAY ? (mean - decayed) / (1.0 - decayed) : 0.5;
+    to.travel = from->travel + h * (to.rate.travel + weight * (from->rate.travel - to.rate.travel));
+    double error = h * mean * fabs(to.rate.acceleration - decayed * acceleration);
+    *step = (SlowStep){to, error, z / h};
+    return true;
+}
+
 /* In this order: refuse a time of too many steps; then step by step: find how long the rates are smooth; pass all the rest
  * in one step where the velocity settles, or a step of the solver; take it over if its error is small enough. */
 bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoint *now,
@@ -181,8 +202,7 @@ bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoi
         double edge = fmax(time_to_edge(&own, now), MIN_APPROACH * first);
         double next = fmin(end, now->t + fmin(kink, edge)), left = next - now->t;
         SlowStep step;
-        bool settles = !varies && tried > 0 &&
-                       linear_step(rate_at, &own, now, gain, left, LINEAR * fast, &step) &&
+        bool settles = !varies && tried > 0 && linear_step(&own, now, gain, left, &step) &&
                        step.error <= SETTLED * tolerance;
         if (!settles) {
             h = fmin(fmin(h, longest), left);

@@ -22,11 +22,7 @@ static int mode(const Law *law, const Moment *moment) {
 
 /* The initial values determine the momentum of the pair, not its vibration: the first step takes care of that. */
 static Moment start(const Law *law) {
-    const Device *device = &law->device;
-    Moment first = {.position = device->initial_position, .event_age = INFINITY};
-    first.state.velocity = device->initial_velocity;
-    first.state.displacement = device->initial_resonator_displacement;
-    first.state.rate = device->initial_resonator_velocity;
+    Moment first = first_moment(&law->device);
     first.mode = mode(law, &first);
     first.means.complete = true;
     first.means.mean_velocity = slow_velocity(law, &first.state, first.theta);

@@ -43,9 +43,7 @@ static bool prepare_present(Component *component, Refusal *refusal) {
 }
 
 void component_reset(Component *component) {
-    memset(&component->now, 0, sizeof component->now);
-    component->now.lifecycle = INSTANTIATED;
-    component->now.stop_time = INFINITY;
+    component->now = (Snapshot){.lifecycle = INSTANTIATED, .stop_time = INFINITY};
     component->prepared = false;
     start_values(component->now.values);
 }
@@ -57,7 +55,7 @@ bool component_setup_experiment(Component *component, const Experiment *experime
         return false;
     }
     component->now.time = component->now.last_event_time = experiment->start_time;
-    component->now.stop_time = experiment_end(experiment);
+    component->now.stop_time = experiment->stop_time;
     return true;
 }
 
@@ -129,13 +127,8 @@ bool component_set(Component *component, const unsigned *references, const doubl
 
 bool component_set_derivatives(Component *component, const unsigned *references,
                                const double *values, size_t count, Refusal *refusal) {
-    InputDerivative changed[VARYING_COUNT];
-    memcpy(changed, component->now.derivatives, sizeof changed);
-    if (!change_derivatives(changed, component->now.lifecycle, references, values, count, refusal)) {
-        return false;
-    }
-    memcpy(component->now.derivatives, changed, sizeof changed);
-    return true;
+    return change_derivatives(component->now.derivatives, component->now.lifecycle, references, values,
+                              count, refusal);
 }
 
 /* The moment from which outputs are read. Until initialization ends it is the first one, which is written
@@ -217,8 +210,8 @@ static bool find_end(Component *component, double time, double step_size, double
         return false;
     }
     bool done = inputs_vary(now->derivatives)
-                    ? ramped_step(other_law(component), &component->tables, now, duration, &budget, after,
-                                  end->values, refusal)
+                    ? ramped_step(law, other_law(component), &component->tables, now, duration, &budget,
+                                  after, end->values, refusal)
                     : law->motion->advance(law, &now->moment, duration, search, &budget, after, refusal);
     if (!done) {
         return false;
@@ -290,7 +283,7 @@ bool component_step_to_event(Component *component, double time, double step_size
     Snapshot *now = &component->now;
     double owed = owed_time(now->time_carry, step_size), duration = step_size - owed;
     /* At an event the next one comes at a later time; elsewhere it may come at once. */
-    EventSearch search = event_search(now->moment.event_age == 0.0 ? time_resolution(time) : -1.0);
+    EventSearch search = {.after = now->moment.event_age == 0.0 ? time_resolution(time) : -1.0};
     StepEnd end;
     *event = false;
     if (!find_end(component, time, step_size, duration, &search, &end, refusal)) {

@@ -69,7 +69,8 @@ Inputs reduced_inputs(const double values[SETTABLE_COUNT]) {
     return inputs;
 }
 
-Device driven_device(const double values[SETTABLE_COUNT]) {
+/* The device of `values`, with the deviations of its drive. */
+static Device driven_device(const double values[SETTABLE_COUNT]) {
     Device device = device_of(values);
     device.base_amplitude *= 1.0 + values[VR_AMPLITUDE_DEVIATION];
     device.tangential_force *= 1.0 + values[VR_AMPLITUDE_DEVIATION];
@@ -77,7 +78,8 @@ Device driven_device(const double values[SETTABLE_COUNT]) {
     return device;
 }
 
-const Motion *motion_of(Device *device) {
+/* The motion of a device, by its fidelity and averaging order; `device` becomes the one that this motion moves. */
+static const Motion *motion_of(Device *device) {
     if (device->fidelity != 0) {
         return &RESOLVED_MOTION;
     }

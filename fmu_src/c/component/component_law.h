@@ -22,12 +22,6 @@ bool all_finite(const double *numbers, size_t count);
 /* The inputs among `values`, with the phase reduced to [-pi, pi]. */
 Inputs reduced_inputs(const double values[SETTABLE_COUNT]);
 
-/* The device of `values`, with the deviations of its drive. */
-Device driven_device(const double values[SETTABLE_COUNT]);
-
-/* The motion of a device, by its fidelity and averaging order; `device` becomes the one that this motion moves. */
-const Motion *motion_of(Device *device);
-
 /* Prepare the law of `values`, and the tables that it needs. Refuse values that do not fit together; `law` is then
  * undefined. */
 bool prepare_law(const double values[SETTABLE_COUNT], Tables *tables, Law *law, Refusal *refusal);

@@ -21,10 +21,6 @@ static double normal_force(const Law *law, const Moment *moment) {
     return force > 0.0 ? force : 0.0;
 }
 
-static double stick_fraction(const Law *law, const Moment *moment) {
-    return period_stick_fraction(&moment->means, law->motion->mode(law, moment) == STICK);
-}
-
 /* Parts of a radian to which leads of the normal load are rounded: inputs that return to earlier values find their
  * prediction in spite of rounding errors of phases. */
 #define LEAD_PARTS 1e12
@@ -71,7 +67,7 @@ double output_value(unsigned reference, const Law *law, const Moment *moment,
     case VR_REVERSALS:
         return moment->counts.reversals;
     case VR_STICK_FRACTION:
-        return stick_fraction(law, moment);
+        return period_stick_fraction(&moment->means, law->motion->mode(law, moment) == STICK);
     case VR_LAST_EVENT_TIME:
         return last_event_time;
     case VR_STEADY_VELOCITY:

@@ -15,11 +15,6 @@ static Passage passage_until(const Segment *segment, double t, double frequency)
     return passage;
 }
 
-double period_last_end(double theta, double frequency, double duration) {
-    double ended = floor((theta + frequency * duration + MARK_TOLERANCE) / TAU);
-    return (TAU * ended - theta) / frequency;
-}
-
 double period_advance(PeriodMeans *means, const Segment *segment, double theta, double frequency) {
     double duration = segment->duration, end = theta + frequency * duration;
     double ended = end + MARK_TOLERANCE < TAU ? 0.0 : floor((end + MARK_TOLERANCE) / TAU);

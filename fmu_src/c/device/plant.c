@@ -15,7 +15,9 @@ static Oscillator slip_oscillator(const Device *device) {
     return oscillator_of(device->damping_ratio * wn / free_share, wn * wn / free_share);
 }
 
-bool steady_vibration(const Device *device, Complex *resonator, Complex *force, Refusal *refusal) {
+/* Steady vibration as complex amplitudes of e: displacement of the `resonator` [m] (eqs 31-32), a direct drive included, and
+ * F_T* exp(-i theta_1) of eqs (33)-(34) with the direct drive added, `force` [N]. Refuses where it is unbounded. */
+static bool steady_vibration(const Device *device, Complex *resonator, Complex *force, Refusal *refusal) {
     double w = device->drive_frequency;
     Oscillator oscillator = slip_oscillator(device);
     if (device->damping_ratio == 0.0 && fabs(oscillator.stiffness - w * w) <= AT_RESONANCE * w * w) {

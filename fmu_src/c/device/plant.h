@@ -73,10 +73,6 @@ static inline double velocity_scale(const Plant *plant, const State *state) {
            fabs(state->velocity) + plant->mass_fraction * complex_abs(swing);
 }
 
-/* Steady vibration as complex amplitudes of e: displacement of the `resonator` [m] (eqs 31-32), a direct drive included, and
- * F_T* exp(-i theta_1) of eqs (33)-(34) with the direct drive added, `force` [N]. Refuses where it is unbounded. */
-bool steady_vibration(const Device *device, Complex *resonator, Complex *force, Refusal *refusal);
-
 /* Amplitude of the steady force of resonator and direct drive on a held slider [N]; infinite where
  * undamped resonance leaves no steady vibration. */
 double held_amplitude(const Device *device);

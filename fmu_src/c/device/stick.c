@@ -32,9 +32,7 @@ void stick_begin(Stick *stick, const Plant *plant, const State *state, double th
 static Response forced_at(const Stick *stick, double t, Complex drive_turn) {
     double w = stick->plant->drive_frequency;
     if (stick->resonates) {
-        ComplexResponse unit = response_from_rest(&stick->plant->stick, w, t, drive_turn);
-        return (Response){complex_mul(stick->forcing, unit.displacement).re,
-                          complex_mul(stick->forcing, unit.rate).re};
+        return response_from_rest(&stick->plant->stick, stick->forcing, w, t, drive_turn);
     }
     Complex steady = complex_mul(stick->steady, drive_turn);
     return (Response){steady.re, -w * steady.im};

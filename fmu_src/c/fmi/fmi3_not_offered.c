@@ -14,12 +14,6 @@
 #define DEPENDENCIES "the model description lists them"
 #define DISCRETE_STATES "there are none (providesEvaluateDiscreteStates is false)"
 
-static fmi3Status not_offered(fmi3Instance instance, const char *call, const char *reason) {
-    Refusal refusal;
-    refuse(&refusal, "%s refused: %s", call, reason);
-    return answer(instance, false, &refusal);
-}
-
 static fmi3Instance refuse_other_interface(const char *call, fmi3String name,
                                            fmi3InstanceEnvironment environment,
                                            fmi3LogMessageCallback logger) {
@@ -49,7 +43,7 @@ fmi3Instance fmi3InstantiateScheduledExecution(
 
 #define REFUSED(NAME, REASON, PARAMETERS) \
     fmi3Status fmi3##NAME PARAMETERS { \
-        return not_offered(instance, "fmi3" #NAME, REASON); \
+        return report(instance, STATUS_ERROR, "fmi3" #NAME " refused: " REASON); \
     }
 
 /* The first parameters of functions of many variables. */

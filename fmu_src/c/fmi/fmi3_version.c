@@ -1,5 +1,5 @@
 /* The names of FMI 3.0. */
-#include "../component/fmi_version.h"
+#include "../component/lifecycle.h"
 
 /* Reference 1 is the time; the variables of the table follow. */
 const FmiVersion FMI = {

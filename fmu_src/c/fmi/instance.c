@@ -125,7 +125,7 @@ Status set_debug_logging(Instance *instance, const char *call, bool logging_on, 
     } else if (!logging_on) {
         enable_all(instance, false);
     }
-    return send_answer(instance, known, &refusal);
+    return answer(instance, known, &refusal);
 }
 
 Status instance_reset(Instance *instance) {
@@ -140,16 +140,16 @@ Status instance_reset(Instance *instance) {
 Status lifecycle_call(Instance *instance, bool (*change)(Component *component, Refusal *refusal)) {
     Refusal refusal;
     bool done = instance != NULL && change(&instance->component, &refusal);
-    return send_answer(instance, done, &refusal);
+    return answer(instance, done, &refusal);
 }
 
-Status send_report(const Instance *instance, Status status, const char *text) {
+Status report(const Instance *instance, Status status, const char *text) {
     if (instance != NULL && (instance->enabled[status] || instance->enabled[STATUS_OK])) {
         send_message(&instance->host, instance->name, status, text);
     }
     return status;
 }
 
-Status send_answer(const Instance *instance, bool done, const Refusal *refusal) {
-    return done ? STATUS_OK : send_report(instance, STATUS_ERROR, refusal->text);
+Status answer(const Instance *instance, bool done, const Refusal *refusal) {
+    return done ? STATUS_OK : report(instance, STATUS_ERROR, refusal->text);
 }

@@ -29,14 +29,14 @@ Status state_get(Instance *instance, const char *call, void **state) {
     Refusal refusal;
     bool done = instance != NULL && pointer_check(call, "the FMU state", state, &refusal)
                 && copy_out(instance, &instance->component.now, call, state, &refusal);
-    return send_answer(instance, done, &refusal);
+    return answer(instance, done, &refusal);
 }
 
 Status state_set(Instance *instance, const char *call, void *state) {
     Refusal refusal;
     bool done = instance != NULL && pointer_check(call, "the FMU state", state, &refusal)
                 && component_restore(&instance->component, state, &refusal);
-    return send_answer(instance, done, &refusal);
+    return answer(instance, done, &refusal);
 }
 
 Status state_free(const Instance *instance, void **state) {
@@ -57,7 +57,7 @@ Status state_size(const Instance *instance, const char *call, const void *state,
     if (done) {
         *size = snapshot_size();
     }
-    return send_answer(instance, done, &refusal);
+    return answer(instance, done, &refusal);
 }
 
 Status state_write(const Instance *instance, const char *call, const void *state, void *bytes,
@@ -72,7 +72,7 @@ Status state_write(const Instance *instance, const char *call, const void *state
     if (done) {
         snapshot_write(state, bytes);
     }
-    return send_answer(instance, done, &refusal);
+    return answer(instance, done, &refusal);
 }
 
 Status state_read(const Instance *instance, const char *call, const void *bytes, size_t size,
@@ -83,5 +83,5 @@ Status state_read(const Instance *instance, const char *call, const void *bytes,
                 && pointer_check(call, "the FMU state", state, &refusal)
                 && snapshot_read(&snapshot, bytes, size, &refusal)
                 && copy_out(instance, &snapshot, call, state, &refusal);
-    return send_answer(instance, done, &refusal);
+    return answer(instance, done, &refusal);
 }

@@ -194,7 +194,8 @@ void leg_finish(Leg *leg, const Plant *plant, Moment *now) {
     now->psi = within_turn(now->psi + turned_by(plant, leg->t));
     now->position += leg->travelled;
     if (leg->turns) {
-        now->counts = counts_slid(now->counts, leg->direction);
+        now->counts.reversals += now->counts.sliding == -leg->direction;
+        now->counts.sliding = leg->direction;
         now->event_age = 0.0;
     }
     now->event_age += leg->t;

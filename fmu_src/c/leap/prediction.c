@@ -250,9 +250,6 @@ static Averaged second_order(const Law *law, double normal_lead) {
     return found ? exact : prediction;
 }
 
-/* The predictions in the order of `averaging_order`. */
-static Averaged (*const PREDICTIONS[])(const Law *law, double normal_lead) = {averaged, second_order};
-
 Averaged prediction_of(const Law *law, double normal_lead) {
-    return PREDICTIONS[law->device.averaging_order - 1](law, normal_lead);
+    return law->device.averaging_order == 1 ? averaged(law, normal_lead) : second_order(law, normal_lead);
 }

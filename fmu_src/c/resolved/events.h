@@ -20,10 +20,6 @@ typedef struct {
     double elapsed, carry;
 } EventSearch;
 
-static inline EventSearch event_search(double after) {
-    return (EventSearch){after, false, 0.0, 0.0};
-}
-
 /* A hash of the contact modes that follow each other: motions with one itinerary depend smoothly on where they begin. `last` is
  * the last of the modes. A motion that has one counts the work of friction only if that is `works`. */
 typedef struct {

@@ -5,25 +5,16 @@
 #include "../base/elementary.h"
 #include "motion.h"
 
-/* Velocity [m/s] at the start. A resonator that is not resolved vibrates steadily at once; the velocity is
- * chosen so that the momentum of the pair is that of the initial values. */
-static double start_velocity(const Law *law) {
-    const Device *device = &law->device;
-    const Plant *plant = &law->plant;
-    if (plant->resolves_resonator) {
-        return device->initial_velocity;
-    }
-    double rate = steady_swing(plant->resonator_amplitude, 0.0, plant->drive_frequency).rate;
-    return device->initial_velocity +
-           device_mass_fraction(device) * (device->initial_resonator_velocity - rate);
-}
-
+/* A resonator that is not resolved vibrates steadily at once; the velocity is chosen so that the momentum of the pair is
+ * that of the initial values. */
 Moment resolved_start(const Law *law) {
     const Device *device = &law->device;
-    Moment first = {.position = device->initial_position, .event_age = INFINITY};
-    first.state.velocity = start_velocity(law);
-    first.state.displacement = device->initial_resonator_displacement;
-    first.state.rate = device->initial_resonator_velocity;
+    const Plant *plant = &law->plant;
+    Moment first = first_moment(device);
+    if (!plant->resolves_resonator) {
+        double rate = steady_swing(plant->resonator_amplitude, 0.0, plant->drive_frequency).rate;
+        first.state.velocity += device_mass_fraction(device) * (first.state.rate - rate);
+    }
     first.mode = law->friction->mode(law, &first);
     first.bristle = bristle_bent(&law->bristle, device->initial_bristle_deflection);
     return first;

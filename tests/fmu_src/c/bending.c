@@ -104,7 +104,7 @@ int panel_errors(const double *values, double start, double tolerance, double sh
     }
     const Plant *plant = &law.plant;
     now = resolved_start(&law);
-    EventSearch search = event_search(0.0);
+    EventSearch search = {.after = 0.0};
     Budget budget = budget_of(start);
     if (!events_advance(&law, &now, start, NULL, NULL, &budget, &later, &refusal) ||
         !events_advance(&law, &later, TAU / plant->drive_frequency, &search, NULL, &budget, &reversal,

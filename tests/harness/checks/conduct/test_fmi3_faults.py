@@ -12,9 +12,8 @@ from studies.mutants.runs import run_changes
 CALLS, VALUES = "fmi/fmi3.c", "fmi/value_access.c"
 FOUND = "if (now->event_age == 0.0 && found_at(search, &clock)) {"
 TIME = "is_time(references[i]) ? instance->component.now.time : *next++;"
-GIVEN = """value_count != count ? refuse_value_count(instance, call, count, value_count)
-                                : (fmi3Status)values_get"""
-EXPERIMENT = "stopTimeDefined, stopTime, toleranceDefined"
+GIVEN = "return value_count == count"
+EXPERIMENT = "stopTimeDefined ? stopTime : INFINITY"
 
 FAULTS: dict[str, tuple[str, str, str]] = {
     "the step is said to reach its end": (
@@ -55,7 +54,7 @@ FAULTS: dict[str, tuple[str, str, str]] = {
     "time stands still between events": (VALUES, TIME, TIME.replace("now.time", "now.stop_time")),
     "values after time are off by one": (VALUES, TIME, TIME.replace("*next++", "found[i]")),
     "time can be set": (VALUES, "if (done && place_count < count) {", "if (false) {"),
-    "too many values are accepted": (CALLS, GIVEN, GIVEN.replace("!=", "<")),
+    "too many values are accepted": (VALUES, GIVEN, GIVEN.replace("==", ">=")),
     "initialization does not end in event mode": (
         CALLS,
         "if (done && own->event_mode_used) {",
