@@ -2,7 +2,6 @@
  *
  * Each function that returns a bool leaves the component as it was where it returns false, and the
  * reason in `refusal_text`. */
-#include <math.h>
 #include <stdlib.h>
 
 #include "component/component.h"

@@ -1,12 +1,6 @@
 #include "averaged.h"
 
-#include <stdbool.h>
-
-#include "../base/complex_number.h"
 #include "../base/elementary.h"
-#include "../base/refusal.h"
-#include "../device/device.h"
-#include "../device/plant.h"
 #include "mean_friction.h"
 
 /* Halvings of [0, pi] that select one of several balances. */

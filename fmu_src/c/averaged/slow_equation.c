@@ -2,7 +2,6 @@
 
 #include "../base/constants.h"
 #include "../base/elementary.h"
-#include "../device/contact.h"
 
 /* What the steps of averaged motion are called where they are refused. */
 static const char *const STEPS = "steps of averaged motion";

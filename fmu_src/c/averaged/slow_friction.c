@@ -1,9 +1,6 @@
 #include "slow_friction.h"
 
-#include <stddef.h>
-
 #include "../base/elementary.h"
-#include "../base/number.h"
 
 /* Largest distance of the frequency ratio from an integer at which the phase counts as slow. Under a lifting
  * contact: largest distance of q times the ratio, times q, for q up to a few turns. */

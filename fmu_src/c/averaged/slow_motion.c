@@ -7,7 +7,6 @@
  *
  * The bristle follows the motion periodically; it has no state here. */
 #include "../base/elementary.h"
-#include "../base/number.h"
 #include "../resolved/motion.h"
 #include "slow_equation.h"
 

@@ -1,10 +1,7 @@
 #include "component.h"
 
-#include <math.h>
 #include <string.h>
 
-#include "../base/refusal_texts.h"
-#include "../friction/law.h"
 #include "ramped_step.h"
 #include "values.h"
 

@@ -1,12 +1,6 @@
 /* The component between numerics and FMI: values by reference, lifecycle, steps. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-
-#include "../base/memory.h"
-#include "../base/refusal.h"
-#include "../friction/law.h"
 #include "component_law.h"
 #include "experiment.h"
 #include "outputs.h"

@@ -1,12 +1,7 @@
 #include "component_law.h"
 
-#include <math.h>
-
 #include "../averaged/friction_table.h"
-#include "../base/refusal_texts.h"
-#include "../device/device.h"
 #include "../friction/bending_kernels.h"
-#include "../friction/law.h"
 #include "parameter_values.h"
 #include "values.h"
 

@@ -1,11 +1,7 @@
 /* The law of the values of a component. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-
 #include "../base/memory.h"
-#include "../base/refusal.h"
 #include "../resolved/motion.h"
 #include "variables.h"
 

@@ -1,7 +1,5 @@
 #include "experiment.h"
 
-#include <math.h>
-
 #include "../base/constants.h"
 #include "../base/refusal_texts.h"
 

@@ -1,7 +1,7 @@
 /* The times of an experiment and of its steps, as FMI defines them. */
 #pragma once
 
-#include <stdbool.h>
+#include <math.h>
 
 #include "../base/refusal.h"
 

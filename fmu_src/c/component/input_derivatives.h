@@ -4,10 +4,8 @@
  * derivative is held from then on. */
 #pragma once
 
-#include <stdbool.h>
 #include <stddef.h>
 
-#include "../base/refusal.h"
 #include "lifecycle.h"
 
 /* The inputs that may vary over a step are the first variables: phase, load and frequency ratio. */

@@ -1,7 +1,6 @@
 #include "outputs.h"
 
 #include "../base/elementary.h"
-#include "../device/plant.h"
 #include "../leap/prediction.h"
 #include "../resolved/motion.h"
 #include "variables.h"

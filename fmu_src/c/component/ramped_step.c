@@ -1,10 +1,8 @@
 #include "ramped_step.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "../base/clock.h"
-#include "../base/number.h"
 #include "values.h"
 
 /* Slow phases that a whole budget buys. */

@@ -5,8 +5,6 @@
  * grow. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "component_law.h"
 #include "snapshot.h"
 

@@ -2,10 +2,8 @@
  * that can be set; the checksum. */
 #include "snapshot.h"
 
-#include <math.h>
 #include <string.h>
 
-#include "../base/refusal_texts.h"
 #include "state_bytes.h"
 #include "values.h"
 

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../base/refusal_texts.h"
-
 bool reference_check(unsigned place, ValueType type, Refusal *refusal) {
     unsigned reference = place + FMI.reference_offset;
     if (place >= VARIABLE_COUNT) {

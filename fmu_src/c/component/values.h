@@ -1,10 +1,8 @@
 /* Values of variables by reference: what a host may read and set. */
 #pragma once
 
-#include <stdbool.h>
 #include <stddef.h>
 
-#include "../base/refusal.h"
 #include "lifecycle.h"
 #include "variables.h"
 

@@ -1,8 +1,6 @@
 #include "contact.h"
 
 #include "../base/elementary.h"
-#include "../base/number.h"
-#include "device.h"
 
 /* Distance [rad] from a boundary within which it counts as reached: rounding. The shortest flight that
  * floating point numbers can describe is 3e-8 rad long. */

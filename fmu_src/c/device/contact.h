@@ -1,8 +1,6 @@
 /* When the contact lifts and touches down: N = max(0, N0 + dN sin(chi)) with dN > N0. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "plant.h"
 
 /* Contact modes: the direction of sliding, rest, or flight. */

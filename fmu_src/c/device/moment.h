@@ -1,11 +1,7 @@
 /* A moment of a motion: all that the motion carries from one step to the next. */
 #pragma once
 
-#include <math.h>
-
-#include "../base/number.h"
 #include "contact.h"
-#include "device.h"
 #include "period.h"
 
 /* Largest change of the phase of a stop [rad] in a turn that counts as a drift. */

@@ -1,7 +1,5 @@
 #include "period.h"
 
-#include <math.h>
-
 #include "device.h"
 
 /* The passage at time `t` [s]. Close to the end of the segment, where steps of whole periods ask for it, the

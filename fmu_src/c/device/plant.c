@@ -2,7 +2,6 @@
 
 #include "../base/elementary.h"
 #include "../base/refusal_texts.h"
-#include "device.h"
 
 /* Relative difference of two squared frequencies that is due to rounding: without damping the steady force
  * has no correct digit there. */

@@ -10,11 +10,6 @@
  * where e = -i exp(i theta). At fidelity 1 the resonator acts through its steady force (34) alone. */
 #pragma once
 
-#include <math.h>
-#include <stdbool.h>
-
-#include "../base/complex_number.h"
-#include "../base/elementary_functions.h"
 #include "../base/refusal.h"
 #include "device.h"
 #include "oscillator.h"

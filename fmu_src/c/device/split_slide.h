@@ -6,12 +6,8 @@
  * series are used (taylor_slide.h). */
 #pragma once
 
-#include <stdbool.h>
-
 #include "../base/first_zero.h"
-#include "device.h"
 #include "period.h"
-#include "plant.h"
 #include "slide_work.h"
 
 /* Complex amplitudes per unit exp(i theta) and, for s = 1, per unit exp(i chi): displacement of the

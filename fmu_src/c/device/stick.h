@@ -3,7 +3,6 @@
 #pragma once
 
 #include "../base/first_zero.h"
-#include "device.h"
 #include "plant.h"
 
 /* Motion while |needed force| stays within the limit F0 + F1 sin(chi). `direct` is the part of the

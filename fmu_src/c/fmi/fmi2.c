@@ -3,8 +3,6 @@
  *
  * A refused call returns fmi2Error and leaves the instance as it was, ready for the next call. It
  * never returns fmi2Discard, which hosts take for a request to end the run early. */
-#include <math.h>
-
 #include "fmi2_api.h"
 #include "state_access.h"
 #include "value_access.h"

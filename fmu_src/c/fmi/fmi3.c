@@ -5,9 +5,6 @@
  *
  * If the host uses event mode and allows early return, a step ends at the first reversal, stick,
  * release, lift-off or touchdown, located to rounding. Otherwise it passes over them. */
-#include <math.h>
-
-#include "../component/lifecycle.h"
 #include "fmi3_api.h"
 #include "state_access.h"
 #include "value_access.h"

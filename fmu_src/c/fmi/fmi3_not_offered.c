@@ -1,7 +1,5 @@
 /* FMI 3.0: functions that this FMU does not offer. Hosts look up all functions when they load an FMU,
  * so they must exist. */
-#include <stddef.h>
-
 #include "fmi3_api.h"
 
 /* The parameters are those that FMI prescribes; a refusal needs none but the instance. */

@@ -1,10 +1,6 @@
 /* An FMI instance: a component, and the host's memory and logger. The same for every version of FMI. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-
-#include "../base/refusal.h"
 #include "../component/component.h"
 
 /* The status of a call, with the numbers of FMI, whose versions have a type of their own for it each. */

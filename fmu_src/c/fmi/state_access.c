@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "../component/snapshot.h"
-
 /* Refuse a null pointer; the text names the argument. */
 static bool pointer_check(const char *call, const char *argument, const void *pointer,
                           Refusal *refusal) {

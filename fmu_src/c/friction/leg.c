@@ -1,10 +1,5 @@
 #include "leg.h"
 
-#include <math.h>
-
-#include "../base/number.h"
-#include "../device/plant.h"
-
 /* Tolerance of a series, in velocity scales: rounding. */
 #define SERIES_ROUNDING (2.0 * EPSILON)
 

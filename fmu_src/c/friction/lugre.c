@@ -4,8 +4,6 @@
  * then a panel (bending_panel.h) or Taylor series (taylor_slide.h) follow the path. Its length falls with
  * the bristle stiffness, so the cost does not grow with that. There is no sticking: presliding is resolved
  * as an oscillation on the bristles. */
-#include <math.h>
-
 #include "../base/refusal_texts.h"
 #include "leg.h"
 

@@ -3,9 +3,6 @@
 #include <stddef.h>
 
 #include "../base/elementary.h"
-#include "../base/number.h"
-#include "../device/device.h"
-#include "../friction/law.h"
 #include "../resolved/events.h"
 
 /* Largest tolerance of LuGre friction in a map: differences of high order amplify its error. */

@@ -6,12 +6,9 @@
  * period to period both change slowly and smoothly (stroboscopic averaging: Calvo, Chartier, Murua, Sanz-Serna 2011). */
 #pragma once
 
-#include <stdbool.h>
 #include <stdint.h>
 
 #include "../device/budget.h"
-#include "../device/plant.h"
-#include "../device/moment.h"
 #include "../friction/law.h"
 
 /* Largest number of fast states: Y [m], Y' [m/s], and the bristle's friction per unit load. */

@@ -1,12 +1,9 @@
 #include "prediction.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "../base/linear_system.h"
-#include "../base/number.h"
 #include "../device/vibrating_load.h"
-#include "../friction/law.h"
 #include "period_map.h"
 
 /* Largest number of turns after which the normal load may repeat. */

@@ -1,9 +1,5 @@
 #include "slow_manifold.h"
 
-#include <math.h>
-
-#include "../device/device.h"
-
 /* Largest change of the slow velocity in a period, over itself and the share of friction. */
 #define MAX_RATE 4.0
 

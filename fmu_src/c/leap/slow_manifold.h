@@ -4,8 +4,6 @@
  * periods vanish (Gear, Kaper, Kevrekidis, Zagaris 2005). */
 #pragma once
 
-#include <stdbool.h>
-
 #include "period_map.h"
 
 /* Order of the differences that vanish: a sequence maps so many periods. */

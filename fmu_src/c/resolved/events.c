@@ -1,11 +1,9 @@
 #include "events.h"
 
-#include <math.h>
 #include <stddef.h>
 
 #include "../base/clock.h"
 #include "../base/constants.h"
-#include "../friction/law.h"
 #include "../friction/leg.h"
 
 /* Largest number of legs accepted in a turn of the fastest oscillation: several times as many as

@@ -1,12 +1,9 @@
 /* The loop over events: resolved motion under any friction law, leg by leg. */
 #pragma once
 
-#include <stdbool.h>
 #include <stdint.h>
 
-#include "../base/refusal.h"
 #include "../device/budget.h"
-#include "../device/moment.h"
 #include "../friction/law.h"
 
 /* The search for the first event of a motion: a reversal, stick, release, lift-off or touchdown.

@@ -5,9 +5,6 @@
  * all else reads the moment in between. */
 #pragma once
 
-#include <stdbool.h>
-
-#include "../base/refusal.h"
 #include "events.h"
 
 /* Rates of the state and of the mean velocity [m/s, m/s^2]. */
