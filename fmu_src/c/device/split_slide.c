@@ -39,9 +39,10 @@ bool split_prepare(Split *split, const Plant *plant) {
     return true;
 }
 
-Phasors phasors_of(const Plant *plant, double theta, double chi) {
-    double changing = plant->normal_frequency == plant->drive_frequency ? chi - theta : chi;
-    return (Phasors){complex_rect(1.0, theta), complex_rect(1.0, changing)};
+Phasors phasors_of(const Plant *plant, const Moment *now) {
+    double chi = now->psi + plant->phase;
+    double changing = plant->normal_frequency == plant->drive_frequency ? chi - now->theta : chi;
+    return (Phasors){complex_rect(1.0, now->theta), complex_rect(1.0, changing)};
 }
 
 Complex normal_phasor(const Plant *plant, const Phasors *phasors) {
@@ -220,18 +221,18 @@ static void match_state(SplitSlide *slide, const State *state) {
     slide->noise = 2.0 * EPSILON * (fabs(slide->k0) + drive + normal + decaying);
 }
 
-void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant, int sign,
-                       const State *state, double theta, double chi, const Phasors *start,
-                       int direction) {
+void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant, const Moment *now,
+                       const Phasors *start, int direction) {
+    int sign = now->mode == LIFTED ? 0 : direction;
     double friction = sign * plant->friction_preload;
     slide->split = split;
     slide->plant = plant;
     slide->direction = direction;
     slide->sign = sign;
     slide->works = false;
-    slide->begin = *state;
-    slide->theta = theta;
-    slide->chi = chi;
+    slide->begin = now->state;
+    slide->theta = now->theta;
+    slide->chi = now->psi + plant->phase;
     slide->start.t = 0.0;
     slide->start.phasors = *start;
     slide->start.free = complex_of(1.0, 0.0);
@@ -254,7 +255,7 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
                       2.0 * plant->slip.decay / plant->slip.stiffness * slide->slope;
     slide->k1 = -(friction + plant->load) / plant->total_mass;
     slide->k2 = -0.5 * plant->load_rate / plant->total_mass;
-    match_state(slide, state);
+    match_state(slide, &now->state);
 }
 
 void split_slide_change(SplitSlide *slide, double momentum, Complex swing) {

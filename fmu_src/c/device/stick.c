@@ -6,9 +6,9 @@
  * sticks. */
 #define AHEAD 5.0
 
-void stick_begin(Stick *stick, const Plant *plant, const State *state, double theta, double chi) {
-    double w = plant->drive_frequency, q = plant->normal_frequency;
-    Complex drive_turn = complex_of(sin(theta), -cos(theta)), steady = complex_of(0.0, 0.0);
+void stick_begin(Stick *stick, const Plant *plant, const Moment *now) {
+    double w = plant->drive_frequency, q = plant->normal_frequency, chi = now->psi + plant->phase;
+    Complex drive_turn = complex_of(sin(now->theta), -cos(now->theta)), steady = complex_of(0.0, 0.0);
     stick->plant = plant;
     stick->direct = complex_mul(plant->holding_drive, drive_turn);
     stick->normal =
@@ -25,7 +25,7 @@ void stick_begin(Stick *stick, const Plant *plant, const State *state, double th
     }
     stick->steady = steady;
     stick->free_start =
-        (Response){state->displacement - steady.re, state->rate + w * steady.im};
+        (Response){now->state.displacement - steady.re, now->state.rate + w * steady.im};
 }
 
 /* Response to the drive at a time [s]. */

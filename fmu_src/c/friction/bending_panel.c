@@ -300,8 +300,7 @@ BendingMotion bending_panel_begin(BendingPanel *panel, const Law *law, int direc
         return motion;
     }
     SplitSlide *slide = &panel->slide;
-    split_slide_begin(slide, &law->split, plant, direction, &now->state, now->theta,
-                      now->psi + plant->phase, start, direction);
+    split_slide_begin(slide, &law->split, plant, now, start, direction);
     if (!goes_on(&outlook, slide, MAX_KERNELS_STEP * outlook.length)) {
         return BY_SERIES;
     }

@@ -78,10 +78,11 @@ static double force(const Law *law, const Moment *moment, int mode) {
  * It starts with neither velocity nor acceleration, so that the velocity grows with the second power of time,
  * v >= jerk t^2 / 2 - B t^3 / 6 while B bounds its third derivative, and is positive up to t = 3 jerk / B. The
  * search for the next zero can start there, past the zero that the motion starts from. */
-static double departure_time(const Plant *plant, int sign, const State *state, double theta, double chi) {
-    double w = plant->drive_frequency, q = plant->normal_frequency;
+static double departure_time(const Plant *plant, int sign, const Moment *now) {
+    const State *state = &now->state;
+    double w = plant->drive_frequency, q = plant->normal_frequency, chi = now->psi + plant->phase;
     double amplitude = sign * plant->friction_amplitude, load_rate = amplitude * q * cos(chi);
-    double drive_sine = sin(theta), drive_cosine = cos(theta);
+    double drive_sine = sin(now->theta), drive_cosine = cos(now->theta);
     Complex direct = complex_mul(complex_of(drive_sine, -drive_cosine), plant->holding_drive);
     double force_rate = -w * direct.im - load_rate - plant->load_rate;
     double horizon = 1.0 / fmax(fmax(w, fabs(q)), plant->slip.frequency);
@@ -120,8 +121,7 @@ static void begin(Leg *leg, const Law *law, const Moment *now, double longest) {
     int direction = now->mode == LIFTED ? 0 : now->mode;
     leg_begin_slide(leg, law, now, direction);
     if (direction != 0 && leg->departs) {
-        leg->watched_from =
-            departure_time(plant, direction, &now->state, now->theta, now->psi + plant->phase);
+        leg->watched_from = departure_time(plant, direction, now);
     }
 }
 

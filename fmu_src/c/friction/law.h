@@ -3,7 +3,6 @@
  * A new law of friction is a file that ends with its row, and an entry in law.c. */
 #pragma once
 
-#include "../device/moment.h"
 #include "../device/split_slide.h"
 #include "bristle.h"
 

@@ -13,48 +13,47 @@ static void set_leg(Leg *leg, LegKind kind, int mode, int direction, double from
 
 void leg_begin_rest(Leg *leg, const Plant *plant, const Moment *now) {
     set_leg(leg, RESTS, STICK, 0, 0.0);
-    stick_begin(&leg->motion.stick, plant, &now->state, now->theta, now->psi + plant->phase);
+    stick_begin(&leg->motion.stick, plant, now);
 }
 
 void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now) {
     if (!leg->known.known) {
-        leg->known = (KnownPhasors){true, phasors_of(plant, now->theta, now->psi + plant->phase)};
+        leg->known = (KnownPhasors){true, phasors_of(plant, now)};
     }
 }
 
 /* Sliding or flight by series with a bristle that is fully bent, which gives full friction. */
-static void begin_bent(Leg *leg, const Plant *plant, const Moment *now, int sign) {
+static void begin_bent(Leg *leg, const Plant *plant, const Moment *now) {
     const Bristle bent = {1.0, 0.0, 0.0};
+    int sign = now->mode == LIFTED ? 0 : leg->direction;
     taylor_slide_begin(&leg->motion.series, plant, &bent, sign, &now->state, sign,
-                       &leg->known.phasors, SERIES_ROUNDING, velocity_scale(plant, &now->state));
+                       &leg->known.phasors, SERIES_ROUNDING);
     leg->motion.series.direction = leg->direction; /* the velocity is watched in flight, too */
 }
 
 void leg_begin_slide(Leg *leg, const Law *law, const Moment *now, int direction) {
     const Plant *plant = &law->plant;
-    int sign = now->mode == LIFTED ? 0 : direction;
     bool splits = law->splits && plant->normal_rate == 0.0;
     set_leg(leg, splits ? SLIDES : FOLLOWS_SERIES, now->mode, direction, 0.0);
     leg_know_phasors(leg, plant, now);
     if (!splits) {
-        begin_bent(leg, plant, now, sign);
+        begin_bent(leg, plant, now);
         return;
     }
-    split_slide_begin(&leg->motion.slide, &law->split, plant, sign, &now->state, now->theta,
-                      now->psi + plant->phase, &leg->known.phasors, direction);
-    leg->motion.slide.works = leg->counts_work && sign != 0;
+    split_slide_begin(&leg->motion.slide, &law->split, plant, now, &leg->known.phasors, direction);
+    leg->motion.slide.works = leg->counts_work && now->mode != LIFTED;
 }
 
 void leg_begin_bending(Leg *leg, const Law *law, const Moment *now, int direction, double longest,
                        double tolerance) {
     BendingPanel *panel = &leg->motion.panel;
-    double scale = velocity_scale(&law->plant, &now->state);
+    double largest_error = tolerance * velocity_scale(&law->plant, &now->state);
     leg_know_phasors(leg, &law->plant, now);
-    switch (bending_panel_begin(panel, law, direction, now, &leg->known.phasors, longest, tolerance * scale)) {
+    switch (bending_panel_begin(panel, law, direction, now, &leg->known.phasors, longest, largest_error)) {
     case BY_SERIES:
         set_leg(leg, FOLLOWS_SERIES, now->mode, direction, 0.0);
         taylor_slide_begin(&leg->motion.series, &law->plant, &law->bristle, direction, &now->state,
-                           now->bristle, &leg->known.phasors, tolerance, scale);
+                           now->bristle, &leg->known.phasors, tolerance);
         return;
     case AS_BENT:
         leg_begin_slide(leg, law, now, direction);

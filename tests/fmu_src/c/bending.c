@@ -116,7 +116,7 @@ int panel_errors(const double *values, double start, double tolerance, double sh
     double switching = time_to_switch(plant, chi, plant->normal_frequency, 0.0, false);
     Law by_panels = law;
     by_panels.bending = &tables;
-    Phasors phasors = phasors_of(plant, reversal.theta, chi);
+    Phasors phasors = phasors_of(plant, &reversal);
     for (int direction = BACKWARD; direction <= FORWARD; direction += 2) {
         if (bending_panel_begin(&panel, &by_panels, direction, &reversal, &phasors, INFINITY,
                                 tolerance) != BY_PANEL ||
