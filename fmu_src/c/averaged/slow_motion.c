@@ -89,8 +89,7 @@ static Rates rates(const Law *law, const Moment *moment) {
     double slow = -(force(law, moment, STICK) + law->inputs.load) / law->plant.total_mass;
     Response swing = steady_swing(law->fast.resonator, moment->theta, w);
     State state = {.displacement = swing.rate, .rate = -w * w * swing.displacement};
-    state.velocity =
-        slow + law->fast.pair_velocity * w * sin(moment->theta) - share * state.rate;
+    state.velocity = slow + law->fast.pair_velocity * w * sin(moment->theta) - share * state.rate;
     return (Rates){state, slow};
 }
 

@@ -154,6 +154,5 @@ bool snapshot_read(Snapshot *snapshot, const unsigned char *bytes, size_t size, 
         snapshot->values[i] = number;
     }
     bool needs_motion = is_running(snapshot->lifecycle) || snapshot->lifecycle == TERMINATED;
-    return snapshot->moving || !needs_motion
-           || refuse_state_without_motion(refusal);
+    return snapshot->moving || !needs_motion || refuse_state_without_motion(refusal);
 }

@@ -40,8 +40,7 @@ bool reading_check(Lifecycle lifecycle, unsigned reference, Refusal *refusal) {
 
 /* Refuse to set outputs, fixed parameters while running, anything after the end, and values that the
  * table excludes. */
-static bool setting_check(Lifecycle lifecycle, unsigned reference, double value,
-                          Refusal *refusal) {
+static bool setting_check(Lifecycle lifecycle, unsigned reference, double value, Refusal *refusal) {
     const Variable *variable = &VARIABLES[reference];
     char text[NUMBER_SIZE];
     if (lifecycle == TERMINATED) {

@@ -144,8 +144,7 @@ static inline void rotate_turns(const SplitSlide *slide, const Turns *anchor, do
 /* Turns at `t`: rotated from the start or the anchor (in `place`), or computed (in `fresh`). Close to the
  * start they are always rotated, so that rounding errors are those of the start: a slider that sets out
  * must not seem to move back. */
-static inline const Turns *turns_at(const SplitSlide *slide, double t, Turns *place,
-                                    Turns *fresh) {
+static inline const Turns *turns_at(const SplitSlide *slide, double t, Turns *place, Turns *fresh) {
     if (t == 0.0) {
         return &slide->start;
     }
@@ -313,8 +312,7 @@ static inline double bound_by(const SplitSlide *slide, const Turns *turns, doubl
         return slide->bound + slide->free_bound * turns->envelope;
     }
     double jerk = -2.0 * slip->decay * acceleration - slip->stiffness * rate;
-    return slide->bound +
-           slide->plant->mass_fraction * hypot(jerk, slip->frequency * acceleration);
+    return slide->bound + slide->plant->mass_fraction * hypot(jerk, slip->frequency * acceleration);
 }
 
 static Signal velocity_ahead(void *motion, double t) {
@@ -341,8 +339,7 @@ static double swing_travel(Complex amplitude, double frequency, Complex start, C
     return complex_mul(amplitude, complex_sub(end, start)).im / frequency;
 }
 
-static inline double travel_by(const SplitSlide *slide, const Turns *turns,
-                               double displacement) {
+static inline double travel_by(const SplitSlide *slide, const Turns *turns, double displacement) {
     const Plant *plant = slide->plant;
     double t = turns->t, moved = displacement - slide->free_start.displacement;
     double travel = swing_travel(slide->velocity_drive, plant->drive_frequency,

@@ -11,8 +11,7 @@ void stick_begin(Stick *stick, const Plant *plant, const Moment *now) {
     Complex drive_turn = complex_of(sin(now->theta), -cos(now->theta)), steady = complex_of(0.0, 0.0);
     stick->plant = plant;
     stick->direct = complex_mul(plant->holding_drive, drive_turn);
-    stick->normal =
-        complex_scale(plant->friction_amplitude, complex_of(sin(chi), -cos(chi)));
+    stick->normal = complex_scale(plant->friction_amplitude, complex_of(sin(chi), -cos(chi)));
     double fastest = fabs(q) + fabs(plant->normal_rate) * LONGEST_ARC / fmax(w, fabs(q));
     double swing = complex_abs(stick->normal);
     stick->fixed_bound = swing * fastest * fastest + swing * fabs(plant->normal_rate) +

@@ -57,8 +57,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
                (int)fmuType, (int)fmi2CoSimulation);
         return refuse_instance(&host, instanceName, &refusal);
     }
-    return instance_create(&host, "fmi2Instantiate", instanceName, fmuGUID,
-                           loggingOn != fmi2False);
+    return instance_create(&host, "fmi2Instantiate", instanceName, fmuGUID, loggingOn != fmi2False);
 }
 
 void fmi2FreeInstance(fmi2Component c) {

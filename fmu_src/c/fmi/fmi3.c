@@ -40,8 +40,7 @@ fmi3Instance fmi3InstantiateCoSimulation(
                "intermediate update", call, (unsigned long)nRequiredIntermediateVariables);
         return refuse_instance(&host, instanceName, &refusal);
     }
-    Instance *instance =
-        instance_create(&host, call, instanceName, instantiationToken, loggingOn);
+    Instance *instance = instance_create(&host, call, instanceName, instantiationToken, loggingOn);
     if (instance != NULL) {
         instance->event_mode_used = eventModeUsed;
         instance->early_return_allowed = earlyReturnAllowed;
@@ -239,8 +238,7 @@ fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
     return state_free(instance, FMUState);
 }
 
-fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUState,
-                                      size_t *size) {
+fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUState, size_t *size) {
     return state_size(instance, "fmi3SerializedFMUStateSize", FMUState, size);
 }
 

@@ -79,8 +79,7 @@ REFUSED(GetIntervalFraction, CLOCKS,
         (VARIABLES_OF, fmi3UInt64 counters[], fmi3UInt64 resolutions[],
          fmi3IntervalQualifier qualifiers[]))
 REFUSED(GetShiftDecimal, CLOCKS, (VARIABLES_OF, fmi3Float64 shifts[]))
-REFUSED(GetShiftFraction, CLOCKS,
-        (VARIABLES_OF, fmi3UInt64 counters[], fmi3UInt64 resolutions[]))
+REFUSED(GetShiftFraction, CLOCKS, (VARIABLES_OF, fmi3UInt64 counters[], fmi3UInt64 resolutions[]))
 REFUSED(SetIntervalDecimal, CLOCKS, (VARIABLES_OF, const fmi3Float64 intervals[]))
 REFUSED(SetIntervalFraction, CLOCKS,
         (VARIABLES_OF, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[]))

@@ -94,8 +94,7 @@ static bool goes_on(const Outlook *outlook, const SplitSlide *slide, double leng
     double gained = outlook->speed + outlook->acceleration * length;
     double path = (outlook->speed + 0.5 * fastest * length) * length;
     double lost = 0.5 * bound * length * length + push * outlook->lag * outlook->rate * path;
-    return (outlook->speed > 0.0 || outlook->acceleration > 0.0) &&
-           gained - lost > slide->noise;
+    return (outlook->speed > 0.0 || outlook->acceleration > 0.0) && gained - lost > slide->noise;
 }
 
 /* Estimate of the error of the velocity [m/s] at the end of the panel: the nodes miss a `share` of f, which
@@ -120,8 +119,7 @@ static void add_swing(double *travel, Complex amplitude, const ComplexRow *row) 
 }
 
 /* k |x - x_r| at the points, under full friction. */
-static void follow_path(const BendingPanel *panel, const Outlook *outlook,
-                        double *exponent) {
+static void follow_path(const BendingPanel *panel, const Outlook *outlook, double *exponent) {
     const SplitSlide *slide = &panel->slide;
     const BendingKernels *kernels = panel->kernels;
     const Phasors *start = &slide->start.phasors;

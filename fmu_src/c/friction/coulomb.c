@@ -45,8 +45,7 @@ static int mode_in_contact(const Plant *plant, const Moment *moment) {
 /* Whether the slider was released at this moment: friction still balances the other forces, and only the
  * mode of the moment shows in which direction the slider departs. */
 static bool just_released(const Plant *plant, const Moment *moment) {
-    if (moment->state.velocity != 0.0 ||
-        !(moment->mode == FORWARD || moment->mode == BACKWARD)) {
+    if (moment->state.velocity != 0.0 || !(moment->mode == FORWARD || moment->mode == BACKWARD)) {
         return false;
     }
     double limit = friction_limit(plant, moment->psi);

@@ -148,8 +148,7 @@ void leg_follow(Leg *leg, const Plant *plant, Moment *now, double longest) {
         follow_rest(leg, TAU / frequency);
     } else if (leg->direction != 0) {
         const Stop *stop = stop_after(&now->stops, leg->direction);
-        follow_sliding(leg, stop_expected(stop, now->theta, frequency),
-                       now->counts.sliding);
+        follow_sliding(leg, stop_expected(stop, now->theta, frequency), now->counts.sliding);
     }
 }
 

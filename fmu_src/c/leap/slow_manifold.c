@@ -68,8 +68,7 @@ static SlowRates rates_of(const SectionState *differences, double ratio, const d
     return rates;
 }
 
-bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
-                SlowRates *rates) {
+bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after, SlowRates *rates) {
     const PeriodMap *map = manifold->map;
     double velocity = slow_velocity(&map->law, &moment->state, moment->theta), offset = 0.0, before = INFINITY;
     for (int i = 0; i < manifold->max_sequences; i++) {

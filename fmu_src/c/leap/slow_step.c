@@ -3,6 +3,10 @@
 #include "../base/elementary.h"
 #include "../base/runge_kutta.h"
 
+/* Factors by which a step becomes shorter that fails, and longer behind one that does not, if its error tells nothing. */
+#define SHORTER 0.5
+#define LONGER 2.0
+
 /* Shares of the allowed error: of a velocity that hardly changes, so that no other point is evaluated, and of the integration of
  * interpolated rates. */
 #define STAYS 0.1
