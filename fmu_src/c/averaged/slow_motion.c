@@ -14,15 +14,10 @@
  * out, the resonator's first swing and the first bend of bristles. */
 #define FIRST_ORDER 2.0
 
-/* Contact mode: lifted, or the direction of sliding with the fast vibration; STICK only at rest. */
-static int mode(const Law *law, const Moment *moment) {
-    return mode_by_velocity(&law->plant, moment->state.velocity, moment->psi);
-}
-
 /* The initial values determine the momentum of the pair, not its vibration: the first step takes care of that. */
 static Moment start(const Law *law) {
     Moment first = first_moment(&law->device);
-    first.mode = mode(law, &first);
+    first.mode = mode_by_velocity(law, &first);
     first.means.complete = true;
     first.means.mean_velocity = slow_velocity(law, &first.state, first.theta);
     return first;
@@ -53,7 +48,7 @@ static bool averaged_advance(const Law *law, const Moment *moment, double durati
     state.rate = swing.rate;
     Moment next = {.state = state, .theta = theta, .psi = psi, .counts = moment->counts};
     next.position = centre + reached.travel - drive / w * sin(theta) - share * swing.displacement;
-    next.mode = mode(law, &next);
+    next.mode = mode_by_velocity(law, &next);
     next.event_age = INFINITY;
     next.means.complete = true;
     next.means.mean_velocity = reached.velocity;
@@ -144,7 +139,7 @@ const Motion AVERAGED_MOTION = {
     .averages = true,
     .start = start,
     .advance = averaged_advance,
-    .mode = mode,
+    .mode = mode_by_velocity,
     .force = force,
     .power = power,
     .rates = rates,

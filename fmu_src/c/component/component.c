@@ -15,21 +15,13 @@ void component_end(Component *component) {
     memory->release(memory->host, component->tables.bending);
 }
 
-static const Law *present_law(const Component *component) {
-    return &component->laws[component->present];
-}
-
-/* Room for a law beside the present one. */
-static Law *other_law(Component *component) {
-    return &component->laws[1 - component->present];
-}
-
 /* Prepare the law of `values`; it replaces the present law unless it is refused. */
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
-    if (!prepare_law(values, &component->tables, other_law(component), refusal)) {
+    Law law;
+    if (!prepare_law(values, &component->tables, &law, refusal)) {
         return false;
     }
-    component->present = 1 - component->present;
+    component->law = law;
     component->prepared = true;
     component->theory.known = false;
     return true;
@@ -66,7 +58,7 @@ bool component_exit_initialization(Component *component, Refusal *refusal) {
         || !prepare_present(component, refusal)) {
         return false;
     }
-    component->now.moment = present_law(component)->motion->start(present_law(component));
+    component->now.moment = component->law.motion->start(&component->law);
     component->now.moving = true;
     component->now.lifecycle = STEP_COMPLETE;
     return true;
@@ -94,7 +86,7 @@ static bool change(Component *component, const double values[SETTABLE_COUNT],
         return prepare(component, values, refusal);
     }
     Inputs inputs = reduced_inputs(values);
-    law_change(&component->laws[component->present], inputs.phase, inputs.load);
+    law_change(&component->law, inputs.phase, inputs.load);
     component->theory.known = false;
     return true;
 }
@@ -138,7 +130,7 @@ static bool moment_to_read(Component *component, unsigned reference, Moment *fir
     }
     *moment = &component->now.moment;
     if (!component->now.moving) {
-        *first = present_law(component)->motion->start(present_law(component));
+        *first = component->law.motion->start(&component->law);
         *moment = first;
     }
     return true;
@@ -160,7 +152,7 @@ static bool read(Component *component, bool derivatives, const unsigned *referen
         if (!moment && !moment_to_read(component, reference, &first, &moment, refusal)) {
             return false;
         }
-        const Law *law = present_law(component);
+        const Law *law = &component->law;
         if (!derivatives) {
             found[i] = output_value(reference, law, moment, now->last_event_time, &component->theory);
         } else if (!output_derivative(reference, law, moment, now->derivatives[VR_PHASE].value,
@@ -199,7 +191,7 @@ typedef struct {
 static bool find_end(Component *component, double time, double step_size, double duration,
                      EventSearch *search, StepEnd *end, Refusal *refusal) {
     const Snapshot *now = &component->now;
-    const Law *law = present_law(component);
+    const Law *law = &component->law;
     Moment *after = &end->moment;
     Budget budget = budget_of(step_size);
     if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)
@@ -207,8 +199,8 @@ static bool find_end(Component *component, double time, double step_size, double
         return false;
     }
     bool done = inputs_vary(now->derivatives)
-                    ? ramped_step(law, other_law(component), &component->tables, now, duration, &budget,
-                                  after, end->values, refusal)
+                    ? ramped_step(law, &component->tables, now, duration, &budget, after, end->values,
+                                  refusal)
                     : law->motion->advance(law, &now->moment, duration, search, &budget, after, refusal);
     if (!done) {
         return false;

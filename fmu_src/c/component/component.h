@@ -10,9 +10,8 @@
 typedef struct {
     Snapshot now;  /* the complete state */
     bool prepared; /* whether a law of the present values is prepared */
-    int present;   /* index of that law; the other one is for the law tried next, and for those during a step */
-    Law laws[2];   /* the law of the present values, and room for another */
-    Tables tables; /* of friction, to which the laws point */
+    Law law;       /* that law */
+    Tables tables; /* of friction, to which laws point */
     Theory theory; /* the last prediction */
 } Component;
 

@@ -62,8 +62,8 @@ static void hold_phase(double ratio, double w, const Ramp *ramp, double duration
     after->psi = within_turn(after->psi - remainder(added * duration, TAU));
 }
 
-bool ramped_step(const Law *present, Law *law, Tables *tables, const Snapshot *now, double duration,
-                 Budget *budget, Moment *after, double reached[SETTABLE_COUNT], Refusal *refusal) {
+bool ramped_step(const Law *present, Tables *tables, const Snapshot *now, double duration, Budget *budget,
+                 Moment *after, double reached[SETTABLE_COUNT], Refusal *refusal) {
     double values[SETTABLE_COUNT], left = duration, w = present->device.drive_frequency;
     const Motion *motion = present->motion;
     Clock clock = clock_of(duration);
@@ -74,6 +74,7 @@ bool ramped_step(const Law *present, Law *law, Tables *tables, const Snapshot *n
         return false;
     }
     while (left > 0.0) {
+        Law law;
         Moment before = *after;
         Ramp ramp = ramp_from(values, w, now->derivatives);
         double part = motion->part == NULL ? left : motion->part(&present->device, &ramp, left);
@@ -82,8 +83,8 @@ bool ramped_step(const Law *present, Law *law, Tables *tables, const Snapshot *n
             return budget_refuse(budget, 0.0, MAX_SLOW_PHASES, "slow phases of the normal load",
                                  refusal);
         }
-        if (!prepare_part(law, tables, values, &ramp, part, refusal)
-            || !motion->advance(law, &before, part, NULL, budget, after, refusal)) {
+        if (!prepare_part(&law, tables, values, &ramp, part, refusal)
+            || !motion->advance(&law, &before, part, NULL, budget, after, refusal)) {
             return false;
         }
         left = part == left ? 0.0 : clock_advance(&clock, part);

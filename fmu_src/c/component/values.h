@@ -11,9 +11,6 @@
 #error "compile without -ffast-math, -fassociative-math, -ffinite-math-only, /fp:fast: they remove rounding or checks for NaN"
 #endif
 
-/* Refuse a place in the table where no variable is, or one of another type. */
-bool reference_check(unsigned place, ValueType type, Refusal *refusal);
-
 /* Refuse a value that the table excludes. */
 bool value_check(const Variable *variable, double value, Refusal *refusal);
 

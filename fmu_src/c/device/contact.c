@@ -45,13 +45,6 @@ double time_to_switch(const Plant *plant, double chi, double frequency, double r
     return square >= 0.0 ? 2.0 * ahead / (speed + sqrt(square)) : INFINITY;
 }
 
-int mode_by_velocity(const Plant *plant, double velocity, double psi) {
-    if (is_lifted(plant, psi + plant->phase, plant->normal_frequency)) {
-        return LIFTED;
-    }
-    return direction_of(velocity);
-}
-
 double friction_limit(const Plant *plant, double psi) {
     double limit = plant->friction_preload + plant->friction_amplitude * sin(psi + plant->phase);
     return limit > 0.0 ? limit : 0.0;

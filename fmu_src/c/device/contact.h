@@ -22,8 +22,5 @@ bool is_lifted(const Plant *plant, double chi, double frequency);
  * changes its sign. */
 double time_to_switch(const Plant *plant, double chi, double frequency, double rate, bool lifted);
 
-/* Contact mode by load and velocity alone: lifted, or the direction of sliding; STICK at rest. */
-int mode_by_velocity(const Plant *plant, double velocity, double psi);
-
 /* Limit of the friction force [N] of all faces at normal phase `psi` [rad]; 0 in flight. */
 double friction_limit(const Plant *plant, double psi);

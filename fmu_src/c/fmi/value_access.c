@@ -16,6 +16,19 @@ static bool count_check(const char *call, size_t count, int most, Refusal *refus
                      FMI.count_name, (unsigned long)count, most);
 }
 
+/* Refuse a place in the table where no variable is, or one of another type. */
+static bool reference_check(unsigned place, ValueType type, Refusal *refusal) {
+    unsigned reference = place + FMI.reference_offset;
+    if (place >= VARIABLE_COUNT) {
+        return refuse_unknown_reference(refusal, reference, FMI.min_reference,
+                                        VARIABLE_COUNT - 1 + FMI.reference_offset);
+    }
+    const Variable *variable = &VARIABLES[place];
+    ValueType own = variable->integer ? INTEGER_TYPE : REAL_TYPE;
+    return own == type || refuse_wrong_type(refusal, variable->name, reference,
+                                            FMI.type_names[own], FMI.type_names[type]);
+}
+
 bool places_check(const char *call, const unsigned *references, size_t count, const void *values,
                   ValueType type, unsigned *places, size_t *place_count, Refusal *refusal) {
     *place_count = 0;

@@ -30,6 +30,12 @@ bool law_prepare(Law *law, const Device *device, const Inputs *inputs, Refusal *
     return true;
 }
 
+int mode_by_velocity(const Law *law, const Moment *moment) {
+    const Plant *plant = &law->plant;
+    bool lifted = is_lifted(plant, moment->psi + plant->phase, plant->normal_frequency);
+    return lifted ? LIFTED : direction_of(moment->state.velocity);
+}
+
 void law_change(Law *law, double phase, double load) {
     law->inputs.phase = law->plant.phase = phase;
     law->inputs.load = law->plant.load = load;

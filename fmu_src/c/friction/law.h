@@ -49,6 +49,9 @@ extern const FrictionLaw COULOMB, LUGRE;
  * friction law do not fit; `law` is then undefined. */
 bool law_prepare(Law *law, const Device *device, const Inputs *inputs, Refusal *refusal);
 
+/* Contact mode by load and velocity alone: lifted, or the direction of sliding; STICK at rest. */
+int mode_by_velocity(const Law *law, const Moment *moment);
+
 /* Change phase [rad] and load [N] of a law; nothing else prepared depends on these. */
 void law_change(Law *law, double phase, double load);
 

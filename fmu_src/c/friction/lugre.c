@@ -18,10 +18,6 @@ static bool prepare(const Device *device, Bristle *bristle, Refusal *refusal) {
            refuse_lugre_without_friction(refusal, device->friction_coefficient);
 }
 
-static int mode(const Law *law, const Moment *moment) {
-    return mode_by_velocity(&law->plant, moment->state.velocity, moment->psi);
-}
-
 static double force(const Law *law, const Moment *moment, int mode) {
     if (mode == LIFTED) {
         return 0.0;
@@ -74,7 +70,7 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 
 const FrictionLaw LUGRE = {
     .prepare = prepare,
-    .mode = mode,
+    .mode = mode_by_velocity,
     .force = force,
     .begin = begin,
     .succeed = succeed,
