@@ -27,7 +27,7 @@ static void begin_bent(Leg *leg, const Plant *plant, const Moment *now) {
     const Bristle bent = {1.0, 0.0, 0.0};
     int sign = now->mode == LIFTED ? 0 : leg->direction;
     taylor_slide_begin(&leg->motion.series, plant, &bent, sign, &now->state, sign,
-                       &leg->known.phasors, SERIES_ROUNDING);
+                       &leg->known.phasors, SERIES_ROUNDING, velocity_scale(plant, &now->state));
     leg->motion.series.direction = leg->direction; /* the velocity is watched in flight, too */
 }
 
@@ -47,13 +47,13 @@ void leg_begin_slide(Leg *leg, const Law *law, const Moment *now, int direction)
 void leg_begin_bending(Leg *leg, const Law *law, const Moment *now, int direction, double longest,
                        double tolerance) {
     BendingPanel *panel = &leg->motion.panel;
-    double largest_error = tolerance * velocity_scale(&law->plant, &now->state);
+    double scale = velocity_scale(&law->plant, &now->state);
     leg_know_phasors(leg, &law->plant, now);
-    switch (bending_panel_begin(panel, law, direction, now, &leg->known.phasors, longest, largest_error)) {
+    switch (bending_panel_begin(panel, law, direction, now, &leg->known.phasors, longest, tolerance * scale)) {
     case BY_SERIES:
         set_leg(leg, FOLLOWS_SERIES, now->mode, direction, 0.0);
         taylor_slide_begin(&leg->motion.series, &law->plant, &law->bristle, direction, &now->state,
-                           now->bristle, &leg->known.phasors, tolerance);
+                           now->bristle, &leg->known.phasors, tolerance, scale);
         return;
     case AS_BENT:
         leg_begin_slide(leg, law, now, direction);

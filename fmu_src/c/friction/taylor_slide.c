@@ -86,7 +86,7 @@ static void expand_normal(Complex normal, double q, double chirp, double limit[T
 
 void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle,
                         int direction, const State *state, double friction,
-                        const Phasors *start, double tolerance) {
+                        const Phasors *start, double tolerance, double scale) {
     double w = plant->drive_frequency, q = plant->normal_frequency, mu = bristle->coefficient;
     double bend = (mu - direction * friction) / mu, share = friction / mu;
     double drag = bristle->damping / mu, rate_factor = -direction * bristle->stiffness / mu;
@@ -99,7 +99,7 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
     double *v = slide->velocity, *y = slide->displacement, *u = slide->rate;
     double limit[TAYLOR_ORDER], decay[TAYLOR_TERMS];
     double passed[TAYLOR_TERMS] = {0.0}, resisting[TAYLOR_TERMS] = {0.0};
-    double load = plant->load, lost = 0.0, scale = velocity_scale(plant, state);
+    double load = plant->load, lost = 0.0;
     expand_normal(normal, q, plant->normal_rate, limit);
     limit[0] += plant->friction_preload;
     slide->direction = direction;

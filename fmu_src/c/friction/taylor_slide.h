@@ -28,10 +28,10 @@ typedef struct {
 /* Motion in contact from `state` on, in `direction`, up to `reach`.
  *
  * `friction` is sigma_0 z and `start` are the phasors at the start. At `reach` the last terms of the series
- * are `tolerance` times the scale of velocities or, in a motion that is much slower than that, times its velocity. */
+ * are `tolerance` times `scale` [m/s] or, in a motion that is much slower than that, times its velocity. */
 void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle,
                         int direction, const State *state, double friction,
-                        const Phasors *start, double tolerance);
+                        const Phasors *start, double tolerance, double scale);
 
 /* Whether the motion begins in its direction, or stays at rest. */
 bool taylor_slide_departs(const TaylorSlide *slide);
