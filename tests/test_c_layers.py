@@ -42,9 +42,9 @@ def test_sources_keep_their_layers(root: Path) -> None:
             "base/refusal.c includes component/variables.h, which is above it",
         ),
         (
-            "friction/law.h",
-            '#include "bending_panel.h"',
-            "friction/bending_panel includes friction/law includes friction/bending_panel: a circle",
+            "friction/bristle.h",
+            '#include "law.h"',
+            "friction/bristle includes friction/law includes friction/bristle: a circle",
         ),
         (
             "friction/law.c",

@@ -70,24 +70,27 @@ bool component_terminate(Component *component, Refusal *refusal) {
     return lifecycle_change(lifecycle, "terminate", from, TERMINATED, refusal);
 }
 
-/* Whether the present law can take over values that differ in these variables alone. */
-static bool changes_in_place(const Component *component, const unsigned *references, size_t count) {
-    bool in_place = component->prepared;
-    for (size_t i = 0; i < count; i++) {
-        in_place = in_place && (references[i] == VR_PHASE || references[i] == VR_LOAD);
+/* Take over `values`; in a running component their law, too, unless it is refused. */
+static bool take_values(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
+    Snapshot *now = &component->now;
+    bool same = true, in_place = true, running = is_running(now->lifecycle);
+    for (size_t i = 0; i < SETTABLE_COUNT; i++) {
+        bool kept = values[i] == now->values[i];
+        same = same && kept;
+        in_place = in_place && (kept || i == VR_PHASE || i == VR_LOAD);
     }
-    return in_place;
-}
-
-/* Change the law of a running component to `values`, which differ at `references` only. */
-static bool change(Component *component, const double values[SETTABLE_COUNT],
-                   const unsigned *references, size_t count, Refusal *refusal) {
-    if (!changes_in_place(component, references, count)) {
-        return prepare(component, values, refusal);
+    if (same) {
+        return true;
     }
-    Inputs inputs = reduced_inputs(values);
-    law_change(&component->law, inputs.phase, inputs.load);
-    component->theory.known = false;
+    if (running && in_place) {
+        Inputs inputs = reduced_inputs(values);
+        law_change(&component->law, inputs.phase, inputs.load);
+        component->theory.known = false;
+    } else if (running && !prepare(component, values, refusal)) {
+        return false;
+    }
+    component->prepared = running;
+    memcpy(now->values, values, sizeof now->values);
     return true;
 }
 
@@ -95,20 +98,9 @@ bool component_set(Component *component, const unsigned *references, const doubl
                    size_t count, Refusal *refusal) {
     double changed[SETTABLE_COUNT];
     memcpy(changed, component->now.values, sizeof changed);
-    if (!change_values(changed, component->now.lifecycle, references, values, count, refusal)) {
+    if (!change_values(changed, component->now.lifecycle, references, values, count, refusal)
+        || !take_values(component, changed, refusal)) {
         return false;
-    }
-    bool same = true;
-    for (size_t i = 0; i < count; i++) {
-        same = same && values[i] == component->now.values[references[i]];
-    }
-    bool running = is_running(component->now.lifecycle);
-    if (!same) {
-        if (running && !change(component, changed, references, count, refusal)) {
-            return false;
-        }
-        component->prepared = running;
-        memcpy(component->now.values, changed, sizeof changed);
     }
     hold_inputs(component->now.derivatives, references, count);
     return true;
@@ -212,24 +204,12 @@ static bool find_end(Component *component, double time, double step_size, double
            || refuse_infinite_motion(refusal, step_size);
 }
 
-/* Take over the inputs at the end of a step during which they vary. */
-static bool take_reached_inputs(Component *component, const double *reached, Refusal *refusal) {
-    Snapshot *now = &component->now;
-    static const unsigned inputs[VARYING_COUNT] = {VR_PHASE, VR_LOAD, VR_FREQUENCY_RATIO};
-    size_t count = now->derivatives[VR_FREQUENCY_RATIO].value != 0.0 ? VARYING_COUNT : VR_LOAD + 1;
-    if (!change(component, reached, inputs, count, refusal)) {
-        return false;
-    }
-    memcpy(now->values, reached, sizeof now->values);
-    return true;
-}
-
 /* Go on to the end of a step, `elapsed` [s] after `time` [s]. */
 static bool go_on(Component *component, const StepEnd *end, double time, double elapsed,
                   Refusal *refusal) {
     Snapshot *now = &component->now;
     double age = end->moment.event_age;
-    if (inputs_vary(now->derivatives) && !take_reached_inputs(component, end->values, refusal)) {
+    if (inputs_vary(now->derivatives) && !take_values(component, end->values, refusal)) {
         return false;
     }
     /* Without an event the age grows by the step size, up to rounding. */
