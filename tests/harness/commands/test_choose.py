@@ -32,7 +32,9 @@ def test_json_holds_the_answer(native_fmu: Path, tmp_path: Path) -> None:
     assert result.exit_code == 0
     assert_public_keys("choose", result.stdout)
     answer = json.loads(result.stdout)
-    assert (answer["fidelity"], answer["meets"]) == (0, True), "averages and leaps are the cheap ones"
+    assert (answer["fidelity"], answer["meets"]) == (0, True), (
+        "averages and leaps are the cheap ones"
+    )
     assert 0.0 < answer["error"]["mean_velocity"] < answer["allowed"]["mean_velocity"]
     others = [(other["fidelity"], other["averaging_order"]) for other in answer["ruled_out"]]
     other_order = 3 - answer["averaging_order"]
