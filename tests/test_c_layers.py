@@ -42,14 +42,14 @@ def test_sources_keep_their_layers(root: Path) -> None:
             "base/refusal.c includes component/variables.h, which is above it",
         ),
         (
-            "friction/leg.h",
+            "friction/bristle.h",
             '#include "law.h"',
-            "friction/law includes friction/leg includes friction/law: a circle",
+            "friction/bristle includes friction/law includes friction/bristle: a circle",
         ),
         (
-            "friction/leg.c",
-            '#include "law.h"',
-            "friction/law includes friction/leg includes friction/law",
+            "friction/law.c",
+            '#include "bending_panel.h"',
+            "friction/bending_panel includes friction/law includes friction/bending_panel",
         ),
         (
             "device/plant.c",

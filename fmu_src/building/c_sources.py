@@ -39,7 +39,6 @@ SHARED = (
     "constants",
     "experiment",
     "fmi2*",
-    "fmi_version",
     "instance",
     "lifecycle",
     "memory",

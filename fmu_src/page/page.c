@@ -33,7 +33,7 @@ static void release(const void *host, void *memory) {
 
 /* Begin a run at time 0 with `count` values from the buffers, all others at their start. */
 EXPORT(start) bool start(unsigned count) {
-    const Experiment experiment = {.start_time = 0.0};
+    const Experiment experiment = {.stop_time = INFINITY};
     component_begin(&component, &(Memory){allocate, release, NULL});
     component_reset(&component);
     return count <= VARIABLE_COUNT

@@ -1,12 +1,6 @@
 #include "averaged.h"
 
-#include <stdbool.h>
-
-#include "../base/complex_number.h"
 #include "../base/elementary.h"
-#include "../base/refusal.h"
-#include "../device/device.h"
-#include "../device/plant.h"
 #include "mean_friction.h"
 
 /* Halvings of [0, pi] that select one of several balances. */
@@ -22,7 +16,7 @@ enum { SORTING = 4 };
  * rounding error of their sum [N]. Several angles may balance where friction rises with the angle. */
 typedef struct {
     const Law *law;
-    double opposing, noise;
+    double noise;
     FastMotion fast;
     VibratingLoad load;
 } Balance;
@@ -32,9 +26,10 @@ typedef struct {
     double turning, excess;
 } Point;
 
-static Balance balance_of(const Law *law, const FastVibration *fast, double normal_lead) {
+static Balance balance_of(const Law *law, double normal_lead) {
     const Device *device = &law->device;
-    Balance balance = {.law = law, .opposing = law->inputs.load};
+    const FastVibration *fast = &law->fast;
+    Balance balance = {.law = law};
     double ratio = law->inputs.frequency_ratio, faces = device->friction_faces;
     double delta = law->inputs.phase + normal_lead + ratio * fast->lag;
     balance.fast = (FastMotion){fast->velocity, device->drive_frequency};
@@ -51,11 +46,6 @@ static double friction_at(const Balance *balance, double turning) {
     const Law *law = balance->law;
     return law->device.friction_faces *
            mean_friction(&law->bristle, &balance->fast, &balance->load, turning);
-}
-
-static Point point_at(const Balance *balance, double turning) {
-    double sum = friction_at(balance, turning) + balance->opposing;
-    return (Point){turning, sum - balance->noise};
 }
 
 /* Share of the way from the newest point `a` to the opposite one `b`, by inverse quadratic interpolation through
@@ -78,7 +68,9 @@ static double balanced_turning(const Balance *balance, Point low, Point high) {
     double share = 0.5;
     for (int i = 0; high.turning - low.turning > CLOSE; i++) {
         double width = high.turning - low.turning, min_share = CLOSE / (2.0 * width);
-        Point next = point_at(balance, low.turning + share * width);
+        double turning = low.turning + share * width;
+        double sum = friction_at(balance, turning) + balance->law->inputs.load;
+        Point next = {turning, sum - balance->noise};
         bool above = next.excess > 0.0;
         Point before = above ? low : high;
         *(above ? &low : &high) = next;
@@ -104,12 +96,10 @@ static bool breaks_loose(const Balance *balance, double friction) {
 }
 
 Averaged averaged(const Law *law, double normal_lead) {
-    FastVibration fast;
-    Refusal refusal;
-    if (!fast_vibration_prepare(&fast, &law->device, &refusal) || fast.velocity == 0.0) {
+    if (law->fast.velocity == 0.0) {
         return (Averaged){0.0, 0.0, false};
     }
-    Balance balance = balance_of(law, &fast, normal_lead);
+    Balance balance = balance_of(law, normal_lead);
     double first = friction_at(&balance, 0.0), last = friction_at(&balance, PI);
     double load = law->inputs.load;
     if (first == last) {

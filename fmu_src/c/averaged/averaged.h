@@ -7,8 +7,6 @@
  * mean load counts. Friction averaged so is accurate to the order of 1 / Omega. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "../friction/law.h"
 
 /* Steady velocity [m/s] and blocking force [N] by averaged theory, and whether they apply. */

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "../base/elementary.h"
-#include "../base/number.h"
 
 /* Last Legendre coefficients that a panel may have, as a share of mu or of the largest mean on the panel where that is
  * larger. */

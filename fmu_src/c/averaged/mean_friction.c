@@ -4,7 +4,6 @@
 
 #include "../base/elementary.h"
 #include "../base/gauss_nodes.h"
-#include "../base/number.h"
 
 enum { EDGES = 6, MAX_BISECTIONS = 60 };
 

@@ -2,7 +2,6 @@
 
 #include "../base/constants.h"
 #include "../base/elementary.h"
-#include "../device/contact.h"
 
 /* What the steps of averaged motion are called where they are refused. */
 static const char *const STEPS = "steps of averaged motion";
@@ -26,6 +25,9 @@ static const char *const STEPS = "steps of averaged motion";
  * that leaves: no step corrects it. */
 #define LINEAR 4e-6
 #define SETTLED 1e-2
+
+/* Decay over a step below which a velocity is constant. */
+#define NO_DECAY 1e-6
 
 /* Number of waves of the normal load over a turn that doubles the cost of a quadrature, and number beyond
  * which the load counts with its mean. */
@@ -94,7 +96,7 @@ static void block_pass(SlowPoint *now, double friction, double load, double rate
 /* Motion without vibration, with constant friction in each piece of time. */
 static bool pass_unshaken(const SlowFriction *friction, double duration, Budget *budget,
                           SlowPoint *now, Refusal *refusal) {
-    const Plant *plant = &friction->law->held.plant;
+    const Plant *plant = &friction->law->plant;
     double longest = friction->stands ? fmin(duration, friction->beat / PIECES) : duration;
     double pieces = ceil(duration / longest), piece = duration / pieces;
     int allowed = budget_left(budget, MAX_SLOW_STEPS);
@@ -112,7 +114,7 @@ static bool pass_unshaken(const SlowFriction *friction, double duration, Budget 
 
 static bool rate_at(void *motion, double t, double velocity, SlowRate *rate) {
     const SlowFriction *friction = motion;
-    const Plant *plant = &friction->law->held.plant;
+    const Plant *plant = &friction->law->plant;
     double load = plant->load + plant->load_rate * t;
     double force = slow_friction_at(friction, t, velocity) + load;
     *rate = (SlowRate){-force / plant->total_mass, velocity};
@@ -123,7 +125,7 @@ static bool rate_at(void *motion, double t, double velocity, SlowRate *rate) {
 static int max_steps(const SlowFriction *friction) {
     bool costs_quadratures = is_elastic(&friction->bristle) && friction->table == NULL;
     if (!costs_quadratures) {
-        bool grows = friction->law->held.plant.load_rate != 0.0;
+        bool grows = friction->law->plant.load_rate != 0.0;
         return grows ? MAX_SLOW_STEPS / GROWING : MAX_SLOW_STEPS;
     }
     double waves = fmin(fabs(friction->law->inputs.frequency_ratio), MAX_WAVES);
@@ -133,7 +135,7 @@ static int max_steps(const SlowFriction *friction) {
 /* The step [s] to try first; without force all the `duration`. */
 static double first_step(const SlowFriction *friction, double duration) {
     const Law *law = friction->law;
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     double last_load = plant->load + plant->load_rate * duration;
     double strongest = plant->friction_preload + plant->friction_amplitude +
                        fmax(fabs(plant->load), fabs(last_load));
@@ -145,7 +147,7 @@ static double first_step(const SlowFriction *friction, double duration) {
  * on the velocity; by the acceleration of now and its growth, beyond the edge exactly. Steps that end there leave no visit
  * across an edge between their stages. Infinite under a constant load, where the steps find an edge by their error. */
 static double time_to_edge(const SlowFriction *friction, const SlowPoint *now) {
-    const Plant *plant = &friction->law->held.plant;
+    const Plant *plant = &friction->law->plant;
     int side = now->velocity > 0.0 ? 1 : -1;
     double beyond = side * now->velocity - friction->fast.velocity, jerk = -plant->load_rate / plant->total_mass;
     double sway = slow_friction_sway(friction) / plant->total_mass;
@@ -154,6 +156,24 @@ static double time_to_edge(const SlowFriction *friction, const SlowPoint *now) {
         return INFINITY;
     }
     return time_to_stop(fabs(beyond), away * now->rate.acceleration, away * jerk - sway);
+}
+
+/* One step of `h` [s] near a steady velocity, under rates that do not depend on time: the acceleration is linear in the
+ * velocity, with a derivative `gain`; a positive one, which is rounding, counts as 0. The error is what the acceleration at
+ * the end tells. Return false where the velocity would change by more than a share LINEAR of the fast one. */
+static bool linear_step(SlowFriction *friction, const SlowPoint *from, double gain, double h, SlowStep *step) {
+    double acceleration = from->rate.acceleration, z = h * fmin(0.0, gain), decayed = exp(z);
+    double mean = z < -NO_DECAY ? expm1(z) / z : 1.0, change = h * acceleration * mean;
+    if (!(fabs(change) <= LINEAR * friction->fast.velocity)) {
+        return false;
+    }
+    SlowPoint to = {.t = from->t + h, .velocity = from->velocity + change};
+    rate_at(friction, to.t, to.velocity, &to.rate);
+    double weight = z < -NO_DECAY ? (mean - decayed) / (1.0 - decayed) : 0.5;
+    to.travel = from->travel + h * (to.rate.travel + weight * (from->rate.travel - to.rate.travel));
+    double error = h * mean * fabs(to.rate.acceleration - decayed * acceleration);
+    *step = (SlowStep){to, error, z / h};
+    return true;
 }
 
 /* In this order: refuse a time of too many steps; then step by step: find how long the rates are smooth; pass all the rest
@@ -165,7 +185,7 @@ bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoi
         return pass_unshaken(friction, end, budget, now, refusal);
     }
     SlowFriction own = *friction;
-    bool varies = own.fastest != 0.0 || own.chirp != 0.0 || own.law->held.plant.load_rate != 0.0;
+    bool varies = own.fastest != 0.0 || own.chirp != 0.0 || own.law->plant.load_rate != 0.0;
     double first = first_step(&own, end), longest = BEAT_SHARE * own.beat, h = first;
     int tried = 0, max_count = max_steps(&own), allowed = budget_left(budget, max_count);
     /* No step is longer than a share of a beat: too many of them are refused before the first. */
@@ -181,8 +201,7 @@ bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoi
         double edge = fmax(time_to_edge(&own, now), MIN_APPROACH * first);
         double next = fmin(end, now->t + fmin(kink, edge)), left = next - now->t;
         SlowStep step;
-        bool settles = !varies && tried > 0 &&
-                       linear_step(rate_at, &own, now, gain, left, LINEAR * fast, &step) &&
+        bool settles = !varies && tried > 0 && linear_step(&own, now, gain, left, &step) &&
                        step.error <= SETTLED * tolerance;
         if (!settles) {
             h = fmin(fmin(h, longest), left);

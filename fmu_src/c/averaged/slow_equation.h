@@ -1,9 +1,6 @@
 /* The slow equation (M + m) V' = -mean friction - load, over a time. */
 #pragma once
 
-#include <stdbool.h>
-
-#include "../base/refusal.h"
 #include "../base/runge_kutta.h"
 #include "../device/budget.h"
 #include "slow_friction.h"

@@ -1,9 +1,6 @@
 #include "slow_friction.h"
 
-#include <stddef.h>
-
 #include "../base/elementary.h"
-#include "../base/number.h"
 
 /* Largest distance of the frequency ratio from an integer at which the phase counts as slow. Under a lifting
  * contact: largest distance of q times the ratio, times q, for q up to a few turns. */
@@ -54,7 +51,7 @@ SlowFriction slow_friction_of(const Law *law, double theta, double psi) {
     }
     slow.stands = waves == 0.0;
     slow.load = vibrating_load_of(device, waves, phase);
-    slow.chirp = law->held.plant.normal_rate;
+    slow.chirp = law->plant.normal_rate;
     if (slow.chirp != 0.0 && ((turns == 0 && !slow.stands) || device->normal_amplitude == 0.0)) {
         /* The frequency ratio may begin at an integer, where the load would count with its phase. */
         slow.load = slow.stands ? slow.load : vibrating_load_flattened(&slow.load);
@@ -83,10 +80,10 @@ double slow_friction_to_kink(const SlowFriction *slow, double t) {
         return INFINITY;
     }
     VibratingLoad turned;
-    const FlightWindow *window = &slow->law->held.window;
+    const Plant *plant = &slow->law->plant;
     double chi = load_at(slow, t, &turned)->delta, drift = slow->drift + slow->chirp * t;
     double going = drift != 0.0 ? drift : slow->chirp;
-    return time_to_switch(window, chi, drift, slow->chirp, is_lifted(window, chi, going));
+    return time_to_switch(plant, chi, drift, slow->chirp, is_lifted(plant, chi, going));
 }
 
 double slow_friction_sway(const SlowFriction *slow) {

@@ -7,7 +7,6 @@
  *
  * The bristle follows the motion periodically; it has no state here. */
 #include "../base/elementary.h"
-#include "../base/number.h"
 #include "../resolved/motion.h"
 #include "slow_equation.h"
 
@@ -15,26 +14,10 @@
  * out, the resonator's first swing and the first bend of bristles. */
 #define FIRST_ORDER 2.0
 
-/* Slow velocity V [m/s] of a state at drive phase `theta` [rad]. */
-static double slow_velocity(const Law *law, const State *state, double theta) {
-    double momentum = state->velocity + device_mass_fraction(&law->device) * state->rate;
-    return momentum + law->fast.pair_velocity * cos(theta);
-}
-
-/* Contact mode: lifted, or the direction of sliding with the fast vibration; STICK only at rest. */
-static int mode(const Law *law, const Moment *moment) {
-    const Held *held = &law->held;
-    return mode_by_velocity(&held->window, &held->plant, moment->state.velocity, moment->psi);
-}
-
 /* The initial values determine the momentum of the pair, not its vibration: the first step takes care of that. */
 static Moment start(const Law *law) {
-    const Device *device = &law->device;
-    Moment first = {.position = device->initial_position, .event_age = INFINITY};
-    first.state.velocity = device->initial_velocity;
-    first.state.displacement = device->initial_resonator_displacement;
-    first.state.rate = device->initial_resonator_velocity;
-    first.mode = mode(law, &first);
+    Moment first = first_moment(&law->device);
+    first.mode = mode_by_velocity(law, &first);
     first.means.complete = true;
     first.means.mean_velocity = slow_velocity(law, &first.state, first.theta);
     return first;
@@ -46,7 +29,7 @@ static bool averaged_advance(const Law *law, const Moment *moment, double durati
                              EventSearch *search, Budget *budget, Moment *after,
                              Refusal *refusal) {
     (void)search;
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     double w = plant->drive_frequency, drive = law->fast.pair_velocity;
     double share = device_mass_fraction(&law->device);
     double theta = moment->theta, psi = moment->psi;
@@ -65,7 +48,7 @@ static bool averaged_advance(const Law *law, const Moment *moment, double durati
     state.rate = swing.rate;
     Moment next = {.state = state, .theta = theta, .psi = psi, .counts = moment->counts};
     next.position = centre + reached.travel - drive / w * sin(theta) - share * swing.displacement;
-    next.mode = mode(law, &next);
+    next.mode = mode_by_velocity(law, &next);
     next.event_age = INFINITY;
     next.means.complete = true;
     next.means.mean_velocity = reached.velocity;
@@ -97,12 +80,11 @@ static double power(const Law *law, const Moment *moment) {
 
 /* The slow acceleration and the steady vibration. */
 static Rates rates(const Law *law, const Moment *moment) {
-    double w = law->held.plant.drive_frequency, share = device_mass_fraction(&law->device);
-    double slow = -(force(law, moment, STICK) + law->inputs.load) / law->held.plant.total_mass;
+    double w = law->plant.drive_frequency, share = device_mass_fraction(&law->device);
+    double slow = -(force(law, moment, STICK) + law->inputs.load) / law->plant.total_mass;
     Response swing = steady_swing(law->fast.resonator, moment->theta, w);
     State state = {.displacement = swing.rate, .rate = -w * w * swing.displacement};
-    state.velocity =
-        slow + law->fast.pair_velocity * w * sin(moment->theta) - share * state.rate;
+    state.velocity = slow + law->fast.pair_velocity * w * sin(moment->theta) - share * state.rate;
     return (Rates){state, slow};
 }
 
@@ -128,7 +110,7 @@ static double decay_in_turn(const Law *law) {
     if (device->resonator_mass == 0.0) {
         return bend_decay;
     }
-    return fmin(slower_decay(&law->held.plant.slip) * TAU / w, bend_decay);
+    return fmin(slower_decay(&law->plant.slip) * TAU / w, bend_decay);
 }
 
 /* In proportion to the share of friction in the inertia of the vibration. */
@@ -153,16 +135,11 @@ static double part(const Device *device, const Ramp *ramp, double left) {
     return fmin(left, ahead / fabs(ramp->ratio_rate));
 }
 
-static bool prepare(Law *law, Refusal *refusal) {
-    return fast_vibration_prepare(&law->fast, &law->device, refusal);
-}
-
 const Motion AVERAGED_MOTION = {
     .averages = true,
-    .prepare = prepare,
     .start = start,
     .advance = averaged_advance,
-    .mode = mode,
+    .mode = mode_by_velocity,
     .force = force,
     .power = power,
     .rates = rates,

@@ -1,7 +1,5 @@
 #include "runge_kutta.h"
 
-#include <math.h>
-
 #include "elementary.h"
 
 /* Dormand and Prince's pair; the last stage is the first of the next step. */
@@ -26,9 +24,6 @@ static const double ERROR[STAGES] = {
 #define MAX_GROWTH 5.0
 #define SAFETY 0.9
 
-/* Decay over a step below which a velocity is constant. */
-#define NO_DECAY 1e-6
-
 bool runge_kutta_step(SlowRateFunction rate, void *motion, const SlowPoint *from, double h,
                       SlowStep *step) {
     SlowRate rates[STAGES] = {from->rate};
@@ -52,21 +47,6 @@ bool runge_kutta_step(SlowRateFunction rate, void *motion, const SlowPoint *from
     to.rate = rates[STAGES - 1];
     double risen = to.rate.acceleration - rates[STAGES - 2].acceleration;
     *step = (SlowStep){to, fabs(error), risen / (to.velocity - before)};
-    return true;
-}
-
-bool linear_step(SlowRateFunction rate, void *motion, const SlowPoint *from, double gain, double h,
-                 double most, SlowStep *step) {
-    double acceleration = from->rate.acceleration, z = h * fmin(0.0, gain), decayed = exp(z);
-    double mean = z < -NO_DECAY ? expm1(z) / z : 1.0, change = h * acceleration * mean;
-    SlowPoint to = {.t = from->t + h, .velocity = from->velocity + change};
-    if (!(fabs(change) <= most) || !rate(motion, to.t, to.velocity, &to.rate)) {
-        return false;
-    }
-    double weight = z < -NO_DECAY ? (mean - decayed) / (1.0 - decayed) : 0.5;
-    to.travel = from->travel + h * (to.rate.travel + weight * (from->rate.travel - to.rate.travel));
-    double error = h * mean * fabs(to.rate.acceleration - decayed * acceleration);
-    *step = (SlowStep){to, error, z / h};
     return true;
 }
 

@@ -32,11 +32,5 @@ enum { ORDER = 5 };
 bool runge_kutta_step(SlowRateFunction rate, void *motion, const SlowPoint *from, double h,
                       SlowStep *step);
 
-/* One step of `h` near a steady velocity, under rates that do not depend on time: the acceleration is linear in the
- * velocity, with a derivative `gain`; a positive one, which is rounding, counts as 0. The error is what the acceleration at
- * the end tells. Return false where the velocity would change by more than `most`, or where there are no rates at the end. */
-bool linear_step(SlowRateFunction rate, void *motion, const SlowPoint *from, double gain, double h,
-                 double most, SlowStep *step);
-
 /* Factor by which the next step may be longer or shorter than one with this error. */
 double step_growth(double error, double tolerance);

@@ -1,10 +1,7 @@
 #include "component.h"
 
-#include <math.h>
 #include <string.h>
 
-#include "../base/refusal_texts.h"
-#include "../friction/law.h"
 #include "ramped_step.h"
 #include "values.h"
 
@@ -18,21 +15,13 @@ void component_end(Component *component) {
     memory->release(memory->host, component->tables.bending);
 }
 
-static const Law *present_law(const Component *component) {
-    return &component->laws[component->present];
-}
-
-/* Room for a law beside the present one. */
-static Law *other_law(Component *component) {
-    return &component->laws[1 - component->present];
-}
-
 /* Prepare the law of `values`; it replaces the present law unless it is refused. */
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
-    if (!prepare_law(values, &component->tables, other_law(component), refusal)) {
+    Law law;
+    if (!prepare_law(values, &component->tables, &law, refusal)) {
         return false;
     }
-    component->present = 1 - component->present;
+    component->law = law;
     component->prepared = true;
     component->theory.known = false;
     return true;
@@ -43,9 +32,7 @@ static bool prepare_present(Component *component, Refusal *refusal) {
 }
 
 void component_reset(Component *component) {
-    memset(&component->now, 0, sizeof component->now);
-    component->now.lifecycle = INSTANTIATED;
-    component->now.stop_time = INFINITY;
+    component->now = (Snapshot){.lifecycle = INSTANTIATED, .stop_time = INFINITY};
     component->prepared = false;
     start_values(component->now.values);
 }
@@ -57,7 +44,7 @@ bool component_setup_experiment(Component *component, const Experiment *experime
         return false;
     }
     component->now.time = component->now.last_event_time = experiment->start_time;
-    component->now.stop_time = experiment_end(experiment);
+    component->now.stop_time = experiment->stop_time;
     return true;
 }
 
@@ -71,7 +58,7 @@ bool component_exit_initialization(Component *component, Refusal *refusal) {
         || !prepare_present(component, refusal)) {
         return false;
     }
-    component->now.moment = present_law(component)->motion->start(present_law(component));
+    component->now.moment = component->law.motion->start(&component->law);
     component->now.moving = true;
     component->now.lifecycle = STEP_COMPLETE;
     return true;
@@ -83,24 +70,27 @@ bool component_terminate(Component *component, Refusal *refusal) {
     return lifecycle_change(lifecycle, "terminate", from, TERMINATED, refusal);
 }
 
-/* Whether the present law can take over values that differ in these variables alone. */
-static bool changes_in_place(const Component *component, const unsigned *references, size_t count) {
-    bool in_place = component->prepared;
-    for (size_t i = 0; i < count; i++) {
-        in_place = in_place && (references[i] == VR_PHASE || references[i] == VR_LOAD);
+/* Take over `values`; in a running component their law, too, unless it is refused. */
+static bool take_values(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
+    Snapshot *now = &component->now;
+    bool same = true, in_place = true, running = is_running(now->lifecycle);
+    for (size_t i = 0; i < SETTABLE_COUNT; i++) {
+        bool kept = values[i] == now->values[i];
+        same = same && kept;
+        in_place = in_place && (kept || i == VR_PHASE || i == VR_LOAD);
     }
-    return in_place;
-}
-
-/* Change the law of a running component to `values`, which differ at `references` only. */
-static bool change(Component *component, const double values[SETTABLE_COUNT],
-                   const unsigned *references, size_t count, Refusal *refusal) {
-    if (!changes_in_place(component, references, count)) {
-        return prepare(component, values, refusal);
+    if (same) {
+        return true;
     }
-    Inputs inputs = reduced_inputs(values);
-    law_change(&component->laws[component->present], inputs.phase, inputs.load);
-    component->theory.known = false;
+    if (running && in_place) {
+        Inputs inputs = reduced_inputs(values);
+        law_change(&component->law, inputs.phase, inputs.load);
+        component->theory.known = false;
+    } else if (running && !prepare(component, values, refusal)) {
+        return false;
+    }
+    component->prepared = running;
+    memcpy(now->values, values, sizeof now->values);
     return true;
 }
 
@@ -108,20 +98,9 @@ bool component_set(Component *component, const unsigned *references, const doubl
                    size_t count, Refusal *refusal) {
     double changed[SETTABLE_COUNT];
     memcpy(changed, component->now.values, sizeof changed);
-    if (!change_values(changed, component->now.lifecycle, references, values, count, refusal)) {
+    if (!change_values(changed, component->now.lifecycle, references, values, count, refusal)
+        || !take_values(component, changed, refusal)) {
         return false;
-    }
-    bool same = true;
-    for (size_t i = 0; i < count; i++) {
-        same = same && values[i] == component->now.values[references[i]];
-    }
-    bool running = is_running(component->now.lifecycle);
-    if (!same) {
-        if (running && !change(component, changed, references, count, refusal)) {
-            return false;
-        }
-        component->prepared = running;
-        memcpy(component->now.values, changed, sizeof changed);
     }
     hold_inputs(component->now.derivatives, references, count);
     return true;
@@ -129,13 +108,8 @@ bool component_set(Component *component, const unsigned *references, const doubl
 
 bool component_set_derivatives(Component *component, const unsigned *references,
                                const double *values, size_t count, Refusal *refusal) {
-    InputDerivative changed[VARYING_COUNT];
-    memcpy(changed, component->now.derivatives, sizeof changed);
-    if (!change_derivatives(changed, component->now.lifecycle, references, values, count, refusal)) {
-        return false;
-    }
-    memcpy(component->now.derivatives, changed, sizeof changed);
-    return true;
+    return change_derivatives(component->now.derivatives, component->now.lifecycle, references, values,
+                              count, refusal);
 }
 
 /* The moment from which outputs are read. Until initialization ends it is the first one, which is written
@@ -148,7 +122,7 @@ static bool moment_to_read(Component *component, unsigned reference, Moment *fir
     }
     *moment = &component->now.moment;
     if (!component->now.moving) {
-        *first = present_law(component)->motion->start(present_law(component));
+        *first = component->law.motion->start(&component->law);
         *moment = first;
     }
     return true;
@@ -170,7 +144,7 @@ static bool read(Component *component, bool derivatives, const unsigned *referen
         if (!moment && !moment_to_read(component, reference, &first, &moment, refusal)) {
             return false;
         }
-        const Law *law = present_law(component);
+        const Law *law = &component->law;
         if (!derivatives) {
             found[i] = output_value(reference, law, moment, now->last_event_time, &component->theory);
         } else if (!output_derivative(reference, law, moment, now->derivatives[VR_PHASE].value,
@@ -209,7 +183,7 @@ typedef struct {
 static bool find_end(Component *component, double time, double step_size, double duration,
                      EventSearch *search, StepEnd *end, Refusal *refusal) {
     const Snapshot *now = &component->now;
-    const Law *law = present_law(component);
+    const Law *law = &component->law;
     Moment *after = &end->moment;
     Budget budget = budget_of(step_size);
     if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)
@@ -217,8 +191,8 @@ static bool find_end(Component *component, double time, double step_size, double
         return false;
     }
     bool done = inputs_vary(now->derivatives)
-                    ? ramped_step(other_law(component), &component->tables, now, duration, &budget, after,
-                                  end->values, refusal)
+                    ? ramped_step(law, &component->tables, now, duration, &budget, after, end->values,
+                                  refusal)
                     : law->motion->advance(law, &now->moment, duration, search, &budget, after, refusal);
     if (!done) {
         return false;
@@ -230,24 +204,12 @@ static bool find_end(Component *component, double time, double step_size, double
            || refuse_infinite_motion(refusal, step_size);
 }
 
-/* Take over the inputs at the end of a step during which they vary. */
-static bool take_reached_inputs(Component *component, const double *reached, Refusal *refusal) {
-    Snapshot *now = &component->now;
-    static const unsigned inputs[VARYING_COUNT] = {VR_PHASE, VR_LOAD, VR_FREQUENCY_RATIO};
-    size_t count = now->derivatives[VR_FREQUENCY_RATIO].value != 0.0 ? VARYING_COUNT : VR_LOAD + 1;
-    if (!change(component, reached, inputs, count, refusal)) {
-        return false;
-    }
-    memcpy(now->values, reached, sizeof now->values);
-    return true;
-}
-
 /* Go on to the end of a step, `elapsed` [s] after `time` [s]. */
 static bool go_on(Component *component, const StepEnd *end, double time, double elapsed,
                   Refusal *refusal) {
     Snapshot *now = &component->now;
     double age = end->moment.event_age;
-    if (inputs_vary(now->derivatives) && !take_reached_inputs(component, end->values, refusal)) {
+    if (inputs_vary(now->derivatives) && !take_values(component, end->values, refusal)) {
         return false;
     }
     /* Without an event the age grows by the step size, up to rounding. */
@@ -290,7 +252,7 @@ bool component_step_to_event(Component *component, double time, double step_size
     Snapshot *now = &component->now;
     double owed = owed_time(now->time_carry, step_size), duration = step_size - owed;
     /* At an event the next one comes at a later time; elsewhere it may come at once. */
-    EventSearch search = event_search(now->moment.event_age == 0.0 ? time_resolution(time) : -1.0);
+    EventSearch search = {.after = now->moment.event_age == 0.0 ? time_resolution(time) : -1.0};
     StepEnd end;
     *event = false;
     if (!find_end(component, time, step_size, duration, &search, &end, refusal)) {

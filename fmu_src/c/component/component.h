@@ -1,12 +1,6 @@
 /* The component between numerics and FMI: values by reference, lifecycle, steps. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-
-#include "../base/memory.h"
-#include "../base/refusal.h"
-#include "../friction/law.h"
 #include "component_law.h"
 #include "experiment.h"
 #include "outputs.h"
@@ -16,9 +10,8 @@
 typedef struct {
     Snapshot now;  /* the complete state */
     bool prepared; /* whether a law of the present values is prepared */
-    int present;   /* index of that law; the other one is for the law tried next, and for those during a step */
-    Law laws[2];   /* the law of the present values, and room for another */
-    Tables tables; /* of friction, to which the laws point */
+    Law law;       /* that law */
+    Tables tables; /* of friction, to which laws point */
     Theory theory; /* the last prediction */
 } Component;
 

@@ -1,12 +1,7 @@
 #include "component_law.h"
 
-#include <math.h>
-
 #include "../averaged/friction_table.h"
-#include "../base/refusal_texts.h"
-#include "../device/device.h"
 #include "../friction/bending_kernels.h"
-#include "../friction/law.h"
 #include "parameter_values.h"
 #include "values.h"
 
@@ -23,11 +18,9 @@ bool all_finite(const double *numbers, size_t count) {
  * velocity [m^2/s^2], the drag over mu, and the integrals of load and friction [N]. The slider's mass must count beside the
  * resonator's. */
 static bool law_is_finite(const Law *law) {
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     const Device *device = &law->device;
-    FastVibration vibration;
-    Refusal unbounded;
-    double fast = fast_vibration_prepare(&vibration, device, &unbounded) ? vibration.velocity : 0.0;
+    double fast = law->fast.velocity;
     double mu = law->bristle.coefficient;
     double drag = law->bristle.damping * fmax(fast, fabs(device->initial_velocity));
     double drag_over_mu = drag / (mu > 0.0 ? mu : 1.0); /* without friction there is no drag */
@@ -71,7 +64,8 @@ Inputs reduced_inputs(const double values[SETTABLE_COUNT]) {
     return inputs;
 }
 
-Device driven_device(const double values[SETTABLE_COUNT]) {
+/* The device of `values`, with the deviations of its drive. */
+static Device driven_device(const double values[SETTABLE_COUNT]) {
     Device device = device_of(values);
     device.base_amplitude *= 1.0 + values[VR_AMPLITUDE_DEVIATION];
     device.tangential_force *= 1.0 + values[VR_AMPLITUDE_DEVIATION];
@@ -79,7 +73,8 @@ Device driven_device(const double values[SETTABLE_COUNT]) {
     return device;
 }
 
-const Motion *motion_of(Device *device) {
+/* The motion of a device, by its fidelity and averaging order; `device` becomes the one that this motion moves. */
+static const Motion *motion_of(Device *device) {
     if (device->fidelity != 0) {
         return &RESOLVED_MOTION;
     }
@@ -120,7 +115,7 @@ bool prepare_law(const double values[SETTABLE_COUNT], Tables *tables, Law *law, 
                                      frequency->requirement);
     }
     const Motion *motion = motion_of(&device);
-    if (!law_prepare(law, &device, &inputs, refusal) || (motion->prepare != NULL && !motion->prepare(law, refusal))) {
+    if (!law_prepare(law, &device, &inputs, refusal)) {
         return false;
     }
     law->motion = motion;

@@ -1,11 +1,7 @@
 /* The law of the values of a component. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-
 #include "../base/memory.h"
-#include "../base/refusal.h"
 #include "../resolved/motion.h"
 #include "variables.h"
 
@@ -21,12 +17,6 @@ bool all_finite(const double *numbers, size_t count);
 
 /* The inputs among `values`, with the phase reduced to [-pi, pi]. */
 Inputs reduced_inputs(const double values[SETTABLE_COUNT]);
-
-/* The device of `values`, with the deviations of its drive. */
-Device driven_device(const double values[SETTABLE_COUNT]);
-
-/* The motion of a device, by its fidelity and averaging order; `device` becomes the one that this motion moves. */
-const Motion *motion_of(Device *device);
 
 /* Prepare the law of `values`, and the tables that it needs. Refuse values that do not fit together; `law` is then
  * undefined. */

@@ -1,16 +1,10 @@
 #include "experiment.h"
 
-#include <math.h>
-
 #include "../base/constants.h"
 #include "../base/refusal_texts.h"
 
-double experiment_end(const Experiment *experiment) {
-    return experiment->stop_time_defined ? experiment->stop_time : INFINITY;
-}
-
 bool experiment_check(const Experiment *experiment, Refusal *refusal) {
-    double stop_time = experiment_end(experiment), tolerance = experiment->tolerance;
+    double stop_time = experiment->stop_time, tolerance = experiment->tolerance;
     if (!isfinite(experiment->start_time)) {
         return refuse_bad_start_time(refusal, experiment->start_time);
     }

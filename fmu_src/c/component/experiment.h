@@ -1,21 +1,16 @@
 /* The times of an experiment and of its steps, as FMI defines them. */
 #pragma once
 
-#include <stdbool.h>
+#include <math.h>
 
 #include "../base/refusal.h"
 
-/* Start time [s], and stop time [s] and tolerance where they are defined. */
+/* Start time [s], and stop time [s], infinite if it is open; the tolerance where it is defined. */
 typedef struct {
-    double start_time;
-    bool stop_time_defined;
-    double stop_time;
+    double start_time, stop_time;
     bool tolerance_defined;
     double tolerance;
 } Experiment;
-
-/* The stop time [s]; infinite if it is open. */
-double experiment_end(const Experiment *experiment);
 
 /* Refuse times that are not finite or in the wrong order, and a tolerance that is not above 0. */
 bool experiment_check(const Experiment *experiment, Refusal *refusal);

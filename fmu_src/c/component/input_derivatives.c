@@ -45,6 +45,8 @@ bool change_derivatives(InputDerivative derivatives[VARYING_COUNT], Lifecycle li
         if (!derivative_check(lifecycle, references[i], values[i], refusal)) {
             return false;
         }
+    }
+    for (size_t i = 0; i < count; i++) {
         if (references[i] < VARYING_COUNT) {
             derivatives[references[i]] = (InputDerivative){values[i], true};
         }

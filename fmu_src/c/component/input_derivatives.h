@@ -4,10 +4,8 @@
  * derivative is held from then on. */
 #pragma once
 
-#include <stdbool.h>
 #include <stddef.h>
 
-#include "../base/refusal.h"
 #include "lifecycle.h"
 
 /* The inputs that may vary over a step are the first variables: phase, load and frequency ratio. */
@@ -23,7 +21,7 @@ typedef struct {
 bool inputs_vary(const InputDerivative derivatives[VARYING_COUNT]);
 
 /* Change derivatives by reference. Refuse derivatives of other variables, any derivative after the end, and
- * values that are not finite; `derivatives` are then undefined. */
+ * values that are not finite; `derivatives` are then as they were. */
 bool change_derivatives(InputDerivative derivatives[VARYING_COUNT], Lifecycle lifecycle,
                         const unsigned *references, const double *values, size_t count,
                         Refusal *refusal);

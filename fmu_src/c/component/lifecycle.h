@@ -1,10 +1,50 @@
-/* The states of FMI co-simulation, and which call needs which. */
+/* The states of FMI co-simulation, which call needs which, and the names that differ between versions of FMI. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "../base/refusal_texts.h"
-#include "fmi_version.h"
+
+/* STEP_COMPLETE of FMI 2.0 is the step mode of FMI 3.0; only FMI 3.0 has EVENT_MODE. */
+typedef enum {
+    INSTANTIATED,
+    INITIALIZATION,
+    STEP_COMPLETE,
+    TERMINATED,
+    EVENT_MODE,
+    LIFECYCLES
+} Lifecycle;
+
+/* Types of values; the table of variables has those of the first two. */
+typedef enum {
+    REAL_TYPE,
+    INTEGER_TYPE,
+    BOOLEAN_TYPE,
+    STRING_TYPE,
+    FLOAT32_TYPE,
+    INT8_TYPE,
+    UINT8_TYPE,
+    INT16_TYPE,
+    UINT16_TYPE,
+    UINT32_TYPE,
+    INT64_TYPE,
+    UINT64_TYPE,
+    BINARY_TYPE,
+    CLOCK_TYPE,
+    VALUE_TYPES
+} ValueType;
+
+/* The version has the first `states` entries of Lifecycle. The value reference of a variable is its place in
+ * the table plus `reference_offset`; `min_reference` is the lowest one. */
+typedef struct {
+    unsigned min_reference, reference_offset;
+    int states;
+    const char *state_names[LIFECYCLES];
+    const char *type_names[VALUE_TYPES];
+    const char *count_name; /* FMI's name of the number of references in a call */
+    const char *token;      /* FMI's name of MODEL_GUID */
+} FmiVersion;
+
+/* The version that this FMU is for. */
+extern const FmiVersion FMI;
 
 /* Whether initialization has ended and the simulation has not. */
 static inline bool is_running(Lifecycle state) {
@@ -15,8 +55,7 @@ static inline bool is_running(Lifecycle state) {
 static inline bool require(const char *call, Lifecycle state, Lifecycle required,
                            Refusal *refusal) {
     return state == required
-           || refuse_wrong_state(refusal, call, FMI.state_names[state],
-                              FMI.state_names[required]);
+           || refuse_wrong_state(refusal, call, FMI.state_names[state], FMI.state_names[required]);
 }
 
 /* Go from one state to the next; refuse the call in any other state. */

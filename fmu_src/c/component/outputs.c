@@ -1,14 +1,13 @@
 #include "outputs.h"
 
 #include "../base/elementary.h"
-#include "../device/plant.h"
 #include "../leap/prediction.h"
 #include "../resolved/motion.h"
 #include "variables.h"
 
 /* Displacement [m] and velocity [m/s] of the resonator. */
 static Response resonator_swing(const Law *law, const Moment *moment) {
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     if (plant->resolves_resonator) {
         return (Response){moment->state.displacement, moment->state.rate};
     }
@@ -19,10 +18,6 @@ static double normal_force(const Law *law, const Moment *moment) {
     double chi = moment->psi + law->inputs.phase;
     double force = law->device.normal_preload + law->device.normal_amplitude * sin(chi);
     return force > 0.0 ? force : 0.0;
-}
-
-static double stick_fraction(const Law *law, const Moment *moment) {
-    return period_stick_fraction(&moment->means, law->motion->mode(law, moment) == STICK);
 }
 
 /* Parts of a radian to which leads of the normal load are rounded: inputs that return to earlier values find their
@@ -71,7 +66,7 @@ double output_value(unsigned reference, const Law *law, const Moment *moment,
     case VR_REVERSALS:
         return moment->counts.reversals;
     case VR_STICK_FRACTION:
-        return stick_fraction(law, moment);
+        return period_stick_fraction(&moment->means, law->motion->mode(law, moment) == STICK);
     case VR_LAST_EVENT_TIME:
         return last_event_time;
     case VR_STEADY_VELOCITY:
@@ -90,7 +85,7 @@ double output_value(unsigned reference, const Law *law, const Moment *moment,
 
 static double normal_force_rate(const Law *law, const Moment *moment, double phase_rate) {
     double chi = moment->psi + law->inputs.phase, amplitude = law->device.normal_amplitude;
-    double frequency = law->held.plant.normal_frequency + phase_rate;
+    double frequency = law->plant.normal_frequency + phase_rate;
     bool touches = law->device.normal_preload + amplitude * sin(chi) > 0.0;
     return touches ? amplitude * cos(chi) * frequency : 0.0;
 }

@@ -1,12 +1,7 @@
 /* The outputs of the interface, each from the present moment and the present inputs. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "../averaged/averaged.h"
-#include "../base/refusal.h"
-#include "../device/moment.h"
-#include "../friction/law.h"
 
 /* A cache of the prediction of a law at `normal_lead` [rad]; its owner clears `known` when the law changes. */
 typedef struct {

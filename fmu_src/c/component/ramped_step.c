@@ -1,10 +1,8 @@
 #include "ramped_step.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "../base/clock.h"
-#include "../base/number.h"
 #include "values.h"
 
 /* Slow phases that a whole budget buys. */
@@ -64,11 +62,10 @@ static void hold_phase(double ratio, double w, const Ramp *ramp, double duration
     after->psi = within_turn(after->psi - remainder(added * duration, TAU));
 }
 
-bool ramped_step(Law *law, Tables *tables, const Snapshot *now, double duration, Budget *budget,
+bool ramped_step(const Law *present, Tables *tables, const Snapshot *now, double duration, Budget *budget,
                  Moment *after, double reached[SETTABLE_COUNT], Refusal *refusal) {
-    double values[SETTABLE_COUNT], left = duration;
-    Device device = driven_device(now->values);
-    const Motion *motion = motion_of(&device);
+    double values[SETTABLE_COUNT], left = duration, w = present->device.drive_frequency;
+    const Motion *motion = present->motion;
     Clock clock = clock_of(duration);
     *after = now->moment;
     grow(now, duration, reached);
@@ -77,21 +74,22 @@ bool ramped_step(Law *law, Tables *tables, const Snapshot *now, double duration,
         return false;
     }
     while (left > 0.0) {
+        Law law;
         Moment before = *after;
-        Ramp ramp = ramp_from(values, device.drive_frequency, now->derivatives);
-        double part = motion->part == NULL ? left : motion->part(&device, &ramp, left);
+        Ramp ramp = ramp_from(values, w, now->derivatives);
+        double part = motion->part == NULL ? left : motion->part(&present->device, &ramp, left);
         budget->passed = clock.elapsed;
         if (budget_left(budget, MAX_SLOW_PHASES) == 0) {
             return budget_refuse(budget, 0.0, MAX_SLOW_PHASES, "slow phases of the normal load",
                                  refusal);
         }
-        if (!prepare_part(law, tables, values, &ramp, part, refusal)
-            || !motion->advance(law, &before, part, NULL, budget, after, refusal)) {
+        if (!prepare_part(&law, tables, values, &ramp, part, refusal)
+            || !motion->advance(&law, &before, part, NULL, budget, after, refusal)) {
             return false;
         }
         left = part == left ? 0.0 : clock_advance(&clock, part);
         budget_spend(budget, left > 0.0, MAX_SLOW_PHASES);
-        hold_phase(values[VR_FREQUENCY_RATIO], device.drive_frequency, &ramp, part, after);
+        hold_phase(values[VR_FREQUENCY_RATIO], w, &ramp, part, after);
         grow(now, left > 0.0 ? clock.elapsed : duration, values);
     }
     return true;

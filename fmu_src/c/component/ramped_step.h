@@ -5,12 +5,10 @@
  * grow. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "component_law.h"
 #include "snapshot.h"
 
-/* The moment after a step of `duration` [s] from `now` on, and the values `reached` there; `law` is room for the laws during
- * the step. Refuses inputs that leave their bounds, and what the motion refuses; `after` is then undefined. */
-bool ramped_step(Law *law, Tables *tables, const Snapshot *now, double duration, Budget *budget,
+/* The moment after a step of `duration` [s] from `now` on under the law `present`, and the values `reached` there. Refuses
+ * inputs that leave their bounds, and what the motion refuses; `after` is then undefined. */
+bool ramped_step(const Law *present, Tables *tables, const Snapshot *now, double duration, Budget *budget,
                  Moment *after, double reached[SETTABLE_COUNT], Refusal *refusal);

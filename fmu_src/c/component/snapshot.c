@@ -2,10 +2,8 @@
  * that can be set; the checksum. */
 #include "snapshot.h"
 
-#include <math.h>
 #include <string.h>
 
-#include "../base/refusal_texts.h"
 #include "state_bytes.h"
 #include "values.h"
 
@@ -156,6 +154,5 @@ bool snapshot_read(Snapshot *snapshot, const unsigned char *bytes, size_t size, 
         snapshot->values[i] = number;
     }
     bool needs_motion = is_running(snapshot->lifecycle) || snapshot->lifecycle == TERMINATED;
-    return snapshot->moving || !needs_motion
-           || refuse_state_without_motion(refusal);
+    return snapshot->moving || !needs_motion || refuse_state_without_motion(refusal);
 }

@@ -1,13 +1,8 @@
 /* The complete state of a component and its bytes, which are the same on every platform. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-
-#include "../base/refusal.h"
 #include "../device/moment.h"
 #include "input_derivatives.h"
-#include "lifecycle.h"
 #include "variables.h"
 
 typedef struct {

@@ -1,7 +1,6 @@
 /* The format of a serialised state, whatever the component: header, numbers, checksum. */
 #pragma once
 
-#include <stdbool.h>
 #include <stddef.h>
 
 #include "../base/refusal.h"

@@ -3,20 +3,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../base/refusal_texts.h"
-
-bool reference_check(unsigned place, ValueType type, Refusal *refusal) {
-    unsigned reference = place + FMI.reference_offset;
-    if (place >= VARIABLE_COUNT) {
-        return refuse_unknown_reference(refusal, reference, FMI.min_reference,
-                                        VARIABLE_COUNT - 1 + FMI.reference_offset);
-    }
-    const Variable *variable = &VARIABLES[place];
-    ValueType own = variable->integer ? INTEGER_TYPE : REAL_TYPE;
-    return own == type || refuse_wrong_type(refusal, variable->name, reference,
-                                            FMI.type_names[own], FMI.type_names[type]);
-}
-
 bool value_check(const Variable *variable, double value, Refusal *refusal) {
     if (isfinite(value) && value >= variable->minimum && value <= variable->maximum
         && (!variable->integer || value == floor(value))) {
@@ -42,8 +28,7 @@ bool reading_check(Lifecycle lifecycle, unsigned reference, Refusal *refusal) {
 
 /* Refuse to set outputs, fixed parameters while running, anything after the end, and values that the
  * table excludes. */
-static bool setting_check(Lifecycle lifecycle, unsigned reference, double value,
-                          Refusal *refusal) {
+static bool setting_check(Lifecycle lifecycle, unsigned reference, double value, Refusal *refusal) {
     const Variable *variable = &VARIABLES[reference];
     char text[NUMBER_SIZE];
     if (lifecycle == TERMINATED) {

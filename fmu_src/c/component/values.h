@@ -1,10 +1,8 @@
 /* Values of variables by reference: what a host may read and set. */
 #pragma once
 
-#include <stdbool.h>
 #include <stddef.h>
 
-#include "../base/refusal.h"
 #include "lifecycle.h"
 #include "variables.h"
 
@@ -12,9 +10,6 @@
     || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "compile without -ffast-math, -fassociative-math, -ffinite-math-only, /fp:fast: they remove rounding or checks for NaN"
 #endif
-
-/* Refuse a place in the table where no variable is, or one of another type. */
-bool reference_check(unsigned place, ValueType type, Refusal *refusal);
 
 /* Refuse a value that the table excludes. */
 bool value_check(const Variable *variable, double value, Refusal *refusal);

@@ -1,9 +1,9 @@
 /* The work of one communication step: all its parts draw from one budget. */
 #pragma once
 
-#include <stdbool.h>
+#include <math.h>
 
-#include "../base/refusal.h"
+#include "../base/refusal_texts.h"
 
 /* The step has `step_size` [s], of which `passed` [s] were over when its present part began. `spent` is the
  * share of the budget that is spent. */
@@ -26,5 +26,12 @@ static inline void budget_spend(Budget *budget, int count, int max_count) {
 
 /* Refuse work of which a whole budget buys `max_count` of `what`. A step up to `reached` [s] after the present
  * part began takes less: the text names the power of ten below it. Return false. */
-bool budget_refuse(const Budget *budget, double reached, int max_count, const char *what,
-                   Refusal *refusal);
+static inline bool budget_refuse(const Budget *budget, double reached, int max_count,
+                                 const char *what, Refusal *refusal) {
+    double end = budget->passed + reached;
+    if (end > 0.0) {
+        long long exponent = (long long)floor(log10(end));
+        return refuse_too_much_work(refusal, budget->step_size, max_count, what, exponent);
+    }
+    return refuse_too_much_work_at_once(refusal, budget->step_size, max_count, what);
+}

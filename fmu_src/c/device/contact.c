@@ -1,25 +1,13 @@
 #include "contact.h"
 
 #include "../base/elementary.h"
-#include "../base/number.h"
-#include "device.h"
 
 /* Distance [rad] from a boundary within which it counts as reached: rounding. The shortest flight that
  * floating point numbers can describe is 3e-8 rad long. */
 #define REACHED 1e-12
 
-FlightWindow flight_window(const Plant *plant) {
-    if (plant->preload_share >= 1.0) {
-        return (FlightWindow){false, 0.0, 0.0};
-    }
-    if (plant->preload_share < 0.0) {
-        return (FlightWindow){true, 0.0, TAU};
-    }
-    double dip = asin(plant->preload_share);
-    return (FlightWindow){true, PI + dip, TAU - dip};
-}
-
-bool is_lifted(const FlightWindow *window, double chi, double frequency) {
+bool is_lifted(const Plant *plant, double chi, double frequency) {
+    const FlightWindow *window = &plant->window;
     if (!window->exists) {
         return false;
     }
@@ -34,13 +22,11 @@ bool is_lifted(const FlightWindow *window, double chi, double frequency) {
     if (frequency > 0.0) {
         return -REACHED < inside && inside < width - REACHED;
     }
-    if (frequency < 0.0) {
-        return REACHED < inside && inside < width + REACHED;
-    }
-    return -REACHED < inside && inside < width + REACHED;
+    return (frequency < 0.0 ? REACHED : -REACHED) < inside && inside < width + REACHED;
 }
 
-double time_to_switch(const FlightWindow *window, double chi, double frequency, double rate, bool lifted) {
+double time_to_switch(const Plant *plant, double chi, double frequency, double rate, bool lifted) {
+    const FlightWindow *window = &plant->window;
     double going = frequency != 0.0 ? frequency : rate;
     if (!window->exists || going == 0.0 || window->last - window->first >= TAU) {
         return INFINITY;
@@ -57,13 +43,6 @@ double time_to_switch(const FlightWindow *window, double chi, double frequency, 
     }
     double square = speed * speed + 2.0 * gain * ahead;
     return square >= 0.0 ? 2.0 * ahead / (speed + sqrt(square)) : INFINITY;
-}
-
-int mode_by_velocity(const FlightWindow *window, const Plant *plant, double velocity, double psi) {
-    if (is_lifted(window, psi + plant->phase, plant->normal_frequency)) {
-        return LIFTED;
-    }
-    return direction_of(velocity);
 }
 
 double friction_limit(const Plant *plant, double psi) {

@@ -1,11 +1,7 @@
 /* A moment of a motion: all that the motion carries from one step to the next. */
 #pragma once
 
-#include <math.h>
-
-#include "../base/number.h"
 #include "contact.h"
-#include "device.h"
 #include "period.h"
 
 /* Largest change of the phase of a stop [rad] in a turn that counts as a drift. */
@@ -61,11 +57,11 @@ typedef struct {
     double leap_error; /* what leaps over periods may have added to the error of the slow velocity [m/s] */
 } Moment;
 
-/* The counts after the slider has moved in `direction`. */
-static inline Counts counts_slid(Counts counts, int direction) {
-    counts.reversals += counts.sliding == -direction;
-    counts.sliding = direction;
-    return counts;
+/* The first moment, at drive and normal phase 0, from the initial values of the device, but for mode and bristle. */
+static inline Moment first_moment(const Device *device) {
+    State state = {device->initial_velocity, device->initial_resonator_displacement,
+                   device->initial_resonator_velocity};
+    return (Moment){.state = state, .position = device->initial_position, .event_age = INFINITY};
 }
 
 /* Changes to contact mode `mode`; that is an event unless it is the present mode. */

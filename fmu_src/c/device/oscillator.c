@@ -61,14 +61,14 @@ static Complex divided_difference(Complex a, Complex b, Complex grown_b, double 
     return complex_scale(t, complex_mul(grown_b, growth_of(angle).once));
 }
 
-ComplexResponse response_from_rest(const Oscillator *oscillator, double frequency, double t,
-                                   Complex turn) {
+Response response_from_rest(const Oscillator *oscillator, Complex forcing, double frequency, double t,
+                            Complex turn) {
     Complex eigenvalue = oscillator->eigenvalue, conjugate = complex_conj(eigenvalue);
-    Complex forcing = complex_of(0.0, frequency);
-    Complex near = divided_difference(eigenvalue, forcing, turn, t);
-    Complex far = divided_difference(conjugate, forcing, turn, t);
+    Complex exponent = complex_of(0.0, frequency);
+    Complex near = divided_difference(eigenvalue, exponent, turn, t);
+    Complex far = divided_difference(conjugate, exponent, turn, t);
     Complex width = complex_of(0.0, 2.0 * eigenvalue.im);
     Complex moved = complex_sub(complex_mul(eigenvalue, near), complex_mul(conjugate, far));
-    return (ComplexResponse){complex_div(complex_sub(near, far), width),
-                             complex_div(moved, width)};
+    return (Response){complex_mul(forcing, complex_div(complex_sub(near, far), width)).re,
+                      complex_mul(forcing, complex_div(moved, width)).re};
 }

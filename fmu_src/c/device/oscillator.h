@@ -24,14 +24,10 @@ typedef struct {
     Complex eigenvalue;
 } Oscillator;
 
-/* Displacement (m or s^2 per unit forcing) and its rate, real or as complex amplitude. */
+/* Displacement [m] and its rate [m/s]. */
 typedef struct {
     double displacement, rate;
 } Response;
-
-typedef struct {
-    Complex displacement, rate;
-} ComplexResponse;
 
 Oscillator oscillator_of(double decay, double stiffness);
 
@@ -54,7 +50,7 @@ static inline Response free_motion(const Oscillator *oscillator, Response start,
                       u * (free.displacement - sway) - oscillator->stiffness * y * free.rate};
 }
 
-/* Response to exp(i frequency t) from rest; regular at resonance. Only for oscillatory damping and
- * frequency > 0. `turn` is exp(i frequency t). */
-ComplexResponse response_from_rest(const Oscillator *oscillator, double frequency, double t,
-                                   Complex turn);
+/* Response to the real part of `forcing` [m/s^2] exp(i frequency t) from rest; regular at resonance. Only for
+ * oscillatory damping and frequency > 0. `turn` is exp(i frequency t). */
+Response response_from_rest(const Oscillator *oscillator, Complex forcing, double frequency, double t,
+                            Complex turn);

@@ -1,7 +1,5 @@
 #include "period.h"
 
-#include <math.h>
-
 #include "device.h"
 
 /* The passage at time `t` [s]. Close to the end of the segment, where steps of whole periods ask for it, the
@@ -13,11 +11,6 @@ static Passage passage_until(const Segment *segment, double t, double frequency)
         passage.travel = segment->passed.travel - segment->velocity * rest;
     }
     return passage;
-}
-
-double period_last_end(double theta, double frequency, double duration) {
-    double ended = floor((theta + frequency * duration + MARK_TOLERANCE) / TAU);
-    return (TAU * ended - theta) / frequency;
 }
 
 double period_advance(PeriodMeans *means, const Segment *segment, double theta, double frequency) {

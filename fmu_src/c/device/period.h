@@ -35,10 +35,6 @@ typedef struct {
     const void *motion;
 } Segment;
 
-/* Time [s] of the last end of a period in a motion of `duration` [s] from drive phase `theta` [rad] on; <= 0
- * where no period ends. */
-double period_last_end(double theta, double frequency, double duration);
-
 /* Add a segment that began at drive phase `theta` [rad]. Return the drive phase at its end, modulo
  * 2 pi. */
 double period_advance(PeriodMeans *means, const Segment *segment, double theta, double frequency);

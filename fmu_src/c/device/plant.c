@@ -2,7 +2,6 @@
 
 #include "../base/elementary.h"
 #include "../base/refusal_texts.h"
-#include "device.h"
 
 /* Relative difference of two squared frequencies that is due to rounding: without damping the steady force
  * has no correct digit there. */
@@ -15,7 +14,9 @@ static Oscillator slip_oscillator(const Device *device) {
     return oscillator_of(device->damping_ratio * wn / free_share, wn * wn / free_share);
 }
 
-bool steady_vibration(const Device *device, Complex *resonator, Complex *force, Refusal *refusal) {
+/* Steady vibration as complex amplitudes of e: displacement of the `resonator` [m] (eqs 31-32), a direct drive included, and
+ * F_T* exp(-i theta_1) of eqs (33)-(34) with the direct drive added, `force` [N]. Refuses where it is unbounded. */
+static bool steady_vibration(const Device *device, Complex *resonator, Complex *force, Refusal *refusal) {
     double w = device->drive_frequency;
     Oscillator oscillator = slip_oscillator(device);
     if (device->damping_ratio == 0.0 && fabs(oscillator.stiffness - w * w) <= AT_RESONANCE * w * w) {
@@ -42,25 +43,31 @@ double held_amplitude(const Device *device) {
     return hypot(force.re + device->tangential_force, force.im);
 }
 
-bool fast_vibration_prepare(FastVibration *fast, const Device *device, Refusal *refusal) {
+FastVibration fast_vibration_of(const Device *device) {
     double w = device->drive_frequency, mass = device_total_mass(device);
     double shaken = device->resonator_mass * device->base_amplitude * w * w;
+    FastVibration fast = {0};
     Complex force;
-    if (!steady_vibration(device, &fast->resonator, &force, refusal)) {
-        return false;
+    Refusal refusal;
+    if (steady_vibration(device, &fast.resonator, &force, &refusal)) {
+        fast.velocity = complex_abs(force) / (mass * w);
+        fast.pair_velocity = (shaken + device->tangential_force) / (mass * w);
+        /* Adding 0 makes -0 a 0, which atan2 distinguishes. */
+        fast.lag = -elementary_atan2(force.im + 0.0, force.re);
     }
-    fast->velocity = complex_abs(force) / (mass * w);
-    fast->pair_velocity = (shaken + device->tangential_force) / (mass * w);
-    /* Adding 0 makes -0 a 0, which atan2 distinguishes. */
-    fast->lag = -elementary_atan2(force.im + 0.0, force.re);
-    return true;
+    return fast;
 }
 
-static double preload_share(const Device *device) {
-    if (device->normal_amplitude > 0.0) {
-        return device->normal_preload / device->normal_amplitude;
+static FlightWindow flight_window(const Device *device) {
+    double preload = device->normal_preload, amplitude = device->normal_amplitude;
+    if (preload == 0.0 && amplitude == 0.0) {
+        return (FlightWindow){true, 0.0, TAU};
     }
-    return device->normal_preload > 0.0 ? INFINITY : -1.0;
+    if (preload >= amplitude) {
+        return (FlightWindow){false, 0.0, 0.0};
+    }
+    double dip = asin(preload / amplitude);
+    return (FlightWindow){true, PI + dip, TAU - dip};
 }
 
 bool plant_prepare(Plant *plant, const Device *device, const Inputs *inputs, Refusal *refusal) {
@@ -84,7 +91,7 @@ bool plant_prepare(Plant *plant, const Device *device, const Inputs *inputs, Ref
     plant->load_rate = plant->normal_rate = 0.0;
     plant->friction_preload = faces_mu * device->normal_preload;
     plant->friction_amplitude = faces_mu * device->normal_amplitude;
-    plant->preload_share = preload_share(device);
+    plant->window = flight_window(device);
     plant->slip = slip_oscillator(device);
     plant->stick = oscillator_of(device->damping_ratio * wn, wn * wn);
     plant->drive = complex_of(force.re / total, force.im / total);

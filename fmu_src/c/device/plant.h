@@ -10,22 +10,23 @@
  * where e = -i exp(i theta). At fidelity 1 the resonator acts through its steady force (34) alone. */
 #pragma once
 
-#include <math.h>
-#include <stdbool.h>
-
-#include "../base/complex_number.h"
-#include "../base/elementary_functions.h"
 #include "../base/refusal.h"
 #include "device.h"
 #include "oscillator.h"
+
+/* Range of chi [rad] in which the contact is lifted, if there is one (`exists`): [0, 2 pi] if there is no
+ * normal load at all. */
+typedef struct {
+    bool exists;
+    double first, last;
+} FlightWindow;
 
 /* Coefficients under held inputs (SI units; complex numbers are amplitudes of e).
  *
  * At fidelity 1 (and 0) the resonator acts by its steady force only: `slider_mass` is the total mass,
  * `mass_fraction`, `spring` and `damper` are 0, `resonator_amplitude` is the steady displacement of the
- * resonator [m], and `resolves_resonator` is false. `preload_share` is N0 / dN: the contact lifts below 1;
- * -1 stands for no normal load at all. `holding_drive` is the part of the force on a held slider that
- * follows the drive directly [N], `drive` the force of the drive on the pair per total mass [m/s^2].
+ * resonator [m], and `resolves_resonator` is false. `holding_drive` is the part of the force on a held slider
+ * that follows the drive directly [N].
  *
  * While inputs vary, the load grows by `load_rate` [N/s] and the normal frequency by `normal_rate`
  * [rad/s^2]; both are 0 under held inputs. */
@@ -36,7 +37,7 @@ typedef struct {
     double phase, load;                          /* inputs [rad, N] */
     double load_rate, normal_rate;               /* growth of the load [N/s] and of the normal frequency [rad/s^2] */
     double friction_preload, friction_amplitude; /* F0 and F1 [N] */
-    double preload_share;                        /* N0 / dN */
+    FlightWindow window;                         /* where the contact is lifted */
     Oscillator slip, stick;                      /* the resonator on a sliding and on a held slider */
     Complex drive;                               /* force on the pair per total mass [m/s^2] */
     double relative_drive, base_acceleration;    /* drive of the resonator while sliding and sticking [m/s^2] */
@@ -67,15 +68,11 @@ static inline double velocity_scale(const Plant *plant, const State *state) {
            fabs(state->velocity) + plant->mass_fraction * complex_abs(swing);
 }
 
-/* Steady vibration as complex amplitudes of e: displacement of the `resonator` [m] (eqs 31-32), a direct drive included, and
- * F_T* exp(-i theta_1) of eqs (33)-(34) with the direct drive added, `force` [N]. Refuses where it is unbounded. */
-bool steady_vibration(const Device *device, Complex *resonator, Complex *force, Refusal *refusal);
-
 /* Amplitude of the steady force of resonator and direct drive on a held slider [N]; infinite where
  * undamped resonance leaves no steady vibration. */
 double held_amplitude(const Device *device);
 
-/* The steady vibration of slider and resonator without friction (32)-(34). */
+/* The steady vibration of slider and resonator without friction (32)-(34); all 0 where undamped resonance leaves none. */
 typedef struct {
     double velocity;      /* amplitude of the slider's velocity, v_q [m/s] */
     double pair_velocity; /* amplitude of the velocity that the drive force gives to the pair [m/s] */
@@ -83,8 +80,7 @@ typedef struct {
     Complex resonator;    /* displacement of the resonator, complex amplitude of e [m] */
 } FastVibration;
 
-/* Refuses where undamped resonance leaves no steady vibration. */
-bool fast_vibration_prepare(FastVibration *fast, const Device *device, Refusal *refusal);
+FastVibration fast_vibration_of(const Device *device);
 
 /* Displacement [m] and velocity [m/s] of `amplitude` e at drive phase `theta` [rad]. */
 static inline Response steady_swing(Complex amplitude, double theta, double frequency) {

@@ -39,9 +39,10 @@ bool split_prepare(Split *split, const Plant *plant) {
     return true;
 }
 
-Phasors phasors_of(const Plant *plant, double theta, double chi) {
-    double changing = plant->normal_frequency == plant->drive_frequency ? chi - theta : chi;
-    return (Phasors){complex_rect(1.0, theta), complex_rect(1.0, changing)};
+Phasors phasors_of(const Plant *plant, const Moment *now) {
+    double chi = now->psi + plant->phase;
+    double changing = plant->normal_frequency == plant->drive_frequency ? chi - now->theta : chi;
+    return (Phasors){complex_rect(1.0, now->theta), complex_rect(1.0, changing)};
 }
 
 Complex normal_phasor(const Plant *plant, const Phasors *phasors) {
@@ -143,8 +144,7 @@ static inline void rotate_turns(const SplitSlide *slide, const Turns *anchor, do
 /* Turns at `t`: rotated from the start or the anchor (in `place`), or computed (in `fresh`). Close to the
  * start they are always rotated, so that rounding errors are those of the start: a slider that sets out
  * must not seem to move back. */
-static inline const Turns *turns_at(const SplitSlide *slide, double t, Turns *place,
-                                    Turns *fresh) {
+static inline const Turns *turns_at(const SplitSlide *slide, double t, Turns *place, Turns *fresh) {
     if (t == 0.0) {
         return &slide->start;
     }
@@ -220,18 +220,18 @@ static void match_state(SplitSlide *slide, const State *state) {
     slide->noise = 2.0 * EPSILON * (fabs(slide->k0) + drive + normal + decaying);
 }
 
-void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant, int sign,
-                       const State *state, double theta, double chi, const Phasors *start,
-                       int direction) {
+void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant, const Moment *now,
+                       const Phasors *start, int direction) {
+    int sign = now->mode == LIFTED ? 0 : direction;
     double friction = sign * plant->friction_preload;
     slide->split = split;
     slide->plant = plant;
     slide->direction = direction;
     slide->sign = sign;
     slide->works = false;
-    slide->begin = *state;
-    slide->theta = theta;
-    slide->chi = chi;
+    slide->begin = now->state;
+    slide->theta = now->theta;
+    slide->chi = now->psi + plant->phase;
     slide->start.t = 0.0;
     slide->start.phasors = *start;
     slide->start.free = complex_of(1.0, 0.0);
@@ -254,7 +254,7 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
                       2.0 * plant->slip.decay / plant->slip.stiffness * slide->slope;
     slide->k1 = -(friction + plant->load) / plant->total_mass;
     slide->k2 = -0.5 * plant->load_rate / plant->total_mass;
-    match_state(slide, state);
+    match_state(slide, &now->state);
 }
 
 void split_slide_change(SplitSlide *slide, double momentum, Complex swing) {
@@ -312,8 +312,7 @@ static inline double bound_by(const SplitSlide *slide, const Turns *turns, doubl
         return slide->bound + slide->free_bound * turns->envelope;
     }
     double jerk = -2.0 * slip->decay * acceleration - slip->stiffness * rate;
-    return slide->bound +
-           slide->plant->mass_fraction * hypot(jerk, slip->frequency * acceleration);
+    return slide->bound + slide->plant->mass_fraction * hypot(jerk, slip->frequency * acceleration);
 }
 
 static Signal velocity_ahead(void *motion, double t) {
@@ -340,8 +339,7 @@ static double swing_travel(Complex amplitude, double frequency, Complex start, C
     return complex_mul(amplitude, complex_sub(end, start)).im / frequency;
 }
 
-static inline double travel_by(const SplitSlide *slide, const Turns *turns,
-                               double displacement) {
+static inline double travel_by(const SplitSlide *slide, const Turns *turns, double displacement) {
     const Plant *plant = slide->plant;
     double t = turns->t, moved = displacement - slide->free_start.displacement;
     double travel = swing_travel(slide->velocity_drive, plant->drive_frequency,

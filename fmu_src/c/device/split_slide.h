@@ -6,12 +6,8 @@
  * series are used (taylor_slide.h). */
 #pragma once
 
-#include <stdbool.h>
-
 #include "../base/first_zero.h"
-#include "device.h"
-#include "period.h"
-#include "plant.h"
+#include "moment.h"
 #include "slide_work.h"
 
 /* Complex amplitudes per unit exp(i theta) and, for s = 1, per unit exp(i chi): displacement of the
@@ -41,7 +37,7 @@ typedef struct {
     Phasors phasors;
 } KnownPhasors;
 
-Phasors phasors_of(const Plant *plant, double theta, double chi);
+Phasors phasors_of(const Plant *plant, const Moment *now);
 
 /* exp(i chi) of the normal load. */
 Complex normal_phasor(const Plant *plant, const Phasors *phasors);
@@ -89,11 +85,10 @@ typedef struct {
     bool anchored;
 } SplitSlide;
 
-/* Begin a slide from `state`, under friction in direction `sign`. The velocity is watched in `direction`,
- * unless that is 0. `start` are the phasors of `theta` and `chi`. */
-void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant, int sign,
-                       const State *state, double theta, double chi, const Phasors *start,
-                       int direction);
+/* Begin at `now`, whose phasors are `start`: a slide in `direction`, or a flight in contact mode LIFTED. The velocity is
+ * watched in `direction`, unless that is 0. */
+void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant, const Moment *now,
+                       const Phasors *start, int direction);
 
 /* Adds to the motion a constant velocity `momentum` [m/s] and a free oscillation from the start on, of
  * complex amplitude `swing` [m] of the resonator, with its reaction on the slider. */

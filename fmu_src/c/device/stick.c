@@ -6,13 +6,12 @@
  * sticks. */
 #define AHEAD 5.0
 
-void stick_begin(Stick *stick, const Plant *plant, const State *state, double theta, double chi) {
-    double w = plant->drive_frequency, q = plant->normal_frequency;
-    Complex drive_turn = complex_of(sin(theta), -cos(theta)), steady = complex_of(0.0, 0.0);
+void stick_begin(Stick *stick, const Plant *plant, const Moment *now) {
+    double w = plant->drive_frequency, q = plant->normal_frequency, chi = now->psi + plant->phase;
+    Complex drive_turn = complex_of(sin(now->theta), -cos(now->theta)), steady = complex_of(0.0, 0.0);
     stick->plant = plant;
     stick->direct = complex_mul(plant->holding_drive, drive_turn);
-    stick->normal =
-        complex_scale(plant->friction_amplitude, complex_of(sin(chi), -cos(chi)));
+    stick->normal = complex_scale(plant->friction_amplitude, complex_of(sin(chi), -cos(chi)));
     double fastest = fabs(q) + fabs(plant->normal_rate) * LONGEST_ARC / fmax(w, fabs(q));
     double swing = complex_abs(stick->normal);
     stick->fixed_bound = swing * fastest * fastest + swing * fabs(plant->normal_rate) +
@@ -25,16 +24,14 @@ void stick_begin(Stick *stick, const Plant *plant, const State *state, double th
     }
     stick->steady = steady;
     stick->free_start =
-        (Response){state->displacement - steady.re, state->rate + w * steady.im};
+        (Response){now->state.displacement - steady.re, now->state.rate + w * steady.im};
 }
 
 /* Response to the drive at a time [s]. */
 static Response forced_at(const Stick *stick, double t, Complex drive_turn) {
     double w = stick->plant->drive_frequency;
     if (stick->resonates) {
-        ComplexResponse unit = response_from_rest(&stick->plant->stick, w, t, drive_turn);
-        return (Response){complex_mul(stick->forcing, unit.displacement).re,
-                          complex_mul(stick->forcing, unit.rate).re};
+        return response_from_rest(&stick->plant->stick, stick->forcing, w, t, drive_turn);
     }
     Complex steady = complex_mul(stick->steady, drive_turn);
     return (Response){steady.re, -w * steady.im};

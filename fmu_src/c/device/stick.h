@@ -3,8 +3,7 @@
 #pragma once
 
 #include "../base/first_zero.h"
-#include "device.h"
-#include "plant.h"
+#include "moment.h"
 
 /* Motion while |needed force| stays within the limit F0 + F1 sin(chi). `direct` is the part of the
  * needed force that follows the drive, `normal` the changing part of the limit, both complex
@@ -20,8 +19,8 @@ typedef struct {
     Response free_start;
 } Stick;
 
-/* `plant` must outlive the stick. */
-void stick_begin(Stick *stick, const Plant *plant, const State *state, double theta, double chi);
+/* Begin at `now`; `plant` must outlive the stick. */
+void stick_begin(Stick *stick, const Plant *plant, const Moment *now);
 
 /* Watch the forward margin (limit - needed force), then the backward margin (limit + needed force), for up
  * to `longest` [s]. Return the number of watches: 0 where the needed force is 0, or always below the

@@ -1,7 +1,6 @@
 #include "vibrating_load.h"
 
 #include "../base/elementary.h"
-#include "device.h"
 
 static double in_turn(const VibratingLoad *load, double angle) {
     return load->preload * angle + load->amplitude * (load->cos_dip - cos(angle - load->dip));

@@ -32,7 +32,7 @@ static void log_message(const Host *host, const char *instance_name, Status stat
     char format[2 * REFUSAL_SIZE];
     double_specials(text, format, sizeof format);
     fmi2CallbackLogger logger = (fmi2CallbackLogger)host->logger;
-    logger(host->environment, instance_name, (fmi2Status)status, category, format);
+    logger(host->environment, instance_name, status, category, format);
 }
 
 fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2String fmuGUID,
@@ -57,8 +57,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
                (int)fmuType, (int)fmi2CoSimulation);
         return refuse_instance(&host, instanceName, &refusal);
     }
-    return instance_create(&host, "fmi2Instantiate", instanceName, fmuGUID,
-                           loggingOn != fmi2False);
+    return instance_create(&host, "fmi2Instantiate", instanceName, fmuGUID, loggingOn != fmi2False);
 }
 
 void fmi2FreeInstance(fmi2Component c) {
@@ -67,8 +66,8 @@ void fmi2FreeInstance(fmi2Component c) {
 
 fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nCategories,
                                const fmi2String categories[]) {
-    return (fmi2Status)set_debug_logging(c, "fmi2SetDebugLogging", loggingOn != fmi2False, nCategories,
-                                         categories);
+    return set_debug_logging(c, "fmi2SetDebugLogging", loggingOn != fmi2False, nCategories,
+                             categories);
 }
 
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fmi2Real tolerance,
@@ -76,7 +75,7 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fm
                                fmi2Real stopTime) {
     Instance *instance = c;
     Refusal refusal;
-    Experiment experiment = {startTime, stopTimeDefined != fmi2False, stopTime,
+    Experiment experiment = {startTime, stopTimeDefined ? stopTime : INFINITY,
                              toleranceDefined != fmi2False, tolerance};
     bool done = instance != NULL
                 && component_setup_experiment(&instance->component, &experiment, &refusal);
@@ -84,29 +83,29 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fm
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
-    return (fmi2Status)lifecycle_call(c, component_enter_initialization);
+    return lifecycle_call(c, component_enter_initialization);
 }
 
 fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
-    return (fmi2Status)lifecycle_call(c, component_exit_initialization);
+    return lifecycle_call(c, component_exit_initialization);
 }
 
 fmi2Status fmi2Terminate(fmi2Component c) {
-    return (fmi2Status)lifecycle_call(c, component_terminate);
+    return lifecycle_call(c, component_terminate);
 }
 
 fmi2Status fmi2Reset(fmi2Component c) {
-    return (fmi2Status)instance_reset(c);
+    return instance_reset(c);
 }
 
 #define GET_AND_SET(NAME, TYPE) \
     fmi2Status fmi2Get##NAME(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, \
                              fmi2##NAME value[]) { \
-        return (fmi2Status)values_get(c, "fmi2Get" #NAME, vr, nvr, (void *)value, TYPE); \
+        return values_get(c, "fmi2Get" #NAME, vr, nvr, (void *)value, nvr, TYPE); \
     } \
     fmi2Status fmi2Set##NAME(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, \
                              const fmi2##NAME value[]) { \
-        return (fmi2Status)values_set(c, "fmi2Set" #NAME, vr, nvr, (const void *)value, TYPE); \
+        return values_set(c, "fmi2Set" #NAME, vr, nvr, (const void *)value, nvr, TYPE); \
     }
 
 GET_AND_SET(Real, REAL_TYPE)
@@ -125,9 +124,8 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint,
     }
     bool done = component_step(&instance->component, currentCommunicationPoint,
                                communicationStepSize, &refusal);
-    fmi2Status status = answer(instance, done, &refusal);
-    instance->last_step = (int)status;
-    return status;
+    instance->last_step = answer(instance, done, &refusal);
+    return instance->last_step;
 }
 
 /* Refuse a null pointer, and with fmi2Discard any status that is not `known`: FMI 2.0 demands fmi2Discard,
@@ -144,7 +142,7 @@ fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *va
     fmi2Status checked = status_check(c, value, s == fmi2DoStepStatus,
                                       "fmi2GetStatus: the kind must be fmi2DoStepStatus");
     if (checked == fmi2OK) {
-        *value = (fmi2Status)((const Instance *)c)->last_step;
+        *value = ((const Instance *)c)->last_step;
     }
     return checked;
 }
@@ -179,27 +177,27 @@ fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2Stri
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
-    return (fmi2Status)state_get(c, "fmi2GetFMUstate", FMUstate);
+    return state_get(c, "fmi2GetFMUstate", FMUstate);
 }
 
 fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate FMUstate) {
-    return (fmi2Status)state_set(c, "fmi2SetFMUstate", FMUstate);
+    return state_set(c, "fmi2SetFMUstate", FMUstate);
 }
 
 fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
-    return (fmi2Status)state_free(c, FMUstate);
+    return state_free(c, FMUstate);
 }
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, size_t *size) {
-    return (fmi2Status)state_size(c, "fmi2SerializedFMUstateSize", FMUstate, size);
+    return state_size(c, "fmi2SerializedFMUstateSize", FMUstate, size);
 }
 
 fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate,
                                  fmi2Byte serializedState[], size_t size) {
-    return (fmi2Status)state_write(c, "fmi2SerializeFMUstate", FMUstate, serializedState, size);
+    return state_write(c, "fmi2SerializeFMUstate", FMUstate, serializedState, size);
 }
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte serializedState[], size_t size,
                                    fmi2FMUstate *FMUstate) {
-    return (fmi2Status)state_read(c, "fmi2DeSerializeFMUstate", serializedState, size, FMUstate);
+    return state_read(c, "fmi2DeSerializeFMUstate", serializedState, size, FMUstate);
 }

@@ -1,4 +1,4 @@
-/* The functions of FMI 2.0, and the answers of an instance as their status. */
+/* The functions of FMI 2.0, and the instances that answer them. */
 #pragma once
 
 #include "fmi2Functions.h"
@@ -11,12 +11,3 @@
 #define fmi2PasteB(a, b) fmi2Paste(a, b)
 #define fmi2FullName(name) fmi2PasteB(FMI2_FUNCTION_PREFIX, name)
 #endif
-
-/* As send_report and send_answer. */
-static inline fmi2Status report(const Instance *instance, fmi2Status status, const char *text) {
-    return (fmi2Status)send_report(instance, (Status)status, text);
-}
-
-static inline fmi2Status answer(const Instance *instance, bool done, const Refusal *refusal) {
-    return (fmi2Status)send_answer(instance, done, refusal);
-}

@@ -7,7 +7,7 @@
 
 #define REFUSED(NAME, REASON, PARAMETERS) \
     fmi2Status fmi2##NAME PARAMETERS { \
-        return report(c, fmi2Error, "fmi2" #NAME " refused: " REASON); \
+        return report(c, STATUS_ERROR, "fmi2" #NAME " refused: " REASON); \
     }
 
 REFUSED(CancelStep, "no step is ever pending", (fmi2Component c))

@@ -1,5 +1,5 @@
 /* The names of FMI 2.0. */
-#include "../component/fmi_version.h"
+#include "../component/lifecycle.h"
 
 const FmiVersion FMI = {
     .min_reference = 0,

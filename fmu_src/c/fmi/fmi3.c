@@ -5,9 +5,6 @@
  *
  * If the host uses event mode and allows early return, a step ends at the first reversal, stick,
  * release, lift-off or touchdown, located to rounding. Otherwise it passes over them. */
-#include <stddef.h>
-
-#include "../component/lifecycle.h"
 #include "fmi3_api.h"
 #include "state_access.h"
 #include "value_access.h"
@@ -16,7 +13,7 @@ static void log_message(const Host *host, const char *instance_name, Status stat
                         const char *category, const char *text) {
     (void)instance_name;
     fmi3LogMessageCallback logger = (fmi3LogMessageCallback)host->logger;
-    logger(host->environment, (fmi3Status)status, category, text);
+    logger(host->environment, status, category, text);
 }
 
 Host fmi3_host(fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger) {
@@ -43,8 +40,7 @@ fmi3Instance fmi3InstantiateCoSimulation(
                "intermediate update", call, (unsigned long)nRequiredIntermediateVariables);
         return refuse_instance(&host, instanceName, &refusal);
     }
-    Instance *instance =
-        instance_create(&host, call, instanceName, instantiationToken, loggingOn);
+    Instance *instance = instance_create(&host, call, instanceName, instantiationToken, loggingOn);
     if (instance != NULL) {
         instance->event_mode_used = eventModeUsed;
         instance->early_return_allowed = earlyReturnAllowed;
@@ -58,8 +54,7 @@ void fmi3FreeInstance(fmi3Instance instance) {
 
 fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean loggingOn, size_t nCategories,
                                const fmi3String categories[]) {
-    return (fmi3Status)set_debug_logging(instance, "fmi3SetDebugLogging", loggingOn, nCategories,
-                                         categories);
+    return set_debug_logging(instance, "fmi3SetDebugLogging", loggingOn, nCategories, categories);
 }
 
 /* The times of the experiment come with the change to initialization mode. */
@@ -68,7 +63,7 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean tolera
                                        fmi3Boolean stopTimeDefined, fmi3Float64 stopTime) {
     Instance *own = instance;
     Refusal refusal;
-    Experiment experiment = {startTime, stopTimeDefined, stopTime, toleranceDefined, tolerance};
+    Experiment experiment = {startTime, stopTimeDefined ? stopTime : INFINITY, toleranceDefined, tolerance};
     bool done = own != NULL
                 && require("enterInitializationMode", own->component.now.lifecycle, INSTANTIATED,
                            &refusal)
@@ -88,46 +83,23 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
 }
 
 fmi3Status fmi3Terminate(fmi3Instance instance) {
-    return (fmi3Status)lifecycle_call(instance, component_terminate);
+    return lifecycle_call(instance, component_terminate);
 }
 
 fmi3Status fmi3Reset(fmi3Instance instance) {
-    return (fmi3Status)instance_reset(instance);
-}
-
-/* Refuse a number of values that does not fit the references. */
-static fmi3Status refuse_value_count(fmi3Instance instance, const char *call, size_t count,
-                                     size_t value_count) {
-    Refusal refusal;
-    refuse(&refusal, "%s: nValues = %lu refused: must be %lu, one for each reference", call,
-           (unsigned long)value_count, (unsigned long)count);
-    return answer(instance, false, &refusal);
-}
-
-static fmi3Status get_values(fmi3Instance instance, const char *call,
-                             const fmi3ValueReference *references, size_t count, void *values,
-                             size_t value_count, ValueType type) {
-    return value_count != count ? refuse_value_count(instance, call, count, value_count)
-                                : (fmi3Status)values_get(instance, call, references, count, values, type);
-}
-
-static fmi3Status set_values(fmi3Instance instance, const char *call,
-                             const fmi3ValueReference *references, size_t count,
-                             const void *values, size_t value_count, ValueType type) {
-    return value_count != count ? refuse_value_count(instance, call, count, value_count)
-                                : (fmi3Status)values_set(instance, call, references, count, values, type);
+    return instance_reset(instance);
 }
 
 #define GET_AND_SET(NAME, TYPE) \
     fmi3Status fmi3Get##NAME(fmi3Instance instance, const fmi3ValueReference valueReferences[], \
                              size_t nValueReferences, fmi3##NAME values[], size_t nValues) { \
-        return get_values(instance, "fmi3Get" #NAME, valueReferences, nValueReferences, \
+        return values_get(instance, "fmi3Get" #NAME, valueReferences, nValueReferences, \
                           (void *)values, nValues, TYPE); \
     } \
     fmi3Status fmi3Set##NAME(fmi3Instance instance, const fmi3ValueReference valueReferences[], \
                              size_t nValueReferences, const fmi3##NAME values[], \
                              size_t nValues) { \
-        return set_values(instance, "fmi3Set" #NAME, valueReferences, nValueReferences, \
+        return values_set(instance, "fmi3Set" #NAME, valueReferences, nValueReferences, \
                           (const void *)values, nValues, TYPE); \
     }
 
@@ -148,7 +120,7 @@ fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueRe
                          size_t nValueReferences, size_t valueSizes[], fmi3Binary values[],
                          size_t nValues) {
     (void)valueSizes;
-    return get_values(instance, "fmi3GetBinary", valueReferences, nValueReferences,
+    return values_get(instance, "fmi3GetBinary", valueReferences, nValueReferences,
                       (void *)values, nValues, BINARY_TYPE);
 }
 
@@ -156,19 +128,19 @@ fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference valueRe
                          size_t nValueReferences, const size_t valueSizes[],
                          const fmi3Binary values[], size_t nValues) {
     (void)valueSizes;
-    return set_values(instance, "fmi3SetBinary", valueReferences, nValueReferences,
+    return values_set(instance, "fmi3SetBinary", valueReferences, nValueReferences,
                       (const void *)values, nValues, BINARY_TYPE);
 }
 
 fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                         size_t nValueReferences, fmi3Clock values[]) {
-    return get_values(instance, "fmi3GetClock", valueReferences, nValueReferences,
+    return values_get(instance, "fmi3GetClock", valueReferences, nValueReferences,
                       (void *)values, nValueReferences, CLOCK_TYPE);
 }
 
 fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[],
                         size_t nValueReferences, const fmi3Clock values[]) {
-    return set_values(instance, "fmi3SetClock", valueReferences, nValueReferences,
+    return values_set(instance, "fmi3SetClock", valueReferences, nValueReferences,
                       (const void *)values, nValueReferences, CLOCK_TYPE);
 }
 
@@ -217,7 +189,7 @@ static fmi3Status change_mode(Instance *instance, const char *call,
         refuse(&refusal, "%s refused: eventModeUsed = false; must be true at instantiation", call);
         return answer(instance, false, &refusal);
     }
-    return (fmi3Status)lifecycle_call(instance, change);
+    return lifecycle_call(instance, change);
 }
 
 fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
@@ -255,30 +227,27 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discrete
 }
 
 fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
-    return (fmi3Status)state_get(instance, "fmi3GetFMUState", FMUState);
+    return state_get(instance, "fmi3GetFMUState", FMUState);
 }
 
 fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState FMUState) {
-    return (fmi3Status)state_set(instance, "fmi3SetFMUState", FMUState);
+    return state_set(instance, "fmi3SetFMUState", FMUState);
 }
 
 fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
-    return (fmi3Status)state_free(instance, FMUState);
+    return state_free(instance, FMUState);
 }
 
-fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUState,
-                                      size_t *size) {
-    return (fmi3Status)state_size(instance, "fmi3SerializedFMUStateSize", FMUState, size);
+fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUState, size_t *size) {
+    return state_size(instance, "fmi3SerializedFMUStateSize", FMUState, size);
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState,
                                  fmi3Byte serializedState[], size_t size) {
-    return (fmi3Status)state_write(instance, "fmi3SerializeFMUState", FMUState, serializedState,
-                                   size);
+    return state_write(instance, "fmi3SerializeFMUState", FMUState, serializedState, size);
 }
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte serializedState[],
                                    size_t size, fmi3FMUState *FMUState) {
-    return (fmi3Status)state_read(instance, "fmi3DeserializeFMUState", serializedState, size,
-                                  FMUState);
+    return state_read(instance, "fmi3DeserializeFMUState", serializedState, size, FMUState);
 }

@@ -1,7 +1,5 @@
 /* FMI 3.0: functions that this FMU does not offer. Hosts look up all functions when they load an FMU,
  * so they must exist. */
-#include <stddef.h>
-
 #include "fmi3_api.h"
 
 /* The parameters are those that FMI prescribes; a refusal needs none but the instance. */
@@ -13,12 +11,6 @@
 #define DERIVATIVES "the model description promises none"
 #define DEPENDENCIES "the model description lists them"
 #define DISCRETE_STATES "there are none (providesEvaluateDiscreteStates is false)"
-
-static fmi3Status not_offered(fmi3Instance instance, const char *call, const char *reason) {
-    Refusal refusal;
-    refuse(&refusal, "%s refused: %s", call, reason);
-    return answer(instance, false, &refusal);
-}
 
 static fmi3Instance refuse_other_interface(const char *call, fmi3String name,
                                            fmi3InstanceEnvironment environment,
@@ -49,7 +41,7 @@ fmi3Instance fmi3InstantiateScheduledExecution(
 
 #define REFUSED(NAME, REASON, PARAMETERS) \
     fmi3Status fmi3##NAME PARAMETERS { \
-        return not_offered(instance, "fmi3" #NAME, REASON); \
+        return report(instance, STATUS_ERROR, "fmi3" #NAME " refused: " REASON); \
     }
 
 /* The first parameters of functions of many variables. */
@@ -87,8 +79,7 @@ REFUSED(GetIntervalFraction, CLOCKS,
         (VARIABLES_OF, fmi3UInt64 counters[], fmi3UInt64 resolutions[],
          fmi3IntervalQualifier qualifiers[]))
 REFUSED(GetShiftDecimal, CLOCKS, (VARIABLES_OF, fmi3Float64 shifts[]))
-REFUSED(GetShiftFraction, CLOCKS,
-        (VARIABLES_OF, fmi3UInt64 counters[], fmi3UInt64 resolutions[]))
+REFUSED(GetShiftFraction, CLOCKS, (VARIABLES_OF, fmi3UInt64 counters[], fmi3UInt64 resolutions[]))
 REFUSED(SetIntervalDecimal, CLOCKS, (VARIABLES_OF, const fmi3Float64 intervals[]))
 REFUSED(SetIntervalFraction, CLOCKS,
         (VARIABLES_OF, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[]))

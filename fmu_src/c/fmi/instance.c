@@ -56,9 +56,9 @@ static bool instance_check(const char *call, const char *name, const char *token
 }
 
 /* All log categories, or none. */
-static void enable_all(Instance *instance, bool enabled) {
+static void enable_all(bool categories[STATUSES], bool enabled) {
     for (int category = 0; category < STATUSES; category++) {
-        instance->enabled[category] = enabled;
+        categories[category] = enabled;
     }
 }
 
@@ -76,7 +76,7 @@ Instance *instance_create(const Host *host, const char *call, const char *name, 
     }
     memcpy(instance->name, name, length + 1);
     instance->host = *host;
-    enable_all(instance, debugging);
+    enable_all(instance->enabled, debugging);
     /* The log is the only place that says why a call failed. */
     instance->enabled[STATUS_ERROR] = instance->enabled[STATUS_FATAL] = true;
     component_begin(&instance->component, &(Memory){host_allocate, host_free, &instance->host});
@@ -92,10 +92,10 @@ void instance_free(Instance *instance) {
     }
 }
 
-static bool enable(Instance *instance, const char *call, const char *category, Refusal *refusal) {
+static bool enable(bool categories[STATUSES], const char *call, const char *category, Refusal *refusal) {
     for (int known = 0; category != NULL && known < STATUSES; known++) {
         if (strcmp(category, CATEGORIES[known]) == 0) {
-            instance->enabled[known] = true;
+            categories[known] = true;
             return true;
         }
     }
@@ -111,21 +111,20 @@ Status set_debug_logging(Instance *instance, const char *call, bool logging_on, 
     if (instance == NULL) {
         return STATUS_ERROR;
     }
-    bool before[STATUSES];
-    memcpy(before, instance->enabled, sizeof before);
+    bool enabled[STATUSES];
     bool known = (count <= STATUSES && (count == 0 || categories != NULL))
                  || refuse(&refusal, "%s: nCategories = %lu refused: must be from 0 to %d, with as many "
                            "categories", call, (unsigned long)count, STATUSES);
-    enable_all(instance, logging_on && count == 0);
+    enable_all(enabled, logging_on && count == 0);
     for (size_t i = 0; known && i < count; i++) {
-        known = enable(instance, call, categories[i], &refusal);
+        known = enable(enabled, call, categories[i], &refusal);
     }
-    if (!known) {
-        memcpy(instance->enabled, before, sizeof before);
-    } else if (!logging_on) {
-        enable_all(instance, false);
+    if (known) {
+        for (int category = 0; category < STATUSES; category++) {
+            instance->enabled[category] = logging_on && enabled[category];
+        }
     }
-    return send_answer(instance, known, &refusal);
+    return answer(instance, known, &refusal);
 }
 
 Status instance_reset(Instance *instance) {
@@ -140,16 +139,16 @@ Status instance_reset(Instance *instance) {
 Status lifecycle_call(Instance *instance, bool (*change)(Component *component, Refusal *refusal)) {
     Refusal refusal;
     bool done = instance != NULL && change(&instance->component, &refusal);
-    return send_answer(instance, done, &refusal);
+    return answer(instance, done, &refusal);
 }
 
-Status send_report(const Instance *instance, Status status, const char *text) {
+Status report(const Instance *instance, Status status, const char *text) {
     if (instance != NULL && (instance->enabled[status] || instance->enabled[STATUS_OK])) {
         send_message(&instance->host, instance->name, status, text);
     }
     return status;
 }
 
-Status send_answer(const Instance *instance, bool done, const Refusal *refusal) {
-    return done ? STATUS_OK : send_report(instance, STATUS_ERROR, refusal->text);
+Status answer(const Instance *instance, bool done, const Refusal *refusal) {
+    return done ? STATUS_OK : report(instance, STATUS_ERROR, refusal->text);
 }

@@ -1,21 +1,11 @@
 /* An FMI instance: a component, and the host's memory and logger. The same for every version of FMI. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-
-#include "../base/refusal.h"
 #include "../component/component.h"
 
-/* The status of a call, with the numbers of FMI. */
-typedef enum {
-    STATUS_OK,
-    STATUS_WARNING,
-    STATUS_DISCARD,
-    STATUS_ERROR,
-    STATUS_FATAL,
-    STATUSES
-} Status;
+/* The status of a call, with the numbers of FMI, whose versions have a type of their own for it each. */
+enum { STATUS_OK, STATUS_WARNING, STATUS_DISCARD, STATUS_ERROR, STATUS_FATAL, STATUSES };
+typedef unsigned Status;
 
 /* Functions of the host. `allocate` and `release` are NULL if it offers no memory. `logger`, NULL for none,
  * has the type of the FMI version; `log` is the function of that version that calls it. */
@@ -36,7 +26,7 @@ typedef struct {
     Host host;
     bool enabled[STATUSES];
     bool event_mode_used, early_return_allowed;
-    int last_step;
+    Status last_step;
     char name[]; /* ends with 0 */
 } Instance;
 
@@ -68,8 +58,8 @@ Status set_debug_logging(Instance *instance, const char *call, bool logging_on, 
                          const char *const *categories);
 
 /* Send a text if there is an instance and its category is enabled; return the status. */
-Status send_report(const Instance *instance, Status status, const char *text);
+Status report(const Instance *instance, Status status, const char *text);
 
 /* Return STATUS_OK for a call that is `done`; otherwise report the refusal and return STATUS_ERROR. A
  * call without an instance is never done. */
-Status send_answer(const Instance *instance, bool done, const Refusal *refusal);
+Status answer(const Instance *instance, bool done, const Refusal *refusal);

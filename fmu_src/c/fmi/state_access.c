@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "../component/snapshot.h"
-
 /* Refuse a null pointer; the text names the argument. */
 static bool pointer_check(const char *call, const char *argument, const void *pointer,
                           Refusal *refusal) {
@@ -29,14 +27,14 @@ Status state_get(Instance *instance, const char *call, void **state) {
     Refusal refusal;
     bool done = instance != NULL && pointer_check(call, "the FMU state", state, &refusal)
                 && copy_out(instance, &instance->component.now, call, state, &refusal);
-    return send_answer(instance, done, &refusal);
+    return answer(instance, done, &refusal);
 }
 
 Status state_set(Instance *instance, const char *call, void *state) {
     Refusal refusal;
     bool done = instance != NULL && pointer_check(call, "the FMU state", state, &refusal)
                 && component_restore(&instance->component, state, &refusal);
-    return send_answer(instance, done, &refusal);
+    return answer(instance, done, &refusal);
 }
 
 Status state_free(const Instance *instance, void **state) {
@@ -57,7 +55,7 @@ Status state_size(const Instance *instance, const char *call, const void *state,
     if (done) {
         *size = snapshot_size();
     }
-    return send_answer(instance, done, &refusal);
+    return answer(instance, done, &refusal);
 }
 
 Status state_write(const Instance *instance, const char *call, const void *state, void *bytes,
@@ -72,7 +70,7 @@ Status state_write(const Instance *instance, const char *call, const void *state
     if (done) {
         snapshot_write(state, bytes);
     }
-    return send_answer(instance, done, &refusal);
+    return answer(instance, done, &refusal);
 }
 
 Status state_read(const Instance *instance, const char *call, const void *bytes, size_t size,
@@ -83,5 +81,5 @@ Status state_read(const Instance *instance, const char *call, const void *bytes,
                 && pointer_check(call, "the FMU state", state, &refusal)
                 && snapshot_read(&snapshot, bytes, size, &refusal)
                 && copy_out(instance, &snapshot, call, state, &refusal);
-    return send_answer(instance, done, &refusal);
+    return answer(instance, done, &refusal);
 }

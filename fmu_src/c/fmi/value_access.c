@@ -16,6 +16,19 @@ static bool count_check(const char *call, size_t count, int most, Refusal *refus
                      FMI.count_name, (unsigned long)count, most);
 }
 
+/* Refuse a place in the table where no variable is, or one of another type. */
+static bool reference_check(unsigned place, ValueType type, Refusal *refusal) {
+    unsigned reference = place + FMI.reference_offset;
+    if (place >= VARIABLE_COUNT) {
+        return refuse_unknown_reference(refusal, reference, FMI.min_reference,
+                                        VARIABLE_COUNT - 1 + FMI.reference_offset);
+    }
+    const Variable *variable = &VARIABLES[place];
+    ValueType own = variable->integer ? INTEGER_TYPE : REAL_TYPE;
+    return own == type || refuse_wrong_type(refusal, variable->name, reference,
+                                            FMI.type_names[own], FMI.type_names[type]);
+}
+
 bool places_check(const char *call, const unsigned *references, size_t count, const void *values,
                   ValueType type, unsigned *places, size_t *place_count, Refusal *refusal) {
     *place_count = 0;
@@ -42,13 +55,20 @@ bool places_check(const char *call, const unsigned *references, size_t count, co
     return count_check(call, *place_count, VARIABLE_COUNT, refusal);
 }
 
+/* Refuse a number of values that does not fit the references; only FMI 3.0 passes it. */
+static bool value_count_check(const char *call, size_t count, size_t value_count, Refusal *refusal) {
+    return value_count == count
+           || refuse(refusal, "%s: nValues = %lu refused: must be %lu, one for each reference", call,
+                     (unsigned long)value_count, (unsigned long)count);
+}
+
 Status values_get(Instance *instance, const char *call, const unsigned *references, size_t count,
-                  void *values, ValueType type) {
+                  void *values, size_t value_count, ValueType type) {
     Refusal refusal;
     unsigned places[VARIABLE_COUNT + 1];
     double found[VARIABLE_COUNT];
     size_t place_count;
-    bool done = instance != NULL
+    bool done = instance != NULL && value_count_check(call, count, value_count, &refusal)
                 && places_check(call, references, count, values, type, places, &place_count, &refusal)
                 && component_get(&instance->component, places, found, place_count, &refusal);
     const double *next = found;
@@ -60,16 +80,16 @@ Status values_get(Instance *instance, const char *call, const unsigned *referenc
             ((int *)values)[i] = (int)value;
         }
     }
-    return send_answer(instance, done, &refusal);
+    return answer(instance, done, &refusal);
 }
 
 Status values_set(Instance *instance, const char *call, const unsigned *references, size_t count,
-                  const void *values, ValueType type) {
+                  const void *values, size_t value_count, ValueType type) {
     Refusal refusal;
     unsigned places[VARIABLE_COUNT + 1];
     double changes[VARIABLE_COUNT];
     size_t place_count;
-    bool done = instance != NULL
+    bool done = instance != NULL && value_count_check(call, count, value_count, &refusal)
                 && places_check(call, references, count, values, type, places, &place_count, &refusal);
     if (done && place_count < count) {
         done = refuse(&refusal, "time (valueReference = %u) refused: it is the independent variable "
@@ -79,5 +99,5 @@ Status values_set(Instance *instance, const char *call, const unsigned *referenc
         changes[i] = type == REAL_TYPE ? ((const double *)values)[i] : ((const int *)values)[i];
     }
     done = done && component_set(&instance->component, places, changes, count, &refusal);
-    return send_answer(instance, done, &refusal);
+    return answer(instance, done, &refusal);
 }

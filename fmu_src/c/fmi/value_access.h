@@ -10,8 +10,9 @@
 bool places_check(const char *call, const unsigned *references, size_t count, const void *values,
                   ValueType type, unsigned *places, size_t *place_count, Refusal *refusal);
 
-/* Get or set values of a type. There are no variables but of the first two types: of the others only an empty call passes. */
+/* Get or set values of a type, one for each reference: otherwise the call is refused. There are no variables but of the first
+ * two types: of the others only an empty call passes. */
 Status values_get(Instance *instance, const char *call, const unsigned *references, size_t count,
-                  void *values, ValueType type);
+                  void *values, size_t value_count, ValueType type);
 Status values_set(Instance *instance, const char *call, const unsigned *references, size_t count,
-                  const void *values, ValueType type);
+                  const void *values, size_t value_count, ValueType type);

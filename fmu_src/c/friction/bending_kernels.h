@@ -9,8 +9,6 @@
  * of plant and length alone: whether it was there before makes no difference. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "../base/gauss_nodes.h"
 #include "../device/plant.h"
 

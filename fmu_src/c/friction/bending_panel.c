@@ -40,15 +40,15 @@ typedef struct {
 } Outlook;
 
 /* Chooses by the time in which the bristle bends. */
-static BendingMotion look_out(Outlook *outlook, const Held *held, const Bristle *bristle,
-                              int direction, const Moment *now, const Phasors *phasors,
-                              double longest, double tolerance) {
-    const Plant *plant = &held->plant;
+static BendingMotion look_out(Outlook *outlook, const Law *law, int direction, const Moment *now,
+                              const Phasors *phasors, double longest, double tolerance) {
+    const Plant *plant = &law->plant;
+    const Bristle *bristle = &law->bristle;
     double mu = bristle->coefficient, speed = fabs(now->state.velocity);
     double resisting = direction * friction_limit_by(plant, phasors);
     double force = direction * (force_by(plant, &now->state, phasors) - resisting);
     double limit = plant->friction_preload + plant->friction_amplitude;
-    double reach = fmin(MAX_ARC / held->split.fastest, longest);
+    double reach = fmin(MAX_ARC / law->split.fastest, longest);
     outlook->rate = bristle->stiffness / mu;
     outlook->speed = speed;
     outlook->acceleration = force / plant->slider_mass;
@@ -72,7 +72,7 @@ static BendingMotion look_out(Outlook *outlook, const Held *held, const Bristle 
     double last = sqrt(speed * speed + 2.0 * outlook->acceleration * path);
     double length = LONGER * 2.0 * path / (speed + last);
     outlook->length = fmin(length, longest / MAX_KERNELS_STEP);
-    return MAX_KERNELS_STEP * length * held->split.fastest < MAX_ARC ? BY_PANEL : BY_SERIES;
+    return MAX_KERNELS_STEP * length * law->split.fastest < MAX_ARC ? BY_PANEL : BY_SERIES;
 }
 
 /* Bound on G' over 1 / M within `length` [s]; NAN where G' may be negative. */
@@ -94,8 +94,7 @@ static bool goes_on(const Outlook *outlook, const SplitSlide *slide, double leng
     double gained = outlook->speed + outlook->acceleration * length;
     double path = (outlook->speed + 0.5 * fastest * length) * length;
     double lost = 0.5 * bound * length * length + push * outlook->lag * outlook->rate * path;
-    return (outlook->speed > 0.0 || outlook->acceleration > 0.0) &&
-           gained - lost > slide->noise;
+    return (outlook->speed > 0.0 || outlook->acceleration > 0.0) && gained - lost > slide->noise;
 }
 
 /* Estimate of the error of the velocity [m/s] at the end of the panel: the nodes miss a `share` of f, which
@@ -120,8 +119,7 @@ static void add_swing(double *travel, Complex amplitude, const ComplexRow *row) 
 }
 
 /* k |x - x_r| at the points, under full friction. */
-static void follow_path(const BendingPanel *panel, const Outlook *outlook,
-                        double *exponent) {
+static void follow_path(const BendingPanel *panel, const Outlook *outlook, double *exponent) {
     const SplitSlide *slide = &panel->slide;
     const BendingKernels *kernels = panel->kernels;
     const Phasors *start = &slide->start.phasors;
@@ -287,27 +285,24 @@ static void end_panel(BendingPanel *panel) {
     panel->work = 0.0;
 }
 
-BendingMotion bending_panel_begin(BendingPanel *panel, BendingTables *tables, const Held *held,
-                                  const Bristle *bristle, int direction, const Moment *now,
+BendingMotion bending_panel_begin(BendingPanel *panel, const Law *law, int direction, const Moment *now,
                                   const Phasors *start, double longest, double tolerance) {
-    const Plant *plant = &held->plant;
-    bool swings = held->splits && plant->slip.oscillatory && !is_ramped(plant);
-    if (tables == NULL || !swings || !(bristle->stiffness > 0.0)) {
+    const Plant *plant = &law->plant;
+    bool swings = law->splits && plant->slip.oscillatory && !is_ramped(plant);
+    if (law->bending == NULL || !swings || !(law->bristle.stiffness > 0.0)) {
         return BY_SERIES;
     }
     Outlook outlook;
-    BendingMotion motion =
-        look_out(&outlook, held, bristle, direction, now, start, longest, tolerance);
+    BendingMotion motion = look_out(&outlook, law, direction, now, start, longest, tolerance);
     if (motion != BY_PANEL) {
         return motion;
     }
     SplitSlide *slide = &panel->slide;
-    split_slide_begin(slide, &held->split, plant, direction, &now->state, now->theta,
-                      now->psi + plant->phase, start, direction);
+    split_slide_begin(slide, &law->split, plant, now, start, direction);
     if (!goes_on(&outlook, slide, MAX_KERNELS_STEP * outlook.length)) {
         return BY_SERIES;
     }
-    panel->kernels = bending_kernels_of(tables, plant, outlook.length);
+    panel->kernels = bending_kernels_of(law->bending, plant, outlook.length);
     panel->length = panel->kernels->length;
     panel->rate = outlook.rate;
     panel->scale = direction * outlook.bend;

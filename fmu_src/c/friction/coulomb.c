@@ -3,7 +3,7 @@
  * Events are a stop of the slider (then it sticks if friction can hold it, and reverses otherwise),
  * a release, and the lift-off and touchdown of the contact. There is no step size, no tolerance. */
 #include "../base/elementary.h"
-#include "law.h"
+#include "leg.h"
 
 /* Relative difference of the forces on a slider up to which they count as balanced. */
 #define BALANCED 1e-12
@@ -45,8 +45,7 @@ static int mode_in_contact(const Plant *plant, const Moment *moment) {
 /* Whether the slider was released at this moment: friction still balances the other forces, and only the
  * mode of the moment shows in which direction the slider departs. */
 static bool just_released(const Plant *plant, const Moment *moment) {
-    if (moment->state.velocity != 0.0 ||
-        !(moment->mode == FORWARD || moment->mode == BACKWARD)) {
+    if (moment->state.velocity != 0.0 || !(moment->mode == FORWARD || moment->mode == BACKWARD)) {
         return false;
     }
     double limit = friction_limit(plant, moment->psi);
@@ -55,8 +54,8 @@ static bool just_released(const Plant *plant, const Moment *moment) {
 }
 
 static int mode(const Law *law, const Moment *moment) {
-    const Plant *plant = &law->held.plant;
-    if (is_lifted(&law->held.window, moment->psi + plant->phase, plant->normal_frequency)) {
+    const Plant *plant = &law->plant;
+    if (is_lifted(plant, moment->psi + plant->phase, plant->normal_frequency)) {
         return LIFTED;
     }
     return just_released(plant, moment) ? moment->mode : mode_in_contact(plant, moment);
@@ -67,9 +66,9 @@ static double force(const Law *law, const Moment *moment, int mode) {
         return 0.0;
     }
     if (mode == STICK) {
-        return needed_force(&law->held.plant, moment);
+        return needed_force(&law->plant, moment);
     }
-    return mode * friction_limit(&law->held.plant, moment->psi);
+    return mode * friction_limit(&law->plant, moment->psi);
 }
 
 /* A time [s] up to which a slider released in direction `sign` is guaranteed to move on; 0 if there is no
@@ -78,10 +77,11 @@ static double force(const Law *law, const Moment *moment, int mode) {
  * It starts with neither velocity nor acceleration, so that the velocity grows with the second power of time,
  * v >= jerk t^2 / 2 - B t^3 / 6 while B bounds its third derivative, and is positive up to t = 3 jerk / B. The
  * search for the next zero can start there, past the zero that the motion starts from. */
-static double departure_time(const Plant *plant, int sign, const State *state, double theta, double chi) {
-    double w = plant->drive_frequency, q = plant->normal_frequency;
+static double departure_time(const Plant *plant, int sign, const Moment *now) {
+    const State *state = &now->state;
+    double w = plant->drive_frequency, q = plant->normal_frequency, chi = now->psi + plant->phase;
     double amplitude = sign * plant->friction_amplitude, load_rate = amplitude * q * cos(chi);
-    double drive_sine = sin(theta), drive_cosine = cos(theta);
+    double drive_sine = sin(now->theta), drive_cosine = cos(now->theta);
     Complex direct = complex_mul(complex_of(drive_sine, -drive_cosine), plant->holding_drive);
     double force_rate = -w * direct.im - load_rate - plant->load_rate;
     double horizon = 1.0 / fmax(fmax(w, fabs(q)), plant->slip.frequency);
@@ -110,24 +110,22 @@ static double departure_time(const Plant *plant, int sign, const State *state, d
     return 3.0 * jerk >= force_bound * horizon ? horizon : 3.0 * jerk / force_bound;
 }
 
-static void follow(Leg *leg, const Law *law, Moment *now, double longest) {
-    const Held *held = &law->held;
+static void begin(Leg *leg, const Law *law, const Moment *now, double longest) {
+    (void)longest;
+    const Plant *plant = &law->plant;
     if (now->mode == STICK) {
-        leg_begin_rest(leg, held, now);
-        leg_follow(leg, held, now, longest);
+        leg_begin_rest(leg, plant, now);
         return;
     }
     int direction = now->mode == LIFTED ? 0 : now->mode;
-    leg_begin_slide(leg, held, now, direction);
+    leg_begin_slide(leg, law, now, direction);
     if (direction != 0 && leg->departs) {
-        leg->watched_from = departure_time(&held->plant, direction, &now->state, now->theta,
-                                           now->psi + held->plant.phase);
+        leg->watched_from = departure_time(plant, direction, now);
     }
-    leg_follow(leg, held, now, longest);
 }
 
 static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) {
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     int mode = leg->mode;
     if (leg_released(leg)) {
         mode = leg->zero_of == 0 ? FORWARD : BACKWARD;
@@ -145,6 +143,6 @@ const FrictionLaw COULOMB = {
     .prepare = prepare,
     .mode = mode,
     .force = force,
-    .follow = follow,
+    .begin = begin,
     .succeed = succeed,
 };

@@ -3,29 +3,27 @@
  * A new law of friction is a file that ends with its row, and an entry in law.c. */
 #pragma once
 
-#include <stdbool.h>
-
-#include "../base/refusal.h"
-#include "../device/device.h"
-#include "../device/plant.h"
-#include "../device/held.h"
-#include "../device/moment.h"
+#include "../device/split_slide.h"
 #include "bristle.h"
-#include "leg.h"
 
 /* The caches outlive the law; the laws of one instance share them. They are NULL where the motion does without. */
 typedef struct Law {
     Device device;                      /* the parameters; `fidelity` is that of what moves */
     Inputs inputs;                      /* phase [rad], load [N] and frequency ratio [1], at the start if they grow */
     double middle_ratio;                /* frequency ratio [1] in the middle of a step in which it grows */
-    Held held;                          /* what resolved motion needs */
+    Plant plant;                        /* coefficients of the equations of motion */
+    bool splits;                        /* whether sliding and flight use `split` */
+    Split split;                        /* their closed form, split into momentum and free oscillation */
+    double arc;                         /* longest leg [s]: after that a motion begins anew from its state */
     Bristle bristle;                    /* what friction needs */
-    FastVibration fast;                 /* the steady vibration, of averaged motion alone */
+    FastVibration fast;                 /* the steady vibration */
     const struct FrictionLaw *friction; /* row of the friction law */
     const struct Motion *motion;        /* row of the kind of motion, see motion.h */
     struct FrictionTables *tables;      /* cache: mean friction of bristles */
     struct BendingTables *bending;      /* cache: panels of bending bristles */
 } Law;
+
+struct Leg; /* see leg.h */
 
 typedef struct FrictionLaw {
     /* Prepare the bristle. Refuses a device for which the law is not defined. */
@@ -37,12 +35,12 @@ typedef struct FrictionLaw {
     /* Friction force [N] on the slider in contact mode `mode`, positive against +X. */
     double (*force)(const Law *law, const Moment *moment, int mode);
 
-    /* Begin the leg that starts at `now`, in the contact mode of `now`, and follow it for up to `longest` [s]. */
-    void (*follow)(Leg *leg, const Law *law, Moment *now, double longest);
+    /* Begin the leg that starts at `now`, in the contact mode of `now`, to be followed for up to `longest` [s]. */
+    void (*begin)(struct Leg *leg, const Law *law, const Moment *now, double longest);
 
     /* Change from the end of a finished leg to the next contact mode; `switches` is true where the
      * contact lifts or touches down there. */
-    void (*succeed)(const Leg *leg, const Law *law, Moment *now, bool switches);
+    void (*succeed)(const struct Leg *leg, const Law *law, Moment *now, bool switches);
 } FrictionLaw;
 
 extern const FrictionLaw COULOMB, LUGRE;
@@ -50,6 +48,9 @@ extern const FrictionLaw COULOMB, LUGRE;
 /* Prepare all of a law but its motion and caches, by the number `friction_law` of the device. Refuses where device and
  * friction law do not fit; `law` is then undefined. */
 bool law_prepare(Law *law, const Device *device, const Inputs *inputs, Refusal *refusal);
+
+/* Contact mode by load and velocity alone: lifted, or the direction of sliding; STICK at rest. */
+int mode_by_velocity(const Law *law, const Moment *moment);
 
 /* Change phase [rad] and load [N] of a law; nothing else prepared depends on these. */
 void law_change(Law *law, double phase, double load);
@@ -62,6 +63,10 @@ typedef struct {
 /* Let inputs grow for `duration` [s]. The law must have been prepared with the frequency ratio in the
  * middle of that time. */
 void law_ramp(Law *law, const Ramp *ramp, double duration);
+
+/* The slow velocity V = X' + r Y' + D / (Mt w) cos(theta) [m/s] of a state at drive phase `theta` [rad], with D the
+ * amplitude of the drive force on the pair: friction and load alone change it, Mt V' = -F - load. */
+double slow_velocity(const Law *law, const State *state, double theta);
 
 /* The law `t` [s] later. */
 Law law_after(const Law *law, double t);

@@ -1,10 +1,5 @@
 #include "leg.h"
 
-#include <math.h>
-
-#include "../base/number.h"
-#include "../device/plant.h"
-
 /* Tolerance of a series, in velocity scales: rounding. */
 #define SERIES_ROUNDING (2.0 * EPSILON)
 
@@ -16,56 +11,52 @@ static void set_leg(Leg *leg, LegKind kind, int mode, int direction, double from
     leg->watched_from = from;
 }
 
-void leg_begin_rest(Leg *leg, const Held *held, const Moment *now) {
+void leg_begin_rest(Leg *leg, const Plant *plant, const Moment *now) {
     set_leg(leg, RESTS, STICK, 0, 0.0);
-    stick_begin(&leg->motion.stick, &held->plant, &now->state, now->theta,
-                now->psi + held->plant.phase);
+    stick_begin(&leg->motion.stick, plant, now);
 }
 
 void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now) {
     if (!leg->known.known) {
-        leg->known = (KnownPhasors){true, phasors_of(plant, now->theta, now->psi + plant->phase)};
+        leg->known = (KnownPhasors){true, phasors_of(plant, now)};
     }
 }
 
 /* Sliding or flight by series with a bristle that is fully bent, which gives full friction. */
-static void begin_bent(Leg *leg, const Plant *plant, const Moment *now, int sign) {
+static void begin_bent(Leg *leg, const Plant *plant, const Moment *now) {
     const Bristle bent = {1.0, 0.0, 0.0};
+    int sign = now->mode == LIFTED ? 0 : leg->direction;
     taylor_slide_begin(&leg->motion.series, plant, &bent, sign, &now->state, sign,
                        &leg->known.phasors, SERIES_ROUNDING, velocity_scale(plant, &now->state));
     leg->motion.series.direction = leg->direction; /* the velocity is watched in flight, too */
 }
 
-void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int direction) {
-    int sign = now->mode == LIFTED ? 0 : direction;
-    bool splits = held->splits && held->plant.normal_rate == 0.0;
+void leg_begin_slide(Leg *leg, const Law *law, const Moment *now, int direction) {
+    const Plant *plant = &law->plant;
+    bool splits = law->splits && plant->normal_rate == 0.0;
     set_leg(leg, splits ? SLIDES : FOLLOWS_SERIES, now->mode, direction, 0.0);
-    leg_know_phasors(leg, &held->plant, now);
+    leg_know_phasors(leg, plant, now);
     if (!splits) {
-        begin_bent(leg, &held->plant, now, sign);
+        begin_bent(leg, plant, now);
         return;
     }
-    split_slide_begin(&leg->motion.slide, &held->split, &held->plant, sign, &now->state, now->theta,
-                      now->psi + held->plant.phase, &leg->known.phasors, direction);
-    leg->motion.slide.works = leg->counts_work && sign != 0;
+    split_slide_begin(&leg->motion.slide, &law->split, plant, now, &leg->known.phasors, direction);
+    leg->motion.slide.works = leg->counts_work && now->mode != LIFTED;
 }
 
-void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const Bristle *bristle,
-                       const Moment *now, int direction, double longest, double tolerance) {
+void leg_begin_bending(Leg *leg, const Law *law, const Moment *now, int direction, double longest,
+                       double tolerance) {
     BendingPanel *panel = &leg->motion.panel;
-    double scale = velocity_scale(&held->plant, &now->state);
-    leg_know_phasors(leg, &held->plant, now);
-    BendingMotion motion =
-        bending_panel_begin(panel, tables, held, bristle, direction, now, &leg->known.phasors, longest,
-                            tolerance * scale);
-    switch (motion) {
+    double scale = velocity_scale(&law->plant, &now->state);
+    leg_know_phasors(leg, &law->plant, now);
+    switch (bending_panel_begin(panel, law, direction, now, &leg->known.phasors, longest, tolerance * scale)) {
     case BY_SERIES:
         set_leg(leg, FOLLOWS_SERIES, now->mode, direction, 0.0);
-        taylor_slide_begin(&leg->motion.series, &held->plant, bristle, direction, &now->state,
+        taylor_slide_begin(&leg->motion.series, &law->plant, &law->bristle, direction, &now->state,
                            now->bristle, &leg->known.phasors, tolerance, scale);
         return;
     case AS_BENT:
-        leg_begin_slide(leg, held, now, direction);
+        leg_begin_slide(leg, law, now, direction);
         return;
     case BY_PANEL:
         set_leg(leg, BENDS_AND_SLIDES, now->mode, direction, panel->length);
@@ -145,8 +136,8 @@ static void follow_sliding(Leg *leg, double expected, int before) {
                  (leg->kind == BENDS_AND_SLIDES || moves(&watch, leg->t));
 }
 
-void leg_follow(Leg *leg, const Held *held, Moment *now, double longest) {
-    double frequency = held->plant.drive_frequency;
+void leg_follow(Leg *leg, const Plant *plant, Moment *now, double longest) {
+    double frequency = plant->drive_frequency;
     leg->t = fmin(longest, reach_of(leg));
     leg->zero_of = -1;
     leg->turns = false;
@@ -157,8 +148,7 @@ void leg_follow(Leg *leg, const Held *held, Moment *now, double longest) {
         follow_rest(leg, TAU / frequency);
     } else if (leg->direction != 0) {
         const Stop *stop = stop_after(&now->stops, leg->direction);
-        follow_sliding(leg, stop_expected(stop, now->theta, frequency),
-                       now->counts.sliding);
+        follow_sliding(leg, stop_expected(stop, now->theta, frequency), now->counts.sliding);
     }
 }
 
@@ -187,8 +177,7 @@ static Passage passage_at(const void *motion, double t) {
                                          : place_of(leg, t).passed;
 }
 
-void leg_finish(Leg *leg, const Held *held, Moment *now) {
-    const Plant *plant = &held->plant;
+void leg_finish(Leg *leg, const Plant *plant, Moment *now) {
     Place end = place_of(leg, leg->t);
     now->state = end.state;
     leg->known = end.known;
@@ -198,7 +187,8 @@ void leg_finish(Leg *leg, const Held *held, Moment *now) {
     now->psi = within_turn(now->psi + turned_by(plant, leg->t));
     now->position += leg->travelled;
     if (leg->turns) {
-        now->counts = counts_slid(now->counts, leg->direction);
+        now->counts.reversals += now->counts.sliding == -leg->direction;
+        now->counts.sliding = leg->direction;
         now->event_age = 0.0;
     }
     now->event_age += leg->t;

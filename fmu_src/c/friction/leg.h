@@ -2,12 +2,8 @@
  * watches. */
 #pragma once
 
-#include "../device/held.h"
-#include "../device/moment.h"
-#include "../device/split_slide.h"
 #include "../device/stick.h"
 #include "bending_panel.h"
-#include "bristle.h"
 #include "taylor_slide.h"
 
 /* What the motion is: rest, sliding or flight in closed form, or either by series: on bending bristles,
@@ -40,21 +36,21 @@ typedef struct Leg {
 void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now);
 
 /* Rest. */
-void leg_begin_rest(Leg *leg, const Held *held, const Moment *now);
+void leg_begin_rest(Leg *leg, const Plant *plant, const Moment *now);
 
 /* Sliding in `direction` under full friction, or flight in contact mode LIFTED: in closed form, or by
  * series where there is none. */
-void leg_begin_slide(Leg *leg, const Held *held, const Moment *now, int direction);
+void leg_begin_slide(Leg *leg, const Law *law, const Moment *now, int direction);
 
 /* Sliding in `direction` while a bristle bends, to a relative `tolerance`, for up to `longest` [s]. */
-void leg_begin_bending(Leg *leg, BendingTables *tables, const Held *held, const Bristle *bristle,
-                       const Moment *now, int direction, double longest, double tolerance);
+void leg_begin_bending(Leg *leg, const Law *law, const Moment *now, int direction, double longest,
+                       double tolerance);
 
 /* Whether a slider at rest begins to move in the direction of the leg, or not at all. */
 bool leg_departs(Leg *leg);
 
 /* Follows the leg until it ends, for up to `longest` [s]. */
-void leg_follow(Leg *leg, const Held *held, Moment *now, double longest);
+void leg_follow(Leg *leg, const Plant *plant, Moment *now, double longest);
 
 /* Whether the leg ended at a stop of the slider, and whether at a release of it. */
 static inline bool leg_stopped(const Leg *leg) {
@@ -66,4 +62,4 @@ static inline bool leg_released(const Leg *leg) {
 }
 
 /* Moves on to the end of the leg, in its mode. */
-void leg_finish(Leg *leg, const Held *held, Moment *now);
+void leg_finish(Leg *leg, const Plant *plant, Moment *now);

@@ -4,10 +4,8 @@
  * then a panel (bending_panel.h) or Taylor series (taylor_slide.h) follow the path. Its length falls with
  * the bristle stiffness, so the cost does not grow with that. There is no sticking: presliding is resolved
  * as an oscillation on the bristles. */
-#include <math.h>
-
 #include "../base/refusal_texts.h"
-#include "law.h"
+#include "leg.h"
 
 /* Share of the tolerance for the error of one leg, and for the bend that a bristle still lacks when closed
  * forms take over. */
@@ -20,11 +18,6 @@ static bool prepare(const Device *device, Bristle *bristle, Refusal *refusal) {
            refuse_lugre_without_friction(refusal, device->friction_coefficient);
 }
 
-static int mode(const Law *law, const Moment *moment) {
-    const Held *held = &law->held;
-    return mode_by_velocity(&held->window, &held->plant, moment->state.velocity, moment->psi);
-}
-
 static double force(const Law *law, const Moment *moment, int mode) {
     if (mode == LIFTED) {
         return 0.0;
@@ -33,24 +26,23 @@ static double force(const Law *law, const Moment *moment, int mode) {
     double velocity = moment->state.velocity, bent = moment->bristle;
     double drag = velocity - fabs(velocity) * bent / bristle->coefficient;
     double share = (bent + bristle->damping * drag) / bristle->coefficient;
-    return friction_limit(&law->held.plant, moment->psi) * share;
+    return friction_limit(&law->plant, moment->psi) * share;
 }
 
-static void begin(Leg *leg, const Law *law, const Moment *now, int direction, double longest) {
-    const Held *held = &law->held;
+static void begin_in(int direction, Leg *leg, const Law *law, const Moment *now, double longest) {
     const Bristle *bristle = &law->bristle;
     double tolerance = TOLERANCE_SHARE * law->device.tolerance;
     double unbent = bristle->coefficient - direction * now->bristle;
     if (now->mode == LIFTED || fabs(unbent) <= tolerance * bristle->coefficient) {
-        leg_begin_slide(leg, held, now, direction);
-        return;
+        leg_begin_slide(leg, law, now, direction);
+    } else {
+        leg_begin_bending(leg, law, now, direction, longest, tolerance);
     }
-    leg_begin_bending(leg, law->bending, held, bristle, now, direction, longest, tolerance);
 }
 
 /* The direction of the velocity or, at rest, of the force on the slider. */
 static int likely_direction(Leg *leg, const Law *law, const Moment *now) {
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     if (now->state.velocity != 0.0 || now->mode == LIFTED) {
         return now->state.velocity < 0.0 ? BACKWARD : FORWARD;
     }
@@ -60,12 +52,11 @@ static int likely_direction(Leg *leg, const Law *law, const Moment *now) {
     return force_by(plant, &now->state, &leg->known.phasors) < resisting ? BACKWARD : FORWARD;
 }
 
-static void follow(Leg *leg, const Law *law, Moment *now, double longest) {
-    begin(leg, law, now, likely_direction(leg, law, now), longest);
+static void begin(Leg *leg, const Law *law, const Moment *now, double longest) {
+    begin_in(likely_direction(leg, law, now), leg, law, now, longest);
     if (now->state.velocity == 0.0 && !leg_departs(leg)) {
-        begin(leg, law, now, -leg->direction, longest);
+        begin_in(-leg->direction, leg, law, now, longest);
     }
-    leg_follow(leg, &law->held, now, longest);
 }
 
 static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) {
@@ -79,8 +70,8 @@ static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) 
 
 const FrictionLaw LUGRE = {
     .prepare = prepare,
-    .mode = mode,
+    .mode = mode_by_velocity,
     .force = force,
-    .follow = follow,
+    .begin = begin,
     .succeed = succeed,
 };

@@ -10,11 +10,6 @@
  * coefficients of all factors follow by recurrence. */
 #pragma once
 
-#include <stdbool.h>
-
-#include "../base/first_zero.h"
-#include "../device/device.h"
-#include "../device/plant.h"
 #include "../device/split_slide.h"
 #include "bristle.h"
 

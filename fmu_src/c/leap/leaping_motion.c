@@ -6,9 +6,7 @@
 
 #include "../base/clock.h"
 #include "../base/elementary.h"
-#include "../base/number.h"
-#include "../resolved/events.h"
-#include "../resolved/resolved_motion.h"
+#include "../resolved/motion.h"
 #include "leap.h"
 
 /* Largest number of turns after which the normal load may repeat. */
@@ -57,7 +55,7 @@ static bool resolve(Progress *progress, double duration, bool tight, Refusal *re
 /* Resolve the motion for `periods`, and on to the next section. */
 static bool resolve_to_section(Progress *progress, const PeriodMap *map, double periods, bool tight,
                                Refusal *refusal) {
-    double w = progress->law->held.plant.drive_frequency;
+    double w = progress->law->plant.drive_frequency;
     double to_section = within_turn(map->section - progress->now.theta) / w;
     double duration = periods * map->period + to_section;
     if (duration > 0.0 && !resolve(progress, duration, tight, refusal)) {
@@ -90,7 +88,7 @@ static bool leaping_advance(const Law *law, const Moment *moment, double duratio
                             EventSearch *search, Budget *budget, Moment *after, Refusal *refusal) {
     (void)search;
     Progress progress = {law, budget, budget->passed, clock_of(duration), duration, *moment};
-    double turn = TAU / law->held.plant.drive_frequency, pause = 0.0;
+    double turn = TAU / law->plant.drive_frequency, pause = 0.0;
     int attempts = 0;
     PeriodMap map;
     bool gains = true;
@@ -99,7 +97,7 @@ static bool leaping_advance(const Law *law, const Moment *moment, double duratio
         if (!resolve_to_section(&progress, &map, pause, gains, refusal)) {
             return false;
         }
-        if (is_ramped(&law->held.plant) && !prepare_map(&progress, &map)) {
+        if (is_ramped(&law->plant) && !prepare_map(&progress, &map)) {
             break;
         }
         Moment before = progress.now;

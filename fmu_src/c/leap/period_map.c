@@ -3,9 +3,6 @@
 #include <stddef.h>
 
 #include "../base/elementary.h"
-#include "../base/number.h"
-#include "../device/device.h"
-#include "../friction/law.h"
 #include "../resolved/events.h"
 
 /* Largest tolerance of LuGre friction in a map: differences of high order amplify its error. */
@@ -45,9 +42,9 @@ static bool prepare_resolvent(PeriodMap *map, const Oscillator *slip) {
 
 static void prepare_fast_states(PeriodMap *map) {
     const Law *law = &map->law;
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     double w = plant->drive_frequency;
-    double swing = complex_abs(map->vibration.resonator);
+    double swing = complex_abs(map->law.fast.resonator);
     double felt = map->speed / (plant->mass_fraction * w);
     map->scale[0] = swing > 0.0 ? fmin(swing, felt) : felt;
     map->scale[1] = map->scale[0] * w;
@@ -65,20 +62,18 @@ static void prepare_fast_states(PeriodMap *map) {
 }
 
 bool period_map_prepare(PeriodMap *map, const Law *law, int max_turns) {
-    Refusal refusal;
-    if (!fast_vibration_prepare(&map->vibration, &law->device, &refusal) ||
-        !(map->vibration.velocity > 0.0) || !law->held.plant.resolves_resonator) {
+    if (!(law->fast.velocity > 0.0) || !law->plant.resolves_resonator) {
         return false;
     }
     map->law = *law;
     map->tolerance = law->device.tolerance;
     map->law.device.tolerance = fmin(law->device.tolerance, MAP_TOLERANCE);
     const Device *device = &map->law.device;
-    const Plant *plant = &map->law.held.plant;
+    const Plant *plant = &map->law.plant;
     map->turns = repeating_turns(law, max_turns, &map->drift);
     map->period = TAU * map->turns / plant->drive_frequency;
-    map->section = within_turn(map->vibration.lag + PI);
-    map->speed = map->vibration.velocity;
+    map->section = within_turn(map->law.fast.lag + PI);
+    map->speed = map->law.fast.velocity;
     double normal = fmax(device->normal_preload, device->normal_amplitude / PI);
     double full = device->friction_faces * device->friction_coefficient * normal;
     map->share = full * map->period / (plant->total_mass * map->speed);
@@ -86,20 +81,15 @@ bool period_map_prepare(PeriodMap *map, const Law *law, int max_turns) {
     return map->decay < 1.0 && prepare_resolvent(map, &plant->slip);
 }
 
-double momentum_velocity(const PeriodMap *map, const Moment *moment) {
-    return moment->state.velocity + map->law.held.plant.mass_fraction * moment->state.rate +
-           map->vibration.pair_velocity * cos(moment->theta);
-}
-
 double psi_after(const PeriodMap *map, double psi, double periods) {
-    const Plant *plant = &map->law.held.plant;
+    const Plant *plant = &map->law.plant;
     double t = periods * map->period;
     double chirp = 0.5 * plant->normal_rate * t * t;
     return within_turn(psi + remainder(map->drift * periods + chirp, TAU));
 }
 
 double drift_after(const PeriodMap *map, double periods) {
-    double chirp = map->law.held.plant.normal_rate * map->period * map->period;
+    double chirp = map->law.plant.normal_rate * map->period * map->period;
     return map->drift + chirp * periods;
 }
 
@@ -111,16 +101,16 @@ void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_F
     moment->state.displacement = fast[0];
     moment->state.rate = fast[1];
     moment->bristle = fast[2];
-    moment->state.velocity = velocity - map->vibration.pair_velocity * cos(map->section) -
-                             law->held.plant.mass_fraction * fast[1];
+    moment->state.velocity = velocity - map->law.fast.pair_velocity * cos(map->section) -
+                             law->plant.mass_fraction * fast[1];
     moment->mode = law->friction->mode(law, moment);
     moment->counts.sliding = moment->mode == LIFTED ? STICK : moment->mode;
 }
 
 static SectionState section_state(const PeriodMap *map, const Moment *moment) {
-    return (SectionState){{momentum_velocity(map, moment), moment->state.displacement, moment->state.rate,
-                    moment->bristle, moment->position, moment->counts.reversals,
-                    moment->counts.sticks}};
+    return (SectionState){{slow_velocity(&map->law, &moment->state, moment->theta),
+                           moment->state.displacement, moment->state.rate, moment->bristle,
+                           moment->position, moment->counts.reversals, moment->counts.sticks}};
 }
 
 bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, Budget *budget,
@@ -138,7 +128,7 @@ bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, 
         }
         moment->theta = map->section;
         sections[k] = section_state(map, moment);
-        if (is_ramped(&map->law.held.plant)) {
+        if (is_ramped(&map->law.plant)) {
             later = law_after(&map->law, (begin + k) * map->period);
         }
     }

@@ -1,17 +1,14 @@
 /* The period map: resolved motion of the full device, seen once in each period of the normal load.
  *
  * It is seen at a section: the phase of the drive at which the vibration is fastest forward, where no reversal comes unless
- * sliding is about to end reversing at all. There the slow state is V = W and the position X, with W = X' + r Y' + D /
- * (Mt w) cos(theta) and exactly Mt W' = -F - load. The fast state is the resonator's Y and Y' and, with LuGre friction, the bristle. From
+ * sliding is about to end reversing at all. There the slow state is the slow velocity V and the position X. The fast state
+ * is the resonator's Y and Y' and, with LuGre friction, the bristle. From
  * period to period both change slowly and smoothly (stroboscopic averaging: Calvo, Chartier, Murua, Sanz-Serna 2011). */
 #pragma once
 
-#include <stdbool.h>
 #include <stdint.h>
 
 #include "../device/budget.h"
-#include "../device/plant.h"
-#include "../device/moment.h"
 #include "../friction/law.h"
 
 /* Largest number of fast states: Y [m], Y' [m/s], and the bristle's friction per unit load. */
@@ -28,7 +25,6 @@ typedef struct {
  * vibration, or changes V by v_q times `share`. */
 typedef struct {
     Law law;                 /* the full device under its inputs, with the tolerance of maps */
-    FastVibration vibration; /* the steady vibration without friction */
     int turns;               /* turns of the drive in a period, after which the normal load repeats */
     double period;           /* the time of these [s] */
     double drift;            /* by which the phase of the load does not repeat [rad] */
@@ -46,9 +42,6 @@ typedef struct {
 /* Prepare the map of a law of the full device, for a load that repeats after up to `max_turns` turns. Return false where
  * there is none: without vibration, or where transients do not decay. */
 bool period_map_prepare(PeriodMap *map, const Law *law, int max_turns);
-
-/* The slow velocity V [m/s] at a moment, but for its change within a period. */
-double momentum_velocity(const PeriodMap *map, const Moment *moment);
 
 /* Phase of the normal load [rad] at the section `periods` after it was `psi` [rad], as the inputs of the law began to grow;
  * between whole periods, that of a section which the drift would bring there. */

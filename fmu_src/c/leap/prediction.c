@@ -1,12 +1,8 @@
 #include "prediction.h"
 
-#include <math.h>
 #include <string.h>
 
-#include "../base/linear_system.h"
-#include "../base/number.h"
 #include "../device/vibrating_load.h"
-#include "../friction/law.h"
 #include "period_map.h"
 
 /* Largest number of turns after which the normal load may repeat. */
@@ -23,6 +19,57 @@ int turns_of_load(const Law *law) {
         }
     }
     return 0;
+}
+
+/* Largest number of unknowns of a search: slow velocity, fast states, load. */
+enum { UNKNOWNS = 2 + MAX_FAST };
+
+/* Smallest pivot that counts as different from 0, relative to the largest entry of the matrix. */
+#define SMALLEST_PIVOT 1e-13
+
+static void swap(double *a, double *b) {
+    double kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* Solves `matrix` x = `right` for `count` unknowns, by Gaussian elimination with row pivots. `right` becomes x, `matrix` is
+ * unchanged. Returns false, with `right` undefined, where the matrix is singular up to rounding or not finite. */
+static bool solve_linear(double matrix[UNKNOWNS][UNKNOWNS], double right[UNKNOWNS], int count) {
+    double rows[UNKNOWNS][UNKNOWNS], largest = 0.0;
+    for (int i = 0; i < count; i++) {
+        for (int j = 0; j < count; j++) {
+            rows[i][j] = matrix[i][j];
+            largest = fmax(largest, fabs(rows[i][j]));
+        }
+    }
+    for (int k = 0; k < count; k++) {
+        int pivot = k;
+        for (int i = k + 1; i < count; i++) {
+            pivot = fabs(rows[i][k]) > fabs(rows[pivot][k]) ? i : pivot;
+        }
+        if (!(fabs(rows[pivot][k]) > SMALLEST_PIVOT * largest)) {
+            return false;
+        }
+        for (int j = k; j < count; j++) {
+            swap(&rows[k][j], &rows[pivot][j]);
+        }
+        swap(&right[k], &right[pivot]);
+        for (int i = k + 1; i < count; i++) {
+            double share = rows[i][k] / rows[k][k];
+            for (int j = k + 1; j < count; j++) {
+                rows[i][j] -= share * rows[k][j];
+            }
+            right[i] -= share * right[k];
+        }
+    }
+    for (int k = count - 1; k >= 0; k--) {
+        for (int j = k + 1; j < count; j++) {
+            right[k] -= rows[k][j] * right[j];
+        }
+        right[k] /= rows[k][k];
+    }
+    return true;
 }
 
 /* Change of an unknown by which derivatives are taken. */
@@ -175,11 +222,11 @@ static bool is_stable(const Search *search) {
  * without friction. The scale of loads is the force that stops v_q in a period. */
 static Search search_of(const PeriodMap *map, double psi, bool blocked, double velocity,
                         double load) {
-    const Plant *plant = &map->law.held.plant;
+    const Plant *plant = &map->law.plant;
     int states = 1 + map->fast_count;
     Search search = {.map = *map, .psi = psi, .blocked = blocked, .count = states + blocked};
     search.budget = budget_of(map->period);
-    Response swing = steady_swing(map->vibration.resonator, map->section, plant->drive_frequency);
+    Response swing = steady_swing(map->law.fast.resonator, map->section, plant->drive_frequency);
     const double fast[MAX_FAST] = {swing.displacement, swing.rate, map->scale[2]};
     search.scale[0] = map->speed;
     search.unknown[0] = velocity / map->speed;
@@ -250,9 +297,6 @@ static Averaged second_order(const Law *law, double normal_lead) {
     return found ? exact : prediction;
 }
 
-/* The predictions in the order of `averaging_order`. */
-static Averaged (*const PREDICTIONS[])(const Law *law, double normal_lead) = {averaged, second_order};
-
 Averaged prediction_of(const Law *law, double normal_lead) {
-    return PREDICTIONS[law->device.averaging_order - 1](law, normal_lead);
+    return law->device.averaging_order == 1 ? averaged(law, normal_lead) : second_order(law, normal_lead);
 }

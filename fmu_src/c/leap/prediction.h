@@ -2,7 +2,6 @@
 #pragma once
 
 #include "../averaged/averaged.h"
-#include "../friction/law.h"
 
 /* Number of turns of the drive, at most 32, after which the normal load repeats; 0 if it does not. */
 int turns_of_load(const Law *law);

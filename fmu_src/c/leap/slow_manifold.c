@@ -1,9 +1,5 @@
 #include "slow_manifold.h"
 
-#include <math.h>
-
-#include "../device/device.h"
-
 /* Largest change of the slow velocity in a period, over itself and the share of friction. */
 #define MAX_RATE 4.0
 
@@ -72,10 +68,9 @@ static SlowRates rates_of(const SectionState *differences, double ratio, const d
     return rates;
 }
 
-bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
-                SlowRates *rates) {
+bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after, SlowRates *rates) {
     const PeriodMap *map = manifold->map;
-    double velocity = momentum_velocity(map, moment), offset = 0.0, before = INFINITY;
+    double velocity = slow_velocity(&map->law, &moment->state, moment->theta), offset = 0.0, before = INFINITY;
     for (int i = 0; i < manifold->max_sequences; i++) {
         SectionState sections[DIFFERENCES + 1];
         double missing, step[MAX_FAST];

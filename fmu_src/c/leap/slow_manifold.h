@@ -4,8 +4,6 @@
  * periods vanish (Gear, Kaper, Kevrekidis, Zagaris 2005). */
 #pragma once
 
-#include <stdbool.h>
-
 #include "period_map.h"
 
 /* Order of the differences that vanish: a sequence maps so many periods. */
@@ -39,5 +37,4 @@ typedef struct {
  * the law began to grow. The fast states of the moment are a first guess; they are put on the manifold. `after` is the
  * moment a sequence later. Return false where the manifold is not found; the offset is infinite where there is no motion
  * to be mapped, and `after` then undefined. */
-bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
-                SlowRates *rates);
+bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after, SlowRates *rates);

@@ -1,14 +1,52 @@
 #include "slow_path.h"
 
-#include "../base/elementary.h"
+#include <string.h>
+
+/* Number of points of which the one in the widest gap is taken. */
+enum { CANDIDATES = 24 };
 
 void interpolate_last(SlowPath *path) {
     const PathPoint *last = &path->last;
-    double values[FUNCTIONS] = {last->rates.acceleration, last->rates.travel};
-    for (int i = 0; i < MAX_FAST; i++) {
-        values[FAST + i] = last->rates.fast[i];
+    Interpolant *polynomials = &path->interpolant;
+    int count = polynomials->count++;
+    double *row = polynomials->difference[count];
+    row[ACCELERATION] = last->rates.acceleration;
+    row[TRAVEL] = last->rates.travel;
+    memcpy(row + FAST, last->rates.fast, sizeof last->rates.fast);
+    for (int i = 0; i < count; i++) {
+        double distance = last->velocity - polynomials->point[i];
+        for (int k = 0; k < FUNCTIONS; k++) {
+            row[k] = (row[k] - polynomials->difference[i][k]) / distance;
+        }
     }
-    interpolant_add(&path->interpolant, last->velocity, values);
+    polynomials->point[count] = last->velocity;
+}
+
+void interpolant_at(const Interpolant *polynomials, double x, int functions, double values[FUNCTIONS]) {
+    for (int k = 0; k < functions; k++) {
+        values[k] = 0.0;
+    }
+    for (int i = polynomials->count - 1; i >= 0; i--) {
+        double distance = x - polynomials->point[i];
+        for (int k = 0; k < functions; k++) {
+            values[k] = polynomials->difference[i][k] + distance * values[k];
+        }
+    }
+}
+
+double interpolant_gap(const Interpolant *polynomials, double from, double to) {
+    double widest = -1.0, found = from;
+    for (int j = 1; j < CANDIDATES; j++) {
+        double x = from + (to - from) * j / CANDIDATES, product = 1.0;
+        for (int i = 0; i < polynomials->count; i++) {
+            product *= fabs((x - polynomials->point[i]) / (to - from));
+        }
+        if (product > widest) {
+            widest = product;
+            found = x;
+        }
+    }
+    return found;
 }
 
 void begin_step(SlowPath *path) {
@@ -23,9 +61,7 @@ static void guess_fast(const SlowPath *path, double n, double velocity, double f
     if (path->interpolant.count > 1) {
         double values[FUNCTIONS];
         interpolant_at(&path->interpolant, velocity, FUNCTIONS, values);
-        for (int i = 0; i < MAX_FAST; i++) {
-            fast[i] = values[FAST + i];
-        }
+        memcpy(fast, values + FAST, MAX_FAST * sizeof fast[0]);
         return;
     }
     const PathPoint *near = fabs(n - last->n) < fabs(n - here->n) ? last : here;

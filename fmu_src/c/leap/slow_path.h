@@ -4,7 +4,6 @@
  * averaging, projective integration). */
 #pragma once
 
-#include "../base/interpolant.h"
 #include "slow_manifold.h"
 
 /* A point, `n` periods after the start: the slow velocity [m/s], its rates, the `moment` there and the one a few
@@ -16,8 +15,17 @@ typedef struct {
 } PathPoint;
 
 /* What is interpolated over the slow velocity: its change and the travel by period, and the fast states. */
-enum { ACCELERATION, TRAVEL, FAST };
-_Static_assert(FAST + MAX_FAST == FUNCTIONS, "an interpolant must hold what is interpolated");
+enum { ACCELERATION, TRAVEL, FAST, FUNCTIONS = FAST + MAX_FAST };
+
+/* Largest number of points of an interpolant. */
+enum { MAX_POINTS = 14 };
+
+/* Polynomials in Newton's form: the divided differences at slow velocities, the points, in the order in which these came. */
+typedef struct {
+    int count;
+    double point[MAX_POINTS];
+    double difference[MAX_POINTS][FUNCTIONS];
+} Interpolant;
 
 /* A step begins `here`; `last` is the point that was evaluated last. Where rates do not depend on time but for the slow velocity,
  * `interpolant` goes through those of points of the step; otherwise the motion `varies`. */
@@ -39,6 +47,13 @@ bool evaluate(SlowPath *path, double n, double velocity);
 /* Interpolate through the point that was evaluated last, too. There must be room, and no known point next to it: rounding of its
  * rates would then add to those of others. */
 void interpolate_last(SlowPath *path);
+
+/* Values at slow velocity `x` of the first `functions` functions. */
+void interpolant_at(const Interpolant *polynomials, double x, int functions, double values[FUNCTIONS]);
+
+/* The point between `from` and `to` where the interpolant may err most: where the product of the distances from all points is
+ * largest (a Leja point), among equidistant ones. */
+double interpolant_gap(const Interpolant *polynomials, double from, double to);
 
 /* Whether rates are so exact that the slow velocity errs by no more than is allowed in the time in which friction changes it. */
 bool are_exact(const PeriodMap *map, const SlowRates *rates);

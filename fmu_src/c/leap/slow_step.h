@@ -12,10 +12,6 @@ typedef struct {
 /* Fewest periods of a step: its points map half as many. */
 #define SHORTEST_STEP (12.0 * DIFFERENCES)
 
-/* Factors by which a step becomes shorter that fails, and longer behind one that does not, if its error tells nothing. */
-#define SHORTER 0.5
-#define LONGER 2.0
-
 /* One step of `h` periods where rates do not depend on time but for the slow velocity: they are interpolated. `last` is then the
  * landing. Return false where there are no rates or too many points would be needed; `h` becomes what to try next. */
 bool interpolated_step(SlowPath *path, double *h, PathStep *result);

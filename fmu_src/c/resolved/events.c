@@ -1,11 +1,9 @@
 #include "events.h"
 
-#include <math.h>
 #include <stddef.h>
 
 #include "../base/clock.h"
 #include "../base/constants.h"
-#include "../friction/law.h"
 #include "../friction/leg.h"
 
 /* Largest number of legs accepted in a turn of the fastest oscillation: several times as many as
@@ -105,11 +103,11 @@ static void pass_mode(Itinerary *itinerary, int mode) {
 
 /* In this order: refuse a motion of too much work, and enter the contact mode of the start. Then leg by leg: find how
  * long the leg may last, until the contact lifts or touches down, the arc ends or the normal frequency changes sign;
- * let the friction law follow it, up to a stop or a release; move to its end; let the inputs grow; change to the next
+ * let the friction law begin it; follow it, up to a stop or a release; move to its end; let the inputs grow; change to the next
  * contact mode. A search ends the motion at the first event. */
 bool events_advance(const Law *start, const Moment *moment, double duration, EventSearch *search,
                     Itinerary *itinerary, Budget *budget, Moment *now, Refusal *refusal) {
-    bool inputs_grow = is_ramped(&start->held.plant);
+    bool inputs_grow = is_ramped(&start->plant);
     Law grown;
     const Law *law = start;
     if (inputs_grow) {
@@ -117,15 +115,14 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
         law = &grown;
     }
     const FrictionLaw *friction = law->friction;
-    const Held *held = &law->held;
-    const Plant *plant = &held->plant;
+    const Plant *plant = &law->plant;
     double remaining = duration;
     double counted = COUNTED * TAU / plant->drive_frequency;
     Clock clock = clock_of(duration);
-    Work work = {.turn = TAU / LONGEST_ARC * held->arc, .max_all = budget_left(budget, MAX_STEP_SEGMENTS)};
+    Work work = {.turn = TAU / LONGEST_ARC * law->arc, .max_all = budget_left(budget, MAX_STEP_SEGMENTS)};
     Leg leg;
     Moment begin;
-    if (!work_fits(&work, duration, held->arc, search, budget, refusal)) {
+    if (!work_fits(&work, duration, law->arc, search, budget, refusal)) {
         return false;
     }
     *now = *moment;
@@ -137,24 +134,25 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
             return false;
         }
         double switching =
-            time_to_switch(&held->window, now->psi + plant->phase, plant->normal_frequency,
-                                   plant->normal_rate, now->mode == LIFTED);
+            time_to_switch(plant, now->psi + plant->phase, plant->normal_frequency,
+                           plant->normal_rate, now->mode == LIFTED);
         double turning = time_to_turn(plant);
-        double longest = fmin(fmin(fmin(remaining, switching), held->arc), turning);
+        double longest = fmin(fmin(fmin(remaining, switching), law->arc), turning);
         if (search != NULL) {
             begin = *now;
         }
-        leg.counts_work = (search != NULL || remaining - fmin(remaining, held->arc) <= counted) &&
+        leg.counts_work = (search != NULL || remaining - fmin(remaining, law->arc) <= counted) &&
                           (itinerary == NULL || itinerary->works);
-        friction->follow(&leg, law, now, longest);
+        friction->begin(&leg, law, now, longest);
+        leg_follow(&leg, plant, now, longest);
         if (itinerary != NULL) {
             pass_mode(itinerary, leg.mode == LIFTED ? LIFTED : leg.direction);
         }
-        leg_finish(&leg, held, now);
+        leg_finish(&leg, plant, now);
         if (inputs_grow) {
             grown = law_after(start, clock.elapsed + leg.t);
             if (leg.t == turning) {
-                grown.held.plant.normal_frequency = 0.0;
+                grown.plant.normal_frequency = 0.0;
             }
         }
         if (search != NULL && found_reversal(search, &clock, &leg, &begin, now)) {

@@ -1,12 +1,9 @@
 /* The loop over events: resolved motion under any friction law, leg by leg. */
 #pragma once
 
-#include <stdbool.h>
 #include <stdint.h>
 
-#include "../base/refusal.h"
 #include "../device/budget.h"
-#include "../device/moment.h"
 #include "../friction/law.h"
 
 /* The search for the first event of a motion: a reversal, stick, release, lift-off or touchdown.
@@ -19,10 +16,6 @@ typedef struct {
     bool found;
     double elapsed, carry;
 } EventSearch;
-
-static inline EventSearch event_search(double after) {
-    return (EventSearch){after, false, 0.0, 0.0};
-}
 
 /* A hash of the contact modes that follow each other: motions with one itinerary depend smoothly on where they begin. `last` is
  * the last of the modes. A motion that has one counts the work of friction only if that is `works`. */

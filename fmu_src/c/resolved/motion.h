@@ -5,9 +5,6 @@
  * all else reads the moment in between. */
 #pragma once
 
-#include <stdbool.h>
-
-#include "../base/refusal.h"
 #include "events.h"
 
 /* Rates of the state and of the mean velocity [m/s, m/s^2]. */
@@ -19,10 +16,6 @@ typedef struct {
 typedef struct Motion {
     /* Whether friction counts with its mean over a turn. */
     bool averages;
-
-    /* Prepare what only this motion needs of a law; NULL for nothing. Refuses where that is not defined; the law is then
-     * undefined. */
-    bool (*prepare)(Law *law, Refusal *refusal);
 
     /* The first moment, at drive and normal phase 0, from the initial values of the device. */
     Moment (*start)(const Law *law);
@@ -54,3 +47,11 @@ typedef struct Motion {
 } Motion;
 
 extern const Motion RESOLVED_MOTION, AVERAGED_MOTION, LEAPING_MOTION;
+
+/* What motion that leaps over periods shares with resolved motion; the error is that which leaps have left. */
+Moment resolved_start(const Law *law);
+int resolved_mode(const Law *law, const Moment *moment);
+double resolved_force(const Law *law, const Moment *moment, int mode);
+double resolved_power(const Law *law, const Moment *moment);
+Rates resolved_rates(const Law *law, const Moment *moment);
+double resolved_error(const Law *law, const Moment *moment);

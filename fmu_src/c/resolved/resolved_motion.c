@@ -1,52 +1,34 @@
 /* Resolved motion, event by event: fidelity 1 and 2. */
-#include "resolved_motion.h"
-
 #include <stddef.h>
 
 #include "../base/constants.h"
 #include "../base/elementary.h"
-#include "../base/refusal_texts.h"
-#include "../device/device.h"
-#include "../friction/law.h"
-#include "events.h"
+#include "motion.h"
 
-/* Velocity [m/s] at the start. A resonator that is not resolved vibrates steadily at once; the velocity is
- * chosen so that the momentum of the pair is that of the initial values. */
-static double start_velocity(const Law *law) {
-    const Device *device = &law->device;
-    const Plant *plant = &law->held.plant;
-    if (plant->resolves_resonator) {
-        return device->initial_velocity;
-    }
-    double rate = steady_swing(plant->resonator_amplitude, 0.0, plant->drive_frequency).rate;
-    return device->initial_velocity +
-           device_mass_fraction(device) * (device->initial_resonator_velocity - rate);
-}
-
+/* A resonator that is not resolved vibrates steadily at once; the velocity is chosen so that the momentum of the pair is
+ * that of the initial values. */
 Moment resolved_start(const Law *law) {
     const Device *device = &law->device;
-    Moment first = {.position = device->initial_position, .event_age = INFINITY};
-    first.state.velocity = start_velocity(law);
-    first.state.displacement = device->initial_resonator_displacement;
-    first.state.rate = device->initial_resonator_velocity;
+    const Plant *plant = &law->plant;
+    Moment first = first_moment(device);
+    if (!plant->resolves_resonator) {
+        double rate = steady_swing(plant->resonator_amplitude, 0.0, plant->drive_frequency).rate;
+        first.state.velocity += device_mass_fraction(device) * (first.state.rate - rate);
+    }
     first.mode = law->friction->mode(law, &first);
     first.bristle = bristle_bent(&law->bristle, device->initial_bristle_deflection);
     return first;
 }
 
-/* Refuse a motion that spans too many turns of the fastest oscillation. */
-static bool bounded_work_check(const Law *law, double duration, const Budget *budget,
-                               Refusal *refusal) {
-    double frequency = LONGEST_ARC / law->held.arc;
-    return !(duration * frequency > TAU * MAX_TURNS) ||
-           refuse_too_many_turns(refusal, budget->step_size, frequency, MAX_TURNS);
-}
-
+/* Refuses a motion that spans too many turns of the fastest oscillation. */
 static bool resolved_advance(const Law *law, const Moment *moment, double duration,
                              EventSearch *search, Budget *budget, Moment *after,
                              Refusal *refusal) {
-    return bounded_work_check(law, duration, budget, refusal) &&
-           events_advance(law, moment, duration, search, NULL, budget, after, refusal);
+    double frequency = LONGEST_ARC / law->arc;
+    if (duration * frequency > TAU * MAX_TURNS) {
+        return refuse_too_many_turns(refusal, budget->step_size, frequency, MAX_TURNS);
+    }
+    return events_advance(law, moment, duration, search, NULL, budget, after, refusal);
 }
 
 int resolved_mode(const Law *law, const Moment *moment) {
@@ -64,7 +46,7 @@ double resolved_power(const Law *law, const Moment *moment) {
 
 /* The equations of motion (26)-(27). */
 Rates resolved_rates(const Law *law, const Moment *moment) {
-    const Plant *plant = &law->held.plant;
+    const Plant *plant = &law->plant;
     double w = plant->drive_frequency, sine = sin(moment->theta), cosine = cos(moment->theta);
     State rates = {.displacement = moment->state.rate};
     int mode = law->friction->mode(law, moment);

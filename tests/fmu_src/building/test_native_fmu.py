@@ -131,9 +131,8 @@ X87_RUN = """
 #include <stdio.h>
 #include "device/contact.h"
 int main(void) {
-    Plant plant = {.preload_share = -1.0};
-    FlightWindow window = flight_window(&plant);
-    printf("%d %g", is_lifted(&window, 0.0, 1.0), time_to_switch(&window, 0.0, 1.0, 0.0, true));
+    Plant plant = {.window = {true, 0.0, TAU}};
+    printf("%d %g", is_lifted(&plant, 0.0, 1.0), time_to_switch(&plant, 0.0, 1.0, 0.0, true));
     return 0;
 }
 """

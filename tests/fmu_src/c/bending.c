@@ -6,8 +6,7 @@
 #include "base/fast_decay.h"
 #include "base/gauss_nodes.h"
 #include "friction/bending_panel.h"
-#include "resolved/events.h"
-#include "resolved/resolved_motion.h"
+#include "resolved/motion.h"
 #include "component/parameter_values.h"
 
 static bool law_of(Law *law, const double *values, double tolerance, Refusal *refusal) {
@@ -70,9 +69,9 @@ int panel_errors(const double *values, double start, double tolerance, double sh
     if (!law_of(&law, values, 1e-14, &refusal)) {
         return 0;
     }
-    const Plant *plant = &law.held.plant;
+    const Plant *plant = &law.plant;
     now = resolved_start(&law);
-    EventSearch search = event_search(0.0);
+    EventSearch search = {.after = 0.0};
     Budget budget = budget_of(start);
     if (!events_advance(&law, &now, start, NULL, NULL, &budget, &later, &refusal) ||
         !events_advance(&law, &later, TAU / plant->drive_frequency, &search, NULL, &budget, &reversal,
@@ -81,11 +80,13 @@ int panel_errors(const double *values, double start, double tolerance, double sh
         return 0;
     }
     double chi = reversal.psi + plant->phase, unused;
-    double switching = time_to_switch(&law.held.window, chi, plant->normal_frequency, 0.0, false);
-    Phasors phasors = phasors_of(plant, reversal.theta, chi);
+    double switching = time_to_switch(plant, chi, plant->normal_frequency, 0.0, false);
+    Law by_panels = law;
+    by_panels.bending = &tables;
+    Phasors phasors = phasors_of(plant, &reversal);
     for (int direction = BACKWARD; direction <= FORWARD; direction += 2) {
-        if (bending_panel_begin(&panel, &tables, &law.held, &law.bristle, direction, &reversal,
-                                &phasors, INFINITY, tolerance) != BY_PANEL ||
+        if (bending_panel_begin(&panel, &by_panels, direction, &reversal, &phasors, INFINITY,
+                                tolerance) != BY_PANEL ||
             panel.reach < INFINITY || !(1.2 * panel.length < switching)) {
             continue;
         }

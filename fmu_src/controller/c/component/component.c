@@ -33,7 +33,7 @@ bool component_setup_experiment(Component *component, const Experiment *experime
         return false;
     }
     now->start_time = now->time = experiment->start_time;
-    now->stop_time = experiment_end(experiment);
+    now->stop_time = experiment->stop_time;
     return true;
 }
 

@@ -9,7 +9,7 @@ from slider_resonator.fmu.saved_state import SavedState
 
 CYCLES = 16
 """How often something is made and freed while memory is counted, after as many times before."""
-OF_INSTANCE, OF_STATE = 2048.0, 512.0
+OF_INSTANCE, OF_STATE = 1024.0, 512.0
 """Bytes that each may leave: a sweep makes ten thousands of instances, a search by trial and return
 millions of states. The host itself leaves some."""
 STEP = 1.1e-3
