@@ -11,7 +11,7 @@ import pytest
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.steady import reference_steady
+from slider_resonator.steady import shooting
 from slider_resonator.trading import measure as measuring
 from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.peer_methods import peer_methods
@@ -31,7 +31,7 @@ def test_every_method_is_a_row_or_an_omission_and_the_files_can_be_read(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # A nearer guess spares searches for steady motion some steps: no answer depends on it.
-    monkeypatch.setattr(reference_steady, "WARM_UP", 5.0)
+    monkeypatch.setattr(shooting, "WARM_UP", 5)
     scene = tmp_path / "mine.toml"
     scene.write_text(HEAD)
     out, page, picture = tmp_path / "out", tmp_path / "page.md", tmp_path / "trade.png"
