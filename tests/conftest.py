@@ -1,5 +1,4 @@
 import os
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -27,21 +26,8 @@ if hasattr(providers, "_get_local_constants"):
     providers._get_local_constants = lambda: providers._local_constants
 
 
-@pytest.fixture
-def working_folder() -> Iterator[None]:
-    """The folder that a test starts and must end in: from one that is gone no FMU can be loaded."""
-    before = Path.cwd()
-    yield
-    try:
-        assert Path.cwd() == before
-    finally:
-        os.chdir(before)
-
-
 @pytest.fixture(autouse=True)
-def fmus_in_this_process(
-    request: pytest.FixtureRequest, working_folder: None, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def fmus_in_this_process(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """Run FMUs in this process, but in tests marked `isolated`."""
     if request.node.get_closest_marker("isolated") is None:
         run_in_this_process(monkeypatch)

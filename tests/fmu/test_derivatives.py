@@ -107,8 +107,10 @@ def test_the_work_of_a_step_stays_bounded(
     instance = instantiate().initialize(**{"fidelity": 0, **values})
     size = 1.0 if turns is None else turns * math.tau / 3500.0
     instance.ramp(**{name: increase / size for name, increase in growth.items()})
+    before = instance.get(*OUTPUTS)
     with instance.refuses(f"doStep: communicationStepSize = {size!r} refused", text):
         instance.slave.doStep(instance.time, size)
+    assert instance.get(*OUTPUTS) == before, "a refusal leaves the state as it was"
 
 
 MOVING = ("position", "velocity", "resonator_displacement", "resonator_velocity", "normal_force")

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import fmpy
 import pytest
-from fmpy import read_model_description
 from lxml import etree
 
 from fmu_src.building.c_sources import slider_sources
 from fmu_src.building.native_fmu import build_native_3
 from fmu_src.building.platforms import host_platform
+from fmu_src.python.slider_component.variables import VARIABLES
 from slider_resonator.checks.validate import validate
 from slider_resonator.scenes.scene_files import find_scene
 from tests.fmu.binary_files import elf_exports
@@ -44,27 +44,37 @@ def test_documents_follow_their_schema(document: str, inside: dict[str, bytes]) 
     schema.assertValid(etree.parse(BytesIO(inside[document])))
 
 
-TOLD = ("causality", "variability", "description", "start", "min", "max", "nominal")
-
-
-def test_after_the_time_variables_are_those_of_fmi_2(
-    unpacked_3: Unpacked, native_fmu: Path
-) -> None:
+def test_variables_are_those_of_the_table_after_the_time(unpacked_3: Unpacked) -> None:
     time, *variables = unpacked_3.description.modelVariables
     assert (time.name, time.valueReference, time.causality) == ("time", 1, "independent")
-    of_fmi_2 = read_model_description(str(native_fmu))
     types = {"Real": "Float64", "Integer": "Int32"}
-    for found, expected in zip(variables, of_fmi_2.modelVariables, strict=True):
-        assert (found.name, found.valueReference) == (expected.name, expected.valueReference + 2)
-        assert (found.type, found.unit) == (types[expected.type], expected.unit), found.name
-        assert found.displayUnit == expected.displayUnit, found.name
-        assert [getattr(found, x) for x in TOLD] == [getattr(expected, x) for x in TOLD], found.name
-    for part in ("outputs", "initialUnknowns"):
-        found, expected = (
-            {u.variable.name: {v.name for v in u.dependencies} for u in getattr(each, part)}
-            for each in (unpacked_3.description, of_fmi_2)
-        )
-        assert found == expected, part
+    for reference, (row, found) in enumerate(zip(VARIABLES, variables, strict=True), start=2):
+        assert (found.name, found.valueReference) == (row.name, reference)
+        assert (found.type, found.causality) == (types[row.type], row.causality), row.name
+        assert (found.variability, found.description) == (row.variability, row.description)
+        assert (found.unit, found.displayUnit) == (row.unit, row.display_unit), row.name
+        numbers = (found.start, found.min, found.max, found.nominal)
+        assert [None if x is None else float(x) for x in numbers] == [
+            row.start,
+            row.minimum,
+            row.maximum,
+            row.nominal,
+        ], row.name
+
+
+def test_dependencies_are_those_of_the_table(unpacked_3: Unpacked) -> None:
+    outputs = {v.name: v for v in VARIABLES if v.causality == "output"}
+    description = unpacked_3.description
+    assert [u.variable.name for u in description.outputs] == list(outputs)
+    assert [u.variable.name for u in description.initialUnknowns] == list(outputs)
+    for unknowns, names in (
+        (description.outputs, {n: v.depends_on for n, v in outputs.items()}),
+        (description.initialUnknowns, {n: v.depends_initially_on for n, v in outputs.items()}),
+    ):
+        for unknown in unknowns:
+            found = {v.name for v in unknown.dependencies}
+            assert found == set(names[unknown.variable.name]), unknown.variable.name
+            assert set(unknown.dependenciesKind) <= {"dependent"}
 
 
 def test_capabilities(unpacked_3: Unpacked) -> None:

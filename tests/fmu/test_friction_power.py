@@ -1,48 +1,127 @@
-"""The mean power of friction over a drive period, which scenes compare with references as well."""
+"""The mean power of friction over a drive period, against the balance of energy and the force."""
 
 import math
-import tomllib
-from pathlib import Path
+from collections.abc import Mapping
+from itertools import pairwise
 
+import numpy as np
 import pytest
 
-from slider_resonator.checks.validate import validate
-from slider_resonator.scenes.scene import scene_from
-from tests.fmu.host import Instantiate
+from tests.fmu.host import Instance, Instantiate
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
 
 TURN = 2.0 * math.pi / 3500.0
+BEGIN = 5
+"""Drive periods before the one that is balanced."""
 
-BUNDLES = ("heat", "heat_on_bristles")
-"""Expectations by friction law."""
+PIECES = 8
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 
-CASES = {
-    "under a load": "inputs = { phase = 0.7, load = 0.05 }",
-    "normal load backwards": "inputs = { frequency_ratio = -1.0, phase = 1.0 }",
-    "constant normal load": "inputs = { frequency_ratio = 0.0, phase = 0.5 }",
-    "normal load that creeps": "inputs = { frequency_ratio = 0.01, phase = 0.5 }",
-    "a beat": "inputs.frequency_ratio = 1.0001",
-    "stick and slip": "device = { friction_coefficient = 4.0, base_amplitude = 2e-5 }",
-    "undamped resonance": "device = { damping_ratio = 0.0, resonator_frequency = 3337.0 }",
-    "more drive": "inputs.amplitude_deviation = 0.2\ndevice.tangential_force = 200.0",
-    "hard bristles": "device = { friction_law = 1, bristle_stiffness = 1e6 }",
-    "soft bristles": "device = { friction_law = 1, bristle_stiffness = 1e3 }",
-    "flight on bristles": "inputs.frequency_ratio = 0.5\n"
-    "device = { friction_law = 1, normal_amplitude = 1.5 }",
+READ = ("friction_force", "velocity", "resonator_velocity")
+
+COULOMB: dict[str, dict[str, float]] = {
+    "table 1": {},
+    "under a load": {"phase": 0.7, "load": 0.05},
+    "third multiple": {"frequency_ratio": 3.0, "phase": 1.0},
+    "normal load backwards": {"frequency_ratio": -1.0, "phase": 1.0},
+    "constant normal load": {"frequency_ratio": 0.0, "phase": 0.5},
+    "normal load that creeps": {"frequency_ratio": 0.01, "phase": 0.5},
+    "a beat": {"frequency_ratio": 1.0001},
+    "with flight": {"normal_amplitude": 1.8, "phase": 0.4},
+    "stick and slip": {"friction_coefficient": 4.0, "base_amplitude": 2e-5},
+    "resonance without damping": {"damping_ratio": 0.0, "resonator_frequency": 3337.0},
+    "overdamped": {"damping_ratio": 1.3},
+    "direct drive": {"tangential_force": 200.0, "amplitude_deviation": 0.2},
 }
-"""Devices and inputs under which no scene expects these, as scene files state them."""
+LUGRE: dict[str, dict[str, float]] = {
+    "hard bristles": {"bristle_stiffness": 1e6},
+    "bristles": {},
+    "soft bristles": {"bristle_stiffness": 1e3},
+    "bristles, flight": {"normal_amplitude": 1.5, "frequency_ratio": 0.5},
+}
+TOLERANCE = 1e-8
 
 
-@pytest.mark.parametrize("case", CASES)
-def test_heat_is_force_times_velocity_of_the_reference(fmu: Path, case: str) -> None:
-    content = tomllib.loads(CASES[case])
-    law = content.get("device", {}).get("friction_law", 0)
-    content |= {"name": "heat", "title": case, "expect_bundles": [BUNDLES[law]]}
-    run = {"drive_periods": 6, "steps_per_period": 4}
-    (result,) = validate([fmu], [scene_from({**content, "run": run}, case)])
-    assert [check.passed for check in result.checks] == [True], result
+def energy(instance: Instance) -> float:
+    """Energy of slider and resonator [J]."""
+    velocity, swing, displacement, mass, small, frequency = instance.get(
+        *("velocity", "resonator_velocity", "resonator_displacement"),
+        *("slider_mass", "resonator_mass", "resonator_frequency"),
+    )
+    spring = small * frequency * frequency
+    moving = mass * velocity**2 + small * (velocity + swing) ** 2
+    return 0.5 * (moving + spring * displacement**2)
+
+
+def works(instance: Instance) -> tuple[float, float, float]:
+    """Of a period: the heat by the output, by the balance of energy, by force times velocity [J].
+
+    The last two by Gauss quadrature between events.
+    """
+    begin = BEGIN * TURN
+    state, energy_before = instance.state(), energy(instance)
+    (before,) = instance.get("position")
+    events = {begin, begin + TURN, *(begin + TURN * k / PIECES for k in range(1, PIECES))}
+    for _ in range(400):
+        instance.step(TURN / 400)
+        events.add(instance.get("last_event_time")[0])
+    edges = sorted(t for t in events if begin <= t <= begin + TURN)
+    instance.restore(state)
+    instance.time = begin
+    mass, frequency, damping, base, force, deviation, load = instance.get(
+        *("resonator_mass", "resonator_frequency", "damping_ratio", "base_amplitude"),
+        *("tangential_force", "amplitude_deviation", "load"),
+    )
+    drive, direct = (x * (1.0 + deviation) for x in (mass * base * 3500.0**2, force))
+    supplied = heat = 0.0
+    for low, high in pairwise(edges):
+        half = 0.5 * (high - low)
+        for node, weight in zip((NODES + 1.0) * half + low, WEIGHTS * half, strict=True):
+            instance.step(float(node) - instance.time)
+            friction, velocity, swing = instance.get(*READ)
+            sine = math.sin(3500.0 * instance.time)
+            lost = 2.0 * damping * mass * frequency * swing * swing
+            supplied += weight * (drive * sine * (velocity + swing) + direct * sine * velocity)
+            supplied -= weight * lost
+            heat += weight * friction * velocity
+    instance.step(begin + TURN - instance.time)
+    (after, power) = instance.get("position", "friction_power")
+    supplied -= load * (after - before) + energy(instance) - energy_before
+    return power * TURN, supplied, heat
+
+
+def moving(instantiate: Instantiate, values: Mapping[str, float]) -> Instance:
+    instance = instantiate().initialize(**values)
+    instance.step(BEGIN * TURN)
+    instance.time = BEGIN * TURN
+    return instance
+
+
+@pytest.mark.parametrize("case", COULOMB)
+def test_coulomb_friction_balances_energy(instantiate: Instantiate, case: str) -> None:
+    heat, balance, work = works(moving(instantiate, COULOMB[case]))
+    assert heat > 0.0, "friction heats"
+    assert heat == pytest.approx(work, rel=1e-9), "force times velocity"
+    assert heat == pytest.approx(balance, rel=1e-9), "what the drive supplies and is not kept"
+
+
+@pytest.mark.parametrize("case", LUGRE)
+def test_bristles_balance_energy_to_the_tolerance(instantiate: Instantiate, case: str) -> None:
+    """The energy of the vibration is known to the tolerance of its velocity."""
+    instance = moving(instantiate, {"friction_law": 1, "tolerance": TOLERANCE, **LUGRE[case]})
+    heat, balance, _ = works(instance)
+    assert heat == pytest.approx(balance, abs=2.0 * TOLERANCE * energy(instance))
+
+
+@pytest.mark.parametrize("law", [0, 1])
+def test_a_rigid_vibration_heats_as_force_times_velocity(
+    instantiate: Instantiate, law: int
+) -> None:
+    """At fidelity 1 the resonator acts by its steady force."""
+    heat, _, work = works(moving(instantiate, {"fidelity": 1, "friction_law": law, "phase": 0.4}))
+    assert heat == pytest.approx(work, rel=1e-9 if law == 0 else 1e-6)
 
 
 def test_before_a_period_is_complete_it_is_the_mean_since_the_start(

@@ -5,12 +5,14 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
+from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
 
 from fmu_src.python.slider_component.variable import Variable
 from fmu_src.python.slider_component.variables import VARIABLES
-from tests.fmu.host import Instance, Instantiate
+from tests.fmu.host import Instance, Instantiate, Unpacked
 from tests.fmus import both_fmus
 from tests.processes import run_python
 
@@ -224,3 +226,39 @@ print("alive", instance.time)
 def test_the_host_outlives_thousands_of_refusals(fmu: Path, tmp_path: Path) -> None:
     printed = run_python(STORM, fmu, tmp_path)
     assert printed.startswith("alive"), "no crash, also when the process ends"
+
+
+def changing(name: str, before: float, after: float) -> dict[str, object]:
+    """A run in which a variable changes after 0.05 s."""
+    rows = [(0.0, before), (0.05, before), (0.05, after), (0.1, after)]
+    return {"input": np.array(rows, dtype=[("time", float), (name, float)])}
+
+
+REFUSED_RUNS: dict[str, dict[str, object]] = {
+    "start value not finite": {"start_values": {"load": math.nan}},
+    "start value out of bounds": {"start_values": {"slider_mass": 0.0}},
+    "choice out of bounds": {"start_values": {"friction_faces": 3}},
+    "values that do not fit": {"start_values": {"friction_law": 1, "friction_coefficient": 0.0}},
+    "input turns into nan": changing("load", 0.0, math.nan),
+    "input turns infinite": changing("phase", 0.0, math.inf),
+    "tunable leaves its bounds": changing("normal_preload", 1.0, -1.0),
+    "tunable turns into nan": changing("base_amplitude", 1e-4, math.nan),
+    "step of zero": {"output_interval": 0.0, "stop_time": 0.1},
+}
+
+
+@pytest.mark.parametrize("run", REFUSED_RUNS.values(), ids=REFUSED_RUNS)
+def test_simulate_fmu_raises(fmu: Path, unpacked: Unpacked, run: dict[str, object]) -> None:
+    reached: list[float] = []
+
+    def note(time: float, _: object) -> bool:
+        reached.append(time)
+        return True
+
+    with pytest.raises(FMICallException) as caught:
+        simulate_fmu(str(fmu), **({"stop_time": 0.1, "step_finished": note} | run))
+    assert caught.value.status == unpacked.status_of_refusals, (
+        "fmi2Discard would end the run short without a word"
+    )
+    if "input" in run:
+        assert 0.04 < reached[-1] < 0.06, "the first half is fine, the refusal comes in the middle"

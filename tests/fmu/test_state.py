@@ -1,18 +1,20 @@
-"""States, and instances of two builds beside each other."""
+"""States and instances beside each other; steady velocities of another program."""
 
 import json
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from fmu_src.building import python_fmu
+from fmu_src.building import native_fmu
 from fmu_src.building.c_sources import slider_sources
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST
-from tests.fmu.host import Instance, Instantiate, unpack
+from fmu_src.building.python_fmu import build_python
+from fmu_src.sources import PACKAGE
+from tests.fmu.host import Instance, Instantiate, Unpacked, unpack
 from tests.fmus import both_fmus
-from tests.harness.faulty_fmus import other_friction
 from tests.processes import run_python
 
 pytestmark = both_fmus
@@ -59,21 +61,43 @@ def test_every_state_of_life_comes_back(instantiate: Instantiate, reached: str) 
 
 
 STEP_BESIDE = 1.3e-3
-OTHER = 0.1001
-"""The coefficient of friction built into `other_build`."""
 
 
-@pytest.fixture(scope="session")
-def other_build(fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """An FMU whose code has another coefficient of friction built in."""
-    folder = tmp_path_factory.mktemp("other")
-    if fmu.stem == python_fmu.MODEL:
-        return other_friction(fmu, folder / "other.fmu")
+def _python_build(folder: Path) -> Path:
+    package = folder / "slider_component"
+    shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
+    _edit(
+        package / "parameters.py",
+        "friction_coefficient: float = 0.1",
+        "friction_coefficient: float = 0.2",
+    )
+    _edit(
+        package / "variables.py",
+        "friction_coefficient 1, start 0.1",
+        "friction_coefficient 1, start 0.2",
+    )
+    return build_python(folder / "dist", package)
+
+
+def _native_build(folder: Path) -> Path:
     code = slider_sources()
-    old, new = (f'{{"friction_coefficient", false, false, {start}' for start in (0.1, OTHER))
+    old, new = (f'{{"friction_coefficient", false, false, {start}' for start in (0.1, 0.2))
     assert code["component/variables.c"].count(old) == 1
     code["component/variables.c"] = code["component/variables.c"].replace(old, new)
     return build_native(folder, platforms=[HOST], code=code)
+
+
+def _edit(file: Path, old: str, new: str) -> None:
+    text = file.read_text()
+    assert text.count(old) == 1, f"{file.name} no longer says {old!r}"
+    file.write_text(text.replace(old, new))
+
+
+@pytest.fixture(scope="session")
+def other_build(unpacked: Unpacked, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An FMU whose code has another coefficient of friction built in."""
+    native = unpacked.description.modelName == native_fmu.MODEL
+    return (_native_build if native else _python_build)(tmp_path_factory.mktemp("other"))
 
 
 def test_two_builds_in_one_process_stay_independent(
@@ -81,7 +105,7 @@ def test_two_builds_in_one_process_stay_independent(
 ) -> None:
     golden = instantiate().initialize()
     candidate = Instance(unpack(other_build, tmp_path)).initialize()
-    tuned = instantiate().initialize(friction_coefficient=OTHER)
+    tuned = instantiate().initialize(friction_coefficient=0.2)
     rows = [
         (golden.run(1, STEP_BESIDE), candidate.run(1, STEP_BESIDE), tuned.run(1, STEP_BESIDE))
         for _ in range(20)
@@ -100,3 +124,26 @@ def test_a_state_of_another_build_is_refused(
     candidate.free()
     with instance.refuses("state", "refused"):
         instance.restore(foreign)
+
+
+STEADY_VELOCITIES = {
+    (1, 0.0): 0.6966,
+    (1, 1.5): 0.7719,
+    (3, 0.0): -0.2780,
+    (3, 1.5): 0.2036,
+    (5, 0.0): -0.1169,
+    (5, 1.5): -0.1795,
+    (7, 0.0): 0.1297,
+    (7, 1.5): -0.0600,
+}
+"""Of resolved table 1 by frequency ratio and phase [rad], by another program, in units of x0 w0."""
+
+
+@pytest.mark.parametrize(("ratio", "phase"), STEADY_VELOCITIES)
+def test_steady_velocity_is_that_of_another_program(
+    instantiate: Instantiate, ratio: int, phase: float
+) -> None:
+    scale = 2.0 / 11.0  # x0 w0 of table 1, m/s
+    instance = instantiate().initialize(frequency_ratio=ratio, phase=phase)
+    expected = STEADY_VELOCITIES[ratio, phase] * scale
+    assert instance.get("steady_velocity") == pytest.approx((expected,), abs=2e-4 * scale)

@@ -53,6 +53,29 @@ def test_the_headers_of_fmi_are_whole_and_have_unix_line_ends() -> None:
             assert "\r" not in text
 
 
+def test_references_are_positions_in_the_table() -> None:
+    found = re.findall(r"VR_(\w+) = (\d+),", CODE["component/variables.h"])
+    assert found == [(v.name.upper(), str(i)) for i, v in enumerate(VARIABLES)]
+
+
+def test_bounds_read_back_exactly() -> None:
+    rows = re.findall(
+        r'\{"(\w+)", (true|false), (true|false), (\S+), (\S+), (\S+),\s+"',
+        CODE["component/variables.c"],
+    )
+    assert [r[0] for r in rows] == [v.name for v in VARIABLES]
+    for variable, (_, integer, fixed, start, minimum, maximum) in zip(VARIABLES, rows, strict=True):
+        assert integer == str(variable.type == "Integer").lower(), variable.name
+        assert fixed == str(variable.variability == "fixed").lower(), variable.name
+        assert float(start) == (variable.start or 0.0), variable.name
+        for text, bound, absent in (
+            (minimum, variable.minimum, "-DBL_MAX"),
+            (maximum, variable.maximum, "DBL_MAX"),
+        ):
+            assert (text == absent) == (bound is None), variable.name
+            assert bound is None or float(text) == bound, variable.name
+
+
 def test_constants_read_back_exactly() -> None:
     found = re.findall(r"^#define ([A-Z_]+) (\S+)$", CODE["base/constants.h"], re.MULTILINE)
     in_python = {name: value for name, value in vars(constants).items() if name.isupper()}

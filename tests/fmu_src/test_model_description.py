@@ -45,6 +45,31 @@ def dependencies(unknown: ET.Element) -> list[str]:
     return [NAMES[int(i) - 1] for i in unknown.attrib["dependencies"].split()]
 
 
+def test_variables_are_those_of_the_table_in_its_order(root: ET.Element) -> None:
+    elements = list(root.iterfind("ModelVariables/ScalarVariable"))
+    assert [e.attrib["name"] for e in elements] == NAMES
+    assert [int(e.attrib["valueReference"]) for e in elements] == list(range(len(VARIABLES))), (
+        "the value reference is the position in the table"
+    )
+
+
+@pytest.mark.parametrize("variable", VARIABLES, ids=lambda v: v.name)
+def test_numbers_read_back_exactly(root: ET.Element, variable: Variable) -> None:
+    element = found(root, f"ModelVariables/ScalarVariable[@name='{variable.name}']/*")
+    assert element.tag == variable.type
+    expected = {
+        "start": variable.start,
+        "min": variable.minimum,
+        "max": variable.maximum,
+        "nominal": variable.nominal,
+    }
+    for attribute, number in expected.items():
+        text = element.get(attribute)
+        assert (None if text is None else float(text)) == number, (
+            f"{attribute} of {variable.name} must read back as the very same number"
+        )
+
+
 @pytest.mark.parametrize(
     ("unit", "display", "value", "shown"),
     [

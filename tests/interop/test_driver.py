@@ -9,6 +9,10 @@ from studies.hosts.driver_host import native_driver
 from studies.hosts.job import describe
 from tests.native.toolchain import Binary, run, unpacked_binary
 
+STEADY = {(0.0, 0.0, 1.0): 0.12666700, (0.4, 0.05, 1.0): 0.0986951, (0.4, 0.0, 3.0): -0.0362968}
+"""Phase [rad], load [N], frequency ratio: steady velocity [m/s] of both degrees of freedom, found
+by Taylor integration with located events."""
+
 
 @pytest.fixture(scope="module")
 def binary(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Binary:
@@ -25,6 +29,17 @@ def commands(native_fmu: Path, values: dict[str, float], *steps: str) -> str:
     references = describe(str(native_fmu)).references
     lines = [f"real {references[name]} {value!r}" for name, value in values.items()]
     return "\n".join([*lines, "initialize", *steps]) + "\n"
+
+
+@pytest.mark.parametrize("inputs", STEADY)
+def test_steady_velocity_in_a_process_without_python(
+    native_fmu: Path, binary: Binary, inputs: tuple[float, float, float]
+) -> None:
+    values = dict(zip(("phase", "load", "frequency_ratio"), inputs, strict=True))
+    reference = describe(str(native_fmu)).references["mean_velocity"]
+    done = drive(binary, commands(native_fmu, values, "step 0.01 3000", f"get {reference}"))
+    assert done.returncode == 0, done.stderr
+    assert float(done.stdout) == pytest.approx(STEADY[inputs], rel=1e-6)
 
 
 @pytest.mark.parametrize(

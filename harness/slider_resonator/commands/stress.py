@@ -1,7 +1,7 @@
 """`stress`, once `extremes` and `campaign`: run FMUs at extremes and with random devices."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
@@ -43,24 +43,23 @@ long_option = click.option(
     "1e6: minutes each in the native FMU, so give slower ones a --time-limit. Averaged motion "
     "always has 1e8.",
 )
-first_option = click.option(
-    "--first",
-    type=click.IntRange(min=0),
-    default=0,
-    show_default=True,
-    envvar="CAMPAIGN_FIRST",
-    show_envvar=True,
-    help="Number of the first random device.",
-)
-seed_option = click.option(
-    "--seed",
-    type=click.IntRange(min=0),
-    default=1,
-    show_default=True,
-    envvar="CAMPAIGN_SEED",
-    show_envvar=True,
-    help="Seed of the random devices: the same cases everywhere.",
-)
+
+
+def _random_option(name: str, default: int, text: str) -> Callable[[options.FC], options.FC]:
+    """Return an option of random devices, a whole number."""
+    return click.option(
+        f"--{name}",
+        type=click.IntRange(min=0),
+        default=default,
+        show_default=True,
+        envvar=f"CAMPAIGN_{name.upper()}",
+        show_envvar=True,
+        help=text,
+    )
+
+
+first_option = _random_option("first", 0, "Number of the first random device.")
+seed_option = _random_option("seed", 1, "Seed of the random devices: the same cases everywhere.")
 
 
 @click.command("stress")

@@ -27,7 +27,7 @@ from slider_resonator.fitting.estimation import (
     profile_end,
 )
 from slider_resonator.fitting.measurements import Measurements
-from slider_resonator.fitting.notes import data_notes, implausible_notes, misfit_notes
+from slider_resonator.fitting.notes import data_notes, friction_notes, misfit_notes
 from slider_resonator.fmu.isolation.process import Task
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks
 from slider_resonator.output.progress import Progress, counted, no_progress
@@ -156,15 +156,14 @@ class Fit(Shown, Tabular, Drawable):
         for index in self.unmet:
             name, source, row = self.measurements.places[index]
             asked, reached = shown(name, self.measured[index]), self.predicted[index]
-            nearest = f"the nearest found is {shown(name, reached)}"
-            if not isfinite(reached):
-                nearest = "but no steady motion was found"
+            found = f"the nearest found is {shown(name, reached)}"
+            nearest = found if isfinite(reached) else "but no steady motion was found"
             lines.append(f"not met: {name} ({source}, {row}) must be {asked}, {nearest}")
         quantities = np.array(self.measurements.quantities)
         for quantity in dict.fromkeys(quantities.tolist()):
-            found = np.isfinite(self.predicted) & (quantities == quantity)
-            if found.any():
-                rms = float(np.sqrt(np.mean((self.predicted - self.measured)[found] ** 2)))
+            seen = np.isfinite(self.predicted) & (quantities == quantity)
+            if seen.any():
+                rms = float(np.sqrt(np.mean((self.predicted - self.measured)[seen] ** 2)))
                 lines.append(f"{quantity} is off by {shown(quantity, rms)} (rms)")
         missing = int(np.count_nonzero(~np.isfinite(self.predicted)))
         if missing:
@@ -312,8 +311,8 @@ def fit(
     off = np.abs(predicted - measurements.measured)
     missed = () if spare else np.flatnonzero(~(off <= MET * measurements.sizes)).tolist()
     device = Device.from_mapping(best_values)
-    determined = {one.name: one.value for one in fitted if not one.is_open}
-    notes += implausible_notes(determined, device.friction_faces)
+    if any(one.name == "friction_coefficient" and not one.is_open for one in fitted):
+        notes += friction_notes(device)
     if spare:
         notes += misfit_notes(measurements, predicted, len(free))
     return Fit(

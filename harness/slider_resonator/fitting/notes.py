@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy.special import ndtr
 
 from slider_resonator.arrays import Array
+from slider_resonator.device.device import Device
 from slider_resonator.fitting.measurements import Measurements
 from slider_resonator.scenes.device_file import possible_slips
 
@@ -18,8 +19,8 @@ ROUNDING = 1e-6
 """Residual, in root mean squares of the quantity, up to which it may be rounding of the data."""
 MAX_NAMED = 5
 """Number of outliers that are named."""
-SELDOM_ABOVE = {"friction_coefficient": 1.5, "damping_ratio": 1.0}
-"""Parameters with the value that dry friction or a resonator of metal seldom exceeds."""
+HIGH_FRICTION = 1.5
+"""Coefficient that dry friction seldom exceeds."""
 
 
 def data_notes(measurements: Measurements, parameters: Mapping[str, float]) -> list[str]:
@@ -35,13 +36,14 @@ def data_notes(measurements: Measurements, parameters: Mapping[str, float]) -> l
     return [*measurements.notes, *slips.values()]
 
 
-def implausible_notes(fitted: Mapping[str, float], friction_faces: int) -> list[str]:
-    """Return the fitted parameters that hardly any device has."""
-    check = f"normal_preload, the units, and friction_faces = {friction_faces}"
+def friction_notes(fitted: Device) -> list[str]:
+    """Return a note where friction is higher than in hardly any device."""
+    if fitted.friction_coefficient <= HIGH_FRICTION:
+        return []
     return [
-        f"{name} = {value:.3g} is seldom above {SELDOM_ABOVE[name]:g}: check {check}"
-        for name, value in fitted.items()
-        if value > SELDOM_ABOVE.get(name, value)
+        f"friction_coefficient = {fitted.friction_coefficient:.3g} is seldom above "
+        f"{HIGH_FRICTION:g}: check normal_preload, the units, and "
+        f"friction_faces = {fitted.friction_faces}"
     ]
 
 

@@ -6,8 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.interface import INPUTS, PARAMETERS, VARIABLES, Variable
+from slider_resonator.device.interface import INPUT_STARTS, INPUTS, PARAMETERS, VARIABLES, Variable
 from slider_resonator.device.values import check_value, si_value, with_unit
+from slider_resonator.fmu.opening import Fmu
 
 
 @pytest.mark.parametrize(
@@ -120,3 +121,12 @@ def test_starts_are_table_1() -> None:
 def test_wrong_parameter_is_refused_by_name(name: str, value: float, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         Device.from_mapping({name: value})
+
+
+def test_fmu_has_this_interface_and_these_starts(fmu: Fmu) -> None:
+    """The interface is written down twice, in the harness and in the component: both must agree."""
+    assert {*fmu.variables, *fmu.lacks} == set(VARIABLES)
+    starts = {**vars(Device()), **INPUT_STARTS}
+    for name in starts.keys() - set(fmu.lacks):
+        start = starts[name]
+        assert float(fmu.variables[name].start) == start, name

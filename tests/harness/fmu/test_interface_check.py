@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 from fmpy import read_model_description
 
-from slider_resonator.fmu.interface_check import description_faults
+from slider_resonator.fmu.interface_check import description_faults, interface_problems
+from tests.fmus import both_fmus
 from tests.harness.faulty_fmus import redescribed
 
 CHANGES: dict[str, tuple[bytes, bytes, str]] = {
@@ -45,6 +46,19 @@ CHANGES: dict[str, tuple[bytes, bytes, str]] = {
     ),
     "display unit": (b'displayUnit="mm"', b'displayUnit="mile"', "displayUnit of"),
 }
+
+
+@both_fmus
+def test_the_builds_say_what_the_interface_says(fmu: Path) -> None:
+    description = read_model_description(str(fmu))
+    assert interface_problems(description) == []
+    assert description_faults(description) == []
+
+
+@pytest.fixture
+def fmu(request: pytest.FixtureRequest) -> Path:
+    found: Path = request.getfixturevalue(f"{getattr(request, 'param', 'native')}_fmu")
+    return found
 
 
 @pytest.mark.parametrize("name", CHANGES)

@@ -56,3 +56,25 @@ STIFF = {
         constant(frequency_ratio=1.37),
     ),
 }
+
+
+def unit_device(kappa: float, frequency: float, amplitude_ratio: float) -> Device:
+    """Model 2 of the paper with q = 1, mu = 0.4, sigma_1 = 1 at a stiffness number kappa.
+
+    In its units x0 = 1 m, w0 = 1 rad/s: one mass, driven directly, on one face.
+    """
+    friction = 0.4
+    return Device(
+        slider_mass=1.0,
+        resonator_mass=0.0,
+        base_amplitude=0.0,
+        tangential_force=frequency,
+        drive_frequency=frequency,
+        normal_amplitude=amplitude_ratio,
+        friction_coefficient=friction,
+        friction_faces=1,
+        friction_law=1,
+        bristle_stiffness=kappa * friction * frequency,
+        bristle_damping=1.0,
+        fidelity=1,
+    )

@@ -1,10 +1,13 @@
 import pytest
 
 from slider_resonator.device.device import Device
+from slider_resonator.references.averaged import device_average
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
     reference_steady_velocity,
 )
+from tests.harness.references.lugre_problems import unit_device
 
 TABLE_1 = Device()
 
@@ -49,3 +52,46 @@ def test_lugre_steady_velocity_matches_taylor_integration(
     device = Device(friction_law=1, bristle_stiffness=stiffness, fidelity=fidelity)
     found = reference_steady_velocity(device, 0.0, 0.0, 1.0, velocity + 0.01)
     assert found == pytest.approx(velocity, abs=5e-8)
+
+
+QUICK = (0.1, 10.0)
+KAPPAS = [
+    pytest.param(kappa, marks=() if kappa in QUICK else pytest.mark.slow)
+    for kappa in (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
+]
+
+
+def steady_velocity(
+    device: Device, phase: float, load: float = 0.0, ratio: float = 1.0, guess: float = 0.0
+) -> float:
+    found = reference_steady_velocity(device, phase, load, ratio, guess, simulate=simulate)
+    assert found is not None, "there is a steady motion"
+    return found
+
+
+def blocking_force(device: Device, phase: float) -> float:
+    found = reference_blocking_force(device, phase, 1.0, simulate=simulate)
+    assert found is not None, "there is a load that stops the device"
+    return found
+
+
+@pytest.mark.parametrize("amplitude_ratio", [0.8, 1.6])
+@pytest.mark.parametrize("kappa", KAPPAS)
+def test_uniform_average_errors_fall_with_the_frequency(
+    kappa: float, amplitude_ratio: float
+) -> None:
+    """Soft to hard bristles, closed and lifting: velocity and blocking force."""
+    errors = []
+    for frequency in (1000.0, 4000.0):
+        device = unit_device(kappa, frequency, amplitude_ratio)
+        velocity = device_average.steady_velocity(device, 1.0, 0.0, 1.0)
+        force = device_average.blocking_force(device, 1.0, 1.0)
+        errors.append(
+            (
+                velocity - steady_velocity(device, 1.0, guess=velocity),
+                force - blocking_force(device, 1.0),
+            )
+        )
+    for coarse, fine in zip(*errors, strict=True):
+        assert abs(coarse) < 2e-3, "of v_q, or of N0"
+        assert coarse / fine == pytest.approx(4.0, rel=0.02), "averages err by 1 / Omega"

@@ -279,14 +279,14 @@ def reading_differences(fmu: FmuSide) -> list[str]:
     names = [name for name, v in instance.fmu.variables.items() if v.type == "Real"]
     blocks = [instance.block([name]) for name in names]
     backwards = instance.block(list(reversed(names)))
-    unequal: list[str] = []
+    changed: list[str] = []
 
     def read_all() -> None:
         one_by_one = [block.read()[0] for block in blocks]
         at_once = backwards.read()[::-1]
         for name, first, second in zip(names, one_by_one, at_once, strict=True):
             if first != second:
-                unequal.append(f"{name} read twice is {first!r} and {second!r}")
+                changed.append(f"{name} read twice is {first!r} and {second!r}")
 
     with instance.explained():
         instance.set_up(running.stop_time, start_time=plain.schedule.start_time)
@@ -299,8 +299,8 @@ def reading_differences(fmu: FmuSide) -> list[str]:
         for step in range(running.steps):
             running.advance(step, read_all)
             read_all()
-            unequal += status_faults(instance)
-    return plain.differences("with more readings", running.rows) + unequal
+            changed += status_faults(instance)
+    return plain.differences("with more readings", running.rows) + changed
 
 
 def other_device_differences(fmu: FmuSide) -> list[str]:

@@ -109,4 +109,4 @@ def test_a_run_that_is_left_ends_the_tasks_at_work(native_fmu: Path, opened: lis
             next(finished)
         assert len(opened) == 2
         began = monotonic()
-    assert monotonic() - began < 60.0, "a task hangs for ten minutes"
+    assert monotonic() - began < 10.0
