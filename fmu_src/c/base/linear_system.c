@@ -1,0 +1,49 @@
+#include "linear_system.h"
+
+#include <math.h>
+
+/* Smallest pivot that counts as different from 0, relative to the largest entry of the matrix. */
+#define SMALLEST_PIVOT 1e-13
+
+static void swap(double *a, double *b) {
+    double kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+bool solve_linear(double matrix[UNKNOWNS][UNKNOWNS], double right[UNKNOWNS], int count) {
+    double rows[UNKNOWNS][UNKNOWNS], largest = 0.0;
+    for (int i = 0; i < count; i++) {
+        for (int j = 0; j < count; j++) {
+            rows[i][j] = matrix[i][j];
+            largest = fmax(largest, fabs(rows[i][j]));
+        }
+    }
+    for (int k = 0; k < count; k++) {
+        int pivot = k;
+        for (int i = k + 1; i < count; i++) {
+            pivot = fabs(rows[i][k]) > fabs(rows[pivot][k]) ? i : pivot;
+        }
+        if (!(fabs(rows[pivot][k]) > SMALLEST_PIVOT * largest)) {
+            return false;
+        }
+        for (int j = k; j < count; j++) {
+            swap(&rows[k][j], &rows[pivot][j]);
+        }
+        swap(&right[k], &right[pivot]);
+        for (int i = k + 1; i < count; i++) {
+            double share = rows[i][k] / rows[k][k];
+            for (int j = k + 1; j < count; j++) {
+                rows[i][j] -= share * rows[k][j];
+            }
+            right[i] -= share * right[k];
+        }
+    }
+    for (int k = count - 1; k >= 0; k--) {
+        for (int j = k + 1; j < count; j++) {
+            right[k] -= rows[k][j] * right[j];
+        }
+        right[k] /= rows[k][k];
+    }
+    return true;
+}
