@@ -7,6 +7,8 @@ CAN_BUILD := $(VENV)/.can_build
 READY := $(VENV)/.ready
 READY_WITH_HOSTS := $(VENV)/.ready_with_hosts
 LINT := .venv-lint
+# Else each of many processes would compile all that it imports, in an image that sets this.
+unexport PYTHONDONTWRITEBYTECODE
 # -qq: errors are shown; what pip finds odd about the machine's own configuration is not.
 PIP_INSTALL := -m pip install -qq --disable-pip-version-check
 
