@@ -19,7 +19,7 @@ from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
-from slider_resonator.scenes.scene_files import find_scenes
+from slider_resonator.scenes.scene_files import find_scenes, is_core
 
 COUNTS = ("reversals", "contact_mode")
 ROUNDING = 1e-11
@@ -96,13 +96,8 @@ def both(twins: Twins, values: Mapping[str, float], course: Schedule) -> tuple[R
 
 
 SCENES = {scene.name: scene for scene in find_scenes([])}
-EXPENSIVE = (
-    *("averaged_lugre_beat", "averaged_lugre", "tuned_lugre_stiff", "long_run"),
-    "resonance_scan",
-)
-"""Scenes that take a second in the Python FMU."""
 IN_BOTH = [
-    pytest.param(name, marks=pytest.mark.slow if name in EXPENSIVE else ())
+    pytest.param(name, marks=() if is_core(scene) else pytest.mark.slow)
     for name, scene in SCENES.items()
     if scene.stop_time and not scene.interpolates
 ]

@@ -49,7 +49,7 @@ def off(one: Array, other: Array) -> float:
     return float(np.abs(one - other).max() / np.abs(other).max())
 
 
-@pytest.mark.parametrize("inputs", [ALL, BACK])
+@pytest.mark.parametrize("inputs", [ALL, pytest.param(BACK, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("device", [DEVICE, LIFTS, STICKS, RIGID, LUGRE, LUGRE_LIFTS])
 def test_scipy_agrees(device: Device, inputs: HeldInputs) -> None:
     assert off(by_scipy(device, [inputs]), position(device, [inputs])) < 2e-9
@@ -58,11 +58,11 @@ def test_scipy_agrees(device: Device, inputs: HeldInputs) -> None:
 @pytest.mark.parametrize(
     ("device", "inputs"),
     [
-        (DEVICE, PHASE),
-        (DEVICE, CHIRP),
+        pytest.param(DEVICE, PHASE, marks=pytest.mark.slow),
+        pytest.param(DEVICE, CHIRP, marks=pytest.mark.slow),
         (LUGRE, LOAD),
         (LIFTS, BACK),
-        (replace(LUGRE, normal_amplitude=1.6), BACK),
+        pytest.param(LUGRE_LIFTS, BACK, marks=pytest.mark.slow),
     ],
 )
 def test_held_steps_tend_to_the_line_with_second_order(device: Device, inputs: HeldInputs) -> None:
