@@ -15,12 +15,6 @@ static const char *const STEPS = "steps of averaged motion";
 /* Part of a beat that a step may have: its stages then see all phases of the normal load. */
 #define BEAT_SHARE 0.125
 
-/* Part of a beat up to which a kink ahead counts as the one just passed. */
-#define MIN_SHARE 1e-9
-
-/* Shortest step to an edge of friction, as a share of the step tried first. */
-#define MIN_APPROACH 1e-7
-
 /* Change of the velocity up to which its rate may be linear, over the fast velocity; and the share of the tolerance for what
  * that leaves: no step corrects it. */
 #define LINEAR 4e-6
@@ -143,21 +137,6 @@ static double first_step(const SlowFriction *friction, double duration) {
     return strongest > 0.0 ? FIRST_STEP * change / strongest : duration;
 }
 
-/* Time [s] until the motion gets to an edge of friction, the fast velocity both ways, beyond which friction no longer depends
- * on the velocity; by the acceleration of now and its growth, beyond the edge exactly. Steps that end there leave no visit
- * across an edge between their stages. Infinite under a constant load, where the steps find an edge by their error. */
-static double time_to_edge(const SlowFriction *friction, const SlowPoint *now) {
-    const Plant *plant = &friction->law->plant;
-    int side = now->velocity > 0.0 ? 1 : -1;
-    double beyond = side * now->velocity - friction->fast.velocity, jerk = -plant->load_rate / plant->total_mass;
-    double sway = slow_friction_sway(friction) / plant->total_mass;
-    int away = beyond < 0.0 ? -side : side;
-    if (jerk == 0.0) {
-        return INFINITY;
-    }
-    return time_to_stop(fabs(beyond), away * now->rate.acceleration, away * jerk - sway);
-}
-
 /* One step of `h` [s] near a steady velocity, under rates that do not depend on time: the acceleration is linear in the
  * velocity, with a derivative `gain`; a positive one, which is rounding, counts as 0. The error is what the acceleration at
  * the end tells. Return false where the velocity would change by more than a share LINEAR of the fast one. */
@@ -172,8 +151,18 @@ static bool linear_step(SlowFriction *friction, const SlowPoint *from, double ga
     double weight = z < -NO_DECAY ? (mean - decayed) / (1.0 - decayed) : 0.5;
     to.travel = from->travel + h * (to.rate.travel + weight * (from->rate.travel - to.rate.travel));
     double error = h * mean * fabs(to.rate.acceleration - decayed * acceleration);
-    *step = (SlowStep){to, error, z / h};
+    *step = (SlowStep){to, change, error, z / h};
     return true;
+}
+
+/* Error of the velocity over a step by Simpson's rule, with one more rate in the middle: where friction has a kink, the
+ * error of the embedded pair is small by accident now and then, but not both. */
+static double simpson_error(SlowFriction *friction, const SlowPoint *from, const SlowStep *step) {
+    double h = step->to.t - from->t, first = from->rate.acceleration, last = step->to.rate.acceleration;
+    double middle = from->velocity + 0.5 * step->change + 0.125 * h * (first - last);
+    SlowRate rate;
+    rate_at(friction, from->t + 0.5 * h, middle, &rate);
+    return fabs(step->change - h / 6.0 * (first + 4.0 * rate.acceleration + last));
 }
 
 /* In this order: refuse a time of too many steps; then step by step: find how long the rates are smooth; pass all the rest
@@ -186,7 +175,7 @@ bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoi
     }
     SlowFriction own = *friction;
     bool varies = own.fastest != 0.0 || own.chirp != 0.0 || own.law->plant.load_rate != 0.0;
-    double first = first_step(&own, end), longest = BEAT_SHARE * own.beat, h = first;
+    double longest = BEAT_SHARE * own.beat, h = first_step(&own, end);
     int tried = 0, max_count = max_steps(&own), allowed = budget_left(budget, max_count);
     /* No step is longer than a share of a beat: too many of them are refused before the first. */
     if (varies && end > allowed * longest) {
@@ -197,19 +186,20 @@ bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoi
         if (tried == allowed) {
             return budget_refuse(budget, now->t, max_count, STEPS, refusal);
         }
-        double kink = fmax(slow_friction_to_kink(&own, now->t), MIN_SHARE * own.beat);
-        double edge = fmax(time_to_edge(&own, now), MIN_APPROACH * first);
-        double next = fmin(end, now->t + fmin(kink, edge)), left = next - now->t;
+        double left = end - now->t;
         SlowStep step;
         bool settles = !varies && tried > 0 && linear_step(&own, now, gain, left, &step) &&
                        step.error <= SETTLED * tolerance;
         if (!settles) {
             h = fmin(fmin(h, longest), left);
             runge_kutta_step(rate_at, &own, now, h, &step);
+            if (!(step.error > tolerance)) {
+                step.error = fmax(step.error, simpson_error(&own, now, &step));
+            }
         }
         if (!(step.error > tolerance)) {
             *now = step.to;
-            now->t = settles || h == left ? next : now->t;
+            now->t = settles || h == left ? end : now->t;
             gain = step.gain;
         }
         h *= step_growth(step.error, tolerance);

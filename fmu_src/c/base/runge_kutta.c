@@ -27,10 +27,11 @@ static const double ERROR[STAGES] = {
 bool runge_kutta_step(SlowRateFunction rate, void *motion, const SlowPoint *from, double h,
                       SlowStep *step) {
     SlowRate rates[STAGES] = {from->rate};
-    double error = h * ERROR[0] * from->rate.acceleration, before = 0.0;
+    double error = h * ERROR[0] * from->rate.acceleration, before = 0.0, gained = 0.0;
     SlowPoint to = *from;
     for (int i = 1; i < STAGES; i++) {
-        double gained = 0.0, travel = 0.0;
+        double travel = 0.0;
+        gained = 0.0;
         for (int j = 0; j < i; j++) {
             gained += WEIGHTS[i][j] * rates[j].acceleration;
             travel += WEIGHTS[i][j] * rates[j].travel;
@@ -46,7 +47,7 @@ bool runge_kutta_step(SlowRateFunction rate, void *motion, const SlowPoint *from
     }
     to.rate = rates[STAGES - 1];
     double risen = to.rate.acceleration - rates[STAGES - 2].acceleration;
-    *step = (SlowStep){to, fabs(error), risen / (to.velocity - before)};
+    *step = (SlowStep){to, h * gained, fabs(error), risen / (to.velocity - before)};
     return true;
 }
 

@@ -17,11 +17,11 @@ typedef struct {
     SlowRate rate;
 } SlowPoint;
 
-/* A step to a point; `error` is the estimated error of the velocity, `gain` the derivative of the acceleration by the
- * velocity, from two stages at the end. */
+/* A step to a point; `change` is that of the velocity, `error` its estimated error, `gain` the derivative of the acceleration
+ * by the velocity, from two stages at the end. */
 typedef struct {
     SlowPoint to;
-    double error, gain;
+    double change, error, gain;
 } SlowStep;
 
 /* Order of the solution of Dormand and Prince's pair 5(4), whose error is that of the other one. */

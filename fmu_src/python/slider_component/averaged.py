@@ -18,7 +18,7 @@ from .budget import too_much_work
 from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .contact import LIFTED, direction_of
 from .device import System, full_friction, steady_swing, vibration
-from .dormand_prince import Rates, dormand_prince, linear_step, step_growth
+from .dormand_prince import Rates, dormand_prince, linear_step, simpson_error, step_growth
 from .mean_friction import MAX_WAVES, MeanFriction
 from .moment import Moment
 from .values import Refusal
@@ -36,9 +36,6 @@ FEW_WAVES = 8.0
 
 MIN_STEPS = 16
 """Lower limit of the number of steps that is accepted."""
-
-MIN_SHARE = 1e-9
-"""Part of a beat up to which a kink ahead counts as the one just passed."""
 
 TOLERANCE = 2e-10
 """Error per step of the slow motion, relative to the fast velocity."""
@@ -208,12 +205,10 @@ class Averaged:
                 to = linear_step(rates, t, velocity, h, first, gain, max_change)
             if to is None or to.error > SETTLED * tolerance:
                 h = min(h, step, longest)
-                if not self.waves:
-                    # The load itself is slow, with kinks where the contact lifts or touches down.
-                    window, chi = system.window, phase + drift * t
-                    ahead = window.time_to_switch(chi, drift, window.is_lifted(chi, drift))
-                    h = min(h, max(ahead, MIN_SHARE * self.beat))
                 to = dormand_prince(rates, t, velocity, h, first)
+                if not to.error > tolerance:
+                    missed = simpson_error(rates, t, velocity, h, first, to)
+                    to = to._replace(error=max(to.error, missed))
             tried += 1
             if not to.error > tolerance:
                 velocity, moved, t = to.velocity, moved + to.travel, t + h
