@@ -47,8 +47,9 @@ from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run as run_schedule
 from slider_resonator.output.progress import no_progress
 from slider_resonator.output.shown import Drawable
-from slider_resonator.scenes.device_file import device_values, to_toml
+from slider_resonator.scenes.device_file import device_values
 from slider_resonator.scenes.device_file import read_device as read_device_file
+from slider_resonator.scenes.device_file import to_toml as device_text
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes
 from slider_resonator.steady.blocking_force import Blocking, find_blocking
@@ -135,8 +136,9 @@ class OpenFmu:
         self._isolated.close()
 
     def __repr__(self) -> str:
-        """Return the path of the FMU."""
-        return f"OpenFmu({str(self.path)!r})"
+        """Return the path of the FMU, and what its device differs from table 1 in."""
+        stated = ", ".join(f"{name}={value:g}" for name, value in self._device.items())
+        return f"OpenFmu({str(self.path)!r}{', ' if stated else ''}{stated})"
 
     @_plain_errors
     def run(self, scene: SceneLike, **values: Value) -> SceneRecord:
@@ -186,6 +188,15 @@ def read_device(device: DeviceLike) -> Device:
     Raises SceneError with file, key, value and requirement.
     """
     return Device.from_mapping(_stated(device))
+
+
+@_plain_errors
+def to_toml(device: DeviceLike, title: str = "") -> str:
+    """Return the text of a device file: what differs from table 1, and the number of faces.
+
+    Raises SceneError for a device that no device file could state.
+    """
+    return device_text(read_device(device), title)
 
 
 @_plain_errors
@@ -277,7 +288,7 @@ def fit(
     fmu: str | Path | None = None,
     *,
     device: DeviceLike | None = None,
-    bounds: Mapping[str, tuple[float, float]] | None = None,
+    bounds: Mapping[str, tuple[Value, Value]] | None = None,
     starts: int = STARTS,
     jobs: int | None = None,
     time_limit: float = TIME_LIMIT,

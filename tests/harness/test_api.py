@@ -1,6 +1,7 @@
 """The Python API: what the commands do, for scripts."""
 
 import sys
+import tomllib
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -215,6 +216,7 @@ def test_arrays_and_numbers_of_numpy_are_data(native_fmu: Path, tmp_path: Path) 
         ),
         (lambda: sr.fit({"fase": [0]}, "damping_ratio"), "data: unknown column 'fase'; did you"),
         (lambda: sr.fit({}, "damping_ratio"), "data: must be columns of one"),
+        (lambda: sr.to_toml("no.toml"), r"no\.toml: cannot be read: No such file"),
     ],
 )
 def test_bad_arguments_are_one_line(call: Callable[[], object], text: str) -> None:
@@ -231,7 +233,17 @@ def test_a_device_may_be_given_with_units(native_fmu: Path) -> None:
         assert sr.read_device(device) == sr.Device(base_amplitude=2e-4)
         with sr.open_fmu(native_fmu, device=device) as fmu:
             record = fmu.run("table_1")
+            assert "base_amplitude=0.0002" in repr(fmu)
         assert record.scene.parameters["base_amplitude"] == 2e-4
+
+
+def test_a_device_of_any_numbers_is_written_as_plain_ones() -> None:
+    mass: Any = "50 g"
+    faces: Any = np.int64(1)
+    mine = sr.Device(slider_mass=mass, friction_faces=faces, damping_ratio=np.float64(0.02))
+    content = tomllib.loads(sr.to_toml(mine))
+    assert content["device"] == {"slider_mass": 0.05, "friction_faces": 1, "damping_ratio": 0.02}
+    assert sr.to_toml("table_1") == sr.to_toml({}) == "[device]\nfriction_faces = 2\n"
 
 
 def test_what_a_device_file_states_replaces_the_scene(native_fmu: Path, tmp_path: Path) -> None:

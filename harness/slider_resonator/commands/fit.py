@@ -145,6 +145,10 @@ def fit_command(
         if device is not None:
             sources["the device"] = device.path
         distinct({f"{name} of --out": out / name for name in FILES}, sources)
+        if (out / "device.toml").exists() and not (out / "fit.html").exists():
+            raise click.UsageError(
+                f"--out {out}: has a device.toml that no fit has written; must be another folder"
+            )
     path = options.default_fmu(fmu)
     provenance = provenance_of(path)
     workers = jobs or available_cores()

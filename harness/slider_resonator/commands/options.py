@@ -74,6 +74,11 @@ def setting(text: str) -> tuple[str, float]:
     return name, value
 
 
+def note_slips(source: str, slips: Sequence[str]) -> None:
+    """Print what may be meant in another unit in a file or option."""
+    _note([f"{source}: {slip}" for slip in slips])
+
+
 def _note(sentences: Sequence[str]) -> None:
     for sentence in sentences:
         click.echo(escaped(f"note: {sentence}"), err=True)
@@ -101,12 +106,28 @@ def _each_with_its_option(arguments: Sequence[str]) -> list[str]:
     spread: list[str] = []
     inside = False
     for before, argument in zip(["", *arguments], arguments, strict=False):
+        if inside and _is_unit_of(before, argument):
+            raise click.UsageError(
+                f"{before} {argument}: must be in quotes, as {SET} '{before} {argument}'"
+            )
         bare = inside and before != SET and _SETTING.match(argument) is not None
         if bare:
             spread.append(SET)
         spread.append(argument)
         inside = bare or before == SET or argument == SET or argument.startswith(f"{SET}=")
     return spread
+
+
+def _is_unit_of(setting_before: str, argument: str) -> bool:
+    """Whether an argument is the unit of the setting before, such as deg after phase=30."""
+    name, _, number = setting_before.partition("=")
+    if name not in SETTABLE or not is_number(number) or Path(argument).exists():
+        return False
+    try:
+        si_value(name, f"{number} {argument}")
+    except ValueError:
+        return False
+    return not is_number(argument)
 
 
 def _each_once(

@@ -24,7 +24,7 @@ from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.scenes.scene_files import find_scene
+from slider_resonator.scenes.scene_files import built_in_scenes, find_scene
 
 if TYPE_CHECKING:
     from slider_resonator.choosing import Choice
@@ -42,9 +42,10 @@ def _window(text: str) -> tuple[float, float]:
     """Return the two times (s) of FROM:TO; ValueError for another text."""
     begin, _, end = text.partition(":")
     try:
-        return float(begin), float(end)
+        return si_number("time", begin, "s"), si_number("time", end, "s")
     except ValueError as error:
-        raise ValueError(f"{text!r}: must be FROM:TO, two times in s, such as 0.1:0.11") from error
+        example = "such as 0.1:0.11 or with a unit: 5 ms:6 ms"
+        raise ValueError(f"{text!r}: must be FROM:TO, two times in s, {example}") from error
 
 
 def _duration(text: str) -> float:
@@ -84,7 +85,7 @@ def _overlay(text: str) -> tuple[str, float] | Path:
 @click.option(
     "--window",
     type=options.Parsed("FROM:TO", _window),
-    help="With --plot: the time to draw, in s, in steps fine enough to be smooth.",
+    help="With --plot: the time to draw, in s or with a unit, in steps fine enough to be smooth.",
 )
 @click.option(
     "--overlay",
@@ -146,11 +147,15 @@ def run_command(
       slider-resonator run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
     read = find_scene(scene, settings, device)
+    if device is None and scene not in built_in_scenes():
+        options.note_slips(read.source, read.slips)
     if stop_time is not None:
         read = read.lasting(stop_time)
     if interpolate is not None:
         read = read.interpolating(interpolate)
     files = {f"the scene's file {file}": file for file in read.files}
+    if device is not None:
+        files["the device"] = device.path
     others = {f"the FMU {one}": one for one in overlays if isinstance(one, Path)}
     distinct({"--out": out, "--plot": plot}, {"the FMU": fmu, **others, **files})
     is_chosen = bool(signals is not None or window or overlays)

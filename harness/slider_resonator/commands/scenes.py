@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from slider_resonator.commands import options
 from slider_resonator.commands.options import json_option
 from slider_resonator.commands.results import print_json, print_table
 from slider_resonator.output.readable import escaped, number_of
@@ -73,6 +74,7 @@ def scenes_command(as_json: bool, **chosen: Any) -> None:
         click.echo(template(), nl=False)
     elif chosen["check"]:
         for scene in find_scenes([chosen["check"]]):
+            options.note_slips(scene.source, scene.slips)
             checks = sum(len(point.scene.expect) for point in scene.points())
             click.echo(escaped(f"{scene.source}: valid, {number_of(checks, 'check')}"))
     elif chosen["schema"]:

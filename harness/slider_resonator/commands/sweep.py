@@ -129,6 +129,7 @@ def sweep_command(
     else:
         content = {"grid": dict(axes), **({"measures": list(measures)} if measures else {})}
         sweep = grid_from(content, "--over", own, settings)
+    options.note_slips(str(grid or "--over"), sweep.slips)
     if device and not sweep.title:
         sweep = replace(sweep, title=device.title)
     _check_drawable(sweep, plot, html)

@@ -117,6 +117,8 @@ def si_number(name: str, text: str, unit: str) -> float:
         raise ValueError(f"{name} = {text!r}: unknown unit {match['unit']!r}; {must}") from error
     except (pint.PintError, ArithmeticError, AssertionError, TypeError, ValueError) as error:
         raise ValueError(f"{name} = {text!r}: not in {unit}; {must}") from error
+    if unit == "rad" and factor >= 1e3:
+        raise ValueError(f"{name} = {text!r}: {match['unit']} is {factor:g} rad; {must}")
     # So that "10 us" is 1e-5, to the last bit.
     parts = round(1.0 / factor)
     given = float(match["number"])

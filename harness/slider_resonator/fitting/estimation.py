@@ -185,6 +185,35 @@ def _slopes(residuals: Callable[[Array], Array], low: Array, high: Array, at: Ar
     return np.column_stack(columns)
 
 
+REDUNDANCY = 2.0
+"""Numbers to spare from which a series tells its own noise; others have that of all."""
+LEAST_NOISE = 1e-6
+"""Least noise, in root mean squares of the quantity: what rounding of the data may be."""
+
+
+def noise_of_series(problem: Problem, best: Minimum) -> dict[tuple[str, str], float]:
+    """Return how much the numbers of each quantity and source err, by the residuals of a fit.
+
+    It is a step of the estimation of variance components: sums of squares over redundancies
+    (Foerstner, Zeitschrift fuer Vermessungswesen 104 (1979), 446-453).
+    """
+    series: dict[tuple[str, str], list[int]] = {}
+    for index, place in enumerate(problem.measurements.places):
+        if best.jacobian[index].any():  # else it is a point without motion, or tells nothing
+            series.setdefault((place.quantity, place.source), []).append(index)
+    hat = np.einsum("ij,ji->i", best.jacobian, np.linalg.pinv(best.jacobian))
+    spare = max(len(hat) - hat.sum(), 1.0)
+    noise = {}
+    for one, rows in series.items():
+        redundancy = len(rows) - hat[rows].sum()
+        squares = float(best.residuals[rows] @ best.residuals[rows]) / max(redundancy, 1e-300)
+        if redundancy < REDUNDANCY:
+            squares = best.sum_of_squares / spare
+        known = problem.measurements.noise.get(one, 1.0)
+        noise[one] = max(known * squares**0.5, LEAST_NOISE)
+    return noise
+
+
 def profile_end(
     instance: Instance, problem: Problem, best: Minimum, index: int, change: float, excess: float
 ) -> float | None:

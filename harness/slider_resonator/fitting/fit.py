@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from math import exp, isfinite
 from pathlib import Path
@@ -14,7 +14,7 @@ from scipy.special import ndtri, stdtrit
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INTEGERS, PARAMETERS, VARIABLES
-from slider_resonator.device.values import check_value
+from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fitting.estimation import (
     Free,
@@ -22,6 +22,7 @@ from slider_resonator.fitting.estimation import (
     OpenDirection,
     Problem,
     minimise,
+    noise_of_series,
     open_directions,
     predict,
     profile_end,
@@ -39,9 +40,14 @@ if TYPE_CHECKING:
 
 STARTS = 5
 REACH = 3.0
-"""Factor up to which other starts lie beside the first."""
+REACH_OF_FREQUENCY = 1.1
+"""Factors up to which other starts lie beside the first; a resonance farther off is not felt."""
 SEED = 1
 LEVEL = 0.95
+REWEIGHTINGS = 10
+STEADY_NOISE = 0.01
+"""Largest number of times that series are weighted by what they err by, and the relative change of
+that up to which it is found."""
 SAME = 1e-6
 """Relative difference of sums of squares up to which two starts have found the same minimum."""
 WIDE = 1e4
@@ -171,10 +177,11 @@ class Fit(Shown, Tabular, Drawable):
         for one in self.open_directions:
             names = one.factors
             parts = ", ".join(f"{name} x {exp(0.1 * part):.3g}" for name, part in names.items())
-            reach = "too little" if isfinite(one.spread) else "nothing"
+            reach = "hardly" if isfinite(one.spread) else "do not"
+            told = "determine" if len(names) == 1 else "tell apart"
             alone = "is" if len(names) == 1 else "together are"
             lines.append(
-                f"the data say {reach} of {' and '.join(names)}: {parts} {alone} hardly seen"
+                f"the data {reach} {told} {' and '.join(names)}: {parts} {alone} hardly seen"
             )
         lines.append(f"{self.starts_agreeing} of {self.starts} starts led to this minimum")
         at_bound = [one.name for one in self.parameters if one.at_bound]
@@ -194,7 +201,9 @@ def free_parameters(
     """
     for name in [*names, *bounds]:
         if name not in PARAMETERS:
-            raise HarnessError(unknown_name("parameter", name, PARAMETERS))
+            raise HarnessError(unknown_name("parameter", name, {*PARAMETERS} - {*INTEGERS}))
+        if name not in names:
+            raise HarnessError(f"bounds of {name}: it is not free; must be one of the free ones")
         if name in INTEGERS:
             raise HarnessError(
                 f"{name} is an integer; must be a parameter that varies continuously"
@@ -211,7 +220,7 @@ def free_parameters(
         high = np.inf if variable.maximum is None else variable.maximum
         search_bounds: tuple[float, ...] = ()
         if name in bounds:
-            low, high = bounds[name]
+            low, high = _both_bounds(name, bounds[name])
         elif low >= 0.0 and start > 0.0:
             allowed = low, high
             low, high = max(low, start / WIDE), min(high, start * WIDE)
@@ -227,6 +236,17 @@ def free_parameters(
         start = min(max(start, low), high)
         found.append(Free(name, start, float(low), float(high), search_bounds))
     return tuple(found)
+
+
+def _both_bounds(name: str, bounds: Any) -> tuple[float, float]:
+    """Return two bounds in SI units, given as numbers or as texts with a unit."""
+    try:
+        low, high = (si_value(name, one) if isinstance(one, str) else float(one) for one in bounds)
+    except (TypeError, ValueError) as error:
+        raise HarnessError(
+            f"bounds of {name} = {bounds!r}: must be two numbers, or texts with a unit"
+        ) from error
+    return low, high
 
 
 Runner = Callable[[str, Sequence[Task]], list[Any]]
@@ -274,8 +294,19 @@ def fit(
     best = min(minima, key=lambda one: one.sum_of_squares)
     bound = best.sum_of_squares * (1.0 + SAME) + 1e-16 * count
     agreeing = sum(one.sum_of_squares <= bound for one in minima)
+    evaluations = sum(one.evaluations for one in minima)
     spare = count - len(free)
     known = measurements.knows_deviations
+    for _ in range(REWEIGHTINGS if spare and not known else 0):
+        noise = noise_of_series(problem, best)
+        before = [measurements.noise.get(one, 1.0) for one in noise]
+        changes = np.log(np.array([*noise.values()]) / before)
+        if float(np.ptp(changes)) < STEADY_NOISE:
+            break
+        measurements = replace(measurements, noise=noise)
+        problem = replace(problem, measurements=measurements)
+        (best,) = run("weighting", [partial(minimise, problem=problem, start=best.internal)])
+        evaluations += best.evaluations
     scale = (best.sum_of_squares / spare) ** 0.5 if spare else None
     unit = 1.0 if known else scale
     directions = open_directions(problem, best, unit or 0.0)
@@ -327,7 +358,7 @@ def fit(
         scale,
         len(minima),
         agreeing,
-        sum(one.evaluations for one in minima),
+        evaluations,
         measurements,
         tuple(missed),
         tuple(notes),
@@ -337,7 +368,10 @@ def fit(
 def _starts(free: Sequence[Free], count: int) -> list[Array]:
     """Return internal starts: the device's own first, others up to a factor `REACH` beside it."""
     first = np.array([one.internal(one.start) for one in free])
-    reach = np.array([np.log(REACH) if one.is_relative else REACH for one in free])
+    factors = [REACH_OF_FREQUENCY if VARIABLES[one.name].unit == "rad/s" else REACH for one in free]
+    reach = np.array(
+        [np.log(f) if one.is_relative else f for f, one in zip(factors, free, strict=True)]
+    )
     random = np.random.default_rng(SEED)
     return [
         first,

@@ -62,14 +62,17 @@ class Place(NamedTuple):
 class Measurements:
     """All that is measured. Numbers come in the order of points, then runs, output by output.
 
-    `units` are those of headings, by name: text and factor to the SI unit. `plain_frequencies` are
-    source, name and value of those without a unit. `notes` say what was done in reading.
+    `noise` is what numbers of a quantity and source err by without stated deviations, in root mean
+    squares of the quantity and up to a common factor; 1 by default. `units` are those of headings,
+    by name: text and factor to the SI unit. `plain_numbers` are source, name and value of
+    frequencies and phases without a unit. `notes` say what was done in reading.
     """
 
     points: tuple[Point, ...] = ()
     runs: tuple[Run, ...] = ()
+    noise: Mapping[tuple[str, str], float] = field(default_factory=dict)
     units: Mapping[str, tuple[str, float]] = field(default_factory=dict)
-    plain_frequencies: tuple[tuple[str, str, float], ...] = ()
+    plain_numbers: tuple[tuple[str, str, float], ...] = ()
     notes: tuple[str, ...] = ()
 
     @cached_property
@@ -148,12 +151,12 @@ class Measurements:
 
     @property
     def scales(self) -> Array:
-        """Standard deviations, shape (n,), or what stands for them up to a common factor.
-
-        Without any, the numbers of one quantity err alike, and by the same share of their root mean
-        square as those of another.
-        """
-        return self.deviations if self.knows_deviations else self.sizes
+        """Standard deviations, shape (n,), or what stands for them up to a common factor."""
+        if self.knows_deviations:
+            return self.deviations
+        shares = [self.noise.get((place.quantity, place.source), 1.0) for place in self.places]
+        scales: Array = self.sizes * shares
+        return scales
 
     def under(self, inputs: Mapping[str, float]) -> "Measurements":
         """Return the same with inputs of the points that do not say them."""
@@ -165,8 +168,9 @@ class Measurements:
         return Measurements(
             self.points + other.points,
             self.runs + other.runs,
+            {**other.noise, **self.noise},
             {**other.units, **self.units},
-            self.plain_frequencies + other.plain_frequencies,
+            self.plain_numbers + other.plain_numbers,
             self.notes + other.notes,
         )
 

@@ -24,13 +24,13 @@ HIGH_FRICTION = 1.5
 
 
 def data_notes(measurements: Measurements, parameters: Mapping[str, float]) -> list[str]:
-    """Return what was done in reading, and frequencies that may be meant in Hz.
+    """Return what was done in reading, and numbers that may be meant in Hz or degrees.
 
     `parameters` are those of the device.
     """
     slips: dict[tuple[str, str], str] = {}
-    for source, name, value in measurements.plain_frequencies:
-        where = f'"{name} [Hz]" as heading'
+    for source, name, value in measurements.plain_numbers:
+        where = f'"{name} [{"deg" if name == "phase" else "Hz"}]" as heading'
         for slip in possible_slips({name: value}, parameters, where):
             slips.setdefault((source, name), f"{source}: {slip}")
     return [*measurements.notes, *slips.values()]

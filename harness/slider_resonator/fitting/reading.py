@@ -17,7 +17,7 @@ from slider_resonator.device.values import is_number, si_value, with_unit
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fitting.measurements import STEADY, TIME, Measurements, Point, Run
 from slider_resonator.scenes.csv_signal import check_cells, csv_number, csv_rows
-from slider_resonator.scenes.device_file import FREQUENCIES
+from slider_resonator.scenes.device_file import IN_ANOTHER_UNIT
 
 _ALIASES = {"frequency": "drive_frequency", "amplitude": "base_amplitude"}
 _STEADY_ALIASES = {
@@ -79,12 +79,12 @@ def _measurements(columns: _Columns) -> Measurements:
     found = _run(columns) if "time" in columns.values else _table(columns)
     plain = [
         (columns.source, name, value)
-        for name in FREQUENCIES
+        for name in IN_ANOTHER_UNIT
         if name in columns.values and name not in columns.units
         for value in dict.fromkeys(columns.values[name].tolist())
     ]
     notes = (*columns.notes, *found.notes)
-    return replace(found, units=columns.units, plain_frequencies=tuple(plain), notes=notes)
+    return replace(found, units=columns.units, plain_numbers=tuple(plain), notes=notes)
 
 
 def _columns(path: Path) -> _Columns:

@@ -138,15 +138,18 @@ def _no_parameter(name: str) -> str:
 
 
 FREQUENCIES = ("drive_frequency", "resonator_frequency")
+IN_ANOTHER_UNIT = (*FREQUENCIES, "phase")
+"""What is often meant in Hz or degrees."""
 
 
 def possible_slips(
     table: Mapping[str, Any], beside: Mapping[str, float] | None = None, where: str = ""
 ) -> list[str]:
-    """Return a sentence for each plain number in rad/s of [device] that may be meant in Hz.
+    """Return a sentence for each plain number that may be meant in Hz or degrees.
 
-    Meant are round numbers, and a frequency that is 2 pi times or a 2 pi-th of the other, which is
-    that of `beside` if the table does not have it. `where` says what to write, if not in [device].
+    In Hz may be round numbers, and a frequency that is 2 pi times or a 2 pi-th of the other, which
+    is that of `beside` if the table does not have it; in degrees a phase of more than a turn.
+    `where` says what to write, if not in [device].
     """
     slips = []
     given, values = {}, []
@@ -164,6 +167,12 @@ def possible_slips(
                 f"{name} = {value:g} is in rad/s, which is {with_unit(name, value)}; "
                 f"if {value:g} Hz is meant, write " + (where or f'{name} = "{value:g} Hz"')
             )
+    phase = table.get("phase")
+    if isinstance(phase, float | int) and abs(phase) > 2.0 * pi:
+        slips.append(
+            f"phase = {phase:g} is in rad, which is {with_unit('phase', phase)}; "
+            f"if {phase:g} deg is meant, write " + (where or f'phase = "{phase:g} deg"')
+        )
     return slips
 
 
@@ -183,7 +192,11 @@ def without_drive(values: Mapping[str, float]) -> list[str]:
 
 
 def to_ssv(device: Device, name: str) -> str:
-    """Return the parameter set of a device (SSP 1.0, `.ssv`), which system simulators import."""
+    """Return the parameter set of a device (SSP 1.0, `.ssv`), which system simulators import.
+
+    Raises SceneError as `to_toml` does.
+    """
+    device = _plain_device(device)
     space = "http://ssp-standard.org/SSP1/SystemStructureParameterValues"
     root = Element("ssv:ParameterSet", {"xmlns:ssv": space, "version": "1.0", "name": name})
     parameters = SubElement(root, "ssv:Parameters")
@@ -195,13 +208,17 @@ def to_ssv(device: Device, name: str) -> str:
     return tostring(root, encoding="unicode", xml_declaration=True) + "\n"
 
 
+def _plain_device(device: Device) -> Device:
+    """Return a device of plain numbers in SI units, from one of any numbers or texts."""
+    return Device.from_mapping(device_values({"device": vars(device)}, "the device"))
+
+
 def to_toml(device: Device, title: str = "") -> str:
     """Return the text of a device file: what differs from table 1, and the number of faces.
 
     Raises SceneError for a device that no device file could state.
     """
-    device_values({"device": vars(device)}, "the device")
-    start = Device()
+    device, start = _plain_device(device), Device()
     lines = [f"title = {toml_value(title)}", ""] if title else []
     lines.append("[device]")
     for name in PARAMETERS:

@@ -19,7 +19,7 @@ from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown
 from slider_resonator.scenes.csv_signal import csv_signal
-from slider_resonator.scenes.device_file import read_device_file, refuse_other_kinds
+from slider_resonator.scenes.device_file import possible_slips, read_device_file, refuse_other_kinds
 from slider_resonator.scenes.expansion import variants
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.explanations import explanations
@@ -48,6 +48,7 @@ class Scene(Shown):
     name, `tuning` what changes in the run and is held over a step: tunable parameters, deviations
     of the drive. Deviations that are constant are among the parameters. `beside` is what a second
     instance runs. `source` names the scene in messages; `files` are all that it was read from.
+    `slips` is a sentence for each value of its device that may be meant in another unit.
     """
 
     name: str
@@ -63,6 +64,7 @@ class Scene(Shown):
     files: tuple[Path, ...]
     tuning: Mapping[str, Signal] = field(default_factory=dict)
     beside: Beside | None = None
+    slips: Sequence[str] = ()
 
     def __post_init__(self) -> None:
         if self.stop_time is not None:
@@ -286,13 +288,14 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
     if "name" not in content:
         refuse_other_kinds(content, source, "scene")
     files: list[Path] = []
+    stated = content
     if isinstance(name := content.get("device"), str):
         try:
             read = read_device_file(name, folder)
         except SceneError as error:
             raise SceneError(f"{source}: device: {error}") from error
-        content, files = {**content, "device": read.values}, [read.path]
-    content = with_si_values(content, source)
+        stated, files = {**content, "device": read.values}, [read.path]
+    content = with_si_values(stated, source)
     try:
         table = SceneTable.model_validate(content)
     except ValidationError as error:
@@ -328,6 +331,7 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
         files=tuple(files),
         tuning=tuning,
         beside=beside,
+        slips=read.slips if isinstance(name, str) else possible_slips(stated.get("device", {})),
     )
 
 

@@ -1,6 +1,6 @@
 """What a sweep computes, read from a TOML file: the points, the measures, and how to run them."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain, product
 from math import exp, log, prod
@@ -22,7 +22,7 @@ from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import HarnessError, unknown_name
-from slider_resonator.scenes.device_file import device_values, refuse_other_kinds
+from slider_resonator.scenes.device_file import device_values, possible_slips, refuse_other_kinds
 from slider_resonator.scenes.explanations import AXIS, explanations
 from slider_resonator.scenes.key_table import KeyTable, Number
 from slider_resonator.scenes.scene_files import built_in_scenes
@@ -189,7 +189,8 @@ class Sweep:
 
     `points` are the values of `task.names`, one tuple each, in the order of the rows of the table.
     `is_grid` says that they are a full product of axes and nothing else,
-    `logarithmic` are the variables with that spacing.
+    `logarithmic` are the variables with that spacing. `slips` is a sentence for each value that may
+    be meant in another unit.
     """
 
     title: str
@@ -197,6 +198,7 @@ class Sweep:
     points: Rows
     is_grid: bool
     logarithmic: frozenset[str] = frozenset()
+    slips: Sequence[str] = ()
 
 
 def read_grid(
@@ -228,7 +230,7 @@ def grid_from(
 
     Raises HarnessError with `source`.
     """
-    content = with_si_values(content, source)
+    stated, content = content, with_si_values(content, source)
     try:
         table = GridTable.model_validate(content)
     except ValidationError as error:
@@ -260,4 +262,7 @@ def grid_from(
         run=Run(**table.run.model_dump()),
     )
     is_grid = not table.parallel and table.random is None
-    return Sweep(table.title, task, points, is_grid, table.logarithmic)
+    plain = {**stated.get("device", {}), **stated.get("fixed", {})}
+    plain |= {name: max(columns[name]) for name in table.grid}
+    slips = possible_slips(plain, own)
+    return Sweep(table.title, task, points, is_grid, table.logarithmic, slips)

@@ -34,6 +34,13 @@ def test_a_possible_slip_is_noted(tmp_path: Path, native_fmu: Path) -> None:
     assert said["device"]["drive_frequency"]["shown"] == "3.1831 kHz"
     ran = call("steady", native_fmu, "--device", path)
     assert 'write drive_frequency = "20000 Hz"' in ran.stderr
+    scene = tmp_path / "scene.toml"
+    run = "[run]\ndrive_periods = 2\nsteps_per_period = 4\n"
+    scene.write_text(f'name = "a"\ntitle = "a"\n{run}{path.read_text()}', encoding="utf-8")
+    grid = ("--over", "drive_frequency=19000:21000:2", "--out", tmp_path / "a.csv")
+    assert "if 20000 Hz is meant" in call("run", native_fmu, scene).stderr
+    assert "if 20000 Hz is meant" in call("scenes", "--check", scene).stderr
+    assert "if 21000 Hz is meant" in call("sweep", *grid, "--fmu", native_fmu).stderr
 
 
 def test_a_device_without_a_drive_is_noted(tmp_path: Path, native_fmu: Path) -> None:

@@ -29,9 +29,13 @@ def test_a_fit_writes_the_device_to_go_on_with(
     assert ran.exit_code == 0, ran.output
     assert "friction on 1 face (friction_faces)" in ran.stdout
     assert sr.read_device(tmp_path / "device.toml").damping_ratio == pytest.approx(0.03, rel=1e-4)
-    assert {path.name for path in tmp_path.iterdir()} == {
-        *("device.toml", "fit.html", "fit.png", "residuals.csv")
-    }
+    written = {"device.toml", "fit.html", "fit.png", "residuals.csv"}
+    assert {path.name for path in tmp_path.iterdir()} == written
+    other = tmp_path / "mine"
+    other.mkdir()
+    (other / "device.toml").write_text("[device]\n", encoding="utf-8")
+    said = refused("fit", data, *device, "--free", "damping_ratio", "--out", other)
+    assert "has a device.toml that no fit has written" in " ".join(said.split())
     assert "95 % from" in (tmp_path / "fit.html").read_text(encoding="utf-8")
     residuals = np.genfromtxt(tmp_path / "residuals.csv", delimiter=",", names=True)
     assert np.rad2deg(residuals["phase"]) == pytest.approx([-40.0, -10.0, 20.0, 50.0])

@@ -10,16 +10,19 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator.scenes.device_file import find_device
 from slider_resonator.scenes.scene_files import find_scene
 from tests.harness.calling import call, refused
 
 
-def test_neither_the_fmu_nor_the_scene_is_overwritten(python_fmu: Path, tmp_path: Path) -> None:
+def test_nothing_that_is_read_is_overwritten(python_fmu: Path, tmp_path: Path) -> None:
     fmu = Path(shutil.copy(python_fmu, tmp_path / "copy.fmu"))
     scene = Path(shutil.copy(find_scene("lift_off").files[0], tmp_path / "scene.toml"))
-    for target, reported in ((fmu, "is the FMU"), (scene, "is the scene's file")):
+    device = Path(shutil.copy(find_device("conveyor"), tmp_path / "mine.toml"))
+    sources = ((fmu, "is the FMU"), (scene, "is the scene's file"), (device, "is the device"))
+    for target, reported in sources:
         before = target.read_bytes()
-        assert reported in refused("run", fmu, scene, "--out", target)
+        assert reported in refused("run", fmu, scene, "--device", device, "--out", target)
         assert target.read_bytes() == before
 
 
@@ -43,6 +46,8 @@ def test_neither_the_fmu_nor_the_scene_is_overwritten(python_fmu: Path, tmp_path
         (["--plot", "a.png", "--overlay", "fidelty=1"], "did you mean 'fidelity'?"),
         (["--plot", "a.png", "--overlay", "fidelity=x"], "fidelity = 'x': must be an integer"),
         (["--time", "-1 ms"], "time = '-1 ms': must be above 0 s"),
+        (["--set", "phase=30", "deg"], "must be in quotes, as --set 'phase=30 deg'"),
+        (["--set", "phase=30 Grad"], "Grad is 1e+09 rad; must be a number in rad"),
     ],
 )
 def test_mistakes_are_named_by_their_option_before_the_fmu_is_opened(

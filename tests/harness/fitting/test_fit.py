@@ -85,6 +85,39 @@ def test_a_run_is_fitted_over_time(instance: Instance) -> None:
     assert [one.value for one in found.parameters] == pytest.approx(list(true.values()), rel=1e-6)
 
 
+@pytest.mark.parametrize("run_noise", [0.002, 0.2])
+def test_a_noisy_source_does_not_outweigh_an_exact_one(
+    instance: Instance, run_noise: float
+) -> None:
+    """Each quantity of each source errs by what its own residuals say.
+
+    Friction is what the table alone tells: with one noise for all, its interval would be that of
+    the noise of the run.
+    """
+    noise = 0.02
+    table = measured(instance, TRUE, POINTS * 2, noise, seed=3)
+    times = np.linspace(0.0, 0.02, 201)
+    schedule = Schedule(times, {"phase": constant(0.4)})
+    name = "resonator_displacement"
+    empty = Run("run.csv", schedule, {name: np.zeros(len(times))})
+    exact = predict(instance, TRUE, Measurements(runs=(empty,)))
+    size = run_noise * float(np.sqrt(np.mean(exact**2)))
+    column = exact + size * np.random.default_rng(4).normal(size=len(times))
+    both = replace(table, runs=(replace(empty, outputs={name: column}),))
+    known = {name: TRUE[name] for name in ("damping_ratio", "normal_amplitude")}
+    widths = []
+    for data in (table, both):
+        found = fitted(instance, data, ["friction_coefficient"], parameters=known, starts=1)
+        (one,) = found.parameters
+        assert one.low is not None
+        assert one.high is not None
+        assert one.low < TRUE["friction_coefficient"] < one.high
+        widths.append(one.high - one.low)
+    assert widths[1] == pytest.approx(widths[0], rel=0.2)
+    assert found.residuals[: len(table.points)].std() == pytest.approx(1.0, rel=0.3)
+    assert found.residuals[len(table.points) :].std() == pytest.approx(1.0, rel=0.3)
+
+
 def test_what_the_data_leave_open_is_named(instance: Instance) -> None:
     """Friction is coefficient times normal load: all three cannot be told from velocities."""
     data = measured(instance, TRUE, POINTS, 0.01)
@@ -136,6 +169,9 @@ def test_slopes_at_a_bound_are_those_inside(instance: Instance) -> None:
         (["slider_mass", "slider_mass"], {}, "must be different parameters"),
         ([], {}, "must be one parameter or more"),
         (["slider_mass"], {"slider_mass": (2.0, 1.0)}, "must be ascending"),
+        (["slider_mass"], {"damping_ratio": (0.1, 1.0)}, "bounds of damping_ratio: it is not free"),
+        (["slider_mass"], {"slider_mass": 0.1}, "bounds of slider_mass = 0.1: must be two numbers"),
+        (["slider_mass"], {"slider_mass": ("1 g", "1 m")}, "must be two numbers, or texts"),
         (["slider_mass"], {"slider_mass": (-1.0, 1.0)}, "slider_mass = -1.0: must be a finite"),
     ],
 )
