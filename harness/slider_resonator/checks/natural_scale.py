@@ -37,16 +37,25 @@ def largest_fast_velocity(device: Device, held: Sequence[HeldInputs]) -> float:
     return max(fast_velocity(inputs.tuned_device(device)) for inputs in held)
 
 
-_ripple = partial(_amplitude, name="ripple_amplitude")
+def _velocity(device: Device) -> float:
+    """Return v_q (m/s), or without vibration what friction changes the velocity by in a radian."""
+    change = device.max_friction / (device.total_mass * device.drive_frequency)
+    return fast_velocity(device) or change
+
+
+def _ripple(device: Device) -> float:
+    return _amplitude(device, "ripple_amplitude") or _velocity(device) / device.drive_frequency
+
+
 _resonator = partial(_amplitude, name="resonator_amplitude")
 _SCALES: Mapping[str, Callable[[Device], float]] = {
-    "steady_velocity": fast_velocity,
-    "predicted_velocity": fast_velocity,
-    "predicted_velocity_in_run": fast_velocity,
-    "mean_velocity": fast_velocity,
-    "mean_velocity_in_run": fast_velocity,
-    "last_step_velocity": fast_velocity,
-    "velocity": fast_velocity,
+    "steady_velocity": _velocity,
+    "predicted_velocity": _velocity,
+    "predicted_velocity_in_run": _velocity,
+    "mean_velocity": _velocity,
+    "mean_velocity_in_run": _velocity,
+    "last_step_velocity": _velocity,
+    "velocity": _velocity,
     "blocking_force": lambda device: device.max_friction,
     "predicted_blocking_force": lambda device: device.max_friction,
     "predicted_blocking_force_in_run": lambda device: device.max_friction,
@@ -67,7 +76,8 @@ _SCALES: Mapping[str, Callable[[Device], float]] = {
 def smallest_reference(quantity: str, device: Device) -> float:
     """Return the minimum size of a reference, in the quantity's unit.
 
-    It is `NEAR_ZERO` times the amplitude of the fast velocity v_q for velocities, the force of full
+    It is `NEAR_ZERO` times the amplitude of the fast velocity v_q for velocities, or without
+    vibration what friction changes the velocity by in a radian of the drive; the force of full
     friction for forces, the amplitude of the fast motion for displacements, and so on; 0 for
     quantities that have no scale of their own.
     """

@@ -10,15 +10,20 @@ from fmpy.fmi2 import FMU2Slave, fmi2Integer, fmi2ValueReference, fmi2Warning
 
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 
+WARNED = "warned"
+
 
 def call(slave: FMU2Slave | Fmi3Slave, name: str, *arguments: Any) -> None:
     """Call an FMI function through ctypes, without fmpy's overhead; raises FMICallException.
 
-    Arguments are converted to the types that fmpy has declared for the function.
+    Arguments are converted to the types that fmpy has declared for the function. The name of the
+    last call that was answered with a warning is kept as `WARNED` of the slave.
     """
     status = getattr(slave.dll, name)(slave.component, *arguments)
     if status > fmi2Warning:
         raise FMICallException(function=name, status=status)
+    if status == fmi2Warning:
+        setattr(slave, WARNED, name)
 
 
 class Block:

@@ -224,12 +224,12 @@ class Instance:
             found[name] = float(self.slave.getInteger([reference])[0])
         return found
 
-    def end(self) -> None:
+    def end(self, *, terminates: bool = True) -> None:
         """Terminate, where the FMU is in a state that allows it, and free the instance, once."""
         if not self._exists:  # as after a failure to create it again
             return
         self._exists = False
-        if self._initialised:
+        if self._initialised and terminates:
             with suppress(FMICallException):  # nothing is lost: the instance is freed at once
                 self.slave.terminate()
         self.slave.freeInstance()

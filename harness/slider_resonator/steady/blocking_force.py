@@ -7,7 +7,13 @@ from math import isfinite
 from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.progress import Progress, no_progress
-from slider_resonator.steady.periodic import FmuPeriodMap, Obstacle, read_facts, repeating_periods
+from slider_resonator.steady.periodic import (
+    FmuPeriodMap,
+    Obstacle,
+    read_facts,
+    repeating_periods,
+    sticks_throughout,
+)
 from slider_resonator.steady.search_result import SearchResult, cost, with_undamped_hint
 from slider_resonator.steady.shooting import NoFixedPoint, blocked_point
 
@@ -51,7 +57,7 @@ def find_blocking(
     period_map = FmuPeriodMap(instance, values, facts, count, progress)
     load = values.get("load", predicted if isfinite(predicted) else 0.0)
     warm = period_map.warm_up(0.0, load)
-    if period_map.stick_fraction == 1.0:
+    if sticks_throughout(period_map.stick_fraction):
         return Blocking(
             "stuck",
             f"the slider sticks throughout at load = {load:.6g} N: every load that friction holds "

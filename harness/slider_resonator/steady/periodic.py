@@ -197,3 +197,12 @@ class FmuPeriodMap(PeriodicRun):
             )
         self.stick_fraction = float(readings[-1, 6])
         return readings
+
+
+STICKS = 1e-10
+"""Rounding of the fraction of a period in which the slider sticks."""
+
+
+def sticks_throughout(stick_fraction: float) -> bool:
+    """Whether a slider sticks all the time, as far as rounding of the fraction tells."""
+    return abs(stick_fraction - 1.0) <= STICKS

@@ -14,6 +14,7 @@ from slider_resonator.steady.periodic import (
     Obstacle,
     read_facts,
     repeating_periods,
+    sticks_throughout,
 )
 from slider_resonator.steady.search_result import SearchResult, cost, with_undamped_hint
 from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint, steady_point
@@ -92,7 +93,7 @@ def _runaway(facts: Facts) -> Obstacle | None:
 
 def _judge(found: FixedPoint, stick_fraction: float) -> tuple[str, str]:
     """Return status and reason of a motion that repeats."""
-    if is_same(found.displacement, 0.0) and is_same(stick_fraction, 1.0):
+    if is_same(found.displacement, 0.0) and sticks_throughout(stick_fraction):
         return "stuck", "the slider sticks throughout: the drive does not overcome friction"
     largest = f"{abs(found.multipliers[0]):.9g}"
     return {

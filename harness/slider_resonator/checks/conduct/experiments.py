@@ -1,12 +1,18 @@
 """Experiments as hosts set them up: sums of steps, a tolerance, outputs read at the end."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from math import sqrt
+from math import isclose, sqrt
 
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import Refusal
+from slider_resonator.fmu.blocks import WARNED
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.rounding import is_same
+
+EVENT = "last_event_time"
+"""The output that counts from the start time."""
+EARLY_ROUNDING = 1e-9
+"""Relative error of outputs by the rounding of times."""
 
 STEP, STEPS = 0.01, 6
 """Steps (s) that add up to more than their product, by rounding."""
@@ -33,23 +39,31 @@ resolved, of a slider that trembles on hard bristles under a slow drive, of next
 resonance."""
 EARLY = -3.0
 """The time (s) at which these steps begin."""
+BRISTLES = {"friction_law": 1.0, "bristle_stiffness": 1e4}
+"""A device that its parameter `tolerance` acts on."""
 TOLERANCES = (1e-3, 1e-6, 1e-10)
 """Tolerances that hosts define for an experiment."""
 
 
 def experiment_faults(fmu: FmuSide) -> list[str]:
-    """Run a few steps in experiments that must be accepted and not change the motion."""
+    """Run a few steps in experiments that must be accepted and not change the motion.
+
+    Values are set before the experiment is set up, and no step may be taken back.
+    """
     instance = fmu.instance
     faults: list[str] = []
     for what, experiment in (
         ("up to a stop time that sums of steps exceed by rounding", (False, 0.0)),
         *((f"with a tolerance of {tolerance:g}", (True, tolerance)) for tolerance in TOLERANCES),
+        ("with a tolerance that is not defined", (False, -1.0)),
     ):
         try:
             with instance.explained():
                 faults += _run_faults(instance, what, experiment)
         except Refusal as error:
             faults.append(f"an experiment {what} is refused: {error}")
+    with instance.explained():
+        faults += _early_faults(instance)
     for size, device in STEPS_ACCEPTED:
         try:
             with instance.explained():
@@ -58,24 +72,42 @@ def experiment_faults(fmu: FmuSide) -> list[str]:
                 if not is_same(instance.value("last_event_time"), EARLY):
                     faults.append("last_event_time does not begin at the start time")
                 instance.step_by(size)
+                instance.step_by(STEP)
         except Refusal as error:
             faults.append(f"a step of {size:g} s is refused: {error}")
+    if warned := getattr(instance.slave, WARNED, ""):
+        faults.append(f"{warned} is answered with a warning")
     return faults
+
+
+def _early_faults(instance: Instance) -> Iterator[str]:
+    """Run a device before time 0, whose motion is that from time 0 on."""
+    rows = []
+    for start_time in (0.0, EARLY):
+        instance.start({"phase": 0.4}, start_time=start_time)
+        for _ in range(STEPS):
+            instance.step_by(STEP)
+        rows.append(instance.read([name for name in instance.fmu.outputs if name != EVENT]))
+    for name, value in rows[0].items():
+        if not isclose(rows[1][name], value, rel_tol=EARLY_ROUNDING, abs_tol=EARLY_ROUNDING):
+            yield f"{name} is {rows[1][name]!r} from {EARLY:g} s on, and {value!r} from 0 s on"
 
 
 def _run_faults(instance: Instance, what: str, tolerance: tuple[bool, float]) -> Iterator[str]:
     outputs = instance.fmu.outputs
-    instance.start({})
+    instance.start(BRISTLES)
     for _ in range(STEPS):
         instance.step_by(STEP)
     expected = instance.read(outputs)
     instance.set_up()
     instance.call("fmi2Reset")
+    instance.set(BRISTLES)
     instance.call("fmi2SetupExperiment", *tolerance, 0.0, True, STEPS * STEP)
     instance.call("fmi2EnterInitializationMode")
     instance.begin()
     for _ in range(STEPS):
-        instance.step_by(STEP)
+        instance.call("fmi2DoStep", instance.time, STEP, False)
+        instance.time += STEP
     if instance.read(outputs) != expected:
         yield f"an experiment {what} gives other outputs"
     instance.terminate()

@@ -18,8 +18,10 @@ from fmpy.fmi2 import (
     fmi2Warning,
 )
 
+from slider_resonator.checks.conduct.crowd import crowd_faults
 from slider_resonator.checks.conduct.event_mode import event_mode_faults
 from slider_resonator.checks.conduct.memory import instance_leaks
+from slider_resonator.checks.conduct.process import process_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INTEGERS, PARAMETERS, VARIABLES
 from slider_resonator.errors import NotApplicable
@@ -30,8 +32,8 @@ from slider_resonator.fmu.instance import Instance
 ANSWERS = {"fmi2GetVersion": "2.0", "fmi2GetTypesPlatform": "default"}
 """Functions without an instance, and what FMI 2.0 demands of them."""
 
-OTHER_GUID = "{00000000-0000-0000-0000-000000000000}"
-"""The GUID of no description."""
+BESIDE = b"an instance beside another one"
+"""The name of another instance."""
 
 WARNINGS, EVERYTHING = b"logStatusWarning", b"logAll"
 """Log categories: one to which no refusal belongs, and that of all messages."""
@@ -82,6 +84,10 @@ def host_faults(fmu: FmuSide) -> list[str]:
     with instance.explained():
         instance.terminate()
     faults += _integer_faults(instance)
+    if instance.fmu.runs_without_python:
+        slave.dll.fmi2FreeInstance(None)  # which is no error, and must not crash
+        faults += crowd_faults(instance)
+        faults += process_faults(instance)
     faults += instance_leaks(instance)
     return faults
 
@@ -103,8 +109,9 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     description = Path(instance.fmu.folder, "modelDescription.xml").read_bytes()
     logs = b"<LogCategories" in description
     guid = instance.fmu.description.guid
+    last = "1" if guid[-2] == "0" else "0"
     wrong = {
-        "of another GUID": ("other", fmi2CoSimulation, OTHER_GUID),
+        "of another GUID": ("other", fmi2CoSimulation, guid[:-2] + last + guid[-1]),
         "without a name": ("", fmi2CoSimulation, guid),
     }
     if instance.fmu.description.modelExchange is None:
@@ -121,6 +128,16 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
             yield f"an instance {what} is made"
         elif logs and not messages:
             yield f"an instance {what} is refused without a message"
+    # Some hosts show instances, and write the authority of a URI or leave it out.
+    for visible, location in ((True, folder), (False, folder.replace("file:///", "file:/"))):
+        _, callbacks = fmu_log.collect("other")
+        arguments = b"other", fmi2CoSimulation, guid.encode(), location.encode()
+        made = slave.dll.fmi2Instantiate(*arguments, byref(callbacks), visible, True)
+        fmu_log.forget("other")
+        if made:
+            slave.dll.fmi2FreeInstance(made)
+        elif not instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
+            yield f"an instance with visible = {visible} and resources in {location} is not made"
 
 
 def _switching_faults(instance: Instance) -> Iterator[str]:
@@ -128,6 +145,9 @@ def _switching_faults(instance: Instance) -> Iterator[str]:
     errors = (c_char_p * 1)(b"logStatusError")
     if _refusal_is_logged(instance, False, 1, errors) or _refusal_is_logged(instance, False):
         yield "a refusal is logged after logging is switched off"
+    instance.step_by(STEP)
+    if instance.messages:
+        yield "a step is logged after logging is switched off"
     warnings = (c_char_p * 1)(WARNINGS)
     if _has_category(instance, WARNINGS) and _refusal_is_logged(instance, True, 1, warnings):
         yield "a refusal is logged though only warnings were asked for"
@@ -180,20 +200,20 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
         environment: int | None, name: bytes, status: int, category: bytes, *_: object
     ) -> None:
         environments.append(environment)
-        if name != b"beside":
+        if name != BESIDE:
             wrong.append("with the name of another instance")
         if status <= fmi2Warning:
             wrong.append("as a success")
         if _has_category(instance, EVERYTHING) and not _has_category(instance, category or b""):
             wrong.append("in a category that is not declared")
 
-    messages, callbacks = fmu_log.collect("beside")
+    messages, callbacks = fmu_log.collect(BESIDE.decode())
     callbacks.logger = fmi2CallbackLoggerTYPE(listen)
     callbacks.componentEnvironment = OTHER_HOST
     folder = Path(instance.fmu.folder, "resources").as_uri()
     guid = instance.fmu.description.guid
     made = slave.dll.fmi2Instantiate(
-        b"beside", fmi2CoSimulation, guid.encode(), folder.encode(), byref(callbacks), False, False
+        BESIDE, fmi2CoSimulation, guid.encode(), folder.encode(), byref(callbacks), False, False
     )
     if not made:
         yield "an instance beside another is not made"
@@ -201,7 +221,7 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     del instance.messages[:]
     slave.dll.fmi2DoStep(c_void_p(made), c_double(0.0), c_double(-1.0), True)
     slave.dll.fmi2FreeInstance(made)
-    fmu_log.forget("beside")
+    fmu_log.forget(BESIDE.decode())
     if messages or instance.messages or set(environments) - {OTHER_HOST}:
         yield "an instance beside another reports to the host of that one"
     yield from (f"a refusal is logged {how}" for how in dict.fromkeys(wrong))

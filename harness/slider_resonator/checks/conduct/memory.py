@@ -3,7 +3,9 @@
 import ctypes
 import gc
 from collections.abc import Callable, Iterator
+from functools import partial
 
+from slider_resonator.checks.conduct.findings import is_refused
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.saved_state import SavedState
 
@@ -12,8 +14,8 @@ CYCLES = 16
 OF_INSTANCE, OF_STATE = 1024.0, 512.0
 """Bytes that each may leave: a sweep makes ten thousands of instances, a search by trial and return
 millions of states. The host itself leaves some."""
-STEP = 1.1e-3
-"""Size of a step, s."""
+STEPS, STEP = 20, 1.1e-3
+"""Steps (s) of a run."""
 
 
 class _Counts(ctypes.Structure):
@@ -23,21 +25,33 @@ class _Counts(ctypes.Structure):
 
 
 def instance_leaks(instance: Instance) -> Iterator[str]:
-    """Make and free instances that have been in use."""
+    """Make, run, reset and run instances, and free them; a step of each is refused."""
 
     def use() -> None:
         with instance.explained():
-            instance.renew()
+            instance.end(terminates=False)
             instance.start({})
             instance.step_by(STEP)
-            instance.terminate()
+            is_refused(partial(instance.call, "fmi2DoStep", instance.time, -STEP, True))
+            instance.start({})
+            for _ in range(STEPS):
+                instance.step_by(STEP)
 
     yield from _leaks("instance", use, OF_INSTANCE)
 
 
 def state_leaks(instance: Instance) -> Iterator[str]:
-    """Save states and free them, with an instance in use."""
-    yield from _leaks("state", lambda: SavedState.of(instance).free(), OF_STATE)
+    """Save states, set them, also in serialised form, and free them, with an instance in use."""
+    serialises = instance.fmu.offers.canSerializeFMUstate
+
+    def use() -> None:
+        state = SavedState.of(instance)
+        state.restore()
+        if serialises:
+            state.transfer(instance)
+        state.free()
+
+    yield from _leaks("state", use, OF_STATE)
 
 
 def _leaks(what: str, use: Callable[[], None], allowed: float) -> Iterator[str]:

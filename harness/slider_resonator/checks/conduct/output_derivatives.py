@@ -4,7 +4,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from ctypes import byref, c_double, c_int
 from math import tau
 
-from fmpy.fmi2 import FMU2Slave, fmi2LastSuccessfulTime, fmi2OK, fmi2Terminated, fmi2ValueReference
+from fmpy.fmi2 import (
+    FMU2Slave,
+    fmi2DoStepStatus,
+    fmi2LastSuccessfulTime,
+    fmi2OK,
+    fmi2Terminated,
+    fmi2ValueReference,
+    fmi2Warning,
+)
 
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.instance import Instance
@@ -15,6 +23,8 @@ OUTPUTS = (
     *("normal_force", "friction_force"),
 )
 """Outputs that are smooth between events."""
+OF_STATE = ("position", "velocity", "resonator_displacement", "resonator_velocity")
+"""Outputs of which an FMU that offers derivatives must have one."""
 SLOW = "mean_velocity"
 """An output that is smooth, and slow, where motion is averaged to first order."""
 COUNTS = ("reversals", "last_event_time")
@@ -74,9 +84,18 @@ def derivative_faults(
         natural = ROUNDED / step if name == SLOW else SMALL * frequency
         scale = 0.0 if name == SLOW else frequency * abs(last)
         size = max(abs(quotient), abs(middle - first) / step, scale, natural * peaks[name])
-        if derivative is not None and not abs(derivative - quotient) <= ALLOWED * size:
+        if derivative is None and name in OF_STATE:
+            faults.append(f"the derivative of {name} is refused, though derivatives are offered")
+        elif derivative is not None and not abs(derivative - quotient) <= ALLOWED * size:
             faults.append(f"the derivative of {name} is {derivative!r}, it grows by {quotient!r}")
     return faults
+
+
+def read_derivatives(instance: Instance) -> None:
+    """Read the derivatives of outputs, where there are any."""
+    if isinstance(instance.slave, FMU2Slave):
+        for name in OUTPUTS:
+            _derivative(instance.slave, instance.fmu.reference(name))
 
 
 def _derivative(slave: FMU2Slave, reference: int) -> float | None:
@@ -92,23 +111,27 @@ RESOLUTION = 1e-9
 """Share of the time (s) up to which two times are the same."""
 
 
-def status_faults(instance: Instance) -> Iterator[str]:
-    """Yield what is wrong with the answers to status calls after a good step.
+def status_faults(instance: Instance, *, refused: bool = False) -> Iterator[str]:
+    """Yield what is wrong with the answers to status calls after a good step, or a `refused` one.
 
     An FMU need not answer them, and FMI 3.0 does not have them.
     """
+    after = "a refused" if refused else "a good"
     slave = instance.slave
     if isinstance(slave, Fmi3Slave):
         return
     dll, component = slave.dll, slave.component
-    reached, ended = c_double(), c_int()
+    reached, ended, status = c_double(), c_int(), c_int()
     if dll.fmi2GetRealStatus(component, fmi2LastSuccessfulTime, byref(reached)) == fmi2OK:
         apart = abs(reached.value - instance.time)
         if not apart <= RESOLUTION * max(1.0, abs(instance.time)):
             yield (
-                f"the last successful time is {reached.value!r} s after a step to "
+                f"the last successful time is {reached.value!r} s after {after} step, must be "
                 f"{instance.time!r} s"
             )
     asked = dll.fmi2GetBooleanStatus(component, fmi2Terminated, byref(ended))
     if asked == fmi2OK and ended.value:
-        yield "the FMU wants to end the run after a good step"
+        yield f"the FMU wants to end the run after {after} step"
+    answered = dll.fmi2GetStatus(component, fmi2DoStepStatus, byref(status)) == fmi2OK
+    if answered and not refused and status.value > fmi2Warning:
+        yield f"fmi2GetStatus gives {status.value} after a good step"

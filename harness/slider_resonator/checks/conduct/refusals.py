@@ -12,11 +12,13 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Fatal
 
 from slider_resonator.checks.conduct.findings import adding_refusal, other_value
+from slider_resonator.checks.conduct.output_derivatives import status_faults
 from slider_resonator.checks.conduct.replays import Replay
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES, Variable
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Running
+from slider_resonator.fmu.saved_state import SavedState
 
 STEP = 1.7e-3
 """Size of a good step, s."""
@@ -104,6 +106,8 @@ class Trial:
                 status = f"{version}{ENDING[error.status]}"
                 self.faults.append(f"{what} gives {status}, at which hosts end a run")
             log = " ".join(self.instance.messages)
+            if "\ufffd" in log:
+                self.faults.append(f"{what} is refused with a message that is not UTF-8")
             if name and name not in log:
                 self.faults.append(f"{what} is refused without naming {name}")
             self.faults += [
@@ -135,13 +139,24 @@ class Trial:
                 what = f"{variable.name} = {bad!r} {when}"
                 self.refuses(what, partial(self._set, {variable: bad}), variable.name, told)
         for kind in ("Real", "Integer"):
-            alike = [v for v in variables if v.kind == kind][:2]
-            if len(alike) == 2:
-                first, second = alike
-                good = other_value(first.name, first.start or 0.0)
-                both = {first: good, second: bad_values(second)[0]}
-                what = f"{second.name} = {both[second]!r} with another {first.name} {when}"
-                self.refuses(what, partial(self._set, both), second.name)
+            alike = [v for v in variables if v.kind == kind]
+            for some in (alike[:2], alike):
+                if len(some) > 1:
+                    self._refuses_the_last(when, some)
+
+    def _refuses_the_last(self, when: str, variables: Sequence[Variable]) -> None:
+        """Set good values in one call, of which the last is bad or for no variable to be set."""
+        *others, last = variables
+        good = {v: other_value(v.name, v.start or 0.0) for v in others}
+        bad = bad_values(last)[0]
+        what = f"{last.name} = {bad!r} after {len(others)} good values {when}"
+        self.refuses(what, partial(self._set, {**good, last: bad}), last.name)
+        references = [self.instance.fmu.reference(v.name) for v in others]
+        output = self.instance.fmu.reference("position")
+        for name, wrong in (("an unknown variable", UNKNOWN), ("an output", output)):
+            what = f"{name} after {len(others)} good values {when}"
+            values = [*good.values(), 0.5]
+            self.refuses(what, partial(self._write, last.kind, [*references, wrong], values))
 
     def refuses_all(self, when: str, variables: Iterable[Variable]) -> None:
         """Set variables, which must not be set at all, to other values."""
@@ -176,11 +191,17 @@ class Trial:
                 what = f"a derivative of {name} of order {order}"
                 self.refuses(what, partial(derive, order, 0.1), name, [order])
         load, phase = (self.instance.fmu.reference(name) for name in ("load", "phase"))
-        pair = (c_uint * 2)(load, phase), 2, (c_int * 2)(1, 1), (c_double * 2)(0.1, math.nan)
-        self.refuses(
-            "a derivative of phase = nan after one of load",
-            partial(self.instance.call, "fmi2SetRealInputDerivatives", *pair),
-        )
+        for what, second, order, value in (
+            ("phase = nan", phase, 1, math.nan),
+            ("phase of order 2", phase, 2, 0.1),
+            ("an unknown variable", UNKNOWN, 1, 0.1),
+        ):
+            orders, values = (c_int * 2)(1, order), (c_double * 2)(7.0, value)
+            pair = (c_uint * 2)(load, second), 2, orders, values
+            self.refuses(
+                f"a derivative of {what} after one of load",
+                partial(self.instance.call, "fmi2SetRealInputDerivatives", *pair),
+            )
 
     def refuses_types(self, present: Sequence[Variable]) -> None:
         """Read and set variables, of which one is unknown, by the functions of other types."""
@@ -188,17 +209,18 @@ class Trial:
         if isinstance(slave, FMU2Slave):
             types |= {"Boolean", "String"}
         good: dict[str, Any] = {"Real": 0.5, "Integer": 1, "Boolean": True, "String": "1"}
-        inputs = [v for v in present if v.causality == "input" or v.kind == "Integer"]
-        references: dict[str, int] = {v.kind: self.instance.fmu.reference(v.name) for v in inputs}
-        references[""] = UNKNOWN
+        references = {v.name: self.instance.fmu.reference(v.name) for v in present}
+        kinds = {v.name: v.kind for v in present}
+        last = max(variable.valueReference for variable in self.instance.fmu.variables.values())
+        references |= {"the reference after the last": last + 1, "an unknown reference": UNKNOWN}
         for kind in sorted(types):
             read, write = getattr(slave, f"get{kind}"), getattr(slave, f"set{kind}")
-            for own, reference in references.items():
-                if own == kind:
-                    continue
-                what = f"a variable of type {own}" if own else "an unknown reference"
-                self.refuses(f"reading {what} as {kind}", partial(read, [reference]))
-                self.refuses(f"setting {what} as {kind}", partial(write, [reference], [good[kind]]))
+            for what, reference in references.items():
+                if kinds.get(what) != kind:
+                    told = () if what in kinds else (reference,)
+                    attempt = partial(write, [reference], [good[kind]])
+                    self.refuses(f"reading {what} as {kind}", partial(read, [reference]), "", told)
+                    self.refuses(f"setting {what} as {kind}", attempt, "", told)
 
     def accepts_bounds(self, variables: Sequence[Variable]) -> None:
         """Set variables to their bounds, which they can have."""
@@ -219,10 +241,13 @@ class Trial:
     def _set(self, values: Mapping[Variable, float]) -> None:
         """Set variables of one type in one call."""
         references = [self.instance.fmu.reference(variable.name) for variable in values]
-        if next(iter(values)).kind == "Integer":
-            self.instance.slave.setInteger(references, [int(v) for v in values.values()])
+        self._write(next(iter(values)).kind, references, list(values.values()))
+
+    def _write(self, kind: str, references: Sequence[int], values: Sequence[float]) -> None:
+        if kind == "Integer":
+            self.instance.slave.setInteger(references, [int(value) for value in values])
         else:
-            self.instance.slave.setReal(references, list(values.values()))
+            self.instance.slave.setReal(references, values)
 
 
 def shows(log: str, value: float) -> bool:
@@ -310,8 +335,10 @@ def _in_the_run(trial: Trial, present: list[Variable]) -> None:
     trial.refuses_calls("in a run")
     if instance.fmu.interpolates:
         trial.refuses_derivatives(present)
+    state = SavedState.of(instance) if instance.fmu.offers.canGetAndSetFMUstate else None
     for size in STEP_SIZES:
-        trial.refuses(f"a step of {size!r} s", partial(_step, instance, instance.time, size))
+        step = partial(_step, instance, instance.time, size)
+        trial.refuses(f"a step of {size!r} s", step, "communicationStepSize", [size])
     beyond = BEYOND * (instance.time + STEP)
     trial.refuses("a step far beyond the stop", partial(_step, instance, instance.time, beyond))
     for jump in JUMPS:
@@ -319,6 +346,10 @@ def _in_the_run(trial: Trial, present: list[Variable]) -> None:
             f"a step {jump!r} s away from the present time",
             partial(_step, instance, instance.time + jump, STEP),
         )
+    trial.faults += status_faults(instance, refused=True)
+    if state is not None:
+        state.restore()
+        state.free()
 
 
 def _step(instance: Instance, time: float, size: float) -> None:

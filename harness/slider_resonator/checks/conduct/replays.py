@@ -10,11 +10,16 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from slider_resonator.checks.conduct.findings import differences, is_refused, other_value, unequal
-from slider_resonator.checks.conduct.output_derivatives import derivative_faults, status_faults
+from slider_resonator.checks.conduct.output_derivatives import (
+    derivative_faults,
+    read_derivatives,
+    status_faults,
+)
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import PARAMETERS, TUNABLES, VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import Refusal
+from slider_resonator.fmu.blocks import WARNED
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.run import Running
 from slider_resonator.fmu.saved_state import SavedState
@@ -287,6 +292,7 @@ def reading_differences(fmu: FmuSide) -> list[str]:
         for name, first, second in zip(names, one_by_one, at_once, strict=True):
             if first != second:
                 changed.append(f"{name} read twice is {first!r} and {second!r}")
+        read_derivatives(instance)
 
     with instance.explained():
         instance.set_up(running.stop_time, start_time=plain.schedule.start_time)
@@ -300,6 +306,8 @@ def reading_differences(fmu: FmuSide) -> list[str]:
             running.advance(step, read_all)
             read_all()
             changed += status_faults(instance)
+    if warned := getattr(instance.slave, WARNED, ""):
+        changed.append(f"{warned} of a run is answered with a warning")
     return plain.differences("with more readings", running.rows) + changed
 
 

@@ -4,8 +4,11 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from slider_resonator.checks.conduct.findings import other_value, unequal
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.device.interface import VARIABLES
+from slider_resonator.device.interface import INPUTS, VARIABLES
 from slider_resonator.fmu.instance import Instance
+
+PHASE = 1.3
+"""A phase (rad) that acts on the normal force at the start."""
 
 
 def start_faults(fmu: FmuSide) -> list[str]:
@@ -40,7 +43,29 @@ def start_faults(fmu: FmuSide) -> list[str]:
         faults += unequal(instance, others, "after a step")
         instance.set_up()
         faults += unequal(instance, starts, "after a reset")
+        instance.set(others)
+        instance.call("fmi2EnterInitializationMode")
+        instance.set({name: others[name] for name in INPUTS})
+        instance.call("fmi2Reset")
+        faults += unequal(instance, starts, "after a reset in initialization mode")
+        faults += _set_in_initialization(instance)
     return faults
+
+
+def _set_in_initialization(instance: Instance) -> Iterator[str]:
+    """Read outputs before and after an input is set in initialization mode."""
+    instance.set_up()
+    instance.call("fmi2EnterInitializationMode")
+    instance.read(instance.fmu.outputs)
+    instance.set({"phase": PHASE})
+    found = instance.read(instance.fmu.outputs)
+    instance.begin()
+    yield from unequal(instance, found, "after initialization, as it was read in it under a phase")
+    instance.set_up()
+    instance.set({"phase": PHASE})
+    instance.call("fmi2EnterInitializationMode")
+    yield from unequal(instance, found, "in initialization mode, where the phase was set before")
+    instance.begin()
 
 
 def _in_one_call(instance: Instance, others: Mapping[str, float]) -> Iterator[str]:

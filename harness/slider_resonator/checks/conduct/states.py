@@ -12,11 +12,15 @@ from slider_resonator.checks.conduct.findings import adding_refusal, is_refused,
 from slider_resonator.checks.conduct.memory import state_leaks
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.saved_state import SavedState
 
 STEP = 1.3e-3
 """Size of a step, s."""
+LOAD = 0.02
+"""Load (N) of another instance."""
+STATES = 12
+"""How many states a host keeps at a time."""
 CHANGED = ("friction_coefficient", "base_amplitude")
 """Parameters that are set after a state is saved."""
 GUID = b"00000000-0000-0000-0000-000000000000"
@@ -36,7 +40,9 @@ def state_faults(fmu: FmuSide) -> list[str]:
         faults.extend(_overwriting_faults(instance))
         if instance.fmu.offers.canSerializeFMUstate:
             faults.extend(_damage_faults(instance))
+            faults.extend(_outliving_faults(instance))
         faults.extend(_freeing_faults(instance))
+        faults.extend(_later_faults(instance, fmu.scene.parameters))
         faults.extend(state_leaks(instance))
         faults.extend(_early_faults(instance, fmu.scene.parameters))
         instance.terminate()
@@ -71,7 +77,8 @@ def _damage_faults(instance: Instance) -> Iterator[str]:
     instance.step_by(STEP)
     time, before = instance.time, instance.read(outputs)
     state = slave.getFMUstate()
-    damaged = {f"cut off after {size} bytes": content[:size] for size in (0, len(content) // 2)}
+    size = len(content)
+    damaged = {f"cut off after {n} bytes": content[:n] for n in (0, size // 2, size - 8, size - 1)}
     for number in range(DAMAGED):
         place, bit = (2 * number + 1) * len(content) // (2 * DAMAGED), number % 8
         changed = bytearray(content)
@@ -102,6 +109,64 @@ def _damage_faults(instance: Instance) -> Iterator[str]:
     if instance.read(outputs) != before:
         yield "a damaged state that is refused changes outputs"
     slave.freeFMUstate(state)
+
+
+def _outliving_faults(instance: Instance) -> Iterator[str]:
+    """Take over the serialised state of an instance that is freed before it is read."""
+    if instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
+        return
+    with instantiate(instance.fmu) as other:
+        other.start({"load": LOAD})
+        other.step_by(STEP)
+        expected, time = other.read(other.fmu.outputs), other.time
+        state = SavedState.of(other)
+        content = bytes(other.slave.serializeFMUstate(state.handle))
+        state.free()
+    try:
+        handle = instance.slave.deSerializeFMUstate(content)
+        instance.slave.setFMUstate(handle)
+    except FMICallException:
+        yield "the serialised state of an instance that is freed by then is refused"
+        return
+    instance.slave.freeFMUstate(handle)
+    instance.time = time
+    if instance.read(instance.fmu.outputs) != expected:
+        yield "the serialised state of an instance that is freed by then is another one"
+
+
+def _later_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterator[str]:
+    """Save some states, and go back to each: in a run, after its end and after a reset."""
+    outputs = instance.fmu.outputs
+    instance.start(parameters)
+    states, rows = [], []
+    for _ in range(STATES):
+        instance.step_by(STEP)
+        states.append(SavedState.of(instance))
+        rows.append(instance.read(outputs))
+    ways: dict[str, Callable[[], object]] = {
+        "in a run": lambda: None,
+        "after the end of a run": instance.terminate,
+        "after a reset": lambda: instance.call("fmi2Reset"),
+    }
+    for when, leave in ways.items():
+        leave()
+        for state, expected in zip(reversed(states), reversed(rows), strict=True):
+            try:
+                state.restore()
+            except FMICallException as error:
+                yield f"a state is refused {when}: {error}"
+                break
+            if instance.read(outputs) != expected:
+                yield f"a state is another one {when}"
+        else:
+            instance.resumed(states[0].time)
+            instance.terminate()
+            if is_refused(lambda: SavedState.of(instance).free()):
+                yield "no state is given after the end of a run"
+        instance.start(parameters)
+        instance.step_by(STEP)
+    for state in states:
+        state.free()
 
 
 def _freeing_faults(instance: Instance) -> Iterator[str]:

@@ -1,0 +1,81 @@
+"""What an FMU must leave as it is in the process that it shares with its host."""
+
+import ctypes
+import locale
+import os
+import signal
+from collections.abc import Iterator
+from contextlib import chdir, contextmanager, suppress
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from slider_resonator.fmu.instance import Instance
+
+STEP = 1.1e-3
+"""Size of a step, s."""
+HOST_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+"""Signals whose handlers are those of the host."""
+ENVIRONMENT = ("TZ", "LC_ALL", "LANG")
+"""Variables of the environment that libraries may set."""
+
+
+def process_faults(instance: Instance) -> Iterator[str]:
+    """Compare folder, locale, environment, open files and signals before and after a run.
+
+    All are first made those of a new process: the FMU may have changed them before.
+    """
+    with _as_in_a_new_process():
+        before = _shared()
+        with instance.explained():
+            instance.renew()
+            instance.start({})
+            instance.step_by(STEP)
+            instance.terminate()
+        after = _shared()
+    for what, value in before.items():
+        if after[what] != value:
+            yield f"an instance and its run change {what}: {value!r} becomes {after[what]!r}"
+
+
+@contextmanager
+def _as_in_a_new_process() -> Iterator[None]:
+    """Give the process an empty folder, and other values that are known, for the block."""
+    handlers = {one: signal.signal(one, signal.default_int_handler) for one in HOST_SIGNALS}
+    environment = {name: os.environ.get(name) for name in ENVIRONMENT}
+    language = locale.setlocale(locale.LC_ALL)
+    try:
+        with TemporaryDirectory() as folder, chdir(folder):
+            locale.setlocale(locale.LC_ALL, "C")
+            os.environ.update(dict.fromkeys(ENVIRONMENT, "C"))
+            yield
+    finally:
+        locale.setlocale(locale.LC_ALL, language)
+        for name, value in environment.items():
+            del os.environ[name]
+            if value is not None:
+                os.environ[name] = value
+        for one, handler in handlers.items():
+            signal.signal(one, handler)
+
+
+def _shared() -> dict[str, object]:
+    """Return what the process has, as far as this system tells."""
+    library = ctypes.CDLL(None)
+    library.setlocale.restype = library.getenv.restype = ctypes.c_char_p
+    shared: dict[str, object] = {
+        "the current folder": str(Path.cwd()),
+        "the files in it": sorted(path.name for path in Path.cwd().iterdir()),
+        "the locale": library.setlocale(locale.LC_ALL, None),
+        "the environment": {name: library.getenv(name.encode()) for name in ENVIRONMENT},
+    }
+    with suppress(OSError):
+        shared["the number of open files"] = len(os.listdir("/proc/self/fd"))
+        status = dict(
+            line.split(":\t", 1) for line in Path("/proc/self/status").read_text().splitlines()
+        )
+        for key, what in (("SigIgn", "ignored"), ("SigCgt", "caught")):
+            bits = int(status[key], 16)
+            shared[f"the signals that are {what}"] = [
+                one.name for one in HOST_SIGNALS if bits >> (one - 1) & 1
+            ]
+    return shared
