@@ -15,6 +15,9 @@ static const char *const STEPS = "steps of averaged motion";
 /* Part of a beat that a step may have: its stages then see all phases of the normal load. */
 #define BEAT_SHARE 0.125
 
+/* Part of a beat up to which a kink ahead counts as the one just passed. */
+#define MIN_SHARE 1e-9
+
 /* Change of the velocity up to which its rate may be linear, over the fast velocity; and the share of the tolerance for what
  * that leaves: no step corrects it. */
 #define LINEAR 4e-6
@@ -186,7 +189,8 @@ bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoi
         if (tried == allowed) {
             return budget_refuse(budget, now->t, max_count, STEPS, refusal);
         }
-        double left = end - now->t;
+        double kink = fmax(slow_friction_to_kink(&own, now->t), MIN_SHARE * own.beat);
+        double next = fmin(end, now->t + kink), left = next - now->t;
         SlowStep step;
         bool settles = !varies && tried > 0 && linear_step(&own, now, gain, left, &step) &&
                        step.error <= SETTLED * tolerance;
@@ -199,7 +203,7 @@ bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoi
         }
         if (!(step.error > tolerance)) {
             *now = step.to;
-            now->t = settles || h == left ? end : now->t;
+            now->t = settles || h == left ? next : now->t;
             gain = step.gain;
         }
         h *= step_growth(step.error, tolerance);

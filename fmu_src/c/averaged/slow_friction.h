@@ -26,6 +26,10 @@ typedef struct {
 /* The mean friction of all faces from drive phase `theta` and normal phase `psi` [rad] on. */
 SlowFriction slow_friction_of(const Law *law, double theta, double psi);
 
+/* Time [s] from `t` [s] on until the contact lifts or touches down, where the load itself is slow; infinite
+ * elsewhere. */
+double slow_friction_to_kink(const SlowFriction *slow, double t);
+
 /* The mean friction [N] at time `t` [s] from now and slow velocity `velocity` [m/s]. */
 double slow_friction_at(const SlowFriction *slow, double t, double velocity);
 

@@ -37,6 +37,9 @@ FEW_WAVES = 8.0
 MIN_STEPS = 16
 """Lower limit of the number of steps that is accepted."""
 
+MIN_SHARE = 1e-9
+"""Part of a beat up to which a kink ahead counts as the one just passed."""
+
 TOLERANCE = 2e-10
 """Error per step of the slow motion, relative to the fast velocity."""
 
@@ -205,6 +208,11 @@ class Averaged:
                 to = linear_step(rates, t, velocity, h, first, gain, max_change)
             if to is None or to.error > SETTLED * tolerance:
                 h = min(h, step, longest)
+                if not self.waves:
+                    # The load itself is slow, with kinks where the contact lifts or touches down.
+                    window, chi = system.window, phase + drift * t
+                    ahead = window.time_to_switch(chi, drift, window.is_lifted(chi, drift))
+                    h = min(h, max(ahead, MIN_SHARE * self.beat))
                 to = dormand_prince(rates, t, velocity, h, first)
                 if not to.error > tolerance:
                     missed = simpson_error(rates, t, velocity, h, first, to)

@@ -91,12 +91,12 @@ _FAULTS: Mapping[str, str] = {
     "dependency_faults": "outputs on which a variable acts that is not among their dependencies",
     "device_faults": "devices without a meaning that are not refused by name, at the start and in "
     "a run",
-    "experiment_faults": "experiments with sums of steps, tolerances and other start times that are "
-    "refused or change the motion",
+    "experiment_faults": "experiments with sums of steps, tolerances and other start times that "
+    "are refused or change the motion",
     "host_faults": "wrong answers about the FMU itself: versions, instances that must not be made, "
     "disturb each other or stay in memory, logging, event mode, what it changes in its process",
-    "state_faults": "states that are got again, damaged, outlive an instance or a run or are freed, "
-    "and wrong then or still in memory",
+    "state_faults": "states that are got again, damaged, outlive an instance or a run or are "
+    "freed, and wrong then or still in memory",
 }
 """The same without a run."""
 

@@ -122,10 +122,20 @@ def test_scales_of_table_1_are_those_of_the_paper() -> None:
 
 
 def test_quantities_without_a_scale_have_none() -> None:
-    assert scale("velocity", replace(TABLE_1, base_amplitude=0.0)) == 0.0
+    frictionless = replace(TABLE_1, friction_coefficient=0.0)
+    assert scale("velocity", replace(frictionless, base_amplitude=0.0)) == 0.0
     assert scale("beat_frequency") == 0.0, "a beat may be as slow as it likes"
     undamped = replace(TABLE_1, damping_ratio=0.0, resonator_frequency=3500.0 * (1 / 1.1) ** 0.5)
-    assert scale("velocity", undamped) == 0.0, "at resonance the vibration grows for ever"
+    frictionless = replace(undamped, friction_coefficient=0.0)
+    assert scale("velocity", frictionless) == 0.0, "at resonance the vibration grows for ever"
+
+
+def test_without_vibration_friction_gives_the_scale() -> None:
+    """It changes the velocity by at most this in a radian of the drive."""
+    still = replace(TABLE_1, base_amplitude=0.0, friction_coefficient=0.2)
+    change = 2.0 * 0.2 * 2.0 / (1.1 * 3500.0)
+    assert scale("velocity", still) == pytest.approx(change)
+    assert scale("position", still) == pytest.approx(change / 3500.0)
 
 
 def judged(quantity: str, count: int, *, tube: bool = False) -> Curves:

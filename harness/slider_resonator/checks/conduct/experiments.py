@@ -72,7 +72,7 @@ def experiment_faults(fmu: FmuSide) -> list[str]:
                 if not is_same(instance.value("last_event_time"), EARLY):
                     faults.append("last_event_time does not begin at the start time")
                 instance.step_by(size)
-                instance.step_by(STEP)
+                instance.step_by(size)
         except Refusal as error:
             faults.append(f"a step of {size:g} s is refused: {error}")
     if warned := getattr(instance.slave, WARNED, ""):

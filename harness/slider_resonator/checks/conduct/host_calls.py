@@ -22,6 +22,7 @@ from slider_resonator.checks.conduct.crowd import crowd_faults
 from slider_resonator.checks.conduct.event_mode import event_mode_faults
 from slider_resonator.checks.conduct.memory import instance_leaks
 from slider_resonator.checks.conduct.process import process_faults
+from slider_resonator.checks.conduct.refusals import explains
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INTEGERS, PARAMETERS, VARIABLES
 from slider_resonator.errors import NotApplicable
@@ -106,8 +107,7 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
 
     An FMU with log categories must say why it refuses them; FMI 2.0 does not ask that of others.
     """
-    description = Path(instance.fmu.folder, "modelDescription.xml").read_bytes()
-    logs = b"<LogCategories" in description
+    logs = explains(instance)
     guid = instance.fmu.description.guid
     last = "1" if guid[-2] == "0" else "0"
     wrong = {

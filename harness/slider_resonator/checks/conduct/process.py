@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import chdir, contextmanager, suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from threading import current_thread, main_thread
 
 from slider_resonator.fmu.instance import Instance
 
@@ -40,7 +41,9 @@ def process_faults(instance: Instance) -> Iterator[str]:
 @contextmanager
 def _as_in_a_new_process() -> Iterator[None]:
     """Give the process an empty folder, and other values that are known, for the block."""
-    handlers = {one: signal.signal(one, signal.default_int_handler) for one in HOST_SIGNALS}
+    # Python lets the main thread alone set handlers.
+    signals = HOST_SIGNALS if current_thread() is main_thread() else ()
+    handlers = {one: signal.signal(one, signal.default_int_handler) for one in signals}
     environment = {name: os.environ.get(name) for name in ENVIRONMENT}
     language = locale.setlocale(locale.LC_ALL)
     try:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from ctypes import c_double, c_int, c_uint
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from fmpy.fmi1 import FMICallException
@@ -217,7 +218,7 @@ class Trial:
             read, write = getattr(slave, f"get{kind}"), getattr(slave, f"set{kind}")
             for what, reference in references.items():
                 if kinds.get(what) != kind:
-                    told = () if what in kinds else (reference,)
+                    told = (reference,) if what not in kinds and explains(self.instance) else ()
                     attempt = partial(write, [reference], [good[kind]])
                     self.refuses(f"reading {what} as {kind}", partial(read, [reference]), "", told)
                     self.refuses(f"setting {what} as {kind}", attempt, "", told)
@@ -248,6 +249,11 @@ class Trial:
             self.instance.slave.setInteger(references, [int(value) for value in values])
         else:
             self.instance.slave.setReal(references, values)
+
+
+def explains(instance: Instance) -> bool:
+    """Whether an FMU has log categories, and so must say in which call it refuses what."""
+    return b"<LogCategories" in Path(instance.fmu.folder, "modelDescription.xml").read_bytes()
 
 
 def shows(log: str, value: float) -> bool:
@@ -299,7 +305,8 @@ def _try_all(trial: Trial, running: Running, start: Mapping[str, float], start_t
     for step in range(running.steps):
         tried = step in (1, running.steps // 2 + 1)
         # After derivatives of inputs are set, which a refused call must not drop.
-        running.advance(step, partial(_in_the_run, trial, present) if tried else None)
+        trying = partial(_in_the_run, trial, present, restores=step > 1)
+        running.advance(step, trying if tried else None)
     beyond = STEP + 1e-3 * abs(running.stop_time)
     trial.refuses("a step beyond the stop", partial(_step, instance, instance.time, beyond))
     instance.terminate()
@@ -324,7 +331,11 @@ def _set_up_experiment(instance: Instance, arguments: tuple[object, ...]) -> Non
         instance.call("fmi2EnterInitializationMode")
 
 
-def _in_the_run(trial: Trial, present: list[Variable]) -> None:
+def _in_the_run(trial: Trial, present: list[Variable], *, restores: bool) -> None:
+    """Try what must be refused in a run; go back to a state from before where `restores` says so.
+
+    That would hide what refused calls change in a state, and must still be possible after them.
+    """
     instance = trial.instance
     anytime = [v for v in present if v.causality == "input" or v.variability == "tunable"]
     fixed = [v for v in present if v.causality == "parameter" and v.variability == "fixed"]
@@ -335,10 +346,11 @@ def _in_the_run(trial: Trial, present: list[Variable]) -> None:
     trial.refuses_calls("in a run")
     if instance.fmu.interpolates:
         trial.refuses_derivatives(present)
-    state = SavedState.of(instance) if instance.fmu.offers.canGetAndSetFMUstate else None
+    restores = restores and bool(instance.fmu.offers.canGetAndSetFMUstate)
+    state = SavedState.of(instance) if restores else None
     for size in STEP_SIZES:
-        step = partial(_step, instance, instance.time, size)
-        trial.refuses(f"a step of {size!r} s", step, "communicationStepSize", [size])
+        told = ("communicationStepSize", [size]) if explains(instance) else ()
+        trial.refuses(f"a step of {size!r} s", partial(_step, instance, instance.time, size), *told)
     beyond = BEYOND * (instance.time + STEP)
     trial.refuses("a step far beyond the stop", partial(_step, instance, instance.time, beyond))
     for jump in JUMPS:
