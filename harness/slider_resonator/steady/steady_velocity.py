@@ -7,7 +7,6 @@ from math import isfinite
 from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.progress import Progress, no_progress
-from slider_resonator.rounding import is_same
 from slider_resonator.steady.periodic import (
     Facts,
     FmuPeriodMap,
@@ -93,7 +92,7 @@ def _runaway(facts: Facts) -> Obstacle | None:
 
 def _judge(found: FixedPoint, stick_fraction: float) -> tuple[str, str]:
     """Return status and reason of a motion that repeats."""
-    if is_same(found.displacement, 0.0) and sticks_throughout(stick_fraction):
+    if sticks_throughout(stick_fraction):
         return "stuck", "the slider sticks throughout: the drive does not overcome friction"
     largest = f"{abs(found.multipliers[0]):.9g}"
     return {
