@@ -127,7 +127,7 @@ def _is_unit_of(setting_before: str, argument: str) -> bool:
         si_value(name, f"{number} {argument}")
     except ValueError:
         return False
-    return not is_number(argument)
+    return True
 
 
 def _each_once(

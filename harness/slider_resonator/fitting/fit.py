@@ -366,7 +366,7 @@ def fit(
 
 
 def _starts(free: Sequence[Free], count: int) -> list[Array]:
-    """Return internal starts: the device's own first, others up to a factor `REACH` beside it."""
+    """Return internal starts: the device's own first, others at random beside it."""
     first = np.array([one.internal(one.start) for one in free])
     factors = [REACH_OF_FREQUENCY if VARIABLES[one.name].unit == "rad/s" else REACH for one in free]
     reach = np.array(

@@ -11,6 +11,7 @@ from fmpy.fmi2 import FMU2Slave, fmi2Integer, fmi2ValueReference, fmi2Warning
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 
 WARNED = "warned"
+"""Attribute of a slave: the last call that was answered with a warning."""
 
 
 def call(slave: FMU2Slave | Fmi3Slave, name: str, *arguments: Any) -> None:

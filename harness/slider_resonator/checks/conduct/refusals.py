@@ -213,12 +213,13 @@ class Trial:
         references = {v.name: self.instance.fmu.reference(v.name) for v in present}
         kinds = {v.name: v.kind for v in present}
         last = max(variable.valueReference for variable in self.instance.fmu.variables.values())
-        references |= {"the reference after the last": last + 1, "an unknown reference": UNKNOWN}
+        unknown = {"the reference after the last": last + 1, "an unknown reference": UNKNOWN}
+        explained = explains(self.instance)
         for kind in sorted(types):
             read, write = getattr(slave, f"get{kind}"), getattr(slave, f"set{kind}")
-            for what, reference in references.items():
+            for what, reference in {**references, **unknown}.items():
                 if kinds.get(what) != kind:
-                    told = (reference,) if what not in kinds and explains(self.instance) else ()
+                    told = (reference,) if explained and what in unknown else ()
                     attempt = partial(write, [reference], [good[kind]])
                     self.refuses(f"reading {what} as {kind}", partial(read, [reference]), "", told)
                     self.refuses(f"setting {what} as {kind}", attempt, "", told)
@@ -348,8 +349,9 @@ def _in_the_run(trial: Trial, present: list[Variable], *, restores: bool) -> Non
         trial.refuses_derivatives(present)
     restores = restores and bool(instance.fmu.offers.canGetAndSetFMUstate)
     state = SavedState.of(instance) if restores else None
+    explained = explains(instance)
     for size in STEP_SIZES:
-        told = ("communicationStepSize", [size]) if explains(instance) else ()
+        told = ("communicationStepSize", [size]) if explained else ()
         trial.refuses(f"a step of {size!r} s", partial(_step, instance, instance.time, size), *told)
     beyond = BEYOND * (instance.time + STEP)
     trial.refuses("a step far beyond the stop", partial(_step, instance, instance.time, beyond))

@@ -158,13 +158,13 @@ def _later_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
                 break
             if instance.read(outputs) != expected:
                 yield f"a state is another one {when}"
-        else:
-            instance.resumed(states[0].time)
-            instance.terminate()
-            if is_refused(lambda: SavedState.of(instance).free()):
-                yield "no state is given after the end of a run"
         instance.start(parameters)
         instance.step_by(STEP)
+    instance.terminate()
+    if is_refused(lambda: SavedState.of(instance).free()):
+        yield "no state is given after the end of a run"
+    instance.start(parameters)
+    instance.step_by(STEP)
     for state in states:
         state.free()
 
