@@ -3,9 +3,14 @@
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
+from itertools import repeat
 
+from slider_resonator.checks.conduct.replays import plain_rows
+from slider_resonator.device.schedule import schedule
+from slider_resonator.device.signal import constant
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance, instantiate
+from slider_resonator.fmu.run import Running
 
 INSTANCES = 4
 """How many instances there are at a time, beside that of the scene."""
@@ -21,38 +26,32 @@ def crowd_faults(instance: Instance) -> Iterator[str]:
     """
     if instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
         return
-    loads = [0.01 * number for number in range(INSTANCES)]
-    alone = [_rows(instance, load) for load in loads]
+    courses = [
+        schedule(STEPS * STEP, (STEP,), {}, False, load=constant(0.01 * number))
+        for number in range(INSTANCES)
+    ]
+    alone = [plain_rows(instance, {}, course) for course in courses]
     with ExitStack() as stack:
         try:
-            others = [stack.enter_context(instantiate(instance.fmu)) for _ in loads]
+            others = [stack.enter_context(instantiate(instance.fmu)) for _ in courses]
         except FmuError as error:
             yield f"an instance beside {INSTANCES} others is refused: {error}"
             return
-        for other, load in zip(others, loads, strict=True):
-            with other.explained():
-                other.start({"load": load})
-        in_turn: list[list[float]] = [[] for _ in others]
-        for _ in range(STEPS):
-            for other, row in zip(others, in_turn, strict=True):
-                with other.explained():
-                    other.step_by(STEP)
-                row[:] = other.read(other.fmu.outputs).values()
-        if in_turn != alone:
+        for other in others:
+            stack.enter_context(other.explained())
+        runs = [Running(*one) for one in zip(others, courses, strict=True)]
+        for run in runs:
+            run.start({})
+            run.read()
+        for step in range(STEPS):
+            for run in runs:
+                run.advance(step)
+        if [run.rows for run in runs] != alone:
             yield "instances that step in turn have other outputs than alone"
         with ThreadPoolExecutor(INSTANCES) as pool:
-            if list(pool.map(_rows, others, loads)) != alone:
+            if list(pool.map(plain_rows, others, repeat({}), courses)) != alone:
                 yield "instances that step in threads have other outputs than alone"
         for other in others:
             other.end(terminates=False)
-    if _rows(instance, loads[0]) != alone[0]:
+    if plain_rows(instance, {}, courses[0]) != alone[0]:
         yield "an instance has other outputs after others are freed in the middle of their runs"
-
-
-def _rows(instance: Instance, load: float) -> list[float]:
-    """Return the outputs after all steps under a load."""
-    with instance.explained():
-        instance.start({"load": load})
-        for _ in range(STEPS):
-            instance.step_by(STEP)
-        return list(instance.read(instance.fmu.outputs).values())
