@@ -70,6 +70,12 @@ def _overlay(text: str) -> tuple[str, float] | Path:
     type=options.Parsed("TIME", _duration),
     help="How long to run, in s or with a unit, in place of what the scene says.",
 )
+@click.option(
+    "--step",
+    "step_size",
+    type=options.Parsed("TIME", _duration),
+    help="The communication step, in s or with a unit, in place of what the scene says.",
+)
 @click.option("--out", type=options.target(), help="CSV file of the run.")
 @click.option(
     "--plot",
@@ -117,6 +123,7 @@ def run_command(
     fmu: Path,
     scene: str,
     stop_time: float | None,
+    step_size: float | None,
     out: Path | None,
     plot: Path | None,
     signals: str | None,
@@ -139,6 +146,7 @@ def run_command(
     \b
     Examples:
       slider-resonator run --device mine.toml --time "50 ms" --plot start.png
+      slider-resonator run --device mine.toml --time "100 s" --step "10 ms" --set fidelity=0
       slider-resonator run table_1
       slider-resonator run my.fmu table_1 --out table_1.csv --plot table_1.png
       slider-resonator run my.fmu feed_forward --auto
@@ -149,8 +157,8 @@ def run_command(
     read = find_scene(scene, settings, device)
     if device is None and scene not in built_in_scenes():
         options.note_slips(read.source, read.slips)
-    if stop_time is not None:
-        read = read.lasting(stop_time)
+    if stop_time is not None or step_size is not None:
+        read = read.timed(stop_time, step_size)
     if interpolate is not None:
         read = read.interpolating(interpolate)
     files = {f"the scene's file {file}": file for file in read.files}
@@ -161,6 +169,8 @@ def run_command(
     is_chosen = bool(signals is not None or window or overlays)
     if plot is None and is_chosen:
         raise click.UsageError("--signals, --window and --overlay need --plot")
+    if auto and step_size is not None:
+        raise click.UsageError("--step and --auto exclude each other: --auto chooses the step")
     if auto:
         options.check_left_to_choose(device, settings)
     choice: Choice | None = None

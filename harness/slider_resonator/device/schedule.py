@@ -52,7 +52,7 @@ def step_count(stop: float, step: Steps) -> int:
     if not ratio <= MAX_STEPS:
         raise ValueError(
             f"a stop time of {stop:.6g} s in steps of {step:.6g} s makes {ratio:.3g} communication "
-            f"steps; must be at most {MAX_STEPS}"
+            f"steps; must be at most {MAX_STEPS}: take longer steps, or a shorter time"
         )
     return int(np.ceil(ratio))
 

@@ -199,14 +199,20 @@ class Scene(Shown):
         """Return the scene, which must have a run, with communication steps of a size in s."""
         return self._with_run(step_size=step_size, steps_per_period=None, step_sizes=None)
 
-    def lasting(self, stop_time: float) -> "Scene":
-        """Return the scene with a run of another length in s, in steps of the same size.
+    def timed(self, stop_time: float | None, step_size: float | None) -> "Scene":
+        """Return the scene with a run of another length, or in other steps, in s; None keeps them.
 
+        Messages about it name the scene, as its file does not say so.
         Raises SceneError for a scene without a run, and as a scene does.
         """
         if self.run is None:
-            raise SceneError(f"{self.source}: scene {self.name} has no [run] that could last")
-        return self._with_run(stop_time=stop_time, drive_periods=None)
+            raise SceneError(f"{self.source}: scene {self.name} has no [run] that could be changed")
+        changed: dict[str, float | None] = {}
+        if stop_time is not None:
+            changed |= {"stop_time": stop_time, "drive_periods": None}
+        if step_size is not None:
+            changed |= {"step_size": step_size, "steps_per_period": None, "step_sizes": None}
+        return replace(self, source=f"scene {self.name}")._with_run(**changed)
 
     @property
     def interpolates(self) -> bool:

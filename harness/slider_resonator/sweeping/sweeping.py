@@ -25,9 +25,9 @@ from slider_resonator.sweeping.running import run_points
 from slider_resonator.sweeping.table import (
     Columns,
     check_nothing_lost,
-    check_replaceable,
     check_writer,
     open_journal,
+    replaceable,
     table_columns,
     write_table,
 )
@@ -110,14 +110,13 @@ def run_sweep(
 
     `workers` is the number of processes here, unless `dask` is the address of a scheduler. A point
     that takes longer than `time_limit` (s) fails. Raises HarnessError where the sweep cannot be run
-    or, without `overwrite`, `out` is the table of other points, measures or results; finished
-    points stay in the journal.
+    or, without `overwrite`, `out` is the table of other points, measures or results, which the
+    first point shows; finished points stay in the journal.
     """
     check_writer(out)
     if dask is not None and find_spec("distributed") is None:
         raise HarnessError("--dask needs dask.distributed: pip install 'slider-resonator[cluster]'")
-    if not overwrite:
-        check_replaceable(out, sweep.task, sweep.points)
+    before = {} if overwrite else replaceable(out, sweep.task, sweep.points)
     with open_fmu(fmu):
         pass  # the file is checked once, not at every point
     fmu_digest = hashlib.sha256(fmu.read_bytes()).hexdigest()
@@ -134,6 +133,12 @@ def run_sweep(
         left = [(n, point) for n, point in enumerate(sweep.points) if n not in rows]
 
         def keep(new: Sequence[Row]) -> None:
+            try:
+                check_nothing_lost(out, before, sweep.task, sweep.points, new)
+            except HarnessError:
+                if not rows:
+                    journal.remove()  # which would keep the sweep that made `out` from going on
+                raise
             if new:
                 journal.add([new])
             rows.update((row[0], row) for row in new)
@@ -155,8 +160,6 @@ def run_sweep(
             with noting_on_interrupt(note), processes as at_work:
                 run_points(at_work, sweep.task, left, keep)
         columns = table_columns(sweep.task, sweep.points, rows)
-        if not overwrite:
-            check_nothing_lost(out, columns)
         write_table(out, sweep.task, columns)
         journal.remove()
     errors = [error for error in columns["error"] if error is not None]

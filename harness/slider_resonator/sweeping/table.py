@@ -35,20 +35,26 @@ def table_columns(
     task: Task, points: Sequence[tuple[float, ...]], rows: Mapping[int, Row]
 ) -> Columns:
     """Return the columns of the table, ordered by the number of the point."""
+    lines = [_line(task, points, rows[number]) for number in range(len(points))]
     names = [name for name, _ in task.columns]
-    kinds = [kind for _, kind in task.columns]
-    lines = []
-    for number, values in enumerate(points):
-        _, cells, error = rows[number]
-        line: list[Any] = [number, *values, *cells, error]
-        lines.append([int(e) if kind is int else e for kind, e in zip(kinds, line, strict=True)])
     return dict(zip(names, map(list, zip(*lines, strict=True)), strict=True))
 
 
-def check_replaceable(path: Path, task: Task, points: Sequence[tuple[float, ...]]) -> None:
-    """Raise HarnessError for a file that is no table of these points, or has other measures."""
+def _line(task: Task, points: Sequence[tuple[float, ...]], row: Row) -> list[Any]:
+    """Return the entries of a point, one for each column."""
+    number, cells, error = row
+    kinds = [kind for _, kind in task.columns]
+    entries = [number, *points[number], *cells, error]
+    return [int(e) if kind is int else e for kind, e in zip(kinds, entries, strict=True)]
+
+
+def replaceable(path: Path, task: Task, points: Sequence[tuple[float, ...]]) -> Columns:
+    """Return the columns of the table that a file is, none where there is no file.
+
+    Raises HarnessError for a file that is no table of these points, or has other measures.
+    """
     if not path.exists():
-        return
+        return {}
     remedy = "must be a new file, or --overwrite to replace it"
     try:
         columns = _read(path)
@@ -64,6 +70,7 @@ def check_replaceable(path: Path, task: Task, points: Sequence[tuple[float, ...]
         raise HarnessError(
             f"{path}: has columns that this grid does not measure: {', '.join(lost)}; {remedy}"
         )
+    return columns
 
 
 def _read(path: Path) -> Columns:
@@ -76,20 +83,27 @@ def _read(path: Path) -> Columns:
     return {name: [row[index] for row in rows] for index, name in enumerate(names)}
 
 
-def check_nothing_lost(path: Path, columns: Columns) -> None:
-    """Raise HarnessError for a table that has other results of these points than `columns`.
+def check_nothing_lost(
+    path: Path,
+    before: Columns,
+    task: Task,
+    points: Sequence[tuple[float, ...]],
+    rows: Sequence[Row],
+) -> None:
+    """Raise HarnessError where the table at `path`, of columns `before`, has other results.
 
     They can be of another device: a table does not tell.
     """
-    for name, before in (_read(path) if path.exists() else {}).items():
-        is_text = path.suffix.lower() == ".csv"
-        now = map(str, columns[name]) if is_text else columns[name]
-        for number, (old, new) in enumerate(zip(before, now, strict=True)):
-            if name != "error" and old not in (None, "", new):
+    is_text = path.suffix.lower() == ".csv"
+    names = [name for name, _ in task.columns if name in before and name != "error"]
+    for row in rows:
+        now = dict(zip(dict(task.columns), _line(task, points, row), strict=True))
+        for name in names:
+            old, new = before[name][row[0]], str(now[name]) if is_text else now[name]
+            if old not in (None, "", new):
                 raise HarnessError(
-                    f"{path}: has {name} = {old} at point {number}, now {new}, of another device, "
-                    "FMU or version; must be a new file, or --overwrite to replace it; what was "
-                    f"computed is kept in {journal_path(path)}"
+                    f"{path}: has {name} = {old} at point {row[0]}, now {new}, of another device, "
+                    "FMU or version; must be a new file, or --overwrite to replace it"
                 )
 
 

@@ -46,6 +46,8 @@ def test_nothing_that_is_read_is_overwritten(python_fmu: Path, tmp_path: Path) -
         (["--plot", "a.png", "--overlay", "fidelty=1"], "did you mean 'fidelity'?"),
         (["--plot", "a.png", "--overlay", "fidelity=x"], "fidelity = 'x': must be an integer"),
         (["--time", "-1 ms"], "time = '-1 ms': must be above 0 s"),
+        (["--time", "1e4 s"], "take longer steps, or a shorter time"),
+        (["--step", "1 ms", "--auto"], "--auto chooses the step"),
         (["--set", "phase=30", "deg"], "must be in quotes, as --set 'phase=30 deg'"),
         (["--set", "phase=30 Grad"], "Grad is 1e+09 rad; must be a number in rad"),
     ],
@@ -153,6 +155,8 @@ def test_a_run_lasts_as_long_as_is_asked(native_fmu: Path) -> None:
     assert longer["simulated_time"] == pytest.approx(0.35903916)
     steps = longer["communication_steps"] / usual["communication_steps"]
     assert steps == pytest.approx(longer["simulated_time"] / usual["simulated_time"], rel=1e-3)
+    coarse = call("run", native_fmu, "--time", "100 ms", "--step", "10 ms", "--json")
+    assert json.loads(coarse.stdout)["communication_steps"] == 10
 
 
 def test_pictures_do_not_depend_on_settings_of_matplotlib(native_fmu: Path, tmp_path: Path) -> None:

@@ -93,9 +93,9 @@ def test_results_of_another_device_are_not_replaced(native_fmu: Path, tmp_path: 
     said = refused(*sweep, "--set", "friction_coefficient=0.2")
     assert "has steady_velocity = 0.126666997" in said
     assert out.read_bytes() == first
+    assert call(*sweep).exit_code == 0, "the refused sweep is not in the way of the first one"
     again = call(*sweep, "--set", "friction_coefficient=0.2", "--overwrite")
     assert again.exit_code == 0
-    assert "found      3 of them" in again.stdout, "what was computed is kept"
     assert out.read_bytes() != first
 
 
