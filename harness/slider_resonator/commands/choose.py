@@ -13,7 +13,7 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.device_file import DeviceFile
-from slider_resonator.scenes.scene_files import built_in_scenes, find_scene
+from slider_resonator.scenes.scene_files import find_scene
 
 
 @click.command(
@@ -55,8 +55,7 @@ def choose_command(
     """
     options.check_left_to_choose(device, settings)
     read = find_scene(scene, settings, device)
-    if device is None and scene not in built_in_scenes():
-        options.note_slips(read.source, read.slips)
+    options.note_slips_of(read, scene, device)
     path = options.default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:

@@ -22,6 +22,8 @@ from slider_resonator.scenes.device_file import (
     refuse_other_kinds,
     without_drive,
 )
+from slider_resonator.scenes.scene import Scene
+from slider_resonator.scenes.scene_files import built_in_scenes
 from slider_resonator.scenes.toml_file import read_toml
 
 SET = "--set"
@@ -77,6 +79,15 @@ def setting(text: str) -> tuple[str, float]:
 def note_slips(source: str, slips: Sequence[str]) -> None:
     """Print what may be meant in another unit in a file or option."""
     _note([f"{source}: {slip}" for slip in slips])
+
+
+def note_slips_of(scene: Scene, name: str | None, device: DeviceFile | None) -> None:
+    """Print those of a scene of the user's own; those of a device file are printed as it is read.
+
+    `name` is what the command line calls the scene.
+    """
+    if device is None and name not in built_in_scenes():
+        note_slips(scene.source, scene.slips)
 
 
 def _note(sentences: Sequence[str]) -> None:

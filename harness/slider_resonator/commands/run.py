@@ -24,7 +24,7 @@ from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.scenes.scene_files import built_in_scenes, find_scene
+from slider_resonator.scenes.scene_files import find_scene
 
 if TYPE_CHECKING:
     from slider_resonator.choosing import Choice
@@ -155,8 +155,7 @@ def run_command(
       slider-resonator run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
     read = find_scene(scene, settings, device)
-    if device is None and scene not in built_in_scenes():
-        options.note_slips(read.source, read.slips)
+    options.note_slips_of(read, scene, device)
     if stop_time is not None or step_size is not None:
         read = read.timed(stop_time, step_size)
     if interpolate is not None:

@@ -102,7 +102,10 @@ def trade_command(
       slider-resonator trade table_1 --device mine.toml --out trade
       slider-resonator trade my.toml --out trade --fmu my.fmu --json
     """
-    read = [find_scene(name, settings, device) for name in scenes or ("table_1",)]
+    names = scenes or ("table_1",)
+    read = [find_scene(name, settings, device) for name in names]
+    for scene, name in zip(read, names, strict=True):
+        options.note_slips_of(scene, name, device)
     points = [point for scene in read for point in scene.points()]
     problems = [problem_of(point.scene, point.at, periods) for point in points]
     paths = fmus or options.default_fmus()

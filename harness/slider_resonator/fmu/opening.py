@@ -27,9 +27,13 @@ _TYPES_OF_FMI_3 = {"Float64": "Real", "Int32": "Integer"}
 
 @dataclass(frozen=True)
 class Fmu:
-    """An FMU unpacked in a folder that lasts as long as the `open_fmu` block."""
+    """An FMU unpacked in a folder that lasts as long as the `open_fmu` block.
+
+    `path` is how it was named, `file` the same from any folder.
+    """
 
     path: Path
+    file: Path
     folder: Path
     description: ModelDescription
     variables: Mapping[str, ModelVariable]
@@ -145,7 +149,7 @@ def open_fmu(path: str | Path) -> Iterator[Fmu]:
             fmpy.extract(path, unpacked)
         except Exception as error:  # fmpy raises bare Exception for illegal paths
             raise FmuError(f"{path}: cannot be unpacked: {error}") from error
-        yield Fmu(path, unpacked, description, variables)
+        yield Fmu(path, path.resolve(), unpacked, description, variables)
 
 
 def lacking(path: Path) -> tuple[str, ...]:

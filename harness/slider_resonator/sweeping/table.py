@@ -44,7 +44,7 @@ def _line(task: Task, points: Sequence[tuple[float, ...]], row: Row) -> list[Any
     """Return the entries of a point, one for each column."""
     number, cells, error = row
     kinds = [kind for _, kind in task.columns]
-    entries = [number, *points[number], *cells, error]
+    entries: list[Any] = [number, *points[number], *cells, error]
     return [int(e) if kind is int else e for kind, e in zip(kinds, entries, strict=True)]
 
 

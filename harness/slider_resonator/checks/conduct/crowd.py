@@ -1,9 +1,12 @@
-"""Several instances in a process: in turn, in threads, and freed in the middle of their runs."""
+"""Several instances in a process: in turn, in threads, freed in their runs, or thousands."""
 
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from itertools import repeat
+from threading import stack_size
+
+from fmpy.fmi1 import FMICallException
 
 from slider_resonator.checks.conduct.replays import plain_rows
 from slider_resonator.device.schedule import schedule
@@ -16,6 +19,10 @@ INSTANCES = 4
 """How many instances there are at a time, beside that of the scene."""
 STEPS, STEP = 200, 7e-4
 """Steps (s) of each."""
+STACK = 1 << 19
+"""Bytes of the stack of a thread, as on macOS."""
+RESETS, MADE = 3000, 500
+"""How often an instance is reset, and how many are made after it: a sweep makes as many."""
 
 
 def crowd_faults(instance: Instance) -> Iterator[str]:
@@ -48,10 +55,31 @@ def crowd_faults(instance: Instance) -> Iterator[str]:
                 run.advance(step)
         if [run.rows for run in runs] != alone:
             yield "instances that step in turn have other outputs than alone"
-        with ThreadPoolExecutor(INSTANCES) as pool:
+        with _small_stacks(), ThreadPoolExecutor(INSTANCES) as pool:
             if list(pool.map(plain_rows, others, repeat({}), courses)) != alone:
                 yield "instances that step in threads have other outputs than alone"
         for other in others:
             other.end(terminates=False)
     if plain_rows(instance, {}, courses[0]) != alone[0]:
         yield "an instance has other outputs after others are freed in the middle of their runs"
+
+
+@contextmanager
+def _small_stacks() -> Iterator[None]:
+    """Give threads that begin in the block the stack that hosts give them where it is small."""
+    usual = stack_size(STACK)
+    try:
+        yield
+    finally:
+        stack_size(usual)
+
+
+def life_faults(instance: Instance) -> Iterator[str]:
+    """Reset an instance, and make and free others, more often than a small table would allow."""
+    try:
+        for _ in range(RESETS):
+            instance.call("fmi2Reset")
+        for _ in range(MADE):
+            instance.renew()
+    except (FMICallException, FmuError) as error:
+        yield f"{RESETS} resets and then {MADE} instances in turn are not possible: {error}"

@@ -37,6 +37,10 @@ STEPS_ACCEPTED: Sequence[tuple[float, Mapping[str, float]]] = (
 """Steps (s) that must be accepted, and devices: of 2000 drive periods, of 11 million that are not
 resolved, of a slider that trembles on hard bristles under a slow drive, of next to no damping at
 resonance."""
+SHORT, MANY, TOGETHER = 1e-5, 120_000, 10_000
+"""Steps (s) of a host that samples the motion, their number, and how many another takes in one."""
+SAMPLED = 1e-7
+"""Error of outputs, relative and in SI units, by the rounding of so many times."""
 EARLY = -3.0
 """The time (s) at which these steps begin."""
 BRISTLES = {"friction_law": 1.0, "bristle_stiffness": 1e4}
@@ -62,8 +66,17 @@ def experiment_faults(fmu: FmuSide) -> list[str]:
                 faults += _run_faults(instance, what, experiment)
         except Refusal as error:
             faults.append(f"an experiment {what} is refused: {error}")
+    try:
+        with instance.explained():
+            instance.start({}, EARLY, start_time=EARLY)
+            instance.read(instance.fmu.outputs)
+            instance.terminate()
+    except Refusal as error:
+        faults.append(f"an experiment that ends where it starts is refused: {error}")
     with instance.explained():
         faults += _early_faults(instance)
+        if instance.fmu.runs_without_python:
+            faults += _many_steps_faults(instance)
     for size, device in STEPS_ACCEPTED:
         try:
             with instance.explained():
@@ -91,6 +104,19 @@ def _early_faults(instance: Instance) -> Iterator[str]:
     for name, value in rows[0].items():
         if not isclose(rows[1][name], value, rel_tol=EARLY_ROUNDING, abs_tol=EARLY_ROUNDING):
             yield f"{name} is {rows[1][name]!r} from {EARLY:g} s on, and {value!r} from 0 s on"
+
+
+def _many_steps_faults(instance: Instance) -> Iterator[str]:
+    """Run a device in very many steps, which must end where few do."""
+    rows = []
+    for step, count in ((SHORT * TOGETHER, MANY // TOGETHER), (SHORT, MANY)):
+        instance.start({"phase": 0.4})
+        for number in range(1, count + 1):
+            instance.step_to(number * step)
+        rows.append(instance.read(list(instance.fmu.outputs)))
+    for name, value in rows[0].items():
+        if not isclose(rows[1][name], value, rel_tol=SAMPLED, abs_tol=SAMPLED):
+            yield f"{name} is {rows[1][name]!r} after {MANY} steps, must be {value!r}, as after few"
 
 
 def _run_faults(instance: Instance, what: str, tolerance: tuple[bool, float]) -> Iterator[str]:

@@ -18,7 +18,7 @@ from fmpy.fmi2 import (
     fmi2Warning,
 )
 
-from slider_resonator.checks.conduct.crowd import crowd_faults
+from slider_resonator.checks.conduct.crowd import crowd_faults, life_faults
 from slider_resonator.checks.conduct.event_mode import event_mode_faults
 from slider_resonator.checks.conduct.memory import instance_leaks
 from slider_resonator.checks.conduct.process import process_faults
@@ -88,6 +88,7 @@ def host_faults(fmu: FmuSide) -> list[str]:
     if instance.fmu.runs_without_python:
         slave.dll.fmi2FreeInstance(None)  # which is no error, and must not crash
         faults += crowd_faults(instance)
+        faults += life_faults(instance)
         faults += process_faults(instance)
     faults += instance_leaks(instance)
     return faults

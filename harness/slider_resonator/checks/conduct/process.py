@@ -5,17 +5,21 @@ import locale
 import os
 import signal
 from collections.abc import Iterator
-from contextlib import chdir, contextmanager, suppress
+from contextlib import ExitStack, chdir, contextmanager, suppress
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import TemporaryDirectory, TemporaryFile
 from threading import current_thread, main_thread
 
 from slider_resonator.fmu.instance import Instance
 
 STEP = 1.1e-3
 """Size of a step, s."""
+SHOWN = 80
+"""Bytes that are shown of what an FMU prints."""
 HOST_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 """Signals whose handlers are those of the host."""
+WATCHED = (*HOST_SIGNALS, signal.SIGSEGV, signal.SIGFPE, signal.SIGABRT)
+"""Those that are compared: hosts report crashes by some."""
 ENVIRONMENT = ("TZ", "LC_ALL", "LANG")
 """Variables of the environment that libraries may set."""
 
@@ -28,7 +32,7 @@ def process_faults(instance: Instance) -> Iterator[str]:
     """
     if os.name != "posix":
         return
-    with _as_in_a_new_process():
+    with _as_in_a_new_process(), _printed() as printed:
         before = _shared()
         with instance.explained():
             instance.renew()
@@ -39,6 +43,8 @@ def process_faults(instance: Instance) -> Iterator[str]:
     for what, value in before.items():
         if after[what] != value:
             yield f"an instance and its run change {what}: {value!r} becomes {after[what]!r}"
+    for text in printed:
+        yield f"an instance and its run print {text!r} where the host prints"
 
 
 @contextmanager
@@ -64,6 +70,29 @@ def _as_in_a_new_process() -> Iterator[None]:
             signal.signal(one, handler)
 
 
+@contextmanager
+def _printed() -> Iterator[list[str]]:
+    """Yield the beginnings of what the block prints on standard output and error, at its end."""
+    library = ctypes.CDLL(None)
+    texts: list[str] = []
+    with ExitStack() as stack:
+        files = []
+        for stream in (1, 2):
+            files.append(stack.enter_context(TemporaryFile()))
+            kept = os.dup(stream)
+            stack.callback(os.close, kept)
+            stack.callback(os.dup2, kept, stream)
+            library.fflush(None)
+            os.dup2(files[-1].fileno(), stream)
+        stack.callback(library.fflush, None)
+        yield texts
+        library.fflush(None)
+        for file in files:
+            file.seek(0)
+            if text := file.read(SHOWN):
+                texts.append(text.decode("utf-8", "replace"))
+
+
 def _shared() -> dict[str, object]:
     """Return what the process has, as far as this system tells."""
     library = ctypes.CDLL(None)
@@ -82,6 +111,6 @@ def _shared() -> dict[str, object]:
         for key, what in (("SigIgn", "ignored"), ("SigCgt", "caught")):
             bits = int(status[key], 16)
             shared[f"the signals that are {what}"] = [
-                one.name for one in HOST_SIGNALS if bits >> (one - 1) & 1
+                one.name for one in WATCHED if bits >> (one - 1) & 1
             ]
     return shared

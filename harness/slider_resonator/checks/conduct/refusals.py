@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from ctypes import c_double, c_int, c_uint
 from dataclasses import dataclass
 from functools import partial
@@ -52,7 +53,7 @@ ONLY_FMI_2 = ("fmi2SetupExperiment",)
 EXPERIMENTS: Mapping[str, tuple[object, ...]] = {
     **{f"a start time of {bad}": (False, 0.0, bad, False, 0.0) for bad in (math.nan, math.inf)},
     **{f"a stop time of {bad}": (False, 0.0, 5.0, True, bad) for bad in (math.nan, 4.0)},
-    **{f"a tolerance of {bad}": (True, bad, 0.0, False, 0.0) for bad in (math.nan, 0.0, -1e-6)},
+    **{f"a tolerance of {bad}": (True, bad, 5.0, False, 0.0) for bad in (math.nan, 0.0, -1e-6)},
 }
 """Experiments, as arguments of fmi2SetupExperiment, that must be refused."""
 
@@ -320,6 +321,11 @@ def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
     instance.call("fmi2Reset")
     for what, arguments in EXPERIMENTS.items():
         trial.refuses(what, partial(_set_up_experiment, instance, arguments))
+    with suppress(FMICallException):  # an FMU may ask for another experiment first
+        instance.call("fmi2EnterInitializationMode")
+        if instance.value("last_event_time") != instance.time:
+            trial.faults.append("an experiment is refused but changes the start time")
+        instance.call("fmi2Reset")
     trial.refuses_values("before a run", settable)
     trial.refuses_calls("before a run")
     trial.accepts_bounds(settable)

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from ctypes import byref, c_char, c_void_p
 from functools import partial
+from itertools import product
 
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
@@ -12,7 +13,10 @@ from slider_resonator.checks.conduct.findings import adding_refusal, is_refused,
 from slider_resonator.checks.conduct.memory import state_leaks
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
+from slider_resonator.errors import FmuError
+from slider_resonator.fmu.blocks import WARNED
 from slider_resonator.fmu.instance import Instance, instantiate
+from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.saved_state import SavedState
 
 STEP = 1.3e-3
@@ -41,11 +45,14 @@ def state_faults(fmu: FmuSide) -> list[str]:
         if instance.fmu.offers.canSerializeFMUstate:
             faults.extend(_damage_faults(instance))
             faults.extend(_outliving_faults(instance))
+            faults.extend(_process_faults(instance))
         faults.extend(_freeing_faults(instance))
         faults.extend(_later_faults(instance, fmu.scene.parameters))
         faults.extend(state_leaks(instance))
         faults.extend(_early_faults(instance, fmu.scene.parameters))
         instance.terminate()
+    if warned := getattr(instance.slave, WARNED, ""):
+        faults.append(f"{warned} is answered with a warning")
     return faults
 
 
@@ -134,6 +141,36 @@ def _outliving_faults(instance: Instance) -> Iterator[str]:
         yield "the serialised state of an instance that is freed by then is another one"
 
 
+def _process_faults(instance: Instance) -> Iterator[str]:
+    """Take over a serialised state in another process, as a run that goes on after a restart."""
+    instance.start({"load": LOAD})
+    instance.step_by(STEP)
+    state = SavedState.of(instance)
+    content = bytes(instance.slave.serializeFMUstate(state.handle))
+    state.free()
+    instance.step_by(STEP)
+    expected = instance.read(instance.fmu.outputs)
+    try:
+        with IsolatedFmu(instance.fmu.file, TIME_LIMIT) as isolated:
+            found = isolated.run(partial(_outputs_after, content=content))
+    except (FmuError, FMICallException) as error:
+        yield f"a serialised state is not taken over in another process: {error}"
+        return
+    if found != expected:
+        yield "a serialised state is another one in another process"
+
+
+def _outputs_after(instance: Instance, content: bytes) -> dict[str, float]:
+    """Return all outputs a step after a serialised state."""
+    with instance.explained():
+        handle = instance.slave.deSerializeFMUstate(content)
+        instance.slave.setFMUstate(handle)
+        instance.slave.freeFMUstate(handle)
+        instance.resumed(STEP)
+        instance.step_by(STEP)
+    return instance.read(instance.fmu.outputs)
+
+
 def _later_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterator[str]:
     """Save some states, and go back to each: in a run, after its end and after a reset."""
     outputs = instance.fmu.outputs
@@ -188,7 +225,7 @@ def _freeing_faults(instance: Instance) -> Iterator[str]:
 
 
 def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterator[str]:
-    """Save the state before initialization, initialize with other values, and go back.
+    """Save the state before or in initialization, go on with other values, and go back.
 
     The state goes back as it is and, where the FMU offers that, in serialised form.
     """
@@ -199,22 +236,28 @@ def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
     ways: list[Callable[[SavedState], None]] = [SavedState.restore]
     if instance.fmu.offers.canSerializeFMUstate:
         ways.append(lambda state: state.transfer(instance))
-    for go_back in ways:
+    for when, go_back in product(("before", "in"), ways):
         instance.set_up()
         instance.set(parameters)
+        if when == "in":
+            instance.call("fmi2EnterInitializationMode")
         state = SavedState.of(instance)
         instance.set({name: other_value(name, VARIABLES[name].start or 0.0) for name in CHANGED})
-        instance.call("fmi2EnterInitializationMode")
+        if when == "in":
+            instance.begin()
+        else:
+            instance.call("fmi2EnterInitializationMode")
         instance.read(outputs)
         try:
             go_back(state)
+            if when == "before":
+                instance.call("fmi2EnterInitializationMode")
+            instance.begin()
+            instance.step_by(STEP)
         except FMICallException as error:
-            yield f"a state saved before initialization is not taken back: {error}"
+            yield f"a run cannot go on from a state saved {when} initialization: {error}"
             return
         finally:
             state.free()
-        instance.call("fmi2EnterInitializationMode")
-        instance.begin()
-        instance.step_by(STEP)
         if instance.read(outputs) != expected:
-            yield "a state saved before initialization keeps the values set after it"
+            yield f"a state saved {when} initialization keeps the values set after it"
