@@ -48,7 +48,7 @@ FAULTS: Mapping[str, tuple[int, str]] = {
     "fork_and_kill_parent": (2, "has ended the process that watches it"),
 }
 """What the FMU does in fmi2DoStep, with the exit code of `validate` and the reason."""
-QUICK = ("fork_twice", "fork_and_kill_parent")
+QUICK = ("fork_and_kill_parent",)
 """Run as processes of their own, and by default."""
 ENDED_SOON = ("fork_many", "eat")
 """Ended once they have too much, which takes some seconds on a busy machine."""

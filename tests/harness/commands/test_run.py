@@ -159,6 +159,7 @@ def test_a_run_lasts_as_long_as_is_asked(native_fmu: Path) -> None:
     assert json.loads(coarse.stdout)["communication_steps"] == 10
 
 
+@pytest.mark.slow
 def test_pictures_do_not_depend_on_settings_of_matplotlib(native_fmu: Path, tmp_path: Path) -> None:
     plain, own = tmp_path / "plain.png", tmp_path / "own.png"
     call("run", native_fmu, "--plot", plain)

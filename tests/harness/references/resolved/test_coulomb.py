@@ -15,7 +15,7 @@ from tests.harness.references.comparing import assert_agree
 from tests.problems import DURATION, PROBLEMS
 
 TIMES = np.linspace(0.0, DURATION, 1501)
-QUICK = ("table 1", "lift-off with sticking", "undamped, sticking resonance", "schedule")
+QUICK = ("table 1", "lift-off with sticking", "undamped, sticking resonance")
 ALL = pytest.mark.parametrize(
     "name",
     [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in PROBLEMS],
