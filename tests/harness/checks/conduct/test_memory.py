@@ -6,7 +6,6 @@ import sys
 
 import pytest
 
-from slider_resonator.checks.conduct import memory
 from slider_resonator.checks.conduct.memory import (
     OF_INSTANCE,
     OF_STATE,
@@ -30,7 +29,6 @@ def test_a_sound_fmu_gives_everything_back(instance: Instance) -> None:
 def test_what_is_not_given_back_is_a_fault(
     instance: Instance, monkeypatch: pytest.MonkeyPatch, kind: str, call: str, allowed: float
 ) -> None:
-    monkeypatch.setattr(memory, "CYCLES", 4)
     allocate = ctypes.CDLL(None).malloc
     allocate.argtypes, allocate.restype = [ctypes.c_size_t], ctypes.c_void_p
     own = getattr(type(instance.slave), call)
