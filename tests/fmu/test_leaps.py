@@ -136,6 +136,56 @@ def test_random_devices_keep_the_tolerance_and_know_their_error(
     assert sum(covered) >= 0.9 * len(covered)
 
 
+ACCIDENTS = {
+    "a line meets the rates where it ends": {
+        "slider_mass": 0.12057153656376007,
+        "resonator_mass": 0.008395216377345319,
+        "resonator_frequency": 1082.7799474307253,
+        "damping_ratio": 0.6137313673456617,
+        "base_amplitude": 1.5187170844416565e-05,
+        "drive_frequency": 562.4788096151409,
+        "normal_preload": 1.9463426537219373,
+        "normal_amplitude": 0.17464966950542643,
+        "friction_coefficient": 8.009825583106316e-06,
+        "phase": 4.524618599630677,
+        "bristle_stiffness": 455.4513398815495,
+        "bristle_damping": 0.00015152547429070947,
+    },
+    "both orders of the pair agree": {
+        "slider_mass": 0.21019097577693516,
+        "resonator_mass": 0.006678332341768228,
+        "resonator_frequency": 2631.1499415535604,
+        "damping_ratio": 0.0043631656139107786,
+        "base_amplitude": 8.887142476514646e-05,
+        "drive_frequency": 3162.1245108166654,
+        "normal_preload": 2.801466773615633,
+        "normal_amplitude": 3.127383017037205,
+        "friction_coefficient": 0.0008472890596040655,
+        "frequency_ratio": 1.0001,
+        "phase": 4.9054584864214075,
+        "load": 0.002242899454704104,
+        "bristle_stiffness": 1398.1035263615147,
+        "bristle_damping": 5.1765428534587607e-05,
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "periods", "fast"),
+    [
+        ("a line meets the rates where it ends", 520.4744398268977, 0.0006711337589362988),
+        ("both orders of the pair agree", 1041.8207557054884, 0.021636363540897444),
+    ],
+)
+def test_errors_that_are_small_by_accident_are_noticed(
+    instantiate: Instantiate, name: str, periods: float, fast: float
+) -> None:
+    """In the second step: 56 and 15 tolerances where the estimate of the solver alone counts."""
+    values = {**ACCIDENTS[name], "friction_law": 1, "tolerance": 1e-6}
+    size = periods * math.tau / values["drive_frequency"]
+    assert max(compared(instantiate, values, size, 2).errors) <= 3e-6 * fast
+
+
 @pytest.mark.parametrize("tolerance", [1e-14, 1e-12])
 def test_steady_motion_whose_rates_are_rounding_is_leapt_over(
     instantiate: Instantiate, tolerance: float

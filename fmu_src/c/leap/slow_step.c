@@ -19,6 +19,9 @@
  * erred as much as those there did before: it was 1/600 to 1/16 in steps that keep a tolerance of 1e-6. */
 #define IMPROVED (1.0 / 100.0)
 
+/* Largest distance of a cubic from a chord, over its length and the difference of the slopes of both at one end. */
+#define BENT (4.0 / 27.0)
+
 /* The change of the slow velocity in `h` periods, if its rate is `rate` and falls by `gain` of the change. */
 static double change_on_tangent(double rate, double gain, double h) {
     double z = h * gain;
@@ -36,6 +39,12 @@ static double factor_until(const SlowPath *path, double acceleration) {
 static double periods_of_error(double factor, double h) {
     double logarithm = log(factor);
     return fabs(logarithm) > EPSILON ? h * (factor - 1.0) / logarithm : h;
+}
+
+/* Error of a rate on the line between two points where that is the tangent at the first one: by the slope at the other. A line
+ * that meets the rates there by accident has the wrong slope. */
+static double error_of_line(const PathPoint *to, double tangent, double length) {
+    return BENT * fabs(length * (to->rates.jerk / to->rates.acceleration - tangent));
 }
 
 static double interpolated_acceleration(const SlowPath *path, double velocity) {
@@ -117,6 +126,9 @@ static bool try_step(SlowPath *path, double h, PathStep *result) {
         double factor = factor_until(path, interpolated_acceleration(path, end));
         double periods = periods_of_error(factor, h);
         bool likely = IMPROVED * periods * residual <= allowed;
+        if (path->interpolant.count == 2) {
+            likely = likely && periods * error_of_line(&landing, gain, end - here->velocity) <= allowed;
+        }
         if (likely) {
             SlowPoint to;
             if (!integrate(path, h, reach, allowed, &to)) {
@@ -180,6 +192,14 @@ double expected_step(const SlowPath *path) {
     return gain > 0.0 ? EXPECTED_STEP / gain * pow(map->tolerance / change, 1.0 / ORDER) : INFINITY;
 }
 
+/* What a change of the slow velocity over `h` periods differs by from the integral of the cubic with the rates at both ends, and
+ * their slopes: the error of the embedded method may be small by accident, but not both. */
+static double hermite_error(const PathPoint *from, const PathPoint *to, double h) {
+    const SlowRates *first = &from->rates, *last = &to->rates;
+    double mean = 0.5 * (first->acceleration + last->acceleration) + h / 12.0 * (first->jerk - last->jerk);
+    return fabs(to->velocity - from->velocity - h * mean);
+}
+
 bool embedded_step(SlowPath *path, double *h, PathStep *result) {
     const PeriodMap *map = path->manifold.map;
     const PathPoint *here = &path->here;
@@ -190,15 +210,16 @@ bool embedded_step(SlowPath *path, double *h, PathStep *result) {
     double allowed = STEP_TOLERANCE * map->tolerance * map->speed;
     SlowStep step;
     *h = floor(fmin(*h, fmin(in_beat, to_reach)));
-    if (*h < SHORTEST_STEP || !runge_kutta_step(rate_at, path, &from, *h, &step) ||
-        !isfinite(step.error)) {
+    bool found = *h >= SHORTEST_STEP && runge_kutta_step(rate_at, path, &from, *h, &step);
+    double estimate = found ? fmax(step.error, hermite_error(here, &path->last, *h)) : INFINITY;
+    if (!isfinite(estimate)) {
         *h *= SHORTER;
         return false;
     }
     double gain = fmax(step.gain, -MAX_DECAY * map->share);
     double factor = gain < 0.0 ? exp(gain * *h) : 1.0;
-    double error = step.error / OVERESTIMATE + *h * error_of_rates(path);
+    double error = estimate / OVERESTIMATE + *h * error_of_rates(path);
     *result = (PathStep){*h, step.to.travel, factor, error};
-    *h *= step_growth(step.error, allowed);
-    return step.error <= allowed;
+    *h *= step_growth(estimate, allowed);
+    return estimate <= allowed;
 }

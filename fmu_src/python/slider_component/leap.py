@@ -111,6 +111,17 @@ def _next_term(before: float, last: float) -> float:
     return last * (last / before) if before > last else last
 
 
+def _hermite_error(begin: Point, end: Point, h: float) -> float:
+    """What the change of V over `h` periods differs by from the integral of a cubic [m/s].
+
+    The cubic has the accelerations at both ends, and their rates. The error of the solver may be
+    small by accident, but not both.
+    """
+    bend = begin.gain * begin.acceleration - end.gain * end.acceleration
+    mean = 0.5 * (begin.acceleration + end.acceleration) + h / 12.0 * bend
+    return abs(end.velocity - begin.velocity - h * mean)
+
+
 class SlowMotion:
     """The slow motion from the moment `begin` at the section on.
 
@@ -229,7 +240,7 @@ class SlowMotion:
                     return left, to, to.error
             self.last = here
         to = dormand_prince(self.rates, n, here.velocity, h, first)
-        return h, to, ERROR_SHARE * to.error
+        return h, to, ERROR_SHARE * max(to.error, _hermite_error(here, self.last, h))
 
 
 class Leaping(Resolved):
