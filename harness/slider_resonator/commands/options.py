@@ -253,7 +253,9 @@ def _fmu_and_scene(argument: Path | None) -> tuple[Path | None, str]:
 
 fmu_argument = partial(_fmu_argument, chosen=_must_be_given, default="")
 """Adds an FMU as an argument or as the option --fmu; the command gets it as `fmu`."""
-native_fmu_argument = partial(_fmu_argument, chosen=default_fmu, default="the native one in dist")
+native_fmu_argument = partial(
+    _fmu_argument, chosen=default_fmu, default="the native one, in dist or installed"
+)
 """The same; the default is that of `default_fmu`."""
 
 
@@ -292,7 +294,7 @@ jobs_option = click.option(
 fmu_option = click.option(
     "--fmu",
     type=FMU_FILE,
-    help="FMU to run.  [default: the native one in dist]",
+    help="FMU to run.  [default: the native one, in dist or installed]",
 )
 
 _settings_option = click.option(

@@ -50,6 +50,8 @@ STEADY_NOISE = 0.01
 that up to which it is found."""
 SAME = 1e-6
 """Relative difference of sums of squares up to which two starts have found the same minimum."""
+APART = 0.01
+"""Distance of two minima, in units of a parameter, from which they are two solutions."""
 WIDE = 1e4
 """Factor beside the start to which a positive parameter without other bounds is confined."""
 MET = 1e-4
@@ -291,11 +293,10 @@ def fit(
         minima: list[Minimum] = run("searching", tasks)
     except FmuError as error:
         raise FmuError("; ".join([str(error), *notes])) from error
-    best = min(minima, key=lambda one: one.sum_of_squares)
-    bound = best.sum_of_squares * (1.0 + SAME) + 1e-16 * count
-    agreeing = sum(one.sum_of_squares <= bound for one in minima)
-    evaluations = sum(one.evaluations for one in minima)
     spare = count - len(free)
+    best, *others = _solutions(minima, free, 1e-16 * count if spare else MET**2 * count)
+    agreeing = sum(_distance(one, best) < APART for one in minima)
+    evaluations = sum(one.evaluations for one in minima)
     known = measurements.knows_deviations
     for _ in range(REWEIGHTINGS if spare and not known else 0):
         noise = noise_of_series(problem, best)
@@ -346,6 +347,8 @@ def fit(
         notes += friction_notes(device)
     if spare:
         notes += misfit_notes(measurements, predicted, len(free))
+    if not directions:
+        notes += [_as_good(one, free) for one in others]
     return Fit(
         tuple(fitted),
         device,
@@ -363,6 +366,33 @@ def fit(
         tuple(missed),
         tuple(notes),
     )
+
+
+def _solutions(minima: Sequence[Minimum], free: Sequence[Free], rounding: float) -> list[Minimum]:
+    """Return the different minima of least squares, up to a `rounding` of them, from the start on.
+
+    The nearest to the values that the device has comes first.
+    """
+    least = min(minima, key=lambda one: one.sum_of_squares)
+    bound = least.sum_of_squares * (1.0 + SAME) + rounding
+    found = [least]
+    for one in minima:
+        if one.sum_of_squares <= bound and min(_distance(one, other) for other in found) >= APART:
+            found.append(one)
+    start = np.array([one.internal(one.start) for one in free])
+    return sorted(found, key=lambda one: float(np.abs(one.internal - start).max()))
+
+
+def _distance(one: Minimum, other: Minimum) -> float:
+    return float(np.abs(one.internal - other.internal).max())
+
+
+def _as_good(other: Minimum, free: Sequence[Free]) -> str:
+    found = (
+        f"{one.name} = {one.value(value):.6g}"
+        for one, value in zip(free, other.internal.tolist(), strict=True)
+    )
+    return f"the data are met as well by {', '.join(found)}; bounds decide"
 
 
 def _starts(free: Sequence[Free], count: int) -> list[Array]:

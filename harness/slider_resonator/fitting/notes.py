@@ -19,12 +19,12 @@ ROUNDING = 1e-6
 """Residual, in root mean squares of the quantity, up to which it may be rounding of the data."""
 MAX_NAMED = 5
 """Number of outliers that are named."""
-HIGH_FRICTION = 1.5
-"""Coefficient that dry friction seldom exceeds."""
+LOW_FRICTION, HIGH_FRICTION = 0.01, 1.5
+"""Coefficients between which dry friction mostly is."""
 
 
 def data_notes(measurements: Measurements, parameters: Mapping[str, float]) -> list[str]:
-    """Return what was done in reading, and numbers that may be meant in Hz or degrees.
+    """Return what was done in reading, numbers that may be meant in Hz or degrees, and no phase.
 
     `parameters` are those of the device.
     """
@@ -33,17 +33,23 @@ def data_notes(measurements: Measurements, parameters: Mapping[str, float]) -> l
         where = f'"{name} [{"deg" if name == "phase" else "Hz"}]" as heading'
         for slip in possible_slips({name: value}, parameters, where):
             slips.setdefault((source, name), f"{source}: {slip}")
-    return [*measurements.notes, *slips.values()]
+    silent = {one.source for one in measurements.points if "phase" not in one.values}
+    unsaid = [
+        f"{source}: no phase is given, and 0 rad assumed: a column or a set value can say it"
+        for source in sorted(silent)
+    ]
+    return [*measurements.notes, *slips.values(), *unsaid]
 
 
 def friction_notes(fitted: Device) -> list[str]:
-    """Return a note where friction is higher than in hardly any device."""
-    if fitted.friction_coefficient <= HIGH_FRICTION:
+    """Return a note where friction is as in hardly any device."""
+    coefficient = fitted.friction_coefficient
+    if LOW_FRICTION <= coefficient <= HIGH_FRICTION:
         return []
+    usual = f"above {HIGH_FRICTION:g}" if coefficient > 1.0 else f"below {LOW_FRICTION:g}"
     return [
-        f"friction_coefficient = {fitted.friction_coefficient:.3g} is seldom above "
-        f"{HIGH_FRICTION:g}: check normal_preload, the units, and "
-        f"friction_faces = {fitted.friction_faces}"
+        f"friction_coefficient = {coefficient:.3g} is seldom {usual}: check normal_preload, the "
+        f"units, and friction_faces = {fitted.friction_faces}"
     ]
 
 

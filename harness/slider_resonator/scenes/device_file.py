@@ -138,6 +138,8 @@ def _no_parameter(name: str) -> str:
 
 
 FREQUENCIES = ("drive_frequency", "resonator_frequency")
+FASTEST = 50.0
+"""Velocity (m/s) of vibration that no drive reaches."""
 IN_ANOTHER_UNIT = (*FREQUENCIES, "phase")
 """What is often meant in Hz or degrees."""
 
@@ -145,11 +147,12 @@ IN_ANOTHER_UNIT = (*FREQUENCIES, "phase")
 def possible_slips(
     table: Mapping[str, Any], beside: Mapping[str, float] | None = None, where: str = ""
 ) -> list[str]:
-    """Return a sentence for each plain number that may be meant in Hz or degrees.
+    """Return a sentence for each plain number that may be meant in Hz, degrees or um.
 
-    In Hz may be round numbers, and a frequency that is 2 pi times or a 2 pi-th of the other, which
-    is that of `beside` if the table does not have it; in degrees a phase of more than a turn.
-    `where` says what to write, if not in [device].
+    In Hz may be round numbers, what is beside one, and a frequency that is 2 pi times or a 2 pi-th
+    of the other, which is that of `beside` if the table does not have it; in degrees a phase of
+    more than a turn; in um an amplitude that is faster than `FASTEST`. `where` says what to write,
+    if not in [device].
     """
     slips = []
     given, values = {}, []
@@ -160,13 +163,23 @@ def possible_slips(
             given[name] = values[-1]
     ratio = values[0] / values[1]
     apart = any(abs(r / (2.0 * pi) - 1.0) < 0.03 for r in (ratio, 1.0 / ratio))
+    is_round = any(
+        value != VARIABLES[name].start and float(f"{value:.2g}") == value
+        for name, value in given.items()
+    )
     for name, value in given.items():
-        is_round = value != VARIABLES[name].start and float(f"{value:.2g}") == value
-        if value > 0.0 and (is_round or apart):
+        if value > 0.0 and value != VARIABLES[name].start and (is_round or apart):
             slips.append(
                 f"{name} = {value:g} is in rad/s, which is {with_unit(name, value)}; "
                 f"if {value:g} Hz is meant, write " + (where or f'{name} = "{value:g} Hz"')
             )
+    amplitude = table.get("base_amplitude")
+    if isinstance(amplitude, float | int) and amplitude * values[0] > FASTEST:
+        slips.append(
+            f"base_amplitude = {amplitude:g} is in m, which at the drive's frequency is "
+            f"{amplitude * values[0]:.3g} m/s; if {amplitude:g} um is meant, write "
+            f'base_amplitude = "{amplitude:g} um"'
+        )
     phase = table.get("phase")
     if isinstance(phase, float | int) and abs(phase) > 2.0 * pi:
         slips.append(

@@ -212,7 +212,7 @@ class Scene(Shown):
             changed |= {"stop_time": stop_time, "drive_periods": None}
         if step_size is not None:
             changed |= {"step_size": step_size, "steps_per_period": None, "step_sizes": None}
-        return replace(self, source=f"scene {self.name}")._with_run(**changed)
+        return replace(self, source=self.name)._with_run(**changed)
 
     @property
     def interpolates(self) -> bool:
@@ -337,8 +337,18 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
         files=tuple(files),
         tuning=tuning,
         beside=beside,
-        slips=read.slips if isinstance(name, str) else possible_slips(stated.get("device", {})),
+        slips=read.slips if isinstance(name, str) else possible_slips(_plain_numbers(stated)),
     )
+
+
+def _plain_numbers(stated: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a scene says of its device, and its largest phase, as they are written."""
+    phase = stated.get("inputs", {}).get("phase")
+    if isinstance(phase, Mapping):
+        points = phase.get("steps") or phase.get("ramp") or ()
+        numbers = [value for _, value in points if isinstance(value, float | int)]
+        phase = max(numbers, key=abs, default=None)
+    return {**stated.get("device", {}), "phase": phase}
 
 
 def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:

@@ -263,6 +263,6 @@ def grid_from(
     )
     is_grid = not table.parallel and table.random is None
     plain = {**stated.get("device", {}), **stated.get("fixed", {})}
-    plain |= {name: max(columns[name]) for name in table.grid}
+    plain |= {name: max(values, key=abs) for name, values in columns.items()}
     slips = possible_slips(plain, own)
     return Sweep(table.title, task, points, is_grid, table.logarithmic, slips)

@@ -136,7 +136,7 @@ def run_sweep(
             try:
                 check_nothing_lost(out, before, sweep.task, sweep.points, new)
             except HarnessError:
-                if not rows:
+                if not found:
                     journal.remove()  # which would keep the sweep that made `out` from going on
                 raise
             if new:
@@ -148,6 +148,7 @@ def run_sweep(
             points = f"{len(rows)} of {len(sweep.points)} points"
             return f"{points} are kept in {journal.path}; the same command goes on from there"
 
+        check_nothing_lost(out, before, sweep.task, sweep.points, [*rows.values()])
         keep([])
         if left:
             processes: AbstractContextManager[Processes]

@@ -59,7 +59,7 @@ def replaceable(path: Path, task: Task, points: Sequence[tuple[float, ...]]) -> 
     try:
         columns = _read(path)
         found = [[float(value) for value in columns[name]] for name in ("point", *task.names)]
-    except (OSError, ValueError, KeyError, csv.Error):
+    except (OSError, ValueError, LookupError, TypeError, NotImplementedError, csv.Error):
         found = []
     if not found or list(zip(*found, strict=True)) != [
         (float(number), *point) for number, point in enumerate(points)

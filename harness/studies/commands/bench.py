@@ -24,7 +24,7 @@ from studies.hosts.step_cost import StepCost, measure_steps, short_step_ratio
 
 
 @click.command("bench")
-@other_fmu_argument("the native one in dist")
+@other_fmu_argument("the native one, in dist or installed")
 @click.option(
     "--repeats",
     type=click.IntRange(min=1),

@@ -172,6 +172,28 @@ def test_columns_of_a_table_are_dropped_only_when_asked(native_fmu: Path, tmp_pa
     assert b"blocking_force" not in out.read_bytes()
 
 
+def test_points_kept_from_before_do_not_replace_other_results(
+    grid: Path, native_fmu: Path, tmp_path: Path
+) -> None:
+    sweep, out = read_grid(grid), tmp_path / "a.csv"
+    run_sweep(sweep, native_fmu, out, workers=1)
+    names, first, *rest = out.read_text().splitlines()
+    cells = first.split(",")
+    cells[names.split(",").index("steady_velocity")] = "0.5"
+    own = "\n".join([names, ",".join(cells), *rest, ""])
+    out.write_text(own)
+
+    def interrupt(label: str, share: float) -> None:
+        if share >= 0.5:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run_sweep(sweep, native_fmu, out, workers=1, overwrite=True, progress=interrupt)
+    with pytest.raises(HarnessError, match=r"must be a new file, or --overwrite"):
+        run_sweep(sweep, native_fmu, out, workers=1)
+    assert out.read_text() == own
+
+
 @pytest.mark.slow
 def test_a_damaged_entry_costs_its_points_only(
     grid: Path, native_fmu: Path, tmp_path: Path

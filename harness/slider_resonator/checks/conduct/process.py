@@ -14,6 +14,8 @@ from slider_resonator.fmu.instance import Instance
 
 STEP = 1.1e-3
 """Size of a step, s."""
+STREAMS = {1: "output", 2: "error"}
+"""Standard streams. An FMU may print on the latter when it is instantiated, as some do."""
 SHOWN = 80
 """Bytes that are shown of what an FMU prints."""
 HOST_SIGNALS = (signal.SIGINT, signal.SIGTERM)
@@ -32,18 +34,28 @@ def process_faults(instance: Instance) -> Iterator[str]:
     """
     if os.name != "posix":
         return
-    with _as_in_a_new_process(), _printed() as printed:
+    for stream, name in STREAMS.items():
+        try:
+            os.fstat(stream)
+        except OSError:
+            yield f"standard {name} is closed"
+            return
+    instance.renew()
+    with _as_in_a_new_process():
         before = _shared()
         with instance.explained():
-            instance.renew()
-            instance.start({})
-            instance.step_by(STEP)
-            instance.terminate()
+            with _printed(1) as at_first:
+                instance.renew()
+            with _printed(*STREAMS) as in_run:
+                instance.start({})
+                instance.step_by(STEP)
+                instance.terminate()
+        instance.renew()  # an instance may keep a file open
         after = _shared()
     for what, value in before.items():
         if after[what] != value:
             yield f"an instance and its run change {what}: {value!r} becomes {after[what]!r}"
-    for text in printed:
+    for text in at_first + in_run:
         yield f"an instance and its run print {text!r} where the host prints"
 
 
@@ -71,13 +83,13 @@ def _as_in_a_new_process() -> Iterator[None]:
 
 
 @contextmanager
-def _printed() -> Iterator[list[str]]:
-    """Yield the beginnings of what the block prints on standard output and error, at its end."""
+def _printed(*streams: int) -> Iterator[list[str]]:
+    """Yield the beginnings of what the block prints on standard streams, at its end."""
     library = ctypes.CDLL(None)
     texts: list[str] = []
     with ExitStack() as stack:
         files = []
-        for stream in (1, 2):
+        for stream in streams:
             files.append(stack.enter_context(TemporaryFile()))
             kept = os.dup(stream)
             stack.callback(os.close, kept)

@@ -13,7 +13,7 @@ from typing import Any
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Fatal
 
-from slider_resonator.checks.conduct.findings import adding_refusal, other_value
+from slider_resonator.checks.conduct.findings import adding_refusal, is_refused, other_value
 from slider_resonator.checks.conduct.output_derivatives import status_faults
 from slider_resonator.checks.conduct.replays import Replay
 from slider_resonator.checks.fmu_side import FmuSide
@@ -82,11 +82,15 @@ JUMPS = (-STEP, -1e-7, 1e-7, 1e-5, STEP, 1e9, math.nan, math.inf)
 
 @dataclass
 class Trial:
-    """Calls that must be refused, and what was found wrong with them."""
+    """Calls that must be refused, and what was found wrong with them.
+
+    `reads`: whether the FMU gives values now, which it need not before initialization mode.
+    """
 
     instance: Instance
     faults: list[str]
     outputs: Sequence[str] = ()
+    reads: bool = True
 
     def refuses(
         self,
@@ -125,6 +129,8 @@ class Trial:
             self.faults.append(f"{what} is accepted")
 
     def _values(self) -> Mapping[str, float]:
+        if not self.reads:
+            return {}
         names = [name for name, v in VARIABLES.items() if v.causality != "output"]
         known = [n for n in names if n in self.instance.fmu.variables]
         return self.instance.read([*known, *self.outputs])
@@ -154,8 +160,10 @@ class Trial:
         what = f"{last.name} = {bad!r} after {len(others)} good values {when}"
         self.refuses(what, partial(self._set, {**good, last: bad}), last.name)
         references = [self.instance.fmu.reference(v.name) for v in others]
-        output = self.instance.fmu.reference("position")
-        for name, wrong in (("an unknown variable", UNKNOWN), ("an output", output)):
+        wrongs = {"an unknown variable": UNKNOWN}
+        if last.kind == "Real":
+            wrongs["an output"] = self.instance.fmu.reference("position")
+        for name, wrong in wrongs.items():
             what = f"{name} after {len(others)} good values {when}"
             values = [*good.values(), 0.5]
             self.refuses(what, partial(self._write, last.kind, [*references, wrong], values))
@@ -212,14 +220,15 @@ class Trial:
             types |= {"Boolean", "String"}
         good: dict[str, Any] = {"Real": 0.5, "Integer": 1, "Boolean": True, "String": "1"}
         references = {v.name: self.instance.fmu.reference(v.name) for v in present}
-        kinds = {v.name: v.kind for v in present}
+        # A reference belongs to one variable of each type.
+        valid = {(v.kind, references[v.name]) for v in present}
         last = max(variable.valueReference for variable in self.instance.fmu.variables.values())
         unknown = {"the reference after the last": last + 1, "an unknown reference": UNKNOWN}
         explained = explains(self.instance)
         for kind in sorted(types):
             read, write = getattr(slave, f"get{kind}"), getattr(slave, f"set{kind}")
             for what, reference in {**references, **unknown}.items():
-                if kinds.get(what) != kind:
+                if (kind, reference) not in valid:
                     told = (reference,) if explained and what in unknown else ()
                     attempt = partial(write, [reference], [good[kind]])
                     self.refuses(f"reading {what} as {kind}", partial(read, [reference]), "", told)
@@ -299,6 +308,7 @@ def _try_all(trial: Trial, running: Running, start: Mapping[str, float], start_t
     instance.set_up(running.stop_time, start_time=start_time)
     instance.set(start)
     instance.call("fmi2EnterInitializationMode")
+    trial.reads = True
     trial.outputs = [name for name in SMOOTH if name in instance.fmu.variables]
     trial.refuses_values("in initialisation mode", settable)
     trial.refuses_calls("in initialisation mode")
@@ -319,6 +329,7 @@ def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
     instance = trial.instance
     instance.set_up()
     instance.call("fmi2Reset")
+    trial.reads = not is_refused(partial(instance.value, "load"))
     for what, arguments in EXPERIMENTS.items():
         trial.refuses(what, partial(_set_up_experiment, instance, arguments))
     with suppress(FMICallException):  # an FMU may ask for another experiment first

@@ -127,14 +127,15 @@ class Supervised:
 
 
 def _kill_marked(folder: Path) -> None:
-    """Kill all processes that have inherited `folder` as theirs in the environment, by /proc."""
+    """Kill all processes whose environment has `folder`, or one in it, as theirs, by /proc."""
     mark = os.fsencode(f"{FOLDER}={folder}")
     deadline = time.monotonic() + MAX_ENDING
     while time.monotonic() < deadline:
         found = []
         for environment in Path("/proc").glob("[0-9]*/environ"):
             with suppress(OSError):
-                if mark in environment.read_bytes().split(b"\0"):
+                entries = environment.read_bytes().split(b"\0")
+                if any(one == mark or one.startswith(mark + b"/") for one in entries):
                     found.append(int(environment.parent.name))
         if not found:
             return
