@@ -165,6 +165,9 @@ bool interpolated_step(SlowPath *path, double *h, PathStep *result) {
 #define STEP_TOLERANCE 3.0
 #define OVERESTIMATE 5.0
 
+/* What the error of Hermite's rule counts: it mostly is one to two times the estimate. */
+#define HERMITE_SHARE 0.5
+
 /* The step that is expected to hold, over the time in which rates change, where all that the slow velocity still changes by
  * is the tolerance: what holds in most devices. */
 #define EXPECTED_STEP 3.3
@@ -211,7 +214,8 @@ bool embedded_step(SlowPath *path, double *h, PathStep *result) {
     SlowStep step;
     *h = floor(fmin(*h, fmin(in_beat, to_reach)));
     bool found = *h >= SHORTEST_STEP && runge_kutta_step(rate_at, path, &from, *h, &step);
-    double estimate = found ? fmax(step.error, hermite_error(here, &path->last, *h)) : INFINITY;
+    double estimate = found ? fmax(step.error, HERMITE_SHARE * hermite_error(here, &path->last, *h))
+                            : INFINITY;
     if (!isfinite(estimate)) {
         *h *= SHORTER;
         return false;

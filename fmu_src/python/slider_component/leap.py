@@ -38,6 +38,9 @@ FAST_SHARE = 0.3
 ERROR_SHARE = 0.3
 """Error of the solver's result, of order 5, over its estimate, of order 4: 0.2 and a margin."""
 
+HERMITE_SHARE = 0.5
+"""What the error of Hermite's rule counts: it mostly is one to two times that estimate."""
+
 FIRST_STEP = 3.0
 """First step of the solver over the time in which rates change, where V changes by a tolerance."""
 
@@ -240,7 +243,8 @@ class SlowMotion:
                     return left, to, to.error
             self.last = here
         to = dormand_prince(self.rates, n, here.velocity, h, first)
-        return h, to, ERROR_SHARE * max(to.error, _hermite_error(here, self.last, h))
+        missed = HERMITE_SHARE * _hermite_error(here, self.last, h)
+        return h, to, ERROR_SHARE * max(to.error, missed)
 
 
 class Leaping(Resolved):
