@@ -109,7 +109,7 @@ def test_all_written_files_and_points_without_answer_are_reported(
     assert result.exit_code == 0, result.output
     assert result.stdout.splitlines() == [
         "points     2",
-        "no answer  to a measure at 1 point",
+        "no answer  to a measure at 1 point: load_above_friction (1)",
         f"written    {out}, {plot}, {html}",
     ]
 
