@@ -149,7 +149,7 @@ class Choice(Shown, Tabular):
     def applied_to(self, scene: Scene) -> Scene:
         """Return the scene with what was chosen."""
         chosen = scene.with_values(self.parameters)
-        return chosen if self.step is None else chosen.with_step(self.step)
+        return chosen if self.step is None else chosen.timed(step_size=self.step)
 
     def sentences(self) -> list[str]:
         """Return what was chosen, without the needs, for people."""

@@ -110,7 +110,7 @@ class Probe:
     def _run(self, candidate: Candidate, step: float, stop: float) -> tuple[Record, float]:
         if candidate.model.fidelity > 0:
             self._periods += stop / self.scales.period
-        scene = _cut(self.scene, stop).with_step(step)
+        scene = _cut(self.scene, stop).timed(step_size=step)
         schedule = replace(scene.schedule(), start_time=0.0, reads_twice=False)
         return timed_run(self.instance, {**scene.parameters, **candidate.parameters}, schedule)
 
@@ -159,7 +159,7 @@ class Probe:
         points = np.array([stop])
         if SIGNAL_NEEDS & set(self.run_needs):
             own = scene.step_size or stop
-            points = scene.with_step(own * self._together(own)).schedule().times
+            points = scene.timed(step_size=own * self._together(own)).schedule().times
         assert scene.need is not None
         needs = {name: scene.need.needs[name] for name in self.run_needs}
         grid, law = self._grid(self._finest, stop), scene.device.friction_law

@@ -157,7 +157,7 @@ def run_command(
     read = find_scene(scene, settings, device)
     options.note_slips_of(read, scene, device)
     if stop_time is not None or step_size is not None:
-        read = read.timed(stop_time, step_size)
+        read = read.timed(stop_time=stop_time, step_size=step_size)
     if interpolate is not None:
         read = read.interpolating(interpolate)
     files = {f"the scene's file {file}": file for file in read.files}

@@ -195,11 +195,7 @@ class Scene(Shown):
         }
         return replace(self.with_values(device), parameters={**kept, **device})
 
-    def with_step(self, step_size: float) -> "Scene":
-        """Return the scene, which must have a run, with communication steps of a size in s."""
-        return self._with_run(step_size=step_size, steps_per_period=None, step_sizes=None)
-
-    def timed(self, stop_time: float | None, step_size: float | None) -> "Scene":
+    def timed(self, *, stop_time: float | None = None, step_size: float | None = None) -> "Scene":
         """Return the scene with a run of another length, or in other steps, in s; None keeps them.
 
         Messages about it name the scene, as its file does not say so.
@@ -212,7 +208,7 @@ class Scene(Shown):
             changed |= {"stop_time": stop_time, "drive_periods": None}
         if step_size is not None:
             changed |= {"step_size": step_size, "steps_per_period": None, "step_sizes": None}
-        return replace(self, source=self.name)._with_run(**changed)
+        return replace(self, source=self.name, run=self.run.model_copy(update=changed))
 
     @property
     def interpolates(self) -> bool:

@@ -21,7 +21,7 @@ from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Drawable, Shown, Tabular
 from slider_resonator.sweeping.grid import Sweep
-from slider_resonator.sweeping.measures import Row, unit
+from slider_resonator.sweeping.measures import SEARCHED, Row, unit
 from slider_resonator.sweeping.running import run_points
 from slider_resonator.sweeping.table import (
     Columns,
@@ -85,8 +85,8 @@ class SweepResult(Shown, Tabular, Drawable):
     def _reasons(self) -> list[str]:
         """Return the statuses of measures that have no value, with how often each is."""
         statuses: Counter[str] = Counter()
-        for name in self.sweep.task.measures:
-            pairs = zip(self.columns[name], self.columns.get(f"{name}_status", ()), strict=False)
+        for name in SEARCHED.keys() & self.sweep.task.measures:
+            pairs = zip(self.columns[name], self.columns[f"{name}_status"], strict=True)
             statuses.update(status for value, status in pairs if value is None and status)
         return [f"{status} ({count})" for status, count in statuses.most_common()]
 

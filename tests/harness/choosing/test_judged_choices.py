@@ -96,7 +96,7 @@ class Judge:
 
     def _run(self, candidate: Candidate) -> tuple[Record, float]:
         assert candidate.step is not None
-        own = self.scene.with_step(candidate.step).schedule()
+        own = self.scene.timed(step_size=candidate.step).schedule()
         values = {**self.scene.parameters, **candidate.parameters}
         return timed_run(self.instance, values, own)
 
@@ -125,7 +125,7 @@ class Judge:
         Lines that the FMU cannot follow, and those of parameters, are held at their means.
         """
         if step not in self._true_records:
-            own = self.scene.with_step(step).schedule().times
+            own = self.scene.timed(step_size=step).schedule().times
             pieces = np.arange(0.0, own[-1], 10_000.0 * self.scene.drive_period)
             points = np.unique(np.concatenate([own, self.scene.schedule().times, pieces]))
             fine = max(step / FINE_STEPS, float(own[-1]) / MAX_POINTS)

@@ -172,6 +172,20 @@ def test_columns_of_a_table_are_dropped_only_when_asked(native_fmu: Path, tmp_pa
     assert b"blocking_force" not in out.read_bytes()
 
 
+@pytest.mark.parametrize("damage", ["", "0", "0,1.0\n", "a,b\n1,2,3\n"])
+def test_a_damaged_table_is_named_and_stays(
+    grid: Path, native_fmu: Path, tmp_path: Path, damage: str
+) -> None:
+    sweep, out = read_grid(grid), tmp_path / "a.csv"
+    run_sweep(sweep, native_fmu, out, workers=1)
+    table = out.read_text()
+    for text in (damage, table + "\n" + damage, table.rsplit(",", 2)[0] + damage):
+        out.write_text(text)
+        with pytest.raises(HarnessError, match=r"a\.csv: (is not a table of|has )"):
+            run_sweep(sweep, native_fmu, out, workers=1)
+        assert out.read_text() == text
+
+
 def test_points_kept_from_before_do_not_replace_other_results(
     grid: Path, native_fmu: Path, tmp_path: Path
 ) -> None:
