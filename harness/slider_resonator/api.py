@@ -36,10 +36,11 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
-from slider_resonator.fitting.fit import STARTS, Fit, isolated
+from slider_resonator.fitting.fit import STARTS, isolated
 from slider_resonator.fitting.fit import fit as fit_parameters
 from slider_resonator.fitting.measurements import Measurements
 from slider_resonator.fitting.reading import measurements_from, read_measurements
+from slider_resonator.fitting.result import Fit
 from slider_resonator.fmu.finished import fmu_path
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.isolation.tasks import available_cores

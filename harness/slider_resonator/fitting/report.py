@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from slider_resonator.fitting.fit import Fit, FittedParameter
+from slider_resonator.fitting.result import Fit, FittedParameter
 from slider_resonator.fmu.provenance import Provenance, provenance_html
 from slider_resonator.output.atomic import write_csv, write_text
 from slider_resonator.output.html_page import rendered, write_page

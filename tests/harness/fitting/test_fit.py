@@ -12,11 +12,12 @@ from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import HarnessError
 from slider_resonator.fitting.estimation import Problem, minimise, predict
-from slider_resonator.fitting.fit import Fit, fit, free_parameters
+from slider_resonator.fitting.fit import fit, free_parameters
 from slider_resonator.fitting.measurements import Measurements, Point, Run, datasheet
 from slider_resonator.fitting.notes import data_notes
 from slider_resonator.fitting.reading import measurements_from
 from slider_resonator.fitting.report import parameter_table
+from slider_resonator.fitting.result import Fit
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import Task
 

@@ -1,0 +1,151 @@
+"""What a fit found: estimates with their intervals, and what there is to say of them."""
+
+from dataclasses import dataclass
+from math import exp, isfinite
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from slider_resonator.arrays import Array
+from slider_resonator.device.device import Device
+from slider_resonator.fitting.estimation import OpenDirection
+from slider_resonator.fitting.measurements import Measurements
+from slider_resonator.output.readable import number_of
+from slider_resonator.output.shown import Drawable, Shown, Tabular
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True)
+class FittedParameter:
+    """An estimate in SI units with its standard deviation and 95 % profile interval.
+
+    They are None where the data have no numbers to spare for them, or leave the parameter open. An
+    end alone is None where the interval is unbounded on that side.
+    """
+
+    name: str
+    unit: str
+    start: float
+    value: float
+    deviation: float | None
+    low: float | None
+    high: float | None
+    is_open: bool
+    at_bound: bool = False
+
+    def interval(self, digits: int = 6) -> tuple[str, str]:
+        """Return both ends as text: "0.1" and "0.2", "above 0.1" and "", or two empty ones."""
+        if self.deviation is None:
+            return "", ""
+        if self.low is None and self.high is None:
+            return "unbounded", ""
+        if self.high is None:
+            return f"above {self.low:.{digits}g}", ""
+        if self.low is None:
+            return "", f"below {self.high:.{digits}g}"
+        return f"{self.low:.{digits}g}", f"{self.high:.{digits}g}"
+
+
+@dataclass(frozen=True, repr=False)
+class Fit(Shown, Tabular, Drawable):
+    """The result of a fit.
+
+    `residuals` are predicted minus measured over the standard deviation, `scale` the standard
+    deviation of these as the fit shows it, 1 if all is as stated, None with as many parameters as
+    numbers. `correlation` is that of the estimates, (p, p). `starts_agreeing` of `starts` led to
+    the same minimum. `unmet` are the indices of numbers that as many parameters do not reach,
+    `notes` what is odd about the data and their residuals.
+    """
+
+    parameters: tuple[FittedParameter, ...]
+    device: Device
+    open_directions: tuple[OpenDirection, ...]
+    correlation: Array
+    measured: Array
+    predicted: Array
+    residuals: Array
+    scale: float | None
+    starts: int
+    starts_agreeing: int
+    evaluations: int
+    measurements: Measurements
+    unmet: tuple[int, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def table(self) -> dict[str, list[Any]]:
+        """Return the estimates in columns, those that the data leave open as None."""
+        columns: dict[str, list[Any]] = {
+            name: [getattr(one, name) for one in self.parameters]
+            for name in ("name", "unit", "start", "deviation", "low", "high")
+        }
+        values = [None if one.is_open else one.value for one in self.parameters]
+        return {"parameter": columns.pop("name"), "value": values, **columns}
+
+    def figure(self) -> "Figure":
+        """Draw data and fit, with the residuals below."""
+        # Imported here: drawing takes longer to load than many fits to run.
+        from slider_resonator.fitting.picture import fit_figure
+
+        numbers = np.array([self.measured, self.predicted, self.residuals])
+        return fit_figure(self.measurements, numbers)
+
+    def describe(self) -> list[str]:
+        """Return the estimates with their intervals, and what there is to say of them."""
+        lines = []
+        for one in self.parameters:
+            found = "left open by the data" if one.is_open else f"{one.value:.6g} {one.unit}"
+            low, high = one.interval()
+            if low and high:
+                found += f", 95 % from {low} to {high}"
+            elif low or high:
+                found += f", 95 % {low}{high}"
+            lines.append(f"{one.name:<23} {found}")
+        return [*lines, *self.sentences()]
+
+    def sentences(self) -> list[str]:
+        """Return what there is to say beside the estimates."""
+        lines = [
+            f"{number_of(len(self.measured), 'number')}, "
+            f"{number_of(len(self.parameters), 'free parameter')}",
+            f"friction on {number_of(self.device.friction_faces, 'face')} (friction_faces)",
+        ]
+        if self.scale is None:
+            solved = "not solved" if self.unmet else "solved, without intervals"
+            lines.append(f"as many parameters as numbers: {solved}")
+        elif self.measurements.knows_deviations:
+            lines.append(
+                f"residuals have {self.scale:.3g} times the stated standard deviation"
+                + (": the model or the stated deviations do not fit" if self.scale > 2.0 else "")
+            )
+        shown = self.measurements.shown
+        for index in self.unmet:
+            name, source, row = self.measurements.places[index]
+            asked, reached = shown(name, self.measured[index]), self.predicted[index]
+            found = f"the nearest found is {shown(name, reached)}"
+            nearest = found if isfinite(reached) else "but no steady motion was found"
+            lines.append(f"not met: {name} ({source}, {row}) must be {asked}, {nearest}")
+        quantities = np.array(self.measurements.quantities)
+        for quantity in dict.fromkeys(quantities.tolist()):
+            seen = np.isfinite(self.predicted) & (quantities == quantity)
+            if seen.any():
+                rms = float(np.sqrt(np.mean((self.predicted - self.measured)[seen] ** 2)))
+                lines.append(f"{quantity} is off by {shown(quantity, rms)} (rms)")
+        missing = int(np.count_nonzero(~np.isfinite(self.predicted)))
+        if missing:
+            lines.append(f"at {missing} of the points the fitted device has no steady motion")
+        for one in self.open_directions:
+            names = one.factors
+            parts = ", ".join(f"{name} x {exp(0.1 * part):.3g}" for name, part in names.items())
+            reach = "hardly" if isfinite(one.spread) else "do not"
+            told = "determine" if len(names) == 1 else "tell apart"
+            alone = "is" if len(names) == 1 else "together are"
+            lines.append(
+                f"the data {reach} {told} {' and '.join(names)}: {parts} {alone} hardly seen"
+            )
+        lines.append(f"{self.starts_agreeing} of {self.starts} starts led to this minimum")
+        at_bound = [one.name for one in self.parameters if one.at_bound]
+        if at_bound:
+            lines.append(f"at a bound: {', '.join(at_bound)}")
+        return [*lines, *(f"note: {note}" for note in self.notes)]
