@@ -235,6 +235,35 @@ def test_a_frequency_in_hertz_is_noted(instance: Instance) -> None:
     assert not data_notes(measurements_from(columns), {})
 
 
+def test_all_solutions_are_named_and_the_nearest_to_the_start_is_taken(instance: Instance) -> None:
+    """The velocity has a peak over the damping: it is the same on both sides."""
+    device = {
+        "slider_mass": 0.05,
+        "resonator_mass": 0.005,
+        "resonator_frequency": 2e4 * np.pi * 2.0,
+        "drive_frequency": 1.98e4 * np.pi * 2.0,
+        "damping_ratio": 0.02,
+        "normal_preload": 3.0,
+        "normal_amplitude": 3.0,
+        "base_amplitude": 1e-6,
+        "friction_coefficient": 0.25,
+        "friction_faces": 1.0,
+    }
+    data = measurements_from({"phase [deg]": [30.0], "velocity [mm/s]": [55.0]})
+    found = fitted(instance, data, ["damping_ratio"], parameters=device)
+    (damping,) = found.parameters
+    assert damping.value == pytest.approx(0.0166, abs=1e-4)
+    (note,) = found.notes
+    assert "are met as well by damping_ratio = 0.0318838" in note
+    other = fitted(instance, data, ["damping_ratio"], parameters={**device, "damping_ratio": 0.04})
+    assert other.parameters[0].value == pytest.approx(0.0318838, rel=1e-5)
+
+
+def test_a_phase_that_is_not_given_is_noted() -> None:
+    (note,) = data_notes(measurements_from({"velocity": [0.1, 0.2]}), {})
+    assert "no phase is given, and 0 rad assumed" in note
+
+
 def test_a_column_that_is_free_is_refused(instance: Instance) -> None:
     data = measurements_from({"damping_ratio": [0.1, 0.2], "velocity": [0.1, 0.1]})
     with pytest.raises(HarnessError, match="damping_ratio is free, and a column of data; must be"):
