@@ -139,8 +139,8 @@ def _candidate(
     except HarnessError:
         instance.recreate()
         return None
-    parameters = {name: value for name, value in device.items() if name not in INPUTS}
-    displacement, swing = _vibration(Device.from_mapping(parameters))
+    parameters = tuple(one for one in device.items() if one[0] not in INPUTS)
+    displacement, swing = _vibration(parameters)
     drive = device["drive_frequency"] * (1.0 + device.get("frequency_deviation", 0.0))
     size = (abs(swing), abs(displacement), abs(displacement) * drive)
     if valid != 1.0 or 0.0 in size or not all(map(isfinite, (velocity, force, *size))):
@@ -160,11 +160,12 @@ def _candidate(
 
 
 @lru_cache  # points of a sweep often differ by inputs alone
-def _vibration(device: Device) -> tuple[complex, complex]:
+def _vibration(parameters: tuple[tuple[str, float], ...]) -> tuple[complex, complex]:
     """Return the complex amplitudes of resonator displacement (m) and slider velocity (m/s).
 
     Those of the steady vibration without friction; 0 where there is none.
     """
+    device = Device.from_mapping(dict(parameters))
     try:
         displacement, force = steady_vibration(device)
         return displacement, force / (1j * device.drive_frequency * device.total_mass)
