@@ -27,7 +27,7 @@ from slider_resonator.fitting.estimation import (
     profile_end,
 )
 from slider_resonator.fitting.measurements import Measurements
-from slider_resonator.fitting.notes import data_notes, friction_notes, misfit_notes
+from slider_resonator.fitting.notes import data_notes, friction_notes, misfit_notes, unit_notes
 from slider_resonator.fitting.result import Fit, FittedParameter
 from slider_resonator.fmu.isolation.process import Task
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks
@@ -206,6 +206,7 @@ def fit(
     device = Device.from_mapping(best_values)
     if any(one.name == "friction_coefficient" and not one.is_open for one in fitted):
         notes += friction_notes(device)
+    notes += unit_notes(measurements, predicted)
     if spare:
         notes += misfit_notes(measurements, predicted, len(free))
     if not directions:

@@ -8,6 +8,7 @@ from scipy.special import ndtr
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
+from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fitting.measurements import Measurements
 from slider_resonator.scenes.device_file import possible_slips
 
@@ -19,6 +20,8 @@ ROUNDING = 1e-6
 """Residual, in root mean squares of the quantity, up to which it may be rounding of the data."""
 MAX_NAMED = 5
 """Number of outliers that are named."""
+MISSED = 0.5
+"""Root mean square of the residuals over that of the quantity from which its unit is in doubt."""
 LOW_FRICTION, HIGH_FRICTION = 0.01, 1.5
 """Coefficients between which dry friction mostly is."""
 
@@ -51,6 +54,24 @@ def friction_notes(fitted: Device) -> list[str]:
         f"friction_coefficient = {coefficient:.3g} is seldom {usual}: check normal_preload, the "
         f"units, and friction_faces = {fitted.friction_faces}"
     ]
+
+
+def unit_notes(measurements: Measurements, predicted: Array) -> list[str]:
+    """Return a note for each quantity without a unit in its heading that no fit comes near.
+
+    `predicted` has shape (n,).
+    """
+    missed = ((predicted - measurements.measured) / measurements.sizes) ** 2
+    quantities = np.array(measurements.quantities)
+    notes = []
+    for name in sorted({*measurements.quantities} - {*measurements.units}):
+        share = float(np.mean(missed[quantities == name])) ** 0.5
+        if not share < MISSED:
+            notes.append(
+                f"the fit misses {share:.0%} of {name} (rms), which was read in "
+                f"{VARIABLES[name].unit}: check its unit, which data can say, and what is held"
+            )
+    return notes
 
 
 def misfit_notes(measurements: Measurements, predicted: Array, free: int) -> list[str]:

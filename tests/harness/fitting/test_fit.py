@@ -217,8 +217,9 @@ def test_systematic_residuals_are_noted(instance: Instance) -> None:
     """Friction cannot stand for damping: the residuals follow the phase."""
     points = [Point({"phase": 0.1 * i}, "steady_velocity", 0.0, row=f"line {i}") for i in range(30)]
     data = measured(instance, {"damping_ratio": 0.3}, points, 0.002)
-    implausible, note = fitted(instance, data, ["friction_coefficient"], starts=1).notes
+    implausible, missed, note = fitted(instance, data, ["friction_coefficient"], starts=1).notes
     assert "seldom above 1.5" in implausible
+    assert "of steady_velocity (rms)" in missed
     assert "residuals of steady_velocity are systematic" in note
     assert "the longest from line " in note
 
@@ -262,6 +263,16 @@ def test_all_solutions_are_named_and_the_nearest_to_the_start_is_taken(instance:
 def test_a_phase_that_is_not_given_is_noted() -> None:
     (note,) = data_notes(measurements_from({"velocity": [0.1, 0.2]}), {})
     assert "no phase is given, and 0 rad assumed" in note
+
+
+@pytest.mark.parametrize(("heading", "count"), [("velocity", 1), ("velocity [mm/s]", 0)])
+def test_velocities_in_another_unit_are_noted(instance: Instance, heading: str, count: int) -> None:
+    points = [Point({"phase": phase}, "steady_velocity", 0.0) for phase in (0.2, 0.7, 1.2)]
+    in_si = measured(instance, {"friction_coefficient": 0.12}, points).measured
+    data = measurements_from({"phase": [0.2, 0.7, 1.2], heading: 1e3 * in_si})
+    found = fitted(instance, data, ["friction_coefficient"], starts=1)
+    missed = [one for one in found.notes if "steady_velocity (rms), which was read in m/s" in one]
+    assert len(missed) == count
 
 
 def test_a_column_that_is_free_is_refused(instance: Instance) -> None:
