@@ -10,9 +10,8 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS, PARAMETERS, VARIABLES
-from slider_resonator.device.values import check_value, si_value, with_unit
+from slider_resonator.device.values import check_value, si_number, si_value, with_unit
 from slider_resonator.errors import SceneError, unknown_name
-from slider_resonator.scenes.si_values import with_si_values
 from slider_resonator.scenes.toml_file import read_toml, toml_value
 
 _TEXTS = ("name", "title", "description")
@@ -112,20 +111,36 @@ def device_content(path: Path) -> dict[str, Any]:
 
 
 def device_values(content: Mapping[str, Any], source: str) -> dict[str, float]:
-    """Return the parameters below [device] in SI units; SceneError with key, value, requirement."""
+    """Return the parameters below [device] in SI units.
+
+    Raises SceneError with a line for each mistake: key, value and requirement.
+    """
     values: dict[str, float] = {}
-    table = with_si_values({"device": content.get("device", {})}, source)["device"]
-    for name, value in table.items():
-        if name not in PARAMETERS:
-            raise SceneError(f"{source}: device: {_no_parameter(name)}")
+    mistakes = []
+    for name, value in content.get("device", {}).items():
         try:
-            if isinstance(value, bool):
-                raise ValueError(f"{name} = {str(value).lower()}: must be a number")
-            check_value(name, value)
+            values[name] = _value(name, value)
         except ValueError as error:
-            raise SceneError(f"{source}: device.{error}") from error
-        values[name] = value
+            mistakes.append(f"{source}: {error}")
+    if mistakes:
+        raise SceneError("\n".join(mistakes))
     return values
+
+
+def _value(name: str, value: Any) -> Any:
+    """Return the value of a parameter in its SI unit; ValueError with key, value, requirement."""
+    key = f"device.{name}"
+    if name not in PARAMETERS:
+        raise ValueError(f"device: {_no_parameter(name)}")
+    if isinstance(value, bool):
+        raise ValueError(f"{key} = {str(value).lower()}: must be a number")
+    if isinstance(value, str) and VARIABLES[name].kind == "Real":
+        value = si_number(key, value, VARIABLES[name].unit)
+    try:
+        check_value(name, value)
+    except ValueError as error:
+        raise ValueError(f"device.{error}") from error
+    return value
 
 
 def _no_parameter(name: str) -> str:

@@ -55,6 +55,8 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
         ("[device]\nresonator_mas = 1", "did you mean 'resonator_mass'?"),
         ("[device]\nslider_mass = -1", "device.slider_mass = -1: must be a finite number of at"),
         ("[device]\nslider_mass = true", "device.slider_mass = true: must be a number"),
+        ('[device]\nslider_mass = "-1 g"', "device.slider_mass = -0.001: must be a finite number"),
+        ('[device]\nfriction_faces = "two"', "device.friction_faces = 'two': must be a number"),
         ("[device]\nfriction_faces = 3", "must be an integer from 1 to 2"),
         ("slider_mass = 1", "a parameter must be below [device]"),
         ("", "must have a table headed [device]"),
@@ -69,6 +71,15 @@ def test_bad_file_is_explained(tmp_path: Path, text: str, said: str) -> None:
         read_device(path)
     assert said in str(error.value)
     assert path in str(error.value)
+
+
+def test_each_mistake_of_a_device_has_a_line(tmp_path: Path) -> None:
+    text = '[device]\nslider_mass = "5 Hz"\nmu = 0.2\ndamping_ratio = 0.1\nnormal_preload = -1\n'
+    with pytest.raises(SceneError) as error:
+        read_device(written(tmp_path, text))
+    lines = str(error.value).splitlines()
+    for line, name in zip(lines, ("slider_mass", "'mu'", "normal_preload"), strict=True):
+        assert name in line
 
 
 def test_scenes_take_units_and_other_files_are_named(tmp_path: Path) -> None:
