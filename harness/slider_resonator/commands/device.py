@@ -112,6 +112,13 @@ def _derived(device: Device) -> list[str]:
     faces = number_of(device.friction_faces, "face")
     friction = with_unit("load", device.mean_friction)
     lines = [f"friction of {faces} at the mean normal load: {friction}"]
+    if device.resonator_mass > 0.0:
+        free = (
+            device.resonator_frequency * (1.0 + device.resonator_mass / device.slider_mass) ** 0.5
+        )
+        lines.append(
+            f"resonance of the slider without friction: {with_unit('resonator_frequency', free)}"
+        )
     if device.normal_amplitude > device.normal_preload:
         lines.append("the normal load's amplitude is above its mean: the contact lifts off")
     return lines

@@ -9,12 +9,10 @@ import click
 from slider_resonator.commands import options
 from slider_resonator.commands.results import print_result
 from slider_resonator.device.common_period import MAX_DENOMINATOR
-from slider_resonator.device.device import Device
-from slider_resonator.device.interface import INPUT_STARTS, VARIABLES
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
-from slider_resonator.output.readable import number_of, one_line
+from slider_resonator.output.readable import one_line
 from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.search_result import SearchResult
@@ -82,18 +80,7 @@ def _search_command(
         with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
             progress(f"searching the {what}", 0.0)
             result: SearchResult = isolated.run(search, progress)
-        faces = int(values.get("friction_faces", Device().friction_faces))
-        inputs = (
-            f"{name} {values.get(name, start):g} {VARIABLES[name].unit}".removesuffix(" 1")
-            for name, start in INPUT_STARTS.items()
-            if (name, what) != ("load", "blocking force")
-        )
-        lines = [
-            *result.describe(),
-            f"inputs           {', '.join(inputs)}",
-            f"friction         on {number_of(faces, 'face')} (friction_faces)",
-            f"FMU              {one_line(str(fmu))}",
-        ]
+        lines = [*result.describe(), f"FMU              {one_line(str(fmu))}"]
         print_result(result, "\n".join(lines), as_json=as_json, provenance=provenance)
         return 1 if result.answer[1] is None else 0
 

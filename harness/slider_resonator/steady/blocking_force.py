@@ -14,7 +14,7 @@ from slider_resonator.steady.periodic import (
     repeating_periods,
     sticks_throughout,
 )
-from slider_resonator.steady.search_result import SearchResult, cost, with_undamped_hint
+from slider_resonator.steady.search_result import SearchResult, asked, cost, with_undamped_hint
 from slider_resonator.steady.shooting import NoFixedPoint, blocked_point
 
 
@@ -50,10 +50,10 @@ def find_blocking(
     """
     facts = read_facts(instance, values)
     predicted = facts.blocking_force
-    said = (predicted, facts.prediction_valid)
+    said = {"predicted": predicted, **asked(facts, searched="load")}
     count = repeating_periods(facts, max_denominator)
     if isinstance(count, Obstacle):
-        return Blocking(count.status, count.reason, *said)
+        return Blocking(count.status, count.reason, **said)
     period_map = FmuPeriodMap(instance, values, facts, count, progress)
     load = values.get("load", predicted if isfinite(predicted) else 0.0)
     warm = period_map.warm_up(0.0, load)
@@ -62,18 +62,18 @@ def find_blocking(
             "stuck",
             f"the slider sticks throughout at load = {load:.6g} N: every load that friction holds "
             "stops it, so that no single one is the blocking force",
-            *said,
+            **said,
             **cost(period_map, None),
         )
     found = blocked_point(period_map, warm, load, max(facts.friction_limit, 1e-12))
     if isinstance(found, NoFixedPoint):
         reason = with_undamped_hint(found.reason, facts)
-        return Blocking(found.status, reason, *said, **cost(period_map, found))
+        return Blocking(found.status, reason, **said, **cost(period_map, found))
     return Blocking(
         "blocked" if found.stability == "stable" else found.stability,
         f"at this load the mean velocity is zero; the largest multiplier is "
         f"{abs(found.multipliers[0]):.9g}",
-        *said,
+        **said,
         **cost(period_map, found),
         blocking_force=found.load,
     )

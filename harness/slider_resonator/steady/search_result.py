@@ -1,9 +1,11 @@
 """The result of a search by shooting, for a velocity or a load."""
 
 from abc import abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from slider_resonator.device.interface import INPUTS, VARIABLES
 from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.output.shown import Shown
 from slider_resonator.steady.periodic import Facts, FmuPeriodMap
@@ -15,7 +17,8 @@ class SearchResult(Shown):
     """Status, reason and cost of a search.
 
     `status` is for machines, `reason` for people; `predicted` is the FMU's own output and
-    `prediction_valid` what the FMU says of it, None where it has no such output.
+    `prediction_valid` what the FMU says of it, None where it has no such output. `inputs` are those
+    that were held, in SI units, with friction on `friction_faces`.
     The common period has `common_period` drive periods; `periods` counts all simulated ones.
     `multipliers` are the Floquet multipliers, largest first, `residual` the largest change of the
     state over the common period in units of its scale.
@@ -25,6 +28,8 @@ class SearchResult(Shown):
     reason: str
     predicted: float
     prediction_valid: bool | None
+    inputs: Mapping[str, float]
+    friction_faces: int
     common_period: int | None = None
     periods: int = 0
     iterations: int = 0
@@ -58,7 +63,24 @@ class SearchResult(Shown):
         if self.multipliers:
             sizes = ", ".join(f"{abs(multiplier):.6f}" for multiplier in self.multipliers)
             lines.append(f"multipliers      {sizes} (magnitudes)")
-        return lines
+        held = (
+            f"{name} {readable(value, 6)} {VARIABLES[name].unit}".removesuffix(" 1")
+            for name, value in self.inputs.items()
+        )
+        return [
+            *lines,
+            f"inputs           {', '.join(held)}",
+            f"friction         on {number_of(self.friction_faces, 'face')} (friction_faces)",
+        ]
+
+
+def asked(facts: Facts, searched: str = "") -> dict[str, Any]:
+    """Return the fields of a result that say what was asked, without the input that is searched."""
+    return {
+        "prediction_valid": facts.prediction_valid,
+        "inputs": {name: facts[name] for name in INPUTS if name != searched},
+        "friction_faces": int(facts["friction_faces"]),
+    }
 
 
 def cost(period_map: FmuPeriodMap, found: FixedPoint | NoFixedPoint | None) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from slider_resonator.steady.periodic import (
     repeating_periods,
     sticks_throughout,
 )
-from slider_resonator.steady.search_result import SearchResult, cost, with_undamped_hint
+from slider_resonator.steady.search_result import SearchResult, asked, cost, with_undamped_hint
 from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint, steady_point
 
 
@@ -52,24 +52,24 @@ def find_steady(
     FmuError and Refusal as `Instance.start` does.
     """
     facts = read_facts(instance, values)
-    said = (facts.steady_velocity, facts.prediction_valid)
+    said = {"predicted": facts.steady_velocity, **asked(facts)}
     runaway = _runaway(facts)
     # Damped bristles can give more friction than full sliding: only the search can decide.
     certain = runaway if facts["friction_law"] == 0 else None
     count = certain or repeating_periods(facts, max_denominator)
     if isinstance(count, Obstacle):
-        return SteadyMotion(count.status, count.reason, *said)
+        return SteadyMotion(count.status, count.reason, **said)
     period_map = FmuPeriodMap(instance, values, facts, count, progress)
     guess = values.get("initial_velocity", facts.steady_velocity)
     found = steady_point(period_map, guess if isfinite(guess) else 0.0, facts["load"])
     if isinstance(found, NoFixedPoint):
         why = runaway or Obstacle(found.status, with_undamped_hint(found.reason, facts))
-        return SteadyMotion(why.status, why.reason, *said, **cost(period_map, found))
+        return SteadyMotion(why.status, why.reason, **said, **cost(period_map, found))
     status, reason = _judge(found, period_map.stick_fraction)
     return SteadyMotion(
         status,
         with_undamped_hint(reason, facts) if status == "neutral" else reason,
-        *said,
+        **said,
         **cost(period_map, found),
         steady_velocity=found.displacement / period_map.period,
         state=dict(zip(period_map.names, found.state.tolist(), strict=True)),

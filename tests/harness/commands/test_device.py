@@ -24,6 +24,7 @@ def test_examples_are_listed_and_printed(tmp_path: Path) -> None:
     assert "20 kHz" in shown
     assert "125663.71 rad/s" in shown
     assert "friction of 1 face at the mean normal load: 750 mN" in shown
+    assert "resonance of the slider without friction: 20.9762 kHz" in shown
 
 
 def test_a_possible_slip_is_noted(tmp_path: Path, native_fmu: Path) -> None:
