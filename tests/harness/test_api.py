@@ -56,7 +56,7 @@ def test_an_open_fmu_runs_scenes_and_is_searched(native_fmu: Path) -> None:
 def test_scenes_are_names_files_and_data(native_fmu: Path, tmp_path: Path) -> None:
     built_in = sr.read_scene("table_1", load=0.01)
     assert built_in.values["load"] == 0.01
-    assert built_in.title == "The device of table 1, 1 value replaced"
+    assert built_in.title == "The device of table 1, load replaced"
     assert sr.read_scene(built_in, load=0.02).values["load"] == 0.02
     with pytest.raises(sr.HarnessError, match=r"scene: run\.stop_tim"):
         sr.read_scene({"run": {"stop_tim": 1.0}})

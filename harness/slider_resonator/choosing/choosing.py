@@ -71,7 +71,7 @@ class Choosing:
         if scene.need is None:
             raise SceneError(
                 f"{scene.source}: scene {scene.name} has no [need]; must have a table of what it "
-                "needs, such as mean_velocity = { rel = 0.01 }"
+                "needs, such as mean_velocity = { rel = 0.01 }, as the scene feed_forward has"
             )
         check_magnitudes(scene)
         self.instance = instance

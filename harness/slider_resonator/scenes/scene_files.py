@@ -49,11 +49,11 @@ def find_scene(
     own = scene.with_device(device.values if device else {})
     varied = own.with_values(values or {})
     before, after = vars(own.device), vars(varied.device)
-    changed = sum(before[name] != after[name] for name in before)
-    changed += len((values or {}).keys() - PARAMETERS)
-    title = f"{device.title}, in {scene.name}" if device else scene.title
-    replaced = f", {number_of(changed, 'value')} replaced" if changed else ""
-    return replace(varied, title=title + replaced)
+    changed = [name for name in before if before[name] != after[name]]
+    changed += [name for name in values or {} if name not in PARAMETERS]
+    title = f"{device.title}, in scene {scene.name}" if device else scene.title
+    said = ", ".join(changed) if len(changed) < 4 else number_of(len(changed), "value")
+    return replace(varied, title=f"{title}, {said} replaced" if changed else title)
 
 
 def find_scenes(names_or_files: Sequence[str]) -> list[Scene]:

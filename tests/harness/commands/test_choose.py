@@ -71,6 +71,7 @@ def test_a_scene_without_needs_cannot_be_chosen_for(native_fmu: Path) -> None:
     result = call("choose", "lift_off", "--fmu", native_fmu)
     assert result.exit_code == 2
     assert "has no [need]" in result.stderr
+    assert "as the scene feed_forward has" in result.stderr
 
 
 def test_a_run_uses_the_choice_and_reports_it(native_fmu: Path, tmp_path: Path) -> None:

@@ -143,7 +143,7 @@ def test_fidelities_and_fmus_are_overlaid(native_fmu: Path, tmp_path: Path) -> N
 
 def test_a_run_of_another_device_has_its_title(native_fmu: Path) -> None:
     result = call("run", native_fmu, "--device", "conveyor", "--set", "load=0.01")
-    title = "A part on a vibratory conveyor, in table_1, 1 value replaced"
+    title = "A part on a vibratory conveyor, in scene table_1, load replaced"
     assert f"table_1: {title}" in result.stdout
 
 
