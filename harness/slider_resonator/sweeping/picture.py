@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
@@ -19,6 +20,8 @@ from slider_resonator.sweeping.measures import unit
 from slider_resonator.sweeping.table import Columns
 
 NO_ANSWER = "no answer"
+DEGREES = (1, 2, 3, 4.5, 9, 10)
+"""Steps of ticks on an axis in degrees, up to a power of ten."""
 MAX_LINES = 6
 """Values of a variable that are drawn as a line each; more of them make a map."""
 
@@ -59,6 +62,9 @@ def sweep_figure(sweep: Sweep, columns: Columns) -> Figure:
                 names = list(variables)
             for name, set_scale in zip(names, (axes.set_xscale, axes.set_yscale), strict=False):
                 set_scale("log" if name in sweep.logarithmic else "linear")
+            for name, axis in zip(names, (axes.xaxis, axes.yaxis), strict=False):
+                if SETTABLE[name] == "rad":
+                    axis.set_major_locator(MaxNLocator("auto", steps=DEGREES))
     return figure
 
 
