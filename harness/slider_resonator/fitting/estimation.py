@@ -151,6 +151,18 @@ class Minimum:
         """Weighted sum of squares."""
         return float(self.residuals @ self.residuals)
 
+    @property
+    def covariance(self) -> Array:
+        """Covariance of the internal parameters, (p, p), for residuals of standard deviation 1."""
+        return np.asarray(np.linalg.pinv(self.jacobian.T @ self.jacobian), np.float64)
+
+    @property
+    def correlation(self) -> Array:
+        """Correlation of the estimates, (p, p)."""
+        deviations = np.sqrt(np.diag(self.covariance))
+        products = np.outer(deviations, deviations).clip(min=1e-300)
+        return np.asarray(self.covariance / products)
+
 
 def minimise(instance: Instance, problem: Problem, start: Array) -> Minimum:
     """Return the least squares from a start (p,), internal parameters.
@@ -224,7 +236,7 @@ def profile_end(
     At a bound the interval ends, unless the bound only confines the search.
     """
     one = problem.free[index]
-    covariance = np.linalg.pinv(best.jacobian.T @ best.jacobian)
+    covariance = best.covariance
     along = np.delete(covariance[:, index] / covariance[index, index], index)
     others = np.delete(best.internal, index)
 

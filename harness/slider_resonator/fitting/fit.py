@@ -1,6 +1,6 @@
 """Fit parameters of a device to measurements, on isolated FMUs."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
@@ -132,102 +132,126 @@ def fit(
     an interval, is a task for `run`. Raises HarnessError for too few numbers, FmuError where the
     FMU fails.
     """
+    problem = _problem(measurements, names, values, bounds or {})
+    notes = data_notes(problem.measurements, problem.parameters)
+    free, count = problem.free, len(measurements.measured)
+    spare = count - len(free)
+    tasks = [partial(minimise, problem=problem, start=one) for one in _starts(free, starts)]
+    try:
+        minima: list[Minimum] = run("searching", tasks)
+    except FmuError as error:
+        raise FmuError("; ".join([str(error), *notes])) from error
+    first, *others = _solutions(minima, free, 1e-16 * count if spare else MET**2 * count)
+    evaluations = sum(one.evaluations for one in minima)
+    best = first
+    if spare and not measurements.knows_deviations:
+        problem, best, more = _weighted(problem, first, run)
+        evaluations += more
+    measurements = problem.measurements
+    scale = (best.sum_of_squares / spare) ** 0.5 if spare else None
+    unit = 1.0 if measurements.knows_deviations else scale or 0.0
+    directions = open_directions(problem, best, unit)
+    left_open = {name for one in directions for name in one.factors}
+    fitted = _estimates(problem, best, unit, left_open, run)
+    found = {**problem.parameters, **{one.name: one.value for one in fitted}}
+    (predicted,) = run("comparing", [partial(predict, parameters=found, measurements=measurements)])
+    off = np.abs(predicted - measurements.measured)
+    unmet = () if spare else np.flatnonzero(~(off <= MET * measurements.sizes)).tolist()
+    device = Device.from_mapping(found)
+    if "friction_coefficient" in {one.name for one in free} - left_open:
+        notes += friction_notes(device)
+    if spare:
+        notes += unit_notes(measurements, predicted)
+        notes += misfit_notes(measurements, predicted, len(free))
+    if not directions:
+        notes += [_as_good(one, free) for one in others]
+    return Fit(
+        fitted,
+        device,
+        tuple(directions),
+        correlation=best.correlation,
+        measured=measurements.measured,
+        predicted=predicted,
+        residuals=(predicted - measurements.measured) / (measurements.scales * (unit or 1.0)),
+        scale=scale,
+        starts=len(minima),
+        starts_agreeing=sum(_distance(one, first) < APART for one in minima),
+        evaluations=evaluations,
+        measurements=measurements,
+        unmet=tuple(unmet),
+        notes=tuple(notes),
+    )
+
+
+def _problem(
+    measurements: Measurements,
+    names: Sequence[str],
+    values: Mapping[str, float],
+    bounds: Mapping[str, tuple[float, float]],
+) -> Problem:
+    """Return what is to be fitted; arguments and errors are those of `fit`."""
     parameters = {name: value for name, value in values.items() if name in PARAMETERS}
     inputs = {name: value for name, value in values.items() if name not in PARAMETERS}
-    free = free_parameters(names, parameters, bounds or {})
+    free = free_parameters(names, parameters, bounds)
     for source, name in measurements.given:
         if name in names:
             raise HarnessError(
                 f"{name} is free, and a column of {source}; must be one of them: leave it out of "
                 "the free parameters, or take the column out"
             )
-    measurements = measurements.under(inputs)
-    notes = data_notes(measurements, parameters)
-    problem = Problem(parameters, free, measurements)
     count = len(measurements.measured)
     if count < len(free):
         raise HarnessError(
             f"{count} measured numbers for {len(free)} free parameters; must be at least as many"
         )
-    tasks = [partial(minimise, problem=problem, start=one) for one in _starts(free, starts)]
-    try:
-        minima: list[Minimum] = run("searching", tasks)
-    except FmuError as error:
-        raise FmuError("; ".join([str(error), *notes])) from error
-    spare = count - len(free)
-    best, *others = _solutions(minima, free, 1e-16 * count if spare else MET**2 * count)
-    agreeing = sum(_distance(one, best) < APART for one in minima)
-    evaluations = sum(one.evaluations for one in minima)
-    known = measurements.knows_deviations
-    for _ in range(REWEIGHTINGS if spare and not known else 0):
+    return Problem(parameters, free, measurements.under(inputs))
+
+
+def _weighted(problem: Problem, best: Minimum, run: Runner) -> tuple[Problem, Minimum, int]:
+    """Weight each series by what it errs by; return problem, minimum and evaluations."""
+    evaluations = 0
+    for _ in range(REWEIGHTINGS):
         noise = noise_of_series(problem, best)
-        before = [measurements.noise.get(one, 1.0) for one in noise]
+        before = [problem.measurements.noise.get(one, 1.0) for one in noise]
         changes = np.log(np.array([*noise.values()]) / before)
         if float(np.ptp(changes)) < STEADY_NOISE:
             break
-        measurements = replace(measurements, noise=noise)
-        problem = replace(problem, measurements=measurements)
+        problem = replace(problem, measurements=replace(problem.measurements, noise=noise))
         (best,) = run("weighting", [partial(minimise, problem=problem, start=best.internal)])
         evaluations += best.evaluations
-    scale = (best.sum_of_squares / spare) ** 0.5 if spare else None
-    unit = 1.0 if known else scale
-    directions = open_directions(problem, best, unit or 0.0)
-    left_open = {name for one in directions for name in one.factors}
-    covariance = np.linalg.pinv(best.jacobian.T @ best.jacobian)
-    deviations = np.sqrt(np.diag(covariance))
-    bounded = [i for i, one in enumerate(free) if unit and one.name not in left_open]
-    quantile = float(ndtri(0.5 + LEVEL / 2) if known else stdtrit(max(spare, 1), 0.5 + LEVEL / 2))
-    width = quantile * (unit or 0.0)
+    return problem, best, evaluations
+
+
+def _estimates(
+    problem: Problem, best: Minimum, unit: float, left_open: Container[str], run: Runner
+) -> tuple[FittedParameter, ...]:
+    """Return the estimates, with intervals except of those that are left open.
+
+    `unit` is the standard deviation of the weighted residuals, 0 where nothing tells.
+    """
+    spare, internal = len(best.residuals) - len(best.internal), best.internal.tolist()
+    is_known = problem.measurements.knows_deviations
+    quantile = ndtri(0.5 + LEVEL / 2) if is_known else stdtrit(max(spare, 1), 0.5 + LEVEL / 2)
+    width, deviations = float(quantile) * unit, np.sqrt(np.diag(best.covariance))
     end_of = partial(profile_end, problem=problem, best=best, excess=width**2)
+    bounded = [i for i, one in enumerate(problem.free) if unit and one.name not in left_open]
     sides = [(i, sign * width * deviations[i]) for i in bounded for sign in (-1, 1)]
     ends = run("bounding", [partial(end_of, index=i, change=change) for i, change in sides])
     intervals = dict(zip(bounded, zip(ends[::2], ends[1::2], strict=True), strict=True))
     fitted = []
-    for index, one in enumerate(free):
-        value = one.value(float(best.internal[index]))
+    for index, one in enumerate(problem.free):
+        value = one.value(internal[index])
         low, high = intervals.get(index, (None, None))
-        deviation = None
-        if unit and index in intervals:
-            deviation = float(one.slope(value) * unit * deviations[index])
-        unit_name = VARIABLES[one.name].unit
-        is_open = one.name in left_open
+        deviation = one.slope(value) * unit * float(deviations[index])
         fitted.append(
             FittedParameter(
-                *(one.name, unit_name, one.start, value, deviation, low, high, is_open),
+                *(one.name, VARIABLES[one.name].unit, one.start, value),
+                *(deviation if index in intervals else None, low, high),
+                is_open=one.name in left_open,
                 at_bound=bool(best.at_bound[index]),
             )
         )
-    best_values = {**parameters, **{one.name: one.value for one in fitted}}
-    (predicted,) = run(
-        "comparing", [partial(predict, parameters=best_values, measurements=measurements)]
-    )
-    off = np.abs(predicted - measurements.measured)
-    missed = () if spare else np.flatnonzero(~(off <= MET * measurements.sizes)).tolist()
-    device = Device.from_mapping(best_values)
-    if any(one.name == "friction_coefficient" and not one.is_open for one in fitted):
-        notes += friction_notes(device)
-    notes += unit_notes(measurements, predicted)
-    if spare:
-        notes += misfit_notes(measurements, predicted, len(free))
-    if not directions:
-        notes += [_as_good(one, free) for one in others]
-    return Fit(
-        tuple(fitted),
-        device,
-        tuple(directions),
-        covariance / np.outer(deviations, deviations).clip(min=1e-300),
-        measurements.measured,
-        predicted,
-        (predicted - measurements.measured)
-        / (measurements.scales * (1.0 if known else scale or 1.0)),
-        scale,
-        len(minima),
-        agreeing,
-        evaluations,
-        measurements,
-        tuple(missed),
-        tuple(notes),
-    )
+    return tuple(fitted)
 
 
 def _solutions(minima: Sequence[Minimum], free: Sequence[Free], rounding: float) -> list[Minimum]:

@@ -62,11 +62,11 @@ def unit_notes(measurements: Measurements, predicted: Array) -> list[str]:
     `predicted` has shape (n,).
     """
     missed = ((predicted - measurements.measured) / measurements.sizes) ** 2
-    quantities = np.array(measurements.quantities)
+    quantities = np.where(np.isfinite(missed), measurements.quantities, "")
     notes = []
-    for name in sorted({*measurements.quantities} - {*measurements.units}):
+    for name in sorted({*quantities.tolist()} - {*measurements.units, ""}):
         share = float(np.mean(missed[quantities == name])) ** 0.5
-        if not share < MISSED:
+        if share >= MISSED:
             notes.append(
                 f"the fit misses {share:.0%} of {name} (rms), which was read in "
                 f"{VARIABLES[name].unit}: check its unit, which data can say, and what is held"
