@@ -1,6 +1,6 @@
 """`python -m slider_resonator`."""
 
-from slider_resonator.cli import main
+from slider_resonator.entry import main
 
 if __name__ == "__main__":
-    main(prog_name="python -m slider_resonator")
+    main("python -m slider_resonator")

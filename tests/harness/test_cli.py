@@ -154,6 +154,35 @@ main(["scenes", "--json"])
     assert json.loads(out)["error"] == "interrupted"
 
 
+def test_an_interrupt_of_a_command_that_loads_is_quiet() -> None:
+    script = """
+import sys, time
+
+class Slow:
+    def find_spec(self, name, *others):
+        if name == "slider_resonator.cli":
+            print("ready", flush=True)
+            time.sleep(60)
+
+sys.meta_path.insert(0, Slow())
+from slider_resonator.entry import main
+main()
+"""
+    with subprocess.Popen(
+        [sys.executable, "-c", script],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=heed_interrupts,
+    ) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "ready\n"
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+    assert process.returncode == -signal.SIGINT, "which a shell reports as 130"
+    assert not errors
+
+
 def test_steady_and_blocking_as_json(python_fmu: Path) -> None:
     steady = call("steady", python_fmu, "--set", "phase=0.4", "--set", "load=0.05", "--json")
     assert steady.exit_code == 0
