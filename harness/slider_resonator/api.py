@@ -12,12 +12,13 @@ file, the name of an example of `slider-resonator device`, or its parameters by 
 name of one that is built in, a file, data of the same form, or the result of `read_scene`. Data may
 have numpy arrays and ranges for lists. Without an FMU the native one of this installation is used.
 Every error is a `HarnessError`, whose text is what the command would print; arguments of another
-type than stated may raise a `TypeError`.
+type than stated may raise a `TypeError`. A number that may be meant in another unit is warned of.
 
 The `repr` of a result says what was found, on a screen at most. `to_pandas()` gives its table,
 `plot()` its picture.
 """
 
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial, wraps
@@ -48,8 +49,11 @@ from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run as run_schedule
 from slider_resonator.output.progress import no_progress
 from slider_resonator.output.shown import Drawable
-from slider_resonator.scenes.device_file import device_values
-from slider_resonator.scenes.device_file import read_device as read_device_file
+from slider_resonator.scenes.device_file import (
+    device_values,
+    possible_slips,
+    read_device_file,
+)
 from slider_resonator.scenes.device_file import to_toml as device_text
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes
@@ -381,8 +385,17 @@ def _stated(device: DeviceLike | None) -> dict[str, float]:
         start = vars(Device())
         return {n: value for n, value in _checked(vars(device)).items() if value != start[n]}
     if isinstance(device, Mapping):
+        _warn(possible_slips(device))
         return device_values({"device": _plain(device)}, "device")
-    return read_device_file(str(device))
+    read = read_device_file(str(device))
+    _warn(read.slips)
+    return read.values
+
+
+def _warn(slips: Sequence[str]) -> None:
+    """Warn of numbers that may be meant in another unit."""
+    for slip in slips:
+        warnings.warn(slip, stacklevel=2)
 
 
 def _fmus(fmus: Sequence[str | Path]) -> list[Path]:
@@ -403,6 +416,7 @@ def _checked(values: Mapping[str, Value]) -> dict[str, float]:
             check_value(name, checked[name])
         except ValueError as error:
             raise SceneError(str(error)) from error
+    _warn(possible_slips(values))
     return checked
 
 

@@ -298,3 +298,10 @@ def test_lines_that_do_not_fit_a_screen_are_counted(native_fmu: Path) -> None:
     assert len(lines) <= 25
     assert lines[1].startswith(f"  FAILED: 0 of {len(failed)} checks passed")
     assert lines[-1].endswith("lines more")
+
+
+def test_numbers_that_may_be_in_another_unit_are_warned_of(native_fmu: Path) -> None:
+    with pytest.warns(UserWarning, match="drive_frequency = 20000 is in rad/s"):
+        opened = sr.open_fmu(native_fmu, device={"drive_frequency": 20000.0})
+    with opened as fmu, pytest.warns(UserWarning, match="phase = 30 is in rad, which is 1718.87"):
+        fmu.steady(phase=30)
