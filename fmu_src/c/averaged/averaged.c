@@ -97,7 +97,7 @@ static bool breaks_loose(const Balance *balance, double friction) {
 
 Averaged averaged(const Law *law, double normal_lead) {
     if (law->fast.velocity == 0.0) {
-        return (Averaged){0.0, 0.0, false};
+        return (Averaged){0.0, 0.0, false, false};
     }
     Balance balance = balance_of(law, normal_lead);
     double first = friction_at(&balance, 0.0), last = friction_at(&balance, PI);
@@ -105,10 +105,11 @@ Averaged averaged(const Law *law, double normal_lead) {
     if (first == last) {
         /* No friction: every velocity is steady without a load, and none with one. */
         double fastest = load != 0.0 ? -copysign(balance.fast.velocity, load) : 0.0;
-        return (Averaged){fastest, 0.0, false};
+        return (Averaged){fastest, 0.0, false, false};
     }
     Point low = {0.0, first + load - balance.noise}, high = {PI, last + load - balance.noise};
     double turning = balanced_turning(&balance, low, high);
-    bool valid = fabs(load) < first && breaks_loose(&balance, first);
-    return (Averaged){balance.fast.velocity * cos(turning), -friction_at(&balance, 0.5 * PI), valid};
+    bool holds = fabs(load) < first;
+    return (Averaged){balance.fast.velocity * cos(turning), -friction_at(&balance, 0.5 * PI), holds,
+                      holds && breaks_loose(&balance, first)};
 }

@@ -9,10 +9,11 @@
 
 #include "../friction/law.h"
 
-/* Steady velocity [m/s] and blocking force [N] by averaged theory, and whether they apply. */
+/* Steady velocity [m/s] and blocking force [N] by averaged theory, and whether they apply. Friction `holds` a load below
+ * that of sliding. */
 typedef struct {
     double steady_velocity, blocking_force;
-    bool valid;
+    bool holds, valid;
 } Averaged;
 
 /* Averaged theory of the device and inputs of a law (eqs 20-22 with both faces).

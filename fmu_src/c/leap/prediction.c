@@ -29,7 +29,14 @@ int turns_of_load(const Law *law) {
  * next change would be rounding. Number of iterations. */
 #define MAX_CHANGE 0.2
 #define CONVERGED 1e-10
-enum { MAX_ITERATIONS = 16 };
+enum { MAX_ITERATIONS = 24 };
+
+/* Share of what a period changes that an iteration must leave at most; above it the derivatives are taken anew, as where a
+ * reversal has become a stick. */
+#define REDUCED 0.5
+
+/* Periods by which the start of a search is followed: strong friction brings it near. */
+enum { LEAD_IN = 2 };
 
 /* Squarings of the linear map after which it must have decayed: in 2^24 periods, more than rounding of its derivatives could
  * make it. */
@@ -46,7 +53,7 @@ typedef struct {
     int count;                                 /* number of unknowns */
     double scale[UNKNOWNS], unknown[UNKNOWNS]; /* scales, and unknowns over them */
     double change[UNKNOWNS];                   /* in a period, over the scales */
-    double travel;                             /* displacement in a period [m] */
+    double travel, reversals;                  /* displacement [m] and number of reversals in a period */
     double jacobian[UNKNOWNS][UNKNOWNS];
 } Search;
 
@@ -74,6 +81,7 @@ static bool change_in_period(Search *search, const double unknown[UNKNOWNS],
         change[i] = (sections[1].at[i] - sections[0].at[i]) / search->scale[i];
     }
     search->travel = sections[1].at[SLOW_POSITION] - sections[0].at[SLOW_POSITION];
+    search->reversals = sections[1].at[REVERSALS] - sections[0].at[REVERSALS];
     if (search->blocked) {
         change[states] = search->travel / (map->speed * map->period);
     }
@@ -109,22 +117,43 @@ static void update(Search *search, const double step[UNKNOWNS], const double lef
     }
 }
 
+static double largest_of(const Search *search, const double numbers[UNKNOWNS]) {
+    double largest = 0.0;
+    for (int i = 0; i < search->count; i++) {
+        largest = fmax(largest, fabs(numbers[i]));
+    }
+    return largest;
+}
+
+/* Follow the motion for some periods, without its travel where it is blocked. */
+static bool lead_in(Search *search) {
+    int states = 1 + search->map.fast_count;
+    for (int k = 0; k < LEAD_IN; k++) {
+        if (!change_in_period(search, search->unknown, search->change)) {
+            return false;
+        }
+        for (int i = 0; i < states; i++) {
+            search->unknown[i] += search->change[i];
+        }
+        search->unknown[0] -= search->blocked ? search->change[states] : 0.0;
+    }
+    return change_in_period(search, search->unknown, search->change);
+}
+
 /* Newton's method with Broyden's updates. Return false where it does not converge. */
 static bool solve(Search *search) {
-    if (!change_in_period(search, search->unknown, search->change) || !differentiate(search)) {
+    if (!lead_in(search) || !differentiate(search)) {
         return false;
     }
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        double step[UNKNOWNS], left[UNKNOWNS], largest = 0.0;
+        double step[UNKNOWNS], left[UNKNOWNS], before = largest_of(search, search->change);
         for (int i = 0; i < search->count; i++) {
             step[i] = -search->change[i];
         }
         if (!solve_linear(search->jacobian, step, search->count)) {
             return false;
         }
-        for (int i = 0; i < search->count; i++) {
-            largest = fmax(largest, fabs(step[i]));
-        }
+        double largest = largest_of(search, step);
         double share = largest > MAX_CHANGE ? MAX_CHANGE / largest : 1.0;
         for (int i = 0; i < search->count; i++) {
             step[i] *= share;
@@ -136,6 +165,12 @@ static bool solve(Search *search) {
         }
         if (largest <= CONVERGED) {
             return true;
+        }
+        if (largest_of(search, search->change) > REDUCED * before) {
+            if (!differentiate(search)) {
+                return false;
+            }
+            continue;
         }
         for (int i = 0; i < search->count; i++) {
             left[i] += search->change[i];
@@ -193,14 +228,15 @@ static Search search_of(const PeriodMap *map, double psi, bool blocked, double v
  * `velocity` becomes its mean. Return false where none is found or where it is not stable. */
 static bool find_steady(const PeriodMap *map, double psi, double *velocity) {
     Search search = search_of(map, psi, false, *velocity, 0.0);
-    if (!solve(&search) || !is_stable(&search)) {
+    if (!solve(&search)) {
         return false;
     }
     *velocity = search.travel / map->period;
-    return true;
+    return differentiate(&search) && is_stable(&search);
 }
 
-/* Find the motion without travel and the `load` [N] that it takes, likewise, from a load on. */
+/* Find the motion without travel and the `load` [N] that it takes, likewise, from a load on. One that never reverses is none:
+ * the slider sticks, under other loads, too. */
 static bool find_blocked(const PeriodMap *map, double psi, double *load) {
     Search search = search_of(map, psi, true, 0.0, *load);
     int last = search.count - 1;
@@ -208,7 +244,7 @@ static bool find_blocked(const PeriodMap *map, double psi, double *load) {
         return false;
     }
     *load = search.unknown[last] * search.scale[last];
-    return true;
+    return search.reversals > 0.0;
 }
 
 /* The law of the full device under the same inputs. A resonator without mass moves nothing: one that settles within a period
@@ -231,13 +267,14 @@ static bool full_law(const Law *law, Law *full) {
 /* By second order both belong to periodic motions of the full device, found from those of first order on. */
 static Averaged second_order(const Law *law, double normal_lead) {
     Averaged prediction = averaged(law, normal_lead), exact = prediction;
-    if (!prediction.valid) {
+    prediction.valid = false;
+    exact.valid = true;
+    if (!prediction.holds) {
         return prediction;
     }
     Law full;
     PeriodMap map;
     int turns = turns_of_load(law);
-    prediction.valid = false;
     if (turns == 0 || !full_law(law, &full) || !period_map_prepare(&map, &full, turns)) {
         return prediction;
     }

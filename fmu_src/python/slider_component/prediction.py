@@ -29,17 +29,21 @@ ROUNDING = 8.0
 
 @dataclass(frozen=True, slots=True)
 class Prediction:
-    """Steady velocity [m/s] and blocking force [N], and whether they apply."""
+    """Steady velocity [m/s] and blocking force [N], and whether they apply.
+
+    Friction `holds` a load below that of sliding.
+    """
 
     steady_velocity: float
     blocking_force: float
+    holds: bool
     valid: bool
 
 
 MAX_TURNS = 32
 """Largest number of turns of the drive after which the normal load may repeat."""
 
-NO_VIBRATION = Prediction(0.0, 0.0, False)
+NO_VIBRATION = Prediction(0.0, 0.0, holds=False, valid=False)
 
 
 @lru_cache(maxsize=8)
@@ -50,10 +54,10 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
     were found.
     """
     first = first_order(device, inputs, normal_lead)
-    if device.averaging_order == 1 or not first.valid:
+    if device.averaging_order == 1:
         return first
     turns = turns_of_load(device, inputs.frequency_ratio)
-    if turns is None:
+    if turns is None or not first.holds:
         return replace(first, valid=False)
     full = replace(device, fidelity=2)
     if device.resonator_mass == 0.0:
@@ -66,7 +70,8 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
         psi = (normal_lead + inputs.frequency_ratio * period_map.section) % tau
         steady = PeriodicMotion(period_map, psi, inputs.load, blocked=False)
         blocked = PeriodicMotion(period_map, psi, first.blocking_force, blocked=True)
-        return Prediction(steady.found(first.steady_velocity), blocked.found(0.0), valid=True)
+        velocity, force = steady.found(first.steady_velocity), blocked.found(0.0)
+        return Prediction(velocity, force, holds=True, valid=True)
     except (ArithmeticError, ValueError):
         return replace(first, valid=False)
 
@@ -121,15 +126,16 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
     if sliding == friction(pi):
         # No friction: every velocity is steady without a load, and none with one.
         fastest = -copysign(fast.velocity, inputs.load) if inputs.load else 0.0
-        return Prediction(fastest, 0.0, valid=False)
+        return Prediction(fastest, 0.0, holds=False, valid=False)
     normal = device.normal_preload + device.normal_amplitude
     noise = ROUNDING * EPSILON * faces * (law.coefficient + law.drag) * normal
     # The vibration alone must overcome friction: by its force on the pair and on a held slider.
     grip = sliding * (law.grip / law.coefficient)
     force = fast.velocity * device.total_mass * device.drive_frequency
-    valid = abs(inputs.load) < sliding and min(force, held_amplitude(device)) > grip
+    holds = abs(inputs.load) < sliding
+    valid = holds and min(force, held_amplitude(device)) > grip
     turning = _balance(lambda turning: friction(turning) + inputs.load, noise)
-    return Prediction(fast.velocity * cos(turning), -friction(0.5 * pi), valid)
+    return Prediction(fast.velocity * cos(turning), -friction(0.5 * pi), holds, valid)
 
 
 def _balance(excess: Callable[[float], float], noise: float) -> float:

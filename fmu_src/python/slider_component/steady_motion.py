@@ -23,7 +23,13 @@ MAX_CHANGE = 0.2
 CONVERGED = 1e-10
 """Change at which the iteration ends: the next one would be rounding."""
 
-MAX_ITERATIONS = 16
+MAX_ITERATIONS = 24
+REDUCED = 0.5
+"""Share of the excess that an iteration must leave at most; above it the derivatives are taken
+anew, as where a reversal has become a stick."""
+
+LEAD_IN = 2
+"""Periods by which the start of a search is followed: strong friction brings it near."""
 
 SMALLEST_PIVOT = 1e-13
 """Smallest pivot that counts as different from 0, over the largest entry of a matrix."""
@@ -52,7 +58,8 @@ class PeriodicMotion:
     def found(self, velocity: float) -> float:
         """The mean velocity [m/s] of the steady motion, or the load [N] that blocks it.
 
-        From a velocity on. Raises NoMapError where none is found or it is not stable.
+        From a velocity on. Raises NoMapError where none is found, where it is not stable, and where
+        the blocked slider never reverses: it sticks, under other loads, too.
         """
         period_map, device = self._map, self._map.motion.system.device
         swing = steady_swing(
@@ -61,9 +68,16 @@ class PeriodicMotion:
         bristle = device.friction_coefficient if device.friction_law == 1 else 0.0
         fast = [x / s for x, s in zip((*swing, bristle), self._scale[2:], strict=True)]
         unknowns = [velocity / period_map.speed, self._load, *fast]
+        for _ in range(LEAD_IN):
+            excess, _ = self._excess(unknowns)
+            travelled = excess[1] if self._blocked else 0.0
+            load = unknowns[1]
+            unknowns = [u + e for u, e in zip(unknowns, excess, strict=True)]
+            unknowns[:2] = unknowns[0] - travelled, load
         excess, travel = self._excess(unknowns)
         jacobian = self._jacobian(unknowns, excess)
         for _ in range(MAX_ITERATIONS):
+            before = max(map(abs, excess))
             step = solved(jacobian, [-e for e in excess])
             largest = max(map(abs, step))
             share = min(1.0, MAX_CHANGE / largest) if largest > 0.0 else 1.0
@@ -73,10 +87,15 @@ class PeriodicMotion:
             excess, travel = self._excess(unknowns)
             if largest <= CONVERGED:
                 if self._blocked:
+                    if self._reversals == 0:
+                        break
                     return unknowns[1] * self._scale[1]
                 if not _is_stable(self._jacobian(unknowns, excess)):
                     break
                 return travel / period_map.period
+            if max(map(abs, excess)) > REDUCED * before:
+                jacobian = self._jacobian(unknowns, excess)
+                continue
             # Broyden's update: what the Jacobian did not expect.
             square = sum(s * s for s in step)
             for row, e, x in zip(jacobian, excess, expected, strict=True):
@@ -94,6 +113,7 @@ class PeriodicMotion:
         period_map = self._map.under_load(load)
         begin = period_map.place(Moment(0.0, 0.0, 0.0, 0.0, psi=self._psi), velocity, fast)
         sections, _ = period_map.sections(begin, 1, self._budget)
+        self._reversals = sections[-1].reversals - sections[0].reversals
         first, last = map(period_map.numbers, sections)
         excess = [(b - a) / s for a, b, s in zip(first, last, period_map.scale, strict=True)]
         if not self._blocked:
