@@ -2,6 +2,7 @@
 
 import tomllib
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -117,24 +118,10 @@ def test_the_json_schema_is_one_and_accepts_what_is_valid() -> None:
     VALIDATOR.validate(tomllib.loads(template()))
 
 
-NOT_IN_A_SCHEMA = {
-    *("step in ms", "no run", "no such CSV", "short CSV", "no column", "times not in order"),
-    *("tuned and fixed", "no tolerance", "not a number", "a bound of a signal"),
-    *("CSV of another encoding", "CSV with a word", "CSV without a header"),
-    *("CSV with a column twice", "unit that does not fit"),
-    *("a sweep of what changes", "a tube without a reference for it", "swept out of bounds"),
-    "tuned out of bounds",
-}
-"""Mistakes that depend on other tables, files or numbers in a way that a schema cannot say."""
-
-
-@pytest.mark.parametrize("name", sorted(MISTAKES.keys() - NOT_IN_A_SCHEMA))
-def test_an_editor_finds_typical_mistakes(name: str) -> None:
-    try:
-        content = tomllib.loads(MISTAKES[name].text)
-    except tomllib.TOMLDecodeError:
-        return
-    assert list(VALIDATOR.iter_errors(content))
+def test_an_editor_finds_typical_mistakes() -> None:
+    for name, text in MISTAKES.items():
+        with suppress(tomllib.TOMLDecodeError):
+            assert list(VALIDATOR.iter_errors(tomllib.loads(text))), name
 
 
 def test_the_schema_describes_every_key() -> None:
