@@ -4,8 +4,8 @@ import tomllib
 from functools import cache
 from pathlib import Path
 
-from slider_resonator.scenes.scene import Scene, scene_from
-from slider_resonator.scenes.scene_files import find_scene, find_scenes
+from slider_resonator.scenes.scene import Scene, read_scenes, scene_from
+from slider_resonator.scenes.scene_files import find_scenes
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 
@@ -19,7 +19,8 @@ def scene_file(folder: Path, text: str) -> Path:
 
 def read_scene(path: Path) -> Scene:
     """Return the only scene of a file."""
-    return find_scene(str(path))
+    (scene,) = read_scenes(path)
+    return scene
 
 
 def scene_read(folder: Path, text: str) -> Scene:

@@ -59,20 +59,6 @@ def test_a_setting_that_may_be_in_hertz_is_noted(native_fmu: Path) -> None:
     assert "note" not in call("steady", native_fmu, "--set", "drive_frequency=600 Hz").stderr
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ('[device]\nload = "1 N"\n', "load is an input; must be given by --set"),
-        ('[device]\ntitle = "mine"\n', "title must be above [device]"),
-        ("a = " + "[" * 5000, "nested too deeply"),
-    ],
-)
-def test_mistakes_of_a_device_file_are_named(tmp_path: Path, text: str, said: str) -> None:
-    path = tmp_path / "mine.toml"
-    path.write_text(text)
-    assert said in " ".join(refused("device", path).split())
-
-
 def test_a_device_that_no_file_could_state_is_not_written() -> None:
     for wrong in (sr.Device(friction_faces=3), sr.Device(slider_mass=-1.0)):
         with pytest.raises(sr.HarnessError, match="must be"):
