@@ -84,7 +84,6 @@ def test_an_fmu_without_experiments_could_not_be_judged(native_fmu: Path, tmp_pa
     assert "must be one of them" in refused("validate", bare, "--own", "--scene", "table_1")
 
 
-@every_slider
 def test_another_tool_gets_the_results(fmu: Fmu) -> None:
     """The files of the FMU are enough: fmpy runs each experiment with its table of inputs."""
     experiments = own_experiments(fmu.path)
