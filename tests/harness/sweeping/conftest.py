@@ -11,8 +11,8 @@ damping_ratio = 0.1
 friction_law = 1
 
 [grid]
-frequency_ratio = { from = 0.5, to = 2.5, count = 5 }
-phase = [0.0, 0.4, 1.3]
+frequency_ratio = { from = 0.5, to = 2.5, count = 3 }
+phase = [0.0, 1.3]
 friction_coefficient = [0.1, 0.0]
 
 [run]
