@@ -110,21 +110,36 @@ def test_the_option_replaces_what_the_scene_says(native_fmu: Path, tmp_path: Pat
 
 def test_without_a_scene_the_device_starts_from_rest(native_fmu: Path) -> None:
     arguments = ("--device", "ultrasonic_slider", "--json")
+    named = json.loads(call("run", native_fmu, "table_1", *arguments).stdout)
+    assert named["drive_periods"] == pytest.approx(100.0)
     for fmu in ((native_fmu,), ("--fmu", native_fmu)):
         summary = json.loads(call("run", *fmu, *arguments).stdout)
-        named = json.loads(call("run", *fmu, "table_1", *arguments).stdout)
         assert (summary["scene"], summary["position"]) == ("table_1", named["position"])
-        assert summary["drive_periods"] == pytest.approx(100.0)
 
 
-def test_the_deviations_of_a_scene_are_written_and_drawn(native_fmu: Path, tmp_path: Path) -> None:
+SWITCHED_OFF = """
+name = "off"
+title = "Off"
+[inputs]
+amplitude_deviation = { steps = [[0.0, 0.0], [0.01, -1.0]] }
+[run]
+stop_time = 0.02
+step_size = 0.0005
+"""
+
+
+def test_results_are_written_drawn_and_summed_up(native_fmu: Path, tmp_path: Path) -> None:
+    scene = tmp_path / "off.toml"
+    scene.write_text(SWITCHED_OFF)
     out, usual, chosen = (tmp_path / name for name in ("a.csv", "a.svg", "b.svg"))
-    ran = call("run", native_fmu, "burst", "--out", out, "--plot", usual)
+    ran = call("run", native_fmu, scene, "--out", out, "--plot", usual)
     assert ran.exit_code == 0, ran.output
-    with out.open() as file:
-        values = {float(row["amplitude_deviation"]) for row in csv.DictReader(file)}
-    assert -1.0 in values
-    call("run", native_fmu, "burst", "--plot", chosen, "--signals", "amplitude_deviation")
+    rows = list(csv.DictReader(out.read_text().splitlines()))
+    assert [float(row["amplitude_deviation"]) for row in rows] == [0.0] * 20 + [-1.0] * 21
+    assert f"{float(rows[-1]['reversals']):.0f} reversals" in ran.stdout
+    assert "11.1408 drive periods" in ran.stdout
+    assert "us per drive period" in ran.stdout
+    call("run", native_fmu, scene, "--plot", chosen, "--signals", "amplitude_deviation")
     for picture in (usual, chosen):
         assert "amplitude deviation" in picture.read_text(encoding="utf-8")
 
