@@ -62,23 +62,27 @@ def test_what_cannot_be_fitted_is_said(data: Path, native_fmu: Path) -> None:
     assert "NAME=LOW:HIGH" in refused("fit", data, "--free", "slider_mass", "--bounds", "3")
 
 
-def test_a_datasheet_that_no_device_has_is_exit_code_1(native_fmu: Path) -> None:
-    options = ("--velocity", "5 m/s", "--free", "friction_coefficient", "--starts", 1)
-    ran = call("fit", *options, "--fmu", native_fmu)
-    assert ran.exit_code == 1, ran.output
-    said = " ".join(ran.stdout.split())
-    assert "must be 5 m/s, the nearest found is" in said
-
-
-def test_friction_that_hardly_any_device_has_is_noted(native_fmu: Path) -> None:
+@pytest.mark.parametrize(
+    ("datasheet", "code", "text"),
+    [
+        (("--velocity", "5 m/s"), 1, "must be 5 m/s, the nearest found is"),
+        (
+            ("--velocity-at", "1 N=10 mm/s", "--set", "normal_preload=1"),
+            1,
+            "must be 0.01 m/s, but no steady motion was found",
+        ),
+        (
+            ("--blocking", "2 N"),
+            0,
+            "is seldom above 1.5: check normal_preload, the units, and friction_faces = 2",
+        ),
+    ],
+)
+def test_datasheets_that_hardly_any_device_has_are_noted(
+    native_fmu: Path, datasheet: tuple[str, ...], code: int, text: str
+) -> None:
     free = ("--free", "friction_coefficient", "--starts", 1, "--fmu", native_fmu)
-    said = " ".join(call("fit", "--blocking", "2 N", *free).stdout.split())
-    assert "is seldom above 1.5: check normal_preload, the units, and friction_faces = 2" in said
-
-
-def test_a_datasheet_under_which_nothing_moves_is_said(native_fmu: Path) -> None:
-    free = ("--free", "friction_coefficient", "--starts", 1, "--fmu", native_fmu)
-    ran = call("fit", "--velocity-at", "1 N=10 mm/s", "--set", "normal_preload=1", *free)
-    assert ran.exit_code == 1
-    assert "must be 0.01 m/s, but no steady motion was found" in " ".join(ran.stdout.split())
+    ran = call("fit", *datasheet, *free)
+    assert ran.exit_code == code, ran.output
+    assert text in " ".join(ran.stdout.split())
     assert "nan" not in ran.stdout
