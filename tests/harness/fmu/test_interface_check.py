@@ -6,6 +6,7 @@ import pytest
 from fmpy import read_model_description
 
 from slider_resonator.fmu.interface_check import description_faults, interface_problems
+from slider_resonator.fmu.opening import Fmu
 from tests.fmus import both_fmus
 from tests.harness.faulty_fmus import redescribed
 
@@ -49,16 +50,9 @@ CHANGES: dict[str, tuple[bytes, bytes, str]] = {
 
 
 @both_fmus
-def test_the_builds_say_what_the_interface_says(fmu: Path) -> None:
-    description = read_model_description(str(fmu))
-    assert interface_problems(description) == []
-    assert description_faults(description) == []
-
-
-@pytest.fixture
-def fmu(request: pytest.FixtureRequest) -> Path:
-    found: Path = request.getfixturevalue(f"{getattr(request, 'param', 'native')}_fmu")
-    return found
+def test_the_builds_say_what_the_interface_says(fmu: Fmu) -> None:
+    assert interface_problems(fmu.description) == []
+    assert description_faults(fmu.description) == []
 
 
 @pytest.mark.parametrize("name", CHANGES)
