@@ -7,7 +7,7 @@ import pytest
 from lxml import etree
 
 import slider_resonator as sr
-from tests.harness.calling import call, refused
+from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 
 
@@ -69,44 +69,3 @@ def test_a_device_is_written_as_a_parameter_set_of_ssp(tmp_path: Path) -> None:
     values = {one.name: one.value for one in fmpy.ssp.ssd.read_ssv(str(path)).parameters}
     expected = vars(sr.read_device("conveyor"))
     assert {name: float(value) for name, value in values.items()} == expected
-    assert "must be with a device" in refused("device", "--ssv", path)
-
-
-@pytest.fixture
-def mine(tmp_path: Path) -> Path:
-    path = tmp_path / "mine.toml"
-    path.write_text('[device]\nslider_mass = "2 kg"\n', encoding="utf-8")
-    return path
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        *[(name,) for name in ("steady", "blocking", "validate", "stress")],
-        ("choose", "feed_forward", "--fmu"),
-        ("trade", "--out", "out", "--fmu"),
-        ("sweep", "grid.toml", "--out", "a.csv", "--fmu"),
-        ("fit", "--velocity", "1", "--free", "slider_mass", "--fmu"),
-        ("baseline", "check"),
-    ],
-)
-def test_a_device_file_in_place_of_an_fmu_is_named(
-    mine: Path, tmp_path: Path, arguments: tuple[str, ...]
-) -> None:
-    more = ("--dir", tmp_path) if arguments[0] == "baseline" else ()
-    said = " ".join(refused(*arguments, mine, *more).split())
-    assert "mine.toml: is a device file; must be an FMU." in said
-    assert "`--device " in said
-
-
-def test_other_files_are_named_as_what_they_are(mine: Path, native_fmu: Path) -> None:
-    for arguments, said in (
-        (("device", "docs/steady_velocity.toml"), "is a grid file"),
-        (("steady", native_fmu, "--device", "stick_slp"), "did you mean 'stick_slip'?"),
-        (
-            ("sweep", "table_1", "--out", "a.csv"),
-            "table_1: is a scene; must be a grid file. Use it in `slider-resonator run",
-        ),
-        (("fit", mine, "--free", "slider_mass"), "is a device file; must be a CSV file."),
-    ):
-        assert said in " ".join(refused(*arguments).split())

@@ -36,6 +36,8 @@ def test_a_fit_writes_the_device_to_go_on_with(
     (other / "device.toml").write_text("[device]\n", encoding="utf-8")
     said = refused("fit", data, *device, "--free", "damping_ratio", "--out", other)
     assert "has a device.toml that no fit has written" in " ".join(said.split())
+    said = refused("fit", data, *device, "--free", "damping_ratoi", "--starts", 1)
+    assert "did you mean 'damping_ratio'" in said
     assert "95 % from" in (tmp_path / "fit.html").read_text(encoding="utf-8")
     residuals = np.genfromtxt(tmp_path / "residuals.csv", delimiter=",", names=True)
     assert np.rad2deg(residuals["phase"]) == pytest.approx([-40.0, -10.0, 20.0, 50.0])
@@ -51,15 +53,6 @@ def test_what_is_left_open_is_exit_code_1(data: Path, native_fmu: Path) -> None:
     assert_public_keys("fit", ran.stdout)
     open_ones = [one["name"] for one in json.loads(ran.stdout)["parameters"] if one["is_open"]]
     assert sorted(open_ones) == sorted(free.split(","))
-
-
-def test_what_cannot_be_fitted_is_said(data: Path, native_fmu: Path) -> None:
-    fmu = ("--fmu", native_fmu)
-    assert "no measurements" in refused("fit", *fmu, "--free", "slider_mass")
-    assert "did you mean" in refused("fit", data, *fmu, "--free", "slider_mas")
-    assert "LOAD=VELOCITY" in refused("fit", *fmu, "--free", "load", "--velocity-at", "3")
-    assert "not in m/s" in refused("fit", *fmu, "--free", "slider_mass", "--velocity", "3 N")
-    assert "NAME=LOW:HIGH" in refused("fit", data, "--free", "slider_mass", "--bounds", "3")
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Refusals of `run` before it runs, and the files that it reads and writes."""
+"""The files that `run` reads and writes, and how long it runs."""
 
 import csv
 import json
@@ -24,42 +24,6 @@ def test_nothing_that_is_read_is_overwritten(python_fmu: Path, tmp_path: Path) -
         before = target.read_bytes()
         assert reported in refused("run", fmu, scene, "--device", device, "--out", target)
         assert target.read_bytes() == before
-
-
-@pytest.mark.parametrize(
-    ("arguments", "reported"),
-    [
-        (["--out", "/dev/full"], "is a device"),
-        (["--out", ""], "'' names no file"),
-        (["--out", "/"], "is a directory"),
-        (["--out", "/no/such/out.csv"], "there is no folder /no/such"),
-        (["--plot", "p.txt"], "'.txt'; must be one of .png, .svg, .pdf"),
-        (["--set", "load=nan"], "'--set': load = nan: must be a finite number"),
-        (["--set", "drive_frequency=0"], "'--set': drive_frequency = 0.0: must be"),
-        (["--set", "load=1", "--set", "load=2"], "load = 1.0 and load = 2.0: must be one"),
-        (["--window", "1"], "'1': must be FROM:TO, two times in s"),
-        (["--window", "a:b"], "'a:b': must be FROM:TO, two times in s"),
-        (["--window", "0:0.1"], "--signals, --window and --overlay need --plot"),
-        (["--signals", "load"], "--signals, --window and --overlay need --plot"),
-        (["--plot", "a.png", "--window", "1:2"], "--window 1:2: must be FROM:TO with 0 <= FROM"),
-        (["--plot", "a.png", "--signals", "x"], "unknown output or input 'x'"),
-        (["--plot", "a.png", "--overlay", "fidelty=1"], "did you mean 'fidelity'?"),
-        (["--plot", "a.png", "--overlay", "fidelity=x"], "fidelity = 'x': must be an integer"),
-        (["--time", "-1 ms"], "time = '-1 ms': must be above 0 s"),
-        (["--time", "1e4 s"], "take longer steps, or a shorter time"),
-        (["--step", "1 ms", "--auto"], "--auto chooses the step"),
-        (["--set", "phase=30", "deg"], "must be in quotes, as --set 'phase=30 deg'"),
-        (["--set", "phase=30 Grad"], "Grad is 1e+09 rad; must be a number in rad"),
-    ],
-)
-def test_mistakes_are_named_by_their_option_before_the_fmu_is_opened(
-    arguments: list[str], reported: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    said = refused("run", "no.fmu", "lift_off", *arguments)
-    assert reported in " ".join(said.split())
-    assert ".toml" not in said, "the scene file is not to blame"
-    assert list(tmp_path.iterdir()) == []
 
 
 LINE = """

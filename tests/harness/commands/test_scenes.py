@@ -49,10 +49,4 @@ def test_the_template_is_a_scene(tmp_path: Path) -> None:
 
 def test_the_schema_is_printed() -> None:
     assert json.loads(call("scenes", "--schema").stdout) == scene_schema()
-
-
-def test_what_does_not_go_together_is_refused() -> None:
-    assert "--template and --schema: must be only one" in refused(
-        "scenes", "--template", "--schema"
-    )
     assert "--json does not go with --check" in refused("scenes", "--check", "table_1", "--json")

@@ -56,40 +56,6 @@ def test_ranges_may_be_options(native_fmu: Path, tmp_path: Path) -> None:
     assert f"<h1>{title}</h1>" in page.read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize(
-    ("arguments", "text"),
-    [
-        ([], "must have either GRID or --over"),
-        (["grid.toml", "--over", "phase=0:1:3"], "must have either GRID or --over"),
-        (["grid.toml", "--measure", "blocking_force"], "and --measure with that only"),
-        (["--over", "phase=0:1"], "is not NAME=FROM:TO:COUNT, such as 'phase=-180 deg:180"),
-        (["--over", "phse=0:1:3"], "did you mean 'phase'?"),
-        (["--over", "phase=0:1:1"], "grid.phase.count = 1: must be"),
-        (["--over", "phase=1:1:5"], "from 1.0 to 1.0: must be two different numbers"),
-        (["--over", "phase=0 kg:1:3"], "phase = '0 kg': not in rad"),
-        (["--over", "phase=0:1:3", "--over", "phase=0:2:3"], "--over phase: given twice"),
-        (["fase.toml"], "did you mean 'phase'"),
-        (["grid.toml", "--out", "a.txt"], "must be one of .parquet, .csv"),
-        (["grid.toml", "--fmu", "none.fmu"], "none.fmu: no such file"),
-        (["three.toml", "--plot", "a.png"], "3 variables"),
-    ],
-)
-def test_what_cannot_run_is_named_and_nothing_is_written(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], text: str
-) -> None:
-    files = {
-        "grid.toml": "phase = [1]",
-        "fase.toml": "fase = [1]",
-        "three.toml": "phase = [1]\nload = [0]\nfidelity = [2]",
-    }
-    for name, grid in files.items():
-        (tmp_path / name).write_text(f"[grid]\n{grid}")
-    monkeypatch.chdir(tmp_path)
-    said = refused("sweep", "--out", "a.csv", *arguments)
-    assert text in " ".join(said.split())
-    assert {path.name for path in tmp_path.iterdir()} == files.keys()
-
-
 def test_results_of_another_device_are_not_replaced(native_fmu: Path, tmp_path: Path) -> None:
     out = tmp_path / "a.csv"
     sweep = ("sweep", "--over", "phase=0:1:2", "--out", out, "--fmu", native_fmu)

@@ -109,23 +109,6 @@ def test_measurements_before_an_error_or_an_interruption_are_kept(
     assert (tmp_path / "index.html").is_file()
 
 
-@pytest.mark.parametrize(
-    ("arguments", "reported"),
-    [
-        (["tabel_1"], "did you mean 'table_1'?"),
-        (["table_1", "--fmu", "missing.fmu"], "missing.fmu: no such file"),
-    ],
-)
-def test_missing_inputs_are_reported_and_nothing_is_written(
-    tmp_path: Path, arguments: list[str], reported: str
-) -> None:
-    out = tmp_path / "out"
-    result = call("trade", *arguments, "--out", out)
-    assert result.exit_code == 2
-    assert reported in result.stderr
-    assert not out.exists()
-
-
 def test_the_public_keys_stay(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

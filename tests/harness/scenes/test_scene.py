@@ -9,7 +9,6 @@ from slider_resonator.device.device import Device
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.json_schema import scene_schema
 from slider_resonator.scenes.scene import scene_from
-from slider_resonator.scenes.scene_files import find_scene
 from tests.harness.scene_text import read_scene, scene_file, scene_of, scene_read
 
 RUN = "[run]\nstop_time = 0.1\nstep_size = 0.01\n"
@@ -122,19 +121,6 @@ base_amplitude = { steps = [[0.0, 1e-4], [0.07, 2e-4]] }
     off = scene.with_values({"amplitude_deviation": -0.5})
     found = [held.tuned_device(off.device) for held in off.schedule().held()]
     assert [d.base_amplitude for d in found] == [0.5e-4, 1e-4]
-
-
-@pytest.mark.parametrize(
-    ("name", "message"),
-    [
-        ("table1", "did you mean 'table_1'"),
-        ("no.toml", "no such scene file"),
-        ("/", "is a directory; must be a scene file"),
-    ],
-)
-def test_a_scene_that_is_not_there_is_named(name: str, message: str) -> None:
-    with pytest.raises(SceneError, match=message):
-        find_scene(name)
 
 
 def test_the_refusal_of_a_scene_without_a_run_names_the_command_scenes() -> None:
