@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from slider_resonator.baseline.judge import SIGNALS, compare_golden
@@ -115,14 +115,21 @@ def test_written_results_are_read_back(tmp_path: Path) -> None:
             assert np.array_equal(times, STORED_TIMES)
 
 
-@example(number=-0.0)
-@given(number=st.floats(allow_nan=False, allow_infinity=False))
-def test_numbers_keep_their_digits(number: float, tmp_path_factory: pytest.TempPathFactory) -> None:
+@settings(max_examples=10)
+@example(numbers=[-0.0])
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=20))
+def test_numbers_keep_their_digits(
+    tmp_path_factory: pytest.TempPathFactory, numbers: list[float]
+) -> None:
     folder = tmp_path_factory.mktemp("numbers") / "mine"
-    write_recorded(folder, Recorded({(): {"steady_velocity": Measurement(number)}}, {}))
-    (golden,) = read_recorded(folder).points.values()
-    assert golden["steady_velocity"].value == pytest.approx(number, rel=10.0 ** (1 - DIGITS))
-    assert not str(golden["steady_velocity"].value).startswith("-0.0")
+    points = {
+        (("phase", n),): {"steady_velocity": Measurement(one)} for n, one in enumerate(numbers)
+    }
+    write_recorded(folder, Recorded(points, {}))
+    for golden, number in zip(read_recorded(folder).points.values(), numbers, strict=True):
+        value = golden["steady_velocity"].value
+        assert value == pytest.approx(number, rel=10.0 ** (1 - DIGITS))
+        assert str(value) != "-0.0"
 
 
 def test_writing_again_replaces_everything_and_leaves_nothing_behind(tmp_path: Path) -> None:

@@ -70,20 +70,6 @@ def test_a_variant_is_found_by_file_and_name_or_with_all_others(tmp_path: Path) 
         find_scene(f"{path}#secnd")
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("variant = 3", "variant: must be a list of tables, each headed"),
-        ('[[variant]]\ntitle = "x"', "variant 1: must have a name of its own"),
-        ('[[variant]]\nname = "a"\n[[variant]]\nname = "a"', "2 variants are called a"),
-        ('[[variant]]\nname = "a"\ntitle = "x"\ndevise = 1', "unknown key 'devise'"),
-    ],
-)
-def test_variants_that_are_no_scenes_are_refused(tmp_path: Path, text: str, message: str) -> None:
-    with pytest.raises(SceneError, match=message):
-        read_scenes(family(tmp_path, text))
-
-
 def test_a_scene_of_data_must_be_one() -> None:
     several = {"title": "x", "variant": [{"name": "a"}, {"name": "b"}]}
     with pytest.raises(SceneError, match="has the scenes a, b"):

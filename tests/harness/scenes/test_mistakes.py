@@ -146,6 +146,10 @@ IN_NO_SCHEMA = {
     "a need of nan": NEED + "position = { rel = nan }\n",
     "a need without a run": "[need]\nbeat = { rel = 0.1 }\n",
     "a need under inputs that change": STEPS + "[need]\nblocking_force = { rel = 0.1 }\n",
+    "a variant that is no list": "variant = 3\n",
+    "a variant without a name": '[[variant]]\ntitle = "x"\n',
+    "two variants of one name": '[[variant]]\nname = "a"\n[[variant]]\nname = "a"\n',
+    "an unknown key of a variant": '[[variant]]\nname = "a"\ndevise = 1\n',
     **{
         f"a CSV: {what}": RUN + f"[inputs]\nload = {{ csv = {csv} }}\n"
         for what, csv in {

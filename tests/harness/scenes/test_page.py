@@ -113,7 +113,7 @@ PARAMETERS_OF_TABLES = [
 
 def test_the_json_schema_is_one_and_accepts_what_is_valid() -> None:
     jsonschema.Draft202012Validator.check_schema(scene_schema())
-    for path in set(built_in_scenes().values()):
+    for path in {path for path in built_in_scenes().values() if path.parent.name == "core"}:
         VALIDATOR.validate(tomllib.loads(path.read_text(encoding="utf-8")))
     VALIDATOR.validate(tomllib.loads(template()))
 

@@ -1,7 +1,5 @@
 """Page and picture of a sweep."""
 
-import json
-import re
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -42,10 +40,7 @@ def plots(path: Path, content: dict[str, Any], *, answered: bool = True) -> list
     assert page.loaded == ["data:,"]
     assert page.ids == ["provenance"]
     assert "0123abcd" in text
-    return [
-        json.loads(data)
-        for data in re.findall(r'application/json">(.*?)</script>', text, re.DOTALL)
-    ]
+    return page.plots
 
 
 def test_a_line_has_every_point_with_what_it_is(tmp_path: Path) -> None:

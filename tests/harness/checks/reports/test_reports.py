@@ -5,7 +5,6 @@ import json
 import re
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -32,15 +31,10 @@ def page(folder: Path, *validations: Validation) -> tuple[str, Page]:
     return text, Page(text)
 
 
-def plots_of(text: str) -> list[dict[str, Any]]:
-    found = re.findall(r'application/json">(.*?)</script>', text, re.DOTALL)
-    return [json.loads(data) for data in found]
-
-
 def test_deviations_are_drawn_and_the_page_loads_nothing(tmp_path: Path) -> None:
     text, tags = page(tmp_path, GOOD, BAD)
     assert all(one == "data:," or one[1:] in tags.ids for one in tags.loaded), "within the page"
-    plots = [one for one in plots_of(text) if one["title"].startswith("position")]
+    plots = [one for one in tags.plots if one["title"].startswith("position")]
     points = [len(one["series"][0]["x"]) for one in plots]
     assert points == [len(TIMES), 25 + 64], "the whole run and the part at the first deviation"
     assert plots[1]["title"].endswith("from 0.0125 s on")
@@ -72,8 +66,8 @@ def test_a_start_far_outside_does_not_set_the_axis_and_is_named(tmp_path: Path) 
     signal = replace(SIGNAL, quantity="mean_velocity_in_run", unit="m/s")
     overview = Curves(signal, times, velocity, velocity)
     passed = replace(SIGNAL, passed=True)
-    text, _ = page(tmp_path, Validation("good.fmu", (passed,), 1.0, overviews=(overview,)))
-    low, high = plots_of(text)[0]["y"]["range"]
+    text, read = page(tmp_path, Validation("good.fmu", (passed,), 1.0, overviews=(overview,)))
+    low, high = read.plots[0]["y"]["range"]
     assert -0.02 < low < 0.0
     assert 0.1 < high < 0.12
     assert "start beyond the axis: -1 to 2" in text
@@ -88,7 +82,7 @@ def test_plots_show_the_fmu_on_the_reference_over_time_or_the_sweep(tmp_path: Pa
     lines = [
         f"{plot['title']}: {plot['y']['label']} over {plot['x']['label']}\n"
         + "".join(f"  {one['label']}: {one['x']} {one['y']}\n" for one in plot["series"])
-        for plot in plots_of(page(tmp_path, validation)[0])
+        for plot in page(tmp_path, validation)[1].plots
     ]
     assert_as_before("report_plots.txt", "".join(lines))
 
