@@ -65,7 +65,7 @@ def test_run_failures_exit_with_2_and_all_reports(
 
 def test_a_scene_at_fault_is_reported_too(native_fmu: Path, tmp_path: Path) -> None:
     scene = tmp_path / "mine.toml"
-    scene.write_text("no TOML")
+    scene.write_text('name = "mine"\ntitle = "It expects nothing"\n')
     result, report, junit = reported(tmp_path, native_fmu, "--scene", scene)
     assert result.exit_code == 2
     assert "mine.toml" in result.stderr

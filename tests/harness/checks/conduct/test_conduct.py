@@ -21,7 +21,6 @@ from tests.harness.scene_text import read_scene
 
 LEFT_OUT = (
     ("Outputs", "steady_velocity", "phase", "in a run"),
-    ("Outputs", "blocking_force", "phase", "in a run"),
     ("Outputs", "friction_force", "load", "in a run"),
     ("InitialUnknowns", "steady_velocity", "damping_ratio", "at the start"),
     ("InitialUnknowns", "velocity", "initial_velocity", "at the start"),
