@@ -86,29 +86,16 @@ def test_a_scene_with_every_key_validates(tmp_path: Path) -> None:
         scene_from(tomllib.loads(text), "x.toml", tmp_path)
         VALIDATOR.validate(tomllib.loads(text))
         seen |= set(keys(tomllib.loads(text)))
-    assert seen >= set(PARAMETERS_OF_TABLES)
-    for model, places in {
-        "The top of the file": [""],
-        "[inputs]": ["inputs."],
-        "[tuning]": ["tuning."],
-        "[beside]": ["beside."],
-        "[run]": ["run."],
-        "[[expect]]": ["expect."],
-        "[sweep]": ["sweep."],
-        "[need]": ["need."],
-    }.items():
-        for place in places:
-            missing = {f"{place}{name}" for name in TABLES[model].model_fields} - seen
-            assert not missing, missing
+    tunable = TABLES["[tuning]"].model_fields
+    assert seen >= {f"{'tuning' if one in tunable else 'device'}.{one}" for one in PARAMETERS}
+    tables = ("[inputs]", "[tuning]", "[beside]", "[run]", "[[expect]]", "[sweep]", "[need]")
+    for table in ("The top of the file", *tables):
+        place = f"{table.strip('[]')}." if table in tables else ""
+        missing = {f"{place}{name}" for name in TABLES[table].model_fields} - seen
+        assert not missing, missing
     for heading in ("Values over time", "The accuracy of a need"):
         last = {path.rsplit(".", 1)[-1] for path in seen}
         assert set(TABLES[heading].model_fields) <= last
-
-
-PARAMETERS_OF_TABLES = [
-    f"tuning.{name}" if name in TABLES["[tuning]"].model_fields else f"device.{name}"
-    for name in PARAMETERS
-]
 
 
 def test_the_json_schema_is_one_and_accepts_what_is_valid() -> None:
