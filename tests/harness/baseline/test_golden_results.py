@@ -123,7 +123,7 @@ def test_numbers_keep_their_digits(
 ) -> None:
     folder = tmp_path_factory.mktemp("numbers") / "mine"
     points = {
-        (("phase", n),): {"steady_velocity": Measurement(one)} for n, one in enumerate(numbers)
+        key({"phase": n}): {"steady_velocity": Measurement(one)} for n, one in enumerate(numbers)
     }
     write_recorded(folder, Recorded(points, {}))
     for golden, number in zip(read_recorded(folder).points.values(), numbers, strict=True):
