@@ -24,6 +24,8 @@ IN_THE_HEAD = {
     "curly quotes": "name = “mine”\n",
     "an apostrophe in a text": "name = 'mine'\ntitle = 'It's mine'\n",
     "quotes in a text": 'name = "mine"\ntitle = "the "best" scene"\n',
+    "a device file": "[device]\nslider_mass = 1.0\n",
+    "a grid file": "[grid]\nphase = [0.0, 1.0]\n",
     "a title below a heading": 'name = "mine"\ntitle = "x"\n' + RUN + 'title = "Mine"\n',
 }
 """Texts of scenes by what is wrong with them."""
@@ -111,6 +113,8 @@ BELOW_THE_HEAD = {
 """The same, with texts that follow on `HEAD`."""
 
 IN_NO_SCHEMA = {
+    "unknown device": 'device = "convoyer"\n',
+    "a device file that is not there": 'device = "none.toml"\n',
     "unit that does not fit": '[inputs]\nload = { steps = [[0, 0], ["5 mm", "50 mN"]] }\n',
     "unit that does not fit a parameter": "[device]\ndrive_frequency = '20 kg'\n",
     "not a number": "[device]\nslider_mass = nan\n",

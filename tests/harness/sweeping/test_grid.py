@@ -80,6 +80,7 @@ def test_a_seed_gives_the_same_sample_and_another_seed_another(tmp_path: Path) -
 
 MISTAKES = (
     "",
+    'name = "a"\n[run]\nstop_time = 1.0',
     "[grid]\nfase = [1.0]",
     "[grid]\nphase = 1.0",
     "[grid]\nphase = []",
