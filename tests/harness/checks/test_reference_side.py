@@ -36,6 +36,21 @@ def test_a_tube_contains_signals_shifted_by_less_than_its_width() -> None:
         assert (np.max(tube.outside(shifted)) < 1e-3 * np.abs(velocity).max()) == inside
 
 
+def test_at_the_end_of_a_run_the_inputs_are_the_last_and_the_phase_has_its_lead() -> None:
+    inputs = (
+        "[inputs]\nload = { steps = [[0.0, 0.0], [0.001, 0.02]] }\n"
+        "frequency_ratio = { steps = [[0.0, 1.0], [0.002, 1.5], [0.003, 1.0]] }\n"
+    )
+    end = ReferenceSide(scene_of(inputs + RUN)).steady_at_end
+    lead = 0.5 * 3500.0 * 0.001  # rad: half the drive frequency for a millisecond
+    assert (end.phase, end.load, end.frequency_ratio) == pytest.approx((lead, 0.02, 1.0))
+
+
+def test_a_device_that_never_moves_has_no_event_after_its_start() -> None:
+    weak = "[device]\nbase_amplitude = 5e-9\nnormal_amplitude = 0.5\n"
+    assert ReferenceSide(scene_of(weak + RUN)).last_event_time("located_events") == 0.0
+
+
 PERIODS = "[run]\ndrive_periods = {end}\nsteps_per_period = 2\n"
 PURE_SINE = "[device]\nnormal_preload = 0.0\nbase_amplitude = 1e-6\n[inputs]\nload = 0.03\n"
 
