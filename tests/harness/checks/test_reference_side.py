@@ -36,12 +36,23 @@ def test_a_tube_contains_signals_shifted_by_less_than_its_width() -> None:
         assert (np.max(tube.outside(shifted)) < 1e-3 * np.abs(velocity).max()) == inside
 
 
+STEPS = (
+    "[inputs]\nload = { steps = [[0.0, 0.0], [0.001, 0.02]] }\n"
+    "frequency_ratio = { steps = [[0.0, 1.0], [0.002, 1.5], [0.003, 1.0]] }\n"
+)
+
+
+def test_predictions_follow_the_inputs_before_each_point() -> None:
+    reference = ReferenceSide(scene_of(STEPS + "[run]\nstop_time = 0.004\nstep_size = 0.001\n"))
+    found = reference.predictions("predicted_velocity")
+    at_start = ReferenceSide(scene_of(RUN)).steady.predicted_velocity
+    assert found[:2] == pytest.approx([at_start] * 2), "a point on a change is still before it"
+    assert found[2] != pytest.approx(at_start)
+    assert found[-1] == reference.steady_at_end.predicted_velocity
+
+
 def test_at_the_end_of_a_run_the_inputs_are_the_last_and_the_phase_has_its_lead() -> None:
-    inputs = (
-        "[inputs]\nload = { steps = [[0.0, 0.0], [0.001, 0.02]] }\n"
-        "frequency_ratio = { steps = [[0.0, 1.0], [0.002, 1.5], [0.003, 1.0]] }\n"
-    )
-    end = ReferenceSide(scene_of(inputs + RUN)).steady_at_end
+    end = ReferenceSide(scene_of(STEPS + RUN)).steady_at_end
     lead = 0.5 * 3500.0 * 0.001  # rad: half the drive frequency for a millisecond
     assert (end.phase, end.load, end.frequency_ratio) == pytest.approx((lead, 0.02, 1.0))
 
