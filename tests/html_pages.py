@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import json
+import re
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 VOID = {"meta", "link", "img", "br"}
 """Elements without an end tag, of those that our pages have."""
+DATA = re.compile(r'<script type="application/json">(.*?)</script>', re.DOTALL)
 
 
 class Page(HTMLParser):
-    """The start tags of a page, in their order, and the attributes that load something.
+    """The start tags of a page, in their order, the attributes that load something, the plots.
 
     An end tag that does not close the innermost element, an element left open and an id that is
     given twice fail the test.
@@ -21,6 +25,7 @@ class Page(HTMLParser):
         self.tags: list[str] = []
         self.loaded: list[str] = []
         self.ids: list[str] = []
+        self.plots: list[dict[str, Any]] = [json.loads(data) for data in DATA.findall(text)]
         self._opened: list[str] = []
         assert text.startswith("<!DOCTYPE html>")
         self.feed(text)

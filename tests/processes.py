@@ -1,7 +1,6 @@
 """Commands and Python code in processes of their own."""
 
 import os
-import signal
 import subprocess
 import sys
 import time
@@ -10,11 +9,6 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
 """The checkout."""
-
-
-def heed_interrupts() -> None:
-    """Undo an ignored SIGINT, inherited from a job in the background; for `preexec_fn`."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def run_command(*command: object, **options: Any) -> subprocess.CompletedProcess[str]:

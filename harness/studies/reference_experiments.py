@@ -24,7 +24,7 @@ from slider_resonator.checks.own_experiments import (
 )
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.device.interface import INPUT_STARTS, INPUTS, INTEGERS
-from slider_resonator.scenes.device_file import read_device
+from slider_resonator.scenes.device_file import read_device_file
 from slider_resonator.scenes.scene import Scene, scene_from
 
 FOLDER = Path(__file__).resolve().parents[2] / "fmu_src" / "assets" / "reference_experiments"
@@ -64,7 +64,7 @@ EXPERIMENTS = {
     "changing_inputs": Experiment(
         {
             "title": "A slider at 20 kHz under phase, load and frequency that change",
-            "device": read_device("ultrasonic_slider"),
+            "device": read_device_file("ultrasonic_slider").values,
             "inputs": {
                 "phase": {"steps": [[0.0, 0.4], [0.001, -0.4]]},
                 "load": {"steps": [[0.0, 0.0], [0.0005, 0.05]]},

@@ -2,8 +2,13 @@
 
 import os
 import re
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
+import pytest
+
+from slider_resonator.errors import HarnessError
+from slider_resonator.output.readable import escaped
 from tests.html_pages import Page
 
 SCREENS = Path(__file__).parent / "screens"
@@ -27,3 +32,28 @@ def assert_page_as_before(name: str, page: Path) -> None:
     html = page.read_text(encoding="utf-8")
     html = re.sub(r"<(style|script)\b.*?</\1>|<meta http-equiv[^>]*>", "", html, flags=re.DOTALL)
     assert_as_before(name, re.sub(r"\s*(<(?:tr|p|h\d|details|div)\b)", r"\n\1", html))
+
+
+def without_long_lists(message: str) -> str:
+    """Leave out long lists of allowed names, which come and go."""
+    return re.sub(r" [(]must be one of [^)]{60,}[)]", "", message)
+
+
+def assert_mistakes_as_before(
+    name: str, file: Path, texts: Mapping[str, str], read: Callable[[Path], object]
+) -> None:
+    """Compare why `read` refuses a file of each text, by its mistake, with the file of that name.
+
+    The words of the reader of TOML, and long lists of names, which come and go, are left out.
+    """
+    said = []
+    for mistake, text in texts.items():
+        file.write_text(text, encoding="utf-8")
+        with pytest.raises(HarnessError) as refusal:
+            read(file)
+        message = escaped(str(refusal.value)).replace(f"{file.parent}/", "")
+        assert all(line.startswith(f"{file.name}: ") for line in message.splitlines())
+        message = re.sub(r"not TOML: [^;]*;", "not TOML;", message)
+        message = without_long_lists(message)
+        said.append(f"{mistake}\n" + "".join(f"    {line}\n" for line in message.splitlines()))
+    assert_as_before(name, "".join(said))

@@ -1,10 +1,11 @@
-"""Scenes of a test, from the text of a scene file."""
+"""Scenes of a test, from the text of a scene file, and those built in."""
 
 import tomllib
+from functools import cache
 from pathlib import Path
 
-from slider_resonator.scenes.scene import Scene, scene_from
-from slider_resonator.scenes.scene_files import find_scene
+from slider_resonator.scenes.scene import Scene, read_scenes, scene_from
+from slider_resonator.scenes.scene_files import find_scenes
 
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 
@@ -18,7 +19,8 @@ def scene_file(folder: Path, text: str) -> Path:
 
 def read_scene(path: Path) -> Scene:
     """Return the only scene of a file."""
-    return find_scene(str(path))
+    (scene,) = read_scenes(path)
+    return scene
 
 
 def scene_read(folder: Path, text: str) -> Scene:
@@ -28,6 +30,12 @@ def scene_read(folder: Path, text: str) -> Scene:
 
 def scene_of(text: str) -> Scene:
     return scene_from(tomllib.loads(HEAD + text), "mine.toml")
+
+
+@cache
+def built_in() -> dict[str, Scene]:
+    """Return the built-in scenes by name, read once: that takes a second."""
+    return {scene.name: scene for scene in find_scenes([])}
 
 
 def table_1(needs: str, periods: float = 400.0, steps: float = 1.0) -> Scene:

@@ -19,6 +19,7 @@ from slider_resonator.trading import peer_methods
 
 STEADY_VELOCITY = 0.0986951
 """Of table 1 at phase 0.4 rad and a load of 0.05 N, by Taylor integration, m/s."""
+SHORT: dict[str, Any] = {"run": {"stop_time": 0.1, "step_size": 0.01}}
 
 
 def test_every_name_of_the_api_is_one_of_the_package() -> None:
@@ -68,47 +69,26 @@ def test_scenes_are_names_files_and_data(native_fmu: Path, tmp_path: Path) -> No
         (validation,) = sr.validate(native_fmu, scenes=scenes)
         assert validation.passed
         assert {check.scene for check in validation.checks} == {"blocking_force_table_1"}
-    assert sr.choose("feed_forward", native_fmu).meets
     table = tmp_path / "table.csv"
-    result = sr.sweep(
-        {"measures": ["steady_velocity"], "list": {"phase": [0.0, 0.4]}},
-        table,
-        native_fmu,
-        workers=1,
-    )
+    table.write_text("point,phase\n0,1.0\n")
+    grid = {"measures": ["steady_velocity"], "list": {"phase": [0.0, 0.4]}}
+    with pytest.raises(sr.HarnessError, match="not a table of this grid's points"):
+        sr.sweep(grid, table, native_fmu, workers=1)
+    result = sr.sweep(grid, table, native_fmu, workers=1, overwrite=True)
     assert (result.points, result.failed) == (2, 0)
     assert table.read_text().count("\n") == 3
 
 
-def test_a_table_of_other_points_is_replaced_only_where_that_is_asked_for(
-    native_fmu: Path, tmp_path: Path
-) -> None:
-    table = tmp_path / "table.csv"
-    table.write_text("point,phase\n0,1.0\n")
-    grid = {"measures": ["steady_velocity"], "list": {"phase": [0.4]}}
-    with pytest.raises(sr.HarnessError, match="not a table of this grid's points"):
-        sr.sweep(grid, table, native_fmu, workers=1)
-    assert sr.sweep(grid, table, native_fmu, workers=1, overwrite=True).points == 1
-    assert "0.4" in table.read_text()
-    with pytest.raises(sr.HarnessError, match=r"the suffix is '\.xls'; must be one of \.parquet"):
-        sr.sweep(grid, tmp_path / "table.xls", native_fmu, workers=1)
-
-
 def test_what_a_script_gets_wrong_is_named(native_fmu: Path) -> None:
     with sr.open_fmu(native_fmu) as fmu:
-        record = fmu.run({"run": {"stop_time": 0.01, "step_size": 0.01}})
         with pytest.raises(sr.HarnessError, match=r"phase = '0\.4 kg': not in rad; must be"):
             fmu.steady(phase="0.4 kg")
+        with pytest.raises(sr.HarnessError, match=r"friction_coefficient = 0\.0 refused: with"):
+            fmu.run("table_1", friction_law=1, friction_coefficient=0.0)
+        record = fmu.run(SHORT)
     for read in (record.__getitem__, record.final):
         with pytest.raises(sr.HarnessError, match="unknown column 'positon'; did you mean 'pos"):
             read("positon")
-
-
-def test_a_refusal_of_the_fmu_is_an_error_with_its_text(native_fmu: Path) -> None:
-    with sr.open_fmu(native_fmu) as fmu:
-        with pytest.raises(sr.HarnessError, match=r"friction_coefficient = 0\.0 refused: with"):
-            fmu.run("table_1", friction_law=1, friction_coefficient=0.0)
-        assert fmu.run("table_1").final("position") > 0.0, "the FMU can still be used"
 
 
 def test_finished_fmus_are_found_or_the_remedy_is_named(
@@ -132,7 +112,7 @@ def test_results_say_what_was_found_on_a_screen(native_fmu: Path, tmp_path: Path
     task = {"measures": ["steady_velocity"], "grid": grid}
     table = sr.sweep(task, tmp_path / "table.csv", native_fmu, workers=1)
     (validation,) = sr.validate(native_fmu, scenes=["blocking_force_table_1"])
-    choice = sr.choose("feed_forward", native_fmu)
+    choice = sr.choose({**SHORT, "need": {"mean_velocity": {"rel": 0.01}}}, native_fmu)
     measured = {"phase [deg]": np.array([0.0]), "velocity [mm/s]": [120.0]}
     fit = sr.fit(measured, "friction_coefficient", native_fmu)
     scene = sr.read_scene("table_1")
@@ -152,10 +132,11 @@ def test_results_say_what_was_found_on_a_screen(native_fmu: Path, tmp_path: Path
         assert words in text
         assert text.count("\n") <= 25
         assert max(map(len, text.splitlines())) < 300
-    for drawable in (record, table, fit):
-        picture = tmp_path / f"{type(drawable).__name__}.png"
-        assert isinstance(drawable.plot(picture), Picture), "a notebook shows it"
-        assert picture.read_bytes().startswith(b"\x89PNG")
+    picture = tmp_path / "run.png"
+    assert isinstance(record.plot(picture), Picture), "a notebook shows it"
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    for drawable in (table, fit):
+        assert isinstance(drawable.plot(), Picture)
     with pytest.raises(sr.HarnessError, match=r"the suffix is '\.gif'; must be one of \.png"):
         record.plot(tmp_path / "run.gif")
     for tabular in (record, table, fit, validation, choice):
@@ -166,7 +147,7 @@ def test_tables_go_to_pandas_where_it_is_installed(
     native_fmu: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with sr.open_fmu(native_fmu) as fmu:
-        record = fmu.run({"run": {"stop_time": 0.05, "step_size": 0.01}})
+        record = fmu.run(SHORT)
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(sr.HarnessError, match="needs pandas: pip install pandas"):
         record.to_pandas()
@@ -208,6 +189,7 @@ def test_arrays_and_numbers_of_numpy_are_data(native_fmu: Path, tmp_path: Path) 
         (lambda: sr.read_device("no.toml"), r"no\.toml: cannot be read: No such file"),
         (lambda: sr.open_fmu("no.fmu", time_limit=0), "time_limit = 0: must be a number above 0"),
         (lambda: sr.validate("no.fmu", scenes="table_1", jobs=0), "jobs = 0: must be a whole num"),
+        (lambda: sr.validate("no.fmu", scenes=[]), "must be at least one scene"),
         (lambda: sr.sweep({"grid": {"phase": 3}}, "a.csv"), r"grid\.phase = 3: must be a list"),
         (lambda: sr.fit("no.csv", "damping_ratio"), r"no\.csv cannot be read"),
         (
@@ -250,11 +232,7 @@ def test_what_a_device_file_states_replaces_the_scene(native_fmu: Path, tmp_path
     """Also where it is the value of table 1, as with the commands."""
     mine = tmp_path / "mine.toml"
     mine.write_text('[device]\nslider_mass = "1 kg"\nresonator_mass = 0.2\n', encoding="utf-8")
-    scene = {
-        "device": {"slider_mass": 3.0},
-        "need": {"mean_velocity": {"rel": 0.01}},
-        "run": {"stop_time": 0.1, "step_size": 0.01},
-    }
+    scene = {**SHORT, "device": {"slider_mass": 3.0}, "need": {"mean_velocity": {"rel": 0.01}}}
     with sr.open_fmu(native_fmu, device=mine) as fmu:
         assert fmu.run(scene).scene.device.slider_mass == 1.0
         expected = fmu.steady(phase=0.4).steady_velocity
@@ -264,15 +242,10 @@ def test_what_a_device_file_states_replaces_the_scene(native_fmu: Path, tmp_path
     assert table.columns["steady_velocity"] == pytest.approx([expected], rel=1e-9)
 
 
-def test_no_scenes_are_not_all_scenes() -> None:
-    with pytest.raises(sr.HarnessError, match="must be at least one scene"):
-        sr.validate("no.fmu", scenes=[])
-
-
 def test_stress_is_a_function(native_fmu: Path) -> None:
-    (stressed,) = sr.stress(native_fmu, random=2, jobs=1)
+    (stressed,) = sr.stress(native_fmu, random=1, jobs=1)
     assert stressed.passed
-    assert len(stressed.table()["verdict"]) == 2
+    assert len(stressed.table()["verdict"]) == 1
     with pytest.raises(sr.HarnessError, match="random = 2 and device = 'lugre_steel': must be"):
         sr.stress(native_fmu, random=2, device="lugre_steel")
 

@@ -18,11 +18,10 @@ from slider_resonator.commands.scenes import quantities_table, scenes_table
 from slider_resonator.output.console import LOG_WIDTH
 from slider_resonator.output.table import Table
 from slider_resonator.output.terminal import rendered
-from slider_resonator.scenes.scene_files import find_scenes
 from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES
 from tests.harness.golden import assert_as_before
 from tests.harness.known_provenance import PROVENANCE
-from tests.harness.scene_text import scene_of
+from tests.harness.scene_text import built_in, scene_of
 from tests.harness.verdicts import (
     BAD,
     BOUND,
@@ -169,9 +168,8 @@ def test_files_for_programs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
 @pytest.mark.parametrize("width", [60, 80, 120])
 def test_no_name_is_cut(width: int) -> None:
-    scenes = find_scenes([])
-    words = screen(shown(scenes_table(scenes)), width).split()
-    assert {scene.name for scene in scenes} <= set(words)
+    words = screen(shown(scenes_table([*built_in().values()])), width).split()
+    assert built_in().keys() <= set(words)
     words = screen(shown(quantities_table()), width).replace(",", " ").split()
     assert set(QUANTITIES) <= set(words)
     assert {name for q in QUANTITIES.values() for name in q.references} <= set(words)

@@ -17,7 +17,7 @@ from selenium.webdriver.support.wait import WebDriverWait
 from fmu_src.building.web_page import build_page
 from slider_resonator.commands.page import started_at
 from slider_resonator.device.device import Device
-from slider_resonator.scenes.device_file import example_devices, read_device
+from slider_resonator.scenes.device_file import example_devices, read_device_file
 from tests.fmu.host import OUTPUTS
 
 pytestmark = pytest.mark.interop
@@ -158,7 +158,7 @@ def test_outputs_are_those_of_fmpy(
 def test_a_page_written_for_a_device_starts_at_it(browser: Chrome, page: str) -> None:
     mine = Path(unquote(urlsplit(page).path)).with_name("mine.html")
     text = Path(unquote(urlsplit(page).path)).read_text(encoding="utf-8")
-    values = read_device("stick_slip") | {"phase": 0.4}
+    values = read_device_file("stick_slip").values | {"phase": 0.4}
     mine.write_text(started_at(text, values, "Mine"), encoding="utf-8")
     browser.get("about:blank")
     browser.get(mine.as_uri())
@@ -295,8 +295,8 @@ def test_a_saved_device_file_is_the_device_for_other_commands(
 ) -> None:
     found = show(browser, page, address({"device": name, "friction_coefficient": 0.35}))
     path = saved(browser, tmp_path, browser.find_element(By.ID, "save"))
-    wanted = Device.from_mapping(read_device(name) | {"friction_coefficient": 0.35})
-    assert Device.from_mapping(read_device(str(path))) == wanted
+    wanted = Device.from_mapping(read_device_file(name).values | {"friction_coefficient": 0.35})
+    assert Device.from_mapping(read_device_file(str(path)).values) == wanted
     show(browser, page)
     browser.find_element(By.ID, "file").send_keys(str(path))
     WebDriverWait(browser, SECONDS).until(
@@ -366,7 +366,7 @@ def test_curves_are_saved_where_the_prediction_is_valid(
     for row in rows[::6]:
         record = simulate_fmu(
             str(native_fmu),
-            start_values=read_device("stick_slip")
+            start_values=read_device_file("stick_slip").values
             | {"phase": math.radians(float(row["phase [deg]"]))},
             output=["steady_velocity", "prediction_valid", "mean_velocity"],
             stop_time=0.05,

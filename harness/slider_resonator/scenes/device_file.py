@@ -89,11 +89,6 @@ def read_device_file(name_or_file: str, folder: Path = Path()) -> DeviceFile:
     )
 
 
-def read_device(name_or_file: str) -> dict[str, float]:
-    """Return the parameters that a device file states, as `read_device_file` does."""
-    return read_device_file(name_or_file).values
-
-
 def device_content(path: Path) -> dict[str, Any]:
     """Return the parsed text of a device file; SceneError for a file of another kind."""
     content = read_toml(path)

@@ -5,29 +5,21 @@ import pytest
 from slider_resonator.checks.compare import Check
 from slider_resonator.checks.fmu_side import PREDICTED, PREDICTIONS, FmuSide
 from slider_resonator.checks.measuring import measure
-from slider_resonator.checks.validate import Validation, validate, worst_of_sweeps
+from slider_resonator.checks.validate import validate, worst_of_sweeps
 from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
 from tests.harness import faulty_fmus
 from tests.harness.foreign_fmus import foreign
-from tests.harness.scene_text import read_scene, scene_of, scene_read
+from tests.harness.scene_text import read_scene, scene_of
 
-EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = {}\nrelative = 1e-6\nwhy = "test"\n'
-
-
-def test_a_right_value_passes_and_a_wrong_one_fails(python_fmu: Path, tmp_path: Path) -> None:
-    (right,) = validate([python_fmu], [scene_read(tmp_path, EXPECT.format(0.126667))])
-    assert right.passed
-    (wrong,) = validate([python_fmu], [scene_read(tmp_path, EXPECT.format(0.12673))])
-    assert not wrong.passed, "0.05 % off must be noticed"
-    assert wrong.checks[0].fmu == pytest.approx(0.126667, rel=1e-6)
+EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = 0.126667\nrelative = 1e-6\nwhy = "x"\n'
 
 
-def test_a_sweep_is_judged_at_every_point(python_fmu: Path, tmp_path: Path) -> None:
+def test_a_sweep_is_judged_at_every_point(native_fmu: Path) -> None:
     sweep = '[sweep]\nvariable = "phase"\nvalues = [0.0, 0.4]\n'
-    (result,) = validate([python_fmu], [scene_read(tmp_path, EXPECT.format(0.126667) + sweep)])
+    (result,) = validate([native_fmu], [scene_of(EXPECT + sweep)])
     assert [dict(check.at) for check in result.checks] == [{"phase": 0.0}, {"phase": 0.4}]
     assert [check.passed for check in result.checks] == [True, False]
     ((worst, points),) = worst_of_sweeps(result.checks)
@@ -58,68 +50,39 @@ def test_a_refused_scene_does_not_keep_others_from_being_judged(
     assert [(c.scene, c.passed) for c in validation.checks] == [("short", True)]
 
 
-STEADY = """
-[[expect]]
-quantity = "steady_velocity"
-value = 0.126667
-relative = 1e-6
-why = "table 1"
-
-[[expect]]
-quantity = "blocking_force"
-value = 0.0851861
-relative = 1e-5
-why = "table 1"
-
-[[expect]]
-quantity = "event_times"
-reference = "located_events"
-tube = 1e-9
-why = "no event is early or late"
-"""
-
-
 @pytest.fixture(scope="module")
 def stranger(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return foreign(native_fmu, tmp_path_factory.mktemp("foreign") / "foreign.fmu")
 
 
-def judged(fmu: Path, folder: Path, more: str) -> Validation:
-    scene = faulty_fmus.scene(folder)
-    scene.write_text(scene.read_text() + more)
-    (validation,) = validate([fmu], [read_scene(scene)])
-    return validation
-
-
-def test_references_order_and_missing_capabilities_do_not_matter(
-    stranger: Path, tmp_path: Path
-) -> None:
-    validation = judged(stranger, tmp_path, STEADY)
-    assert validation.exit_code == 0, [c for c in validation.checks if not c.passed]
-    assert len(validation.checks) == 4
-
-
 LIFE = """
-name = "life"
-title = "Life of an instance"
-
 [beside.inputs]
 phase = 1.0
-
 [run]
 drive_periods = 2
 steps_per_period = 8
+[[expect]]
+quantity = "position"
+reference = "located_events"
+relative = 1e-8
+why = "references, order and capabilities do not matter"
+[[expect]]
+quantity = "event_times"
+reference = "located_events"
+tube = 1e-9
+why = "no event is early or late"
+[[expect]]
+quantity = "blocking_force"
+value = 0.0851861
+relative = 1e-5
+why = "table 1"
 """
 
 
-def test_what_it_does_not_offer_is_listed_and_what_it_does_is_judged(
-    stranger: Path, tmp_path: Path
-) -> None:
+def test_what_it_does_not_offer_is_listed_and_what_it_does_is_judged(stranger: Path) -> None:
     counts = [name for name in QUANTITIES if name.endswith(("_differences", "_faults"))]
-    expect = '[[expect]]\nquantity = "{}"\nvalue = 0\nwhy = "it must"\n'
-    path = tmp_path / "life.toml"
-    path.write_text(LIFE + "".join(map(expect.format, counts)))
-    (validation,) = validate([stranger], [read_scene(path)])
+    zero = f'[[expect]]\nquantity = {counts}\nvalue = 0\nwhy = "it must"\n'
+    (validation,) = validate([stranger], [scene_of(LIFE + zero + EXPECT)])
     assert validation.exit_code == 0, [c for c in validation.checks if not c.passed]
     reasons = {one.quantity: one.reason for one in validation.not_applied}
     assert reasons == {
@@ -129,7 +92,29 @@ def test_what_it_does_not_offer_is_listed_and_what_it_does_is_judged(
         "rate_differences": "needs canInterpolateInputs = true",
         "state_faults": "needs canGetAndSetFMUstate = true",
     }
-    assert {check.quantity for check in validation.checks} == set(counts) - set(reasons)
+    judged = {check.quantity for check in validation.checks}
+    motion = {"position", "event_times", "blocking_force", "steady_velocity"}
+    assert judged == {*motion, *counts} - set(reasons)
+
+
+@pytest.mark.parametrize(
+    ("unequal", "reference"),
+    [
+        ("[inputs]\nload = { steps = [[0.0, 0.0], [0.001, 0.05]] }", "located_events"),
+        ("[device]\nfriction_law = 1", "bristle_state"),
+    ],
+)
+def test_unequal_steps_are_refused_where_the_fmu_takes_equal_ones(
+    stranger: Path, tmp_path: Path, unequal: str, reference: str
+) -> None:
+    scene = faulty_fmus.scene(tmp_path)
+    text = scene.read_text().replace("located_events", reference)
+    scene.write_text(f"{text}\n{unequal}\n{EXPECT if reference == 'bristle_state' else ''}")
+    (validation,) = validate([stranger], [read_scene(scene)])
+    assert validation.exit_code == 2
+    (run_failure,) = validation.run_failures
+    assert "canHandleVariableCommunicationStepSize = false" in run_failure.reason
+    assert "must be one size" in run_failure.reason
 
 
 def test_a_scene_that_needs_a_later_variable_does_not_apply(
@@ -159,17 +144,6 @@ def test_a_scene_that_needs_a_later_variable_does_not_apply(
     assert set(validation.lacks) == later
 
 
-def test_a_run_with_unequal_steps_is_refused_where_the_fmu_takes_equal_ones(
-    stranger: Path, tmp_path: Path
-) -> None:
-    jump = "\n[inputs]\nload = { steps = [[0.0, 0.0], [0.001, 0.05]] }\n"
-    validation = judged(stranger, tmp_path, jump)
-    assert validation.exit_code == 2
-    (run_failure,) = validation.run_failures
-    assert "canHandleVariableCommunicationStepSize = false" in run_failure.reason
-    assert "must be one size" in run_failure.reason
-
-
 def test_the_blocking_force_does_not_depend_on_the_load_of_the_scene(instance: Instance) -> None:
     loaded = FmuSide(instance, find_scene("table_1", {"load": 0.3}))
     free = FmuSide(instance, find_scene("table_1"))
@@ -190,16 +164,6 @@ def test_a_scene_that_expects_a_prediction_reads_it(instance: Instance, quantity
     expecting = FmuSide(instance, scene_of(SLOW + expect.format(quantity)))
     assert measure(quantity, expecting).applicable
     assert set(PREDICTIONS) <= set(expecting.record.outputs)
-
-
-def test_bent_bristles_need_unequal_steps(stranger: Path, tmp_path: Path) -> None:
-    lugre = '\n[[expect]]\nquantity = "steady_velocity"\nvalue = 0.1\nrelative = 0.5\nwhy = "x"\n'
-    device = "\n[device]\nfriction_law = 1\n"
-    scene = faulty_fmus.scene(tmp_path)
-    scene.write_text(scene.read_text().replace("located_events", "bristle_state") + lugre + device)
-    (validation,) = validate([stranger], [read_scene(scene)])
-    assert validation.exit_code == 2
-    assert "canHandleVariableCommunicationStepSize = false" in validation.run_failures[0].reason
 
 
 @pytest.mark.isolated

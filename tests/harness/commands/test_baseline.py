@@ -87,13 +87,9 @@ def test_a_change_is_shown_kept_and_accepted(
     assert content(baseline).items() >= before.items(), "a check changes no golden result"
     assert (baseline / ".changed" / ".gitignore").read_text() == "*\n"
 
-    refused = run("accept", native_fmu, baseline)
-    assert refused.exit_code == 2
-    assert "not the FMU that was last checked" in refused.stderr
-    unknown = run("accept", other_fmu, baseline, "--scene", "three")
-    assert unknown.exit_code == 2
-    assert "(must be one of one, two)" in unknown.stderr
-
+    assert "not the FMU that was last checked" in refused("accept", native_fmu, baseline)
+    unknown = refused("accept", other_fmu, baseline, "--scene", "three")
+    assert "(must be one of one, two)" in unknown
     accepted = run("accept", other_fmu, baseline, "--scene", "two")
     assert (accepted.exit_code, accepted.stdout) == (0, "accepted two\n")
     after = content(baseline)
@@ -102,14 +98,13 @@ def test_a_change_is_shown_kept_and_accepted(
     assert run("accept", other_fmu, baseline).stdout == "accepted one\n"
     assert run("accept", other_fmu, baseline).stdout.startswith("accepted nothing")
     assert run("check", other_fmu, baseline).exit_code == 0
-    assert run("check", native_fmu, baseline).exit_code == 1
+    assert run("check", native_fmu, baseline, "--scene", scene).exit_code == 1
 
 
 def test_nothing_is_replaced_unasked(native_fmu: Path, baseline: Path, scene: Path) -> None:
     before = content(baseline)
-    refused = run("record", native_fmu, baseline, "--scene", scene)
-    assert refused.exit_code == 2
-    assert "recorded already: one" in refused.stderr
+    again = refused("record", native_fmu, baseline, "--scene", scene)
+    assert "recorded already: one" in again
     assert run("record", native_fmu, baseline, "--scene", scene, "--replace").exit_code == 0
     assert content(baseline) == before, "the same FMU gives the same bytes"
 

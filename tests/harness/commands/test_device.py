@@ -7,16 +7,13 @@ import pytest
 from lxml import etree
 
 import slider_resonator as sr
-from tests.harness.calling import call, refused
+from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 
 
-def test_json_has_its_public_keys() -> None:
+def test_examples_are_listed_and_printed(tmp_path: Path) -> None:
     assert_public_keys("device", call("device", "--json").stdout)
     assert_public_keys("device NAME", call("device", "lugre_steel", "--json").stdout)
-
-
-def test_examples_are_listed_and_printed(tmp_path: Path) -> None:
     assert "ultrasonic_slider" in call("device").stdout
     mine = tmp_path / "mine.toml"
     mine.write_text(call("device", "--example", "ultrasonic_slider").stdout, encoding="utf-8")
@@ -35,6 +32,8 @@ def test_a_possible_slip_is_noted(tmp_path: Path, native_fmu: Path) -> None:
     assert said["device"]["drive_frequency"]["shown"] == "3.1831 kHz"
     ran = call("steady", native_fmu, "--device", path)
     assert 'write drive_frequency = "20000 Hz"' in ran.stderr
+    ran = call("steady", native_fmu, "--set", "drive_frequency=600")
+    assert "note: drive_frequency = 600 is in rad/s, which is 95.493 Hz; if" in ran.stderr
     scene = tmp_path / "scene.toml"
     run = "[run]\ndrive_periods = 2\nsteps_per_period = 4\n"
     scene.write_text(f'name = "a"\ntitle = "a"\n{run}{path.read_text()}', encoding="utf-8")
@@ -54,26 +53,6 @@ def test_a_device_without_a_drive_is_noted(tmp_path: Path, native_fmu: Path) -> 
     assert "nothing drives" not in call("device", path).stdout
 
 
-def test_a_setting_that_may_be_in_hertz_is_noted(native_fmu: Path) -> None:
-    ran = call("steady", native_fmu, "--set", "drive_frequency=600")
-    assert "note: drive_frequency = 600 is in rad/s, which is 95.493 Hz; if" in ran.stderr
-    assert "note" not in call("steady", native_fmu, "--set", "drive_frequency=600 Hz").stderr
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ('[device]\nload = "1 N"\n', "load is an input; must be given by --set"),
-        ('[device]\ntitle = "mine"\n', "title must be above [device]"),
-        ("a = " + "[" * 5000, "nested too deeply"),
-    ],
-)
-def test_mistakes_of_a_device_file_are_named(tmp_path: Path, text: str, said: str) -> None:
-    path = tmp_path / "mine.toml"
-    path.write_text(text)
-    assert said in " ".join(refused("device", path).split())
-
-
 def test_a_device_that_no_file_could_state_is_not_written() -> None:
     for wrong in (sr.Device(friction_faces=3), sr.Device(slider_mass=-1.0)):
         with pytest.raises(sr.HarnessError, match="must be"):
@@ -91,40 +70,3 @@ def test_a_device_is_written_as_a_parameter_set_of_ssp(tmp_path: Path) -> None:
     values = {one.name: one.value for one in fmpy.ssp.ssd.read_ssv(str(path)).parameters}
     expected = vars(sr.read_device("conveyor"))
     assert {name: float(value) for name, value in values.items()} == expected
-    assert "must be with a device" in refused("device", "--ssv", path)
-
-
-def test_other_files_are_named_as_what_they_are(native_fmu: Path) -> None:
-    assert "is a grid file" in refused("device", "docs/steady_velocity.toml")
-    assert "did you mean 'stick_slip'?" in refused("steady", native_fmu, "--device", "stick_slp")
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        *[(name,) for name in ("steady", "blocking", "validate", "stress")],
-        ("choose", "feed_forward", "--fmu"),
-        ("trade", "--out", "out", "--fmu"),
-        ("sweep", "grid.toml", "--out", "a.csv", "--fmu"),
-        ("fit", "--velocity", "1", "--free", "slider_mass", "--fmu"),
-        ("baseline", "check"),
-    ],
-)
-def test_a_device_file_in_place_of_an_fmu_is_named(
-    tmp_path: Path, arguments: tuple[str, ...]
-) -> None:
-    mine = tmp_path / "mine.toml"
-    mine.write_text('[device]\nslider_mass = "2 kg"\n', encoding="utf-8")
-    more = ("--dir", tmp_path) if arguments[0] == "baseline" else ()
-    said = " ".join(refused(*arguments, mine, *more).split())
-    assert "mine.toml: is a device file; must be an FMU." in said
-    assert "`--device " in said
-
-
-def test_a_scene_or_device_in_place_of_a_grid_or_of_data_is_named(tmp_path: Path) -> None:
-    said = refused("sweep", "table_1", "--out", tmp_path / "a.csv")
-    assert "table_1: is a scene; must be a grid file. Use it in `slider-resonator run" in said
-    mine = tmp_path / "mine.toml"
-    mine.write_text('[device]\nslider_mass = "2 kg"\n', encoding="utf-8")
-    said = " ".join(refused("fit", mine, "--free", "slider_mass").split())
-    assert "mine.toml: is a device file; must be a CSV file." in said

@@ -36,6 +36,8 @@ def test_a_fit_writes_the_device_to_go_on_with(
     (other / "device.toml").write_text("[device]\n", encoding="utf-8")
     said = refused("fit", data, *device, "--free", "damping_ratio", "--out", other)
     assert "has a device.toml that no fit has written" in " ".join(said.split())
+    said = refused("fit", data, *device, "--free", "damping_ratoi", "--starts", 1)
+    assert "did you mean 'damping_ratio'" in said
     assert "95 % from" in (tmp_path / "fit.html").read_text(encoding="utf-8")
     residuals = np.genfromtxt(tmp_path / "residuals.csv", delimiter=",", names=True)
     assert np.rad2deg(residuals["phase"]) == pytest.approx([-40.0, -10.0, 20.0, 50.0])
@@ -53,32 +55,27 @@ def test_what_is_left_open_is_exit_code_1(data: Path, native_fmu: Path) -> None:
     assert sorted(open_ones) == sorted(free.split(","))
 
 
-def test_what_cannot_be_fitted_is_said(data: Path, native_fmu: Path) -> None:
-    fmu = ("--fmu", native_fmu)
-    assert "no measurements" in refused("fit", *fmu, "--free", "slider_mass")
-    assert "did you mean" in refused("fit", data, *fmu, "--free", "slider_mas")
-    assert "LOAD=VELOCITY" in refused("fit", *fmu, "--free", "load", "--velocity-at", "3")
-    assert "not in m/s" in refused("fit", *fmu, "--free", "slider_mass", "--velocity", "3 N")
-    assert "NAME=LOW:HIGH" in refused("fit", data, "--free", "slider_mass", "--bounds", "3")
-
-
-def test_a_datasheet_that_no_device_has_is_exit_code_1(native_fmu: Path) -> None:
-    options = ("--velocity", "5 m/s", "--free", "friction_coefficient", "--starts", 1)
-    ran = call("fit", *options, "--fmu", native_fmu)
-    assert ran.exit_code == 1, ran.output
-    said = " ".join(ran.stdout.split())
-    assert "must be 5 m/s, the nearest found is" in said
-
-
-def test_friction_that_hardly_any_device_has_is_noted(native_fmu: Path) -> None:
+@pytest.mark.parametrize(
+    ("datasheet", "code", "text"),
+    [
+        (("--velocity", "5 m/s"), 1, "must be 5 m/s, the nearest found is"),
+        (
+            ("--velocity-at", "1 N=10 mm/s", "--set", "normal_preload=1"),
+            1,
+            "must be 0.01 m/s, but no steady motion was found",
+        ),
+        (
+            ("--blocking", "2 N"),
+            0,
+            "is seldom above 1.5: check normal_preload, the units, and friction_faces = 2",
+        ),
+    ],
+)
+def test_datasheets_that_hardly_any_device_has_are_noted(
+    native_fmu: Path, datasheet: tuple[str, ...], code: int, text: str
+) -> None:
     free = ("--free", "friction_coefficient", "--starts", 1, "--fmu", native_fmu)
-    said = " ".join(call("fit", "--blocking", "2 N", *free).stdout.split())
-    assert "is seldom above 1.5: check normal_preload, the units, and friction_faces = 2" in said
-
-
-def test_a_datasheet_under_which_nothing_moves_is_said(native_fmu: Path) -> None:
-    free = ("--free", "friction_coefficient", "--starts", 1, "--fmu", native_fmu)
-    ran = call("fit", "--velocity-at", "1 N=10 mm/s", "--set", "normal_preload=1", *free)
-    assert ran.exit_code == 1
-    assert "must be 0.01 m/s, but no steady motion was found" in " ".join(ran.stdout.split())
+    ran = call("fit", *datasheet, *free)
+    assert ran.exit_code == code, ran.output
+    assert text in " ".join(ran.stdout.split())
     assert "nan" not in ran.stdout

@@ -1,4 +1,4 @@
-"""Refusals of `run` before it runs, and the files that it reads and writes."""
+"""The files that `run` reads and writes, and how long it runs."""
 
 import csv
 import json
@@ -24,42 +24,6 @@ def test_nothing_that_is_read_is_overwritten(python_fmu: Path, tmp_path: Path) -
         before = target.read_bytes()
         assert reported in refused("run", fmu, scene, "--device", device, "--out", target)
         assert target.read_bytes() == before
-
-
-@pytest.mark.parametrize(
-    ("arguments", "reported"),
-    [
-        (["--out", "/dev/full"], "is a device"),
-        (["--out", ""], "'' names no file"),
-        (["--out", "/"], "is a directory"),
-        (["--out", "/no/such/out.csv"], "there is no folder /no/such"),
-        (["--plot", "p.txt"], "'.txt'; must be one of .png, .svg, .pdf"),
-        (["--set", "load=nan"], "'--set': load = nan: must be a finite number"),
-        (["--set", "drive_frequency=0"], "'--set': drive_frequency = 0.0: must be"),
-        (["--set", "load=1", "--set", "load=2"], "load = 1.0 and load = 2.0: must be one"),
-        (["--window", "1"], "'1': must be FROM:TO, two times in s"),
-        (["--window", "a:b"], "'a:b': must be FROM:TO, two times in s"),
-        (["--window", "0:0.1"], "--signals, --window and --overlay need --plot"),
-        (["--signals", "load"], "--signals, --window and --overlay need --plot"),
-        (["--plot", "a.png", "--window", "1:2"], "--window 1:2: must be FROM:TO with 0 <= FROM"),
-        (["--plot", "a.png", "--signals", "x"], "unknown output or input 'x'"),
-        (["--plot", "a.png", "--overlay", "fidelty=1"], "did you mean 'fidelity'?"),
-        (["--plot", "a.png", "--overlay", "fidelity=x"], "fidelity = 'x': must be an integer"),
-        (["--time", "-1 ms"], "time = '-1 ms': must be above 0 s"),
-        (["--time", "1e4 s"], "take longer steps, or a shorter time"),
-        (["--step", "1 ms", "--auto"], "--auto chooses the step"),
-        (["--set", "phase=30", "deg"], "must be in quotes, as --set 'phase=30 deg'"),
-        (["--set", "phase=30 Grad"], "Grad is 1e+09 rad; must be a number in rad"),
-    ],
-)
-def test_mistakes_are_named_by_their_option_before_the_fmu_is_opened(
-    arguments: list[str], reported: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    said = refused("run", "no.fmu", "lift_off", *arguments)
-    assert reported in " ".join(said.split())
-    assert ".toml" not in said, "the scene file is not to blame"
-    assert list(tmp_path.iterdir()) == []
 
 
 LINE = """
@@ -110,21 +74,36 @@ def test_the_option_replaces_what_the_scene_says(native_fmu: Path, tmp_path: Pat
 
 def test_without_a_scene_the_device_starts_from_rest(native_fmu: Path) -> None:
     arguments = ("--device", "ultrasonic_slider", "--json")
+    named = json.loads(call("run", native_fmu, "table_1", *arguments).stdout)
+    assert named["drive_periods"] == pytest.approx(100.0)
     for fmu in ((native_fmu,), ("--fmu", native_fmu)):
         summary = json.loads(call("run", *fmu, *arguments).stdout)
-        named = json.loads(call("run", *fmu, "table_1", *arguments).stdout)
         assert (summary["scene"], summary["position"]) == ("table_1", named["position"])
-        assert summary["drive_periods"] == pytest.approx(100.0)
 
 
-def test_the_deviations_of_a_scene_are_written_and_drawn(native_fmu: Path, tmp_path: Path) -> None:
+SWITCHED_OFF = """
+name = "off"
+title = "Off"
+[inputs]
+amplitude_deviation = { steps = [[0.0, 0.0], [0.01, -1.0]] }
+[run]
+stop_time = 0.02
+step_size = 0.0005
+"""
+
+
+def test_results_are_written_drawn_and_summed_up(native_fmu: Path, tmp_path: Path) -> None:
+    scene = tmp_path / "off.toml"
+    scene.write_text(SWITCHED_OFF)
     out, usual, chosen = (tmp_path / name for name in ("a.csv", "a.svg", "b.svg"))
-    ran = call("run", native_fmu, "burst", "--out", out, "--plot", usual)
+    ran = call("run", native_fmu, scene, "--out", out, "--plot", usual)
     assert ran.exit_code == 0, ran.output
-    with out.open() as file:
-        values = {float(row["amplitude_deviation"]) for row in csv.DictReader(file)}
-    assert -1.0 in values
-    call("run", native_fmu, "burst", "--plot", chosen, "--signals", "amplitude_deviation")
+    rows = list(csv.DictReader(out.read_text().splitlines()))
+    assert [float(row["amplitude_deviation"]) for row in rows] == [0.0] * 20 + [-1.0] * 21
+    assert f"{float(rows[-1]['reversals']):.0f} reversals" in ran.stdout
+    assert "11.1408 drive periods" in ran.stdout
+    assert "us per drive period" in ran.stdout
+    call("run", native_fmu, scene, "--plot", chosen, "--signals", "amplitude_deviation")
     for picture in (usual, chosen):
         assert "amplitude deviation" in picture.read_text(encoding="utf-8")
 

@@ -1,14 +1,19 @@
 import json
 from pathlib import Path
 
+import pytest
+
+from slider_resonator.commands import scenes as scenes_commands
 from slider_resonator.scenes.json_schema import scene_schema
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
 from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
+from tests.harness.scene_text import built_in
 
 
-def test_the_list_says_which_scenes_can_be_run() -> None:
+def test_the_list_says_which_scenes_can_be_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(scenes_commands, "find_scenes", lambda _: [*built_in().values()])
     printed = call("scenes", "--json").stdout
     assert_public_keys("scenes", printed)
     scenes = json.loads(printed)
@@ -49,10 +54,4 @@ def test_the_template_is_a_scene(tmp_path: Path) -> None:
 
 def test_the_schema_is_printed() -> None:
     assert json.loads(call("scenes", "--schema").stdout) == scene_schema()
-
-
-def test_what_does_not_go_together_is_refused() -> None:
-    assert "--template and --schema: must be only one" in refused(
-        "scenes", "--template", "--schema"
-    )
     assert "--json does not go with --check" in refused("scenes", "--check", "table_1", "--json")

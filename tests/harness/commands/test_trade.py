@@ -17,7 +17,7 @@ from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.peer_methods import peer_methods
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import Omission, Trade
-from tests.harness.calling import call, refused
+from tests.harness.calling import call
 from tests.harness.in_process import InProcess
 from tests.harness.public_json import assert_public_keys
 from tests.harness.scene_text import HEAD
@@ -80,53 +80,33 @@ def test_every_method_is_a_row_or_an_omission_and_the_files_can_be_read(
     assert re.search(r"\| position \| 1e-09 \| fidelity (2|0, order 2), steps of", text)
 
 
-def test_measurements_before_a_failing_scene_are_kept(
-    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def measure(problem: Problem, *_: object, **__: object) -> Trade:
-        if problem.name == "lugre":
-            raise HarnessError("the reference cannot follow it")
-        return TRADE
-
-    monkeypatch.setattr(measuring, "measure_trade", measure)
-    out = tmp_path / "out"
-    arguments = ["table_1", "lugre", "--out", out, "--fmu", native_fmu]
-    assert "the reference cannot follow it" in refused("trade", *arguments)
-    rows = list(csv.DictReader((out / "trade.csv").open(encoding="utf-8")))
-    assert [row["method"] for row in rows] == [row.method for row in TRADE.rows]
-
-
-def test_an_interruption_says_what_is_kept(
-    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def measure(problem: Problem, *_: object, **__: object) -> Trade:
-        if problem.name == "lugre":
-            raise KeyboardInterrupt
-        return TRADE
-
-    monkeypatch.setattr(measuring, "measure_trade", measure)
-    out = tmp_path / "out"
-    result = call("trade", "table_1", "lugre", "--out", out, "--fmu", native_fmu)
-    assert result.exit_code == 130
-    assert f"interrupted\n  1 of 2 scenes are kept in {out}; not measured: lugre" in result.stderr
-    assert (out / "index.html").is_file()
-
-
 @pytest.mark.parametrize(
-    ("arguments", "reported"),
+    ("error", "code", "said"),
     [
-        (["tabel_1"], "did you mean 'table_1'?"),
-        (["table_1", "--fmu", "missing.fmu"], "missing.fmu: no such file"),
+        (HarnessError("the reference cannot follow it"), 2, "the reference cannot follow it"),
+        (KeyboardInterrupt(), 130, "interrupted\n  1 of 2 scenes are kept in "),
     ],
 )
-def test_missing_inputs_are_reported_and_nothing_is_written(
-    tmp_path: Path, arguments: list[str], reported: str
+def test_measurements_before_an_error_or_an_interruption_are_kept(
+    native_fmu: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    error: BaseException,
+    code: int,
+    said: str,
 ) -> None:
-    out = tmp_path / "out"
-    result = call("trade", *arguments, "--out", out)
-    assert result.exit_code == 2
-    assert reported in result.stderr
-    assert not out.exists()
+    def measure(problem: Problem, *_: object, **__: object) -> Trade:
+        if problem.name == "lugre":
+            raise error
+        return TRADE
+
+    monkeypatch.setattr(measuring, "measure_trade", measure)
+    result = call("trade", "table_1", "lugre", "--out", tmp_path, "--fmu", native_fmu)
+    assert result.exit_code == code
+    assert said in result.stderr
+    rows = list(csv.DictReader((tmp_path / "trade.csv").open(encoding="utf-8")))
+    assert [row["method"] for row in rows] == [row.method for row in TRADE.rows]
+    assert (tmp_path / "index.html").is_file()
 
 
 def test_the_public_keys_stay(

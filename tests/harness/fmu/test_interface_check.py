@@ -2,71 +2,56 @@
 
 from pathlib import Path
 
-import pytest
 from fmpy import read_model_description
 
 from slider_resonator.fmu.interface_check import description_faults, interface_problems
+from slider_resonator.fmu.opening import Fmu
 from tests.fmus import both_fmus
 from tests.harness.faulty_fmus import redescribed
+from tests.harness.golden import assert_as_before
 
-CHANGES: dict[str, tuple[bytes, bytes, str]] = {
-    "start": (b'start="3500.0"', b'start="3501.0"', "start of resonator_frequency is 3501.0"),
-    "min": (b'min="1e-12"', b'min="1e-11"', "min of slider_mass is 1e-11, must be 1e-12"),
-    "no max": (b'min="1" max="2"', b'min="1"', "max of friction_faces is none, must be 2.0"),
-    "max": (b'max="0.01"', b'max="0.1"', "max of tolerance is 0.1, must be 0.01"),
-    "nominal": (b'nominal="1e-08"', b'nominal="1e-06"', "nominal of tolerance is 1e-06"),
-    "variability": (
-        b'variability="tunable"',
-        b'variability="fixed"',
-        "normal_preload is fixed, must be tunable",
-    ),
+CHANGES = {
+    "start": (b'start="3500.0"', b'start="3501.0"'),
+    "min": (b'min="1e-12"', b'min="1e-11"'),
+    "no max": (b'min="1" max="2"', b'min="1"'),
+    "max": (b'max="0.01"', b'max="0.1"'),
+    "nominal": (b'nominal="1e-08"', b'nominal="1e-06"'),
+    "variability": (b'variability="tunable"', b'variability="fixed"'),
     "max of an output": (
         b'initial="calculated">\n      <Real unit="m/s"',
         b'initial="calculated">\n      <Real max="0.5" unit="m/s"',
-        "max of velocity is 0.5, must be none",
     ),
-    "initial": (b'initial="calculated"', b'initial="approx" ', "initial of position is approx"),
-    "no time": (b'stopTime="0.2"', b'stopTime="0.0"', "the default experiment ends at 0.0 s"),
-    "one large step": (b'stepSize="0.001"', b'stepSize="1.0"', "stepSize of the default"),
-    "no step": (b'stepSize="0.001"', b'stepSize="0"', "stepSize of the default experiment is 0.0"),
+    "initial": (b'initial="calculated"', b'initial="approx" '),
+    "no time": (b'stopTime="0.2"', b'stopTime="0.0"'),
+    "one large step": (b'stepSize="0.001"', b'stepSize="1.0"'),
+    "no step": (b'stepSize="0.001"', b'stepSize="0"'),
     "linear": (
         b'dependencies="1 2 3 4 5" dependenciesKind="dependent ',
         b'dependencies="1 2 3 4 5" dependenciesKind="constant ',
-        "friction_force is declared constant in phase",
     ),
-    "needs a tool": (
-        b'needsExecutionTool="false"',
-        b'needsExecutionTool="true" ',
-        "needsExecutionTool is true, must be false",
-    ),
+    "needs a tool": (b'needsExecutionTool="false"', b'needsExecutionTool="true" '),
     "loop at the start": (
         b'index="28" dependencies="23" dependenciesKind="dependent"',
         b'index="28" dependencies="2 23" dependenciesKind="dependent dependent"',
-        "position is declared to depend on load at the start",
     ),
-    "display unit": (b'displayUnit="mm"', b'displayUnit="mile"', "displayUnit of"),
+    "display unit": (b'displayUnit="mm"', b'displayUnit="mile"'),
 }
+"""A place of the description and what to put there, by what is wrong then."""
 
 
 @both_fmus
-def test_the_builds_say_what_the_interface_says(fmu: Path) -> None:
-    description = read_model_description(str(fmu))
-    assert interface_problems(description) == []
-    assert description_faults(description) == []
+def test_the_builds_say_what_the_interface_says(fmu: Fmu) -> None:
+    assert interface_problems(fmu.description) == []
+    assert description_faults(fmu.description) == []
 
 
-@pytest.fixture
-def fmu(request: pytest.FixtureRequest) -> Path:
-    found: Path = request.getfixturevalue(f"{getattr(request, 'param', 'native')}_fmu")
-    return found
-
-
-@pytest.mark.parametrize("name", CHANGES)
-def test_a_change_is_a_fault(native_fmu: Path, tmp_path: Path, name: str) -> None:
-    old, new, expected = CHANGES[name]
-    path = redescribed(native_fmu, tmp_path / "other.fmu", old, new)
-    (fault,) = description_faults(read_model_description(str(path), validate=False))
-    assert fault.startswith(expected)
+def test_each_change_is_one_fault(native_fmu: Path, tmp_path: Path) -> None:
+    said = []
+    for change, (old, new) in CHANGES.items():
+        path = redescribed(native_fmu, tmp_path / "other.fmu", old, new)
+        (fault,) = description_faults(read_model_description(str(path), validate=False))
+        said.append(f"{change}: {fault}\n")
+    assert_as_before("description_faults.txt", "".join(said))
 
 
 def test_dependencies_are_neither_missing_nor_invented(native_fmu: Path) -> None:

@@ -32,33 +32,23 @@ def test_a_failure_keeps_the_old_file(tmp_path: Path) -> None:
     assert [p.name for p in tmp_path.iterdir()] == ["out.csv"]
 
 
-def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("")
-    with pytest.raises(HarnessError, match="cannot be written"), replacing(tmp_path / "file" / "x"):
-        pass
-    with pytest.raises(HarnessError, match="cannot be written"), replacing(tmp_path / "no" / "x"):
-        pass
-    assert not (tmp_path / "no").exists(), "a folder is not made in passing"
-
-
-def test_a_place_that_cannot_be_taken_at_the_end_is_named_too(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("target", "written", "said"),
+    [
+        ("file/x", "ours", "file/x: cannot be written: Not a directory"),
+        ("no/x", "ours", "no/x: cannot be written: No such file"),
+        ("folder", "ours", "folder: cannot be written: Is a directory"),
+        ("x", "/dev/full", "x: cannot be written: No space left"),
+    ],
+)
+def test_a_write_that_fails_is_an_error_of_the_file(
+    tmp_path: Path, target: str, written: str, said: str
+) -> None:
+    (tmp_path / "file").touch()
     (tmp_path / "folder").mkdir()
-    with (
-        pytest.raises(HarnessError, match=r"folder: cannot be written: Is a directory"),
-        replacing(tmp_path / "folder") as temporary,
-    ):
-        temporary.write_text("done")
-    assert [p.name for p in tmp_path.iterdir()] == ["folder"]
-
-
-def test_a_write_that_fails_is_an_error_of_the_file(tmp_path: Path) -> None:
-    with (
-        pytest.raises(HarnessError, match=r"out.csv: cannot be written: No space left"),
-        replacing(tmp_path / "out.csv"),
-        open("/dev/full", "w") as full,
-    ):
-        full.write("done")
-    assert not list(tmp_path.iterdir())
+    with pytest.raises(HarnessError, match=said), replacing(tmp_path / target) as temporary:
+        (temporary if written == "ours" else Path(written)).write_text("done")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["file", "folder"]
 
 
 @pytest.mark.parametrize(
@@ -137,13 +127,10 @@ def test_two_targets_must_differ_even_before_they_exist(
 BEGIN, END = "<!-- part -->", "<!-- end of part -->"
 
 
-def test_a_new_file_holds_the_text_alone(tmp_path: Path) -> None:
-    write_marked(tmp_path / "hosts.md", "the text", BEGIN, END)
-    assert (tmp_path / "hosts.md").read_text() == "the text\n"
-
-
-def test_a_file_with_marks_keeps_all_around_them(tmp_path: Path) -> None:
+def test_what_is_around_marks_stays(tmp_path: Path) -> None:
     path = tmp_path / "README.md"
+    write_marked(path, "the text", BEGIN, END)
+    assert path.read_text() == "the text\n"
     path.write_text(f"before\n{BEGIN}\nold\n{END}\nafter\n")
     write_marked(path, "new", BEGIN, END)
     assert path.read_text() == f"before\n{BEGIN}\nnew\n{END}\nafter\n"

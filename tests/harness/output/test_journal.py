@@ -1,5 +1,6 @@
 import sqlite3
 import sys
+from contextlib import closing
 from math import inf
 from pathlib import Path
 
@@ -59,35 +60,19 @@ def test_a_folder_that_is_not_there_is_named(tmp_path: Path) -> None:
         opened(tmp_path)
 
 
-def other_database(path: Path) -> None:
-    path.unlink()
-    with sqlite3.connect(path) as database:
-        database.execute("CREATE TABLE work (kind, digest)")
-    database.close()
-
-
 @pytest.mark.parametrize("restart", [False, True])
-@pytest.mark.parametrize("content", [b"Monday: measured", b"\x00\xff\n", b"SQLite", b"", None])
-def test_a_file_that_is_no_journal_is_left_alone(
-    content: bytes | None, restart: bool, path: Path
-) -> None:
-    if content is None:
-        other_database(path)
-    else:
+def test_a_file_that_is_no_journal_is_left_alone(path: Path, restart: bool) -> None:
+    other = path.with_name("other")
+    with closing(sqlite3.connect(other)) as database, database:
+        database.execute("CREATE TABLE work (kind, digest)")
+    cut_off = path.read_bytes()[:5000]
+    for content in (b"Monday: measured", b"\x00\xff\n", b"SQLite", other.read_bytes(), cut_off):
         path.write_bytes(content)
-    before = path.read_bytes()
-    if content == b"":
-        assert found(path) == []
-        return
-    with pytest.raises(HarnessError, match="is no journal of a sweep"):
-        opened(path, restart=restart)
-    assert path.read_bytes() == before
-
-
-def test_a_journal_that_was_cut_off_is_refused(path: Path) -> None:
-    path.write_bytes(path.read_bytes()[:5000])
-    with pytest.raises(HarnessError, match="is no journal of a sweep, or damaged"):
-        opened(path)
+        with pytest.raises(HarnessError, match="is no journal of a sweep, or damaged"):
+            opened(path, restart=restart)
+        assert path.read_bytes() == content
+    path.write_bytes(b"")
+    assert found(path) == []
 
 
 @pytest.mark.parametrize("number", [1, 2, 3])

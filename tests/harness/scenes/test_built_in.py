@@ -10,14 +10,12 @@ from slider_resonator.device.interface import HELD, INPUTS, PARAMETERS, VARIABLE
 from slider_resonator.scenes.expansion import bundles
 from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.scenes.scene_files import built_in_scenes, find_scene, find_scenes, is_core
+from slider_resonator.scenes.scene_files import built_in_scenes, find_scene, is_core
+from tests.harness.scene_text import built_in
 
-SCENES = {scene.name: scene for scene in find_scenes([])}
 
-
-def test_built_in_scenes_are_sound_and_found_by_their_names() -> None:
-    for name, scene in SCENES.items():
-        assert find_scene(name) == scene
+def test_built_in_scenes_are_sound() -> None:
+    for name, scene in built_in().items():
         assert len(name) <= 24
         assert len(scene.title) <= 60, name
         assert scene.description, name
@@ -25,10 +23,15 @@ def test_built_in_scenes_are_sound_and_found_by_their_names() -> None:
         assert pickle.loads(pickle.dumps(scene)) == scene, f"{name} must be data that can be sent"
 
 
+def test_a_scene_of_each_file_is_found_by_its_name() -> None:
+    for name in {file: name for name, file in built_in_scenes().items()}.values():
+        assert find_scene(name) == built_in()[name]
+
+
 def test_table_1_and_the_core_come_first() -> None:
-    assert list(SCENES) == list(built_in_scenes())
-    assert next(iter(SCENES)) == "table_1"
-    core = [is_core(scene) for scene in SCENES.values()]
+    assert list(built_in()) == list(built_in_scenes())
+    assert next(iter(built_in())) == "table_1"
+    core = [is_core(scene) for scene in built_in().values()]
     assert core == sorted(core, reverse=True)
     assert 35 <= sum(core) <= 50
 
@@ -38,7 +41,7 @@ def test_a_bundle_is_valid_and_taken_by_a_scene(name: str) -> None:
     expects = [ExpectTable.model_validate(table) for table in bundles()[name]["expect"]]
     subjects = [(one.quantity, one.reference) for one in expects]
     assert len(set(subjects)) == len(subjects)
-    taken = ({(e.quantity, e.reference) for e in scene.expect} for scene in SCENES.values())
+    taken = ({(e.quantity, e.reference) for e in scene.expect} for scene in built_in().values())
     assert any(set(subjects) <= quantities for quantities in taken)
 
 
@@ -60,7 +63,7 @@ MODELS: dict[Model, set[str]] = {
 def tried(values: Callable[[Scene], Iterator[str]]) -> dict[Model, set[str]]:
     """The names that `values` gives of scenes whose motion is compared with a reference."""
     found: dict[Model, set[str]] = defaultdict(set)
-    for scene in find_scenes(list(built_in_scenes())):
+    for scene in built_in().values():
         for point in scene.points():
             device = point.scene.device
             if MOTION & {expect.quantity for expect in scene.expect if expect.reference}:

@@ -1,20 +1,19 @@
 """Page and picture of a sweep."""
 
-import json
-import re
 from math import pi
 from pathlib import Path
 from typing import Any
 
 import pytest
-from matplotlib.axes import Axes
+from matplotlib.collections import PathCollection, QuadMesh
+from matplotlib.lines import Line2D
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.sweeping.grid import grid_from, read_grid
+from slider_resonator.sweeping.grid import Sweep, grid_from
 from slider_resonator.sweeping.measures import Row
 from slider_resonator.sweeping.page import MAX_POINTS, check_page, write_sweep_page
 from slider_resonator.sweeping.picture import check_picture, sweep_figure
-from slider_resonator.sweeping.table import table_columns
+from slider_resonator.sweeping.table import Columns, table_columns
 from tests.harness.known_provenance import PROVENANCE
 from tests.html_pages import Page
 
@@ -22,25 +21,26 @@ AXIS = {"from": 0.0, "to": 1.0, "count": 8}
 LOGARITHMIC = {"from": 0.1, "to": 10.0, "count": 8, "spacing": "log"}
 
 
-def plots(path: Path, content: dict[str, Any], *, answered: bool = True) -> list[dict[str, Any]]:
-    """The data of the plots of a sweep whose second point is refused, or all of them."""
-    sweep = grid_from(content, "grid.toml")
+def columns_of(sweep: Sweep, *, answered: bool = True) -> Columns:
+    """The table of a sweep whose second point is refused, or in which nothing has an answer."""
     rows: dict[int, Row] = {
         n: (n, [float(n) - 3.0, "steady"] if answered else [None, "beat"], None)
         for n in range(len(sweep.points))
     }
     rows[1] = (1, [None, None], "<refused>")
-    columns = table_columns(sweep.task, sweep.points, rows)
-    write_sweep_page(path, sweep, columns, PROVENANCE)
+    return table_columns(sweep.task, sweep.points, rows)
+
+
+def plots(path: Path, content: dict[str, Any], *, answered: bool = True) -> list[dict[str, Any]]:
+    """The data of the plots on the page of a sweep."""
+    sweep = grid_from(content, "grid.toml")
+    write_sweep_page(path, sweep, columns_of(sweep, answered=answered), PROVENANCE)
     text = path.read_text(encoding="utf-8")
     page = Page(text)
     assert page.loaded == ["data:,"]
     assert page.ids == ["provenance"]
     assert "0123abcd" in text
-    return [
-        json.loads(data)
-        for data in re.findall(r'application/json">(.*?)</script>', text, re.DOTALL)
-    ]
+    return page.plots
 
 
 def test_a_line_has_every_point_with_what_it_is(tmp_path: Path) -> None:
@@ -90,45 +90,24 @@ def test_too_many_points_are_refused() -> None:
         check_page(grid_from({"grid": {"phase": axis}}, "a"), "--html")
 
 
-AXIS_TEXT = "{ from = 0.0, to = 1.0, count = 8 }"
-
-
 @pytest.mark.parametrize(
-    ("text", "drawn"),
+    ("content", "drawn"),
     [
-        (f"[grid]\nphase = {AXIS_TEXT}", "line"),
-        (f"[grid]\nphase = {AXIS_TEXT}\nload = [0.0, 0.1]", "line"),
-        (f"[grid]\nphase = {AXIS_TEXT}\nload = {AXIS_TEXT}", "pcolormesh"),
-        ("[list]\nphase = [0.0, 0.1]\nload = [0.0, 0.1]", "scatter"),
+        ({"grid": {"phase": AXIS}}, Line2D),
+        ({"grid": {"phase": AXIS, "load": [0.0, 0.1]}}, Line2D),
+        ({"grid": {"phase": AXIS, "load": AXIS}}, QuadMesh),
+        ({"list": {"phase": [0.0, 0.1], "load": [0.0, 0.1]}}, PathCollection),
     ],
 )
 def test_lines_maps_and_samples_are_drawn_with_gaps_for_failures(
-    text: str, drawn: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    content: dict[str, Any], drawn: type
 ) -> None:
-    used: list[str] = []
-    methods = {"line": "plot", "pcolormesh": "pcolormesh", "scatter": "scatter"}
-    for kind, method in methods.items():
-        original = getattr(Axes, method)
-
-        def noted(
-            *args: object, _kind: str = kind, _do: object = original, **more: object
-        ) -> object:
-            used.append(_kind)
-            return _do(*args, **more)  # type: ignore[operator]
-
-        monkeypatch.setattr(Axes, method, noted)
-    (tmp_path / "grid.toml").write_text(text, encoding="utf-8")
-    sweep = read_grid(tmp_path / "grid.toml")
-    rows: dict[int, Row] = {
-        n: (n, [float(n) - 3.0, "steady"], None) for n in range(len(sweep.points))
-    }
-    rows[1] = (1, [None, None], "refused")
-    sweep_figure(sweep, table_columns(sweep.task, sweep.points, rows))
-    assert used[0] == drawn, "a colour bar may follow"
+    sweep = grid_from(content, "grid.toml")
+    axes = sweep_figure(sweep, columns_of(sweep)).axes[0]
+    assert isinstance([*axes.collections, *axes.lines][0], drawn)
 
 
-def test_three_variables_have_no_picture(tmp_path: Path) -> None:
-    path = tmp_path / "grid.toml"
-    path.write_text("[grid]\nphase = [0]\nload = [0]\nfriction_law = [0]", encoding="utf-8")
+def test_three_variables_have_no_picture() -> None:
+    grid = {"phase": [0], "load": [0], "friction_law": [0]}
     with pytest.raises(HarnessError, match=r"3 variables.*must be one"):
-        check_picture(read_grid(path), "--plot")
+        check_picture(grid_from({"grid": grid}, "grid.toml"), "--plot")

@@ -74,7 +74,9 @@ BOTH = Task(("phase",), (), ("blocking_force", "velocity.rms"), 20, Run(2, 16, 0
 def test_a_point_that_fails_is_a_row_with_its_error_and_the_next_is_sound(
     instance: Instance,
 ) -> None:
+    used = instance.slave
     failed = measure_point(instance, TASK, (0, (-1.0,)), {})
+    assert instance.slave is not used, "whatever state the failure has left it in"
     sound = measure_point(instance, TASK, (1, (0.1,)), {})
     assert failed[:2] == (0, [None, None])
     assert "friction_coefficient = -1" in str(failed[2])

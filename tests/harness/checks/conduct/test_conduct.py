@@ -1,9 +1,9 @@
 """Faults of conduct are found and named."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
-from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
@@ -14,55 +14,34 @@ from slider_resonator.checks.conduct.findings import differences
 from slider_resonator.checks.conduct.host_calls import derivative_offer_faults
 from slider_resonator.checks.conduct.refusals import Trial
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
-from tests.harness.faulty_fmus import DESCRIPTION, altered, redescribed, scene
-from tests.harness.scene_text import read_scene
+from tests.harness.scene_text import scene_of
 
 LEFT_OUT = (
-    ("Outputs", "steady_velocity", "phase", "in a run"),
-    ("Outputs", "blocking_force", "phase", "in a run"),
-    ("Outputs", "friction_force", "load", "in a run"),
-    ("InitialUnknowns", "steady_velocity", "damping_ratio", "at the start"),
-    ("InitialUnknowns", "velocity", "initial_velocity", "at the start"),
+    ("outputs", "steady_velocity", "phase", "in a run"),
+    ("outputs", "friction_force", "load", "in a run"),
+    ("initialUnknowns", "steady_velocity", "damping_ratio", "at the start"),
+    ("initialUnknowns", "velocity", "initial_velocity", "at the start"),
 )
 """Where a dependency of an output is left out, and when it shows."""
 
 
-def without_dependency(fmu: Path, out: Path, place: str, output: str, name: str) -> Path:
-    """Copy an FMU whose output does not declare that a variable acts on it."""
-
-    def alter(file: str, content: bytes) -> bytes:
-        if file != DESCRIPTION:
-            return content
-        root = ET.fromstring(content)
-        variables = enumerate(root.iterfind("ModelVariables/ScalarVariable"), start=1)
-        indices = {variable.attrib["name"]: str(index) for index, variable in variables}
-        unknown = root.find(f"ModelStructure/{place}/Unknown[@index='{indices[output]}']")
-        assert unknown is not None
-        others = unknown.attrib["dependencies"].split()
-        others.remove(indices[name])
-        unknown.set("dependencies", " ".join(others))
-        unknown.attrib.pop("dependenciesKind", None)
-        return ET.tostring(root)
-
-    return altered(fmu, out, alter)
-
-
-def faults_of(fmu: Path, folder: Path) -> list[str]:
-    with open_fmu(fmu) as opened:
-        instance = Instance(opened)
-        found = dependency_faults(FmuSide(instance, read_scene(scene(folder))))
-        instance.end()
-    return found
+@pytest.fixture
+def own(native_fmu: Path) -> Iterator[Instance]:
+    """An instance of an FMU whose description may be changed."""
+    with open_fmu(native_fmu) as fmu, instantiate(fmu) as made:
+        yield made
 
 
 @pytest.mark.parametrize(("place", "output", "name", "when"), LEFT_OUT)
 def test_a_dependency_that_is_left_out_is_a_fault(
-    native_fmu: Path, tmp_path: Path, place: str, output: str, name: str, when: str
+    own: Instance, place: str, output: str, name: str, when: str
 ) -> None:
-    faulty = without_dependency(native_fmu, tmp_path / "faulty.fmu", place, output, name)
-    found = faults_of(faulty, tmp_path)
+    unknowns = getattr(own.fmu.description, place)
+    (unknown,) = [one for one in unknowns if one.variable.name == output]
+    unknown.dependencies = [one for one in unknown.dependencies if one.name != name]
+    found = dependency_faults(FmuSide(own, scene_of("")))
     assert found == [f"{name} acts on {output} {when} without being declared"]
 
 
@@ -81,25 +60,19 @@ def test_nan_is_a_difference() -> None:
     assert len(differences("x", ("a", "b"), TIMES, nan, ROWS)) == 1
 
 
-OFFERS = {
-    "providesDirectionalDerivative": ("false", "true"),
-    "maxOutputDerivativeOrder": ("1", "2"),
-}
-
-
-@pytest.mark.parametrize("offer", OFFERS)
-def test_a_false_offer_is_a_fault(native_fmu: Path, tmp_path: Path, offer: str) -> None:
-    true, false = (f'{offer}="{value}"'.encode() for value in OFFERS[offer])
-    found = []
-    for path in (native_fmu, redescribed(native_fmu, tmp_path / "other.fmu", true, false)):
-        with open_fmu(path) as fmu:
-            instance = Instance(fmu)
-            instance.start({})
-            found.append([*derivative_offer_faults(instance)])
-            instance.end()
-    sound, (fault,) = found
-    assert sound == []
-    assert fault.startswith(f"{offer} is {OFFERS[offer][1]}")
+@pytest.mark.parametrize(
+    ("offer", "value", "said"),
+    [
+        ("providesDirectionalDerivative", True, "providesDirectionalDerivative is true"),
+        ("maxOutputDerivativeOrder", 2, "maxOutputDerivativeOrder is 2"),
+    ],
+)
+def test_a_false_offer_is_a_fault(own: Instance, offer: str, value: object, said: str) -> None:
+    own.start({})
+    assert not [*derivative_offer_faults(own)]
+    setattr(own.fmu.offers, offer, value)
+    (fault,) = derivative_offer_faults(own)
+    assert fault.startswith(said)
 
 
 @pytest.mark.parametrize(

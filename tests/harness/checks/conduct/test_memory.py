@@ -3,6 +3,7 @@
 import ctypes
 import gc
 import sys
+from collections.abc import Iterator
 
 import pytest
 
@@ -15,6 +16,15 @@ from slider_resonator.checks.conduct.memory import (
 from slider_resonator.fmu.instance import Instance
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="glibc counts what is allocated")
+
+
+@pytest.fixture(autouse=True)
+def frozen() -> Iterator[None]:
+    """Leave out what other tests have made: going through it takes long, and may free some."""
+    gc.collect()
+    gc.freeze()
+    yield
+    gc.unfreeze()
 
 
 def test_a_sound_fmu_gives_everything_back(instance: Instance) -> None:
@@ -40,7 +50,6 @@ def test_what_is_not_given_back_is_a_fault(
 
         monkeypatch.setattr(type(instance.slave), call, leaking)
         instance.start({})
-        gc.collect()  # what other tests have left would be given back while memory is counted
         return [*{"state": state_leaks, "instance": instance_leaks}[kind](instance)]
 
     assert found(0.5 * allowed) == []

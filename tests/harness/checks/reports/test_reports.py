@@ -5,7 +5,6 @@ import json
 import re
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -19,7 +18,7 @@ from slider_resonator.checks.validate import Validation
 from slider_resonator.commands.reports import Reports
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.provenance import identity_of
-from tests.harness.golden import assert_page_as_before
+from tests.harness.golden import assert_as_before, assert_page_as_before
 from tests.harness.known_provenance import PROVENANCE
 from tests.harness.verdicts import BAD, BROKEN, GOOD, LACKING, PASSED, SIGNAL, SLOWER, TIMES
 from tests.html_pages import Page
@@ -32,15 +31,10 @@ def page(folder: Path, *validations: Validation) -> tuple[str, Page]:
     return text, Page(text)
 
 
-def plots_of(text: str) -> list[dict[str, Any]]:
-    found = re.findall(r'application/json">(.*?)</script>', text, re.DOTALL)
-    return [json.loads(data) for data in found]
-
-
 def test_deviations_are_drawn_and_the_page_loads_nothing(tmp_path: Path) -> None:
     text, tags = page(tmp_path, GOOD, BAD)
     assert all(one == "data:," or one[1:] in tags.ids for one in tags.loaded), "within the page"
-    plots = [one for one in plots_of(text) if one["title"].startswith("position")]
+    plots = [one for one in tags.plots if one["title"].startswith("position")]
     points = [len(one["series"][0]["x"]) for one in plots]
     assert points == [len(TIMES), 25 + 64], "the whole run and the part at the first deviation"
     assert plots[1]["title"].endswith("from 0.0125 s on")
@@ -65,20 +59,6 @@ def test_of_many_scenes_those_that_fail_are_unfolded(tmp_path: Path) -> None:
     assert few.count('" open>') == MAX_UNFOLDED
 
 
-def test_a_passing_scene_shows_the_fmu_on_the_reference(tmp_path: Path) -> None:
-    times = np.array([0.0, 0.1, 0.2])
-    overview = Curves(SIGNAL, times, 1.0 + times, 1.0 + 2.0 * times)
-    passed = replace(SIGNAL, passed=True, first_time=None, worst_time=None)
-    good = Validation("good.fmu", (passed,), 1.0, overviews=(overview,))
-    plot, below = plots_of(page(tmp_path, good)[0])
-    assert (plot["x"]["label"], plot["y"]["label"]) == ("time [s]", "position [m]")
-    reference, fmu = plot["series"]
-    assert (reference["label"], reference["y"]) == ("reference", [1.0, 1.2, 1.4])
-    assert (fmu["label"], fmu["y"]) == ("FMU", [1.0, 1.1, 1.2])
-    assert below["y"]["label"] == "difference [m]"
-    assert below["series"][0]["y"] == [0.0, -0.1, -0.2]
-
-
 def test_a_start_far_outside_does_not_set_the_axis_and_is_named(tmp_path: Path) -> None:
     times = np.linspace(0.0, 1.0, 101)
     velocity = 0.1 * (1.0 - np.exp(-5.0 * times))
@@ -86,24 +66,25 @@ def test_a_start_far_outside_does_not_set_the_axis_and_is_named(tmp_path: Path) 
     signal = replace(SIGNAL, quantity="mean_velocity_in_run", unit="m/s")
     overview = Curves(signal, times, velocity, velocity)
     passed = replace(SIGNAL, passed=True)
-    text, _ = page(tmp_path, Validation("good.fmu", (passed,), 1.0, overviews=(overview,)))
-    low, high = plots_of(text)[0]["y"]["range"]
+    text, read = page(tmp_path, Validation("good.fmu", (passed,), 1.0, overviews=(overview,)))
+    low, high = read.plots[0]["y"]["range"]
     assert -0.02 < low < 0.0
     assert 0.1 < high < 0.12
     assert "start beyond the axis: -1 to 2" in text
 
 
-def test_numbers_are_shown_over_the_sweep(tmp_path: Path) -> None:
+def test_plots_show_the_fmu_on_the_reference_over_time_or_the_sweep(tmp_path: Path) -> None:
+    times = np.array([0.0, 0.1, 0.2])
+    overview = Curves(SIGNAL, times, 1.0 + times, 1.0 + 2.0 * times)
+    passed = replace(SIGNAL, passed=True, first_time=None, worst_time=None)
     other = replace(PASSED, against="closed_form", reference=0.2)
-    validation = Validation("bad.fmu", (SLOWER, other, PASSED), 1.0)
-    plot, below = plots_of(page(tmp_path, validation)[0])
-    assert below["series"][0]["y"] == [0.0, -0.00667]
-    assert plot["x"]["label"] == "phase [rad]"
-    assert plot["y"]["label"] == "steady velocity [m/s]"
-    reference, fmu = plot["series"]
-    assert reference["x"] == fmu["x"] == [0.0, 0.4]
-    assert fmu["y"] == [0.126667, 0.12]
-    assert reference["y"] == [0.126667, 0.126667]
+    validation = Validation("a.fmu", (passed, SLOWER, other, PASSED), 1.0, overviews=(overview,))
+    lines = [
+        f"{plot['title']}: {plot['y']['label']} over {plot['x']['label']}\n"
+        + "".join(f"  {one['label']}: {one['x']} {one['y']}\n" for one in plot["series"])
+        for plot in page(tmp_path, validation)[1].plots
+    ]
+    assert_as_before("report_plots.txt", "".join(lines))
 
 
 def test_the_page_leads_to_each_scene_and_escapes_what_is_foreign(
@@ -129,15 +110,10 @@ def test_an_error_before_any_fmu_is_in_every_report(tmp_path: Path) -> None:
     document = json.loads(written.read_text())
     assert document.pop("provenance")["fmus"] == []
     assert document == expected
-
-
-def test_reports_are_written_even_where_the_summary_cannot_be(tmp_path: Path) -> None:
-    paths = [tmp_path / name for name in ("report.xml", "report.html", "report.json")]
-    junit, html, written = paths
-    reports = Reports("A title", junit, html, written, tmp_path / "none" / "summary.md")
+    paths = [tmp_path / name for name in ("a.xml", "a.html", "a.json", "none/summary.md")]
     with pytest.raises(HarnessError, match=r"GITHUB_STEP_SUMMARY .*cannot be written"):
-        reports.write([], "my.fmu: corrupt")
-    assert all(path.is_file() for path in paths)
+        Reports("A title", *paths).write([], "my.fmu: corrupt")
+    assert all(path.is_file() for path in paths[:-1]), "though the summary cannot be"
 
 
 def test_every_report_says_what_it_judged(tmp_path: Path) -> None:

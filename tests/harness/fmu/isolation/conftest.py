@@ -1,11 +1,9 @@
-from pathlib import Path
-
 import pytest
 
-REPOSITORY = Path(__file__).resolve().parents[4]
+from tests.processes import ROOT
 
 
 @pytest.fixture(autouse=True)
 def importable_tasks(monkeypatch: pytest.MonkeyPatch) -> None:
     """The process of an FMU finds the tasks of the tests."""
-    monkeypatch.setenv("PYTHONPATH", str(REPOSITORY))
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))

@@ -51,10 +51,6 @@ def crash_in_step_of_fmi_3(instance: Instance) -> None:
     instance.step_to(0.01)
 
 
-def leave(instance: Instance) -> None:
-    os._exit(0)
-
-
 def stop(instance: Instance) -> None:
     """Stop all threads of the process, its own time limit too."""
     os.kill(os.getpid(), signal.SIGSTOP)

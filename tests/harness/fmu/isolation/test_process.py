@@ -1,7 +1,6 @@
 import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 
@@ -11,9 +10,18 @@ from slider_resonator.errors import Refusal
 from slider_resonator.fmu.isolation import process
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from tests.harness.fmu.isolation import tasks_of_tests as tasks
-from tests.processes import has_ended
+from tests.processes import ROOT, has_ended
 
 pytestmark = pytest.mark.isolated
+
+
+@pytest.fixture(scope="module")
+def isolated(native_fmu: Path) -> Iterator[IsolatedFmu]:
+    """A process for all tests after which it goes on."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", str(ROOT))
+        with IsolatedFmu(native_fmu, 60.0) as made:
+            yield made
 
 
 @pytest.fixture
@@ -23,12 +31,6 @@ def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(folder))
     return folder
-
-
-@pytest.fixture
-def isolated(native_fmu: Path) -> Iterator[IsolatedFmu]:
-    with IsolatedFmu(native_fmu, 60.0) as made:
-        yield made
 
 
 def test_an_error_keeps_its_type_and_the_process_goes_on(isolated: IsolatedFmu) -> None:
@@ -58,17 +60,23 @@ def test_the_fmu_shares_no_stream_with_the_harness(isolated: IsolatedFmu) -> Non
 
 
 @pytest.mark.parametrize(
-    ("task", "reason"), [(tasks.abort, "SIGABRT"), (tasks.leave, "exit code 0")]
+    ("then", "reason"), [("leave", "exit code 0"), ("abort", "SIGABRT"), ("return", "")]
 )
-def test_a_process_that_ends_is_reported_and_cleaned_up(
-    native_fmu: Path, temporary: Path, task: process.Task, reason: str
+def test_a_process_and_one_that_it_started_end_and_leave_nothing(
+    native_fmu: Path, tmp_path: Path, temporary: Path, then: str, reason: str
 ) -> None:
-    isolated = IsolatedFmu(native_fmu, 60.0)
-    with pytest.raises(FmuDied, match=reason):
-        isolated.run(task)
+    pid_file = tmp_path / "pid"
+    start_child = partial(tasks.start_child, pid_file=pid_file, then=then)
+    with IsolatedFmu(native_fmu, 60.0) as isolated:
+        if then == "return":
+            isolated.run(start_child)
+        else:
+            with pytest.raises(FmuDied, match=f"its process ended with {reason}"):
+                isolated.run(start_child)
+            with pytest.raises(FmuDied, match="has been ended"):
+                isolated.run(start_child)
+    assert has_ended(int(pid_file.read_text()))
     assert not list(temporary.iterdir())
-    with pytest.raises(FmuDied, match="has been ended"):
-        isolated.run(task)
 
 
 def test_a_crash_of_fmi_3_names_its_function(native_3_fmu: Path) -> None:
@@ -87,17 +95,6 @@ def test_a_process_that_does_not_end_itself_is_killed(
     with pytest.raises(FmuDied, match="within the time limit of 1 s"):
         isolated.run(tasks.stop)
     assert not list(temporary.iterdir())
-
-
-@pytest.mark.parametrize("then", ["leave", "abort", "return"])
-def test_a_process_that_the_fmu_started_neither_survives_nor_blocks(
-    native_fmu: Path, tmp_path: Path, then: str
-) -> None:
-    pid_file = tmp_path / "pid"
-    ended = pytest.raises(FmuDied, match="its process ended with")  # and not the time limit
-    with nullcontext() if then == "return" else ended, IsolatedFmu(native_fmu, 60.0) as isolated:
-        isolated.run(partial(tasks.start_child, pid_file=pid_file, then=then))
-    assert has_ended(int(pid_file.read_text()))
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux hands orphans over")
