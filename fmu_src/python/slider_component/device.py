@@ -128,6 +128,21 @@ Term = tuple[complex, complex, complex]
 """Rate z [1/s] of an exponential, velocity v_z of the slider, displacement y_z of the resonator."""
 
 
+class Split(NamedTuple):
+    """Motion in a contact mode, split into forced terms and the free motion of an `oscillator`.
+
+    The terms are per unit exp(i theta) and, for s = 1, per unit exp(i chi). `compliance` is the
+    displacement of the resonator by a constant force [m/N]; in free motion the slider moves by
+    -`mass_fraction` times what the resonator does.
+    """
+
+    drive: Term
+    normal: Term
+    oscillator: Oscillator
+    mass_fraction: float
+    compliance: float
+
+
 class System:
     """A device under held inputs (SI units; complex numbers are amplitudes of e).
 
@@ -135,9 +150,7 @@ class System:
     only: `slider_mass` is the total mass, `mass_fraction`, `spring` and `damper` are 0, and
     `resonator_amplitude` is its steady displacement [m]. `holding_drive` is the part of the force
     on a held slider that follows the drive directly [N], `drive` the force of the drive on the pair
-    per total mass [m/s^2]. `slide_split` are the forced terms of sliding per unit exp(i theta) and,
-    for s = 1, per unit exp(i chi), `rest_split` the displacement of the resonator at rest; both are
-    None where they do not split off. `compliance` is the displacement by a constant force [m/N].
+    per total mass [m/s^2]. `slide_split` and `rest_split` are None where splitting loses digits.
     The contact lifts at times, or always, in the `window` of chi, which it enters and leaves where
     it `switches`. `fastest` [rad/s] is the highest frequency, `arc` [s] the longest segment: after
     it a motion begins anew from its state. Neither depends on `phase` and `load`.
@@ -174,10 +187,8 @@ class System:
             self.resonator_amplitude = steady.resonator
         self.drive, self.arc = force / device.total_mass, LONGEST_ARC / self.fastest
         self.slide_split, self.rest_split = self._slide_split(), self._rest_split()
-        free = self.slip.stiffness * self.slider_mass
-        self.compliance = 1.0 / free if self.is_full and self.slide_split else 0.0
 
-    def _slide_split(self) -> tuple[Term, Term] | None:
+    def _slide_split(self) -> Split | None:
         w, q, slip = self.drive_frequency, self.normal_frequency, self.slip
         if 0.0 < abs(q) < SLOW * w or (self.is_full and not slip.splits(w, q)):
             return None
@@ -190,17 +201,21 @@ class System:
         by_friction = self.mass_fraction * q * q * swing_by_friction
         by_friction -= self.friction_amplitude / self.total_mass
         slowed = -by_friction / q if q else 0j
-        return (
+        return Split(
             (complex(0.0, w), -pushed / w, -1j * swing),
             (complex(0.0, q), slowed, -1j * swing_by_friction),
+            slip,
+            self.mass_fraction,
+            1.0 / (slip.stiffness * self.slider_mass) if self.is_full else 0.0,
         )
 
-    def _rest_split(self) -> complex | None:
-        if not self.is_full:
-            return 0j
-        if not self.stick.splits(self.drive_frequency):
-            return None
-        return -1j * self.base_acceleration * self.stick.transfer(self.drive_frequency)
+    def _rest_split(self) -> Split | None:
+        w, stick, swing = self.drive_frequency, self.stick, 0j
+        if self.is_full:
+            if not stick.splits(w):
+                return None
+            swing = self.base_acceleration * stick.transfer(w)
+        return Split((complex(0.0, w), 0j, -1j * swing), (0j, 0j, 0j), stick, 0.0, 0.0)
 
     def friction_limit(self, psi: float) -> float:
         """Friction force [N] of all faces at normal phase `psi` [rad] when sliding, 0 in flight."""
