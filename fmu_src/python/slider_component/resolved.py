@@ -10,7 +10,7 @@ from math import inf, tau
 from .budget import Budget, Clock, too_much_work
 from .contact import LIFTED
 from .coulomb import Coulomb
-from .device import LONGEST_ARC, System, steady_swing
+from .device import LONGEST_ARC, System
 from .first_zero import first_zero
 from .lugre import LuGre
 from .moment import Moment
@@ -51,8 +51,7 @@ class Resolved:
         device, system = self.system.device, self.system
         velocity, rate = device.initial_velocity, device.initial_resonator_velocity
         if not system.is_full:
-            _, steady = steady_swing(system.resonator_amplitude, 0.0, system.drive_frequency)
-            velocity += device.mass_fraction * (rate - steady)
+            velocity += device.mass_fraction * (rate - system.steady.swing(0.0)[1])
         now = Moment(velocity, device.initial_resonator_displacement, rate, device.initial_position)
         if device.friction_law == 1:
             now.bristle = device.bristle_stiffness * device.initial_bristle_deflection
@@ -74,10 +73,9 @@ class Resolved:
 
     def resonator(self, now: Moment) -> tuple[float, float]:
         """Displacement [m] and velocity [m/s] of the resonator: its own or the steady ones."""
-        system = self.system
-        if system.is_full:
+        if self.system.is_full:
             return now.displacement, now.rate
-        return steady_swing(system.resonator_amplitude, now.theta, system.drive_frequency)
+        return self.system.steady.swing(now.theta)
 
     def slow_motion_error(self, now: Moment) -> float:
         """The estimate of the error of the slow velocity [m/s]; 0 for motion that never leaps."""
