@@ -10,7 +10,7 @@ from math import hypot, inf
 from operator import mul, truediv
 
 from .contact import LIFTED
-from .device import EPSILON, Device, System
+from .device import EPSILON, System
 from .first_zero import Watch
 from .moment import Moment, Place
 
@@ -43,9 +43,10 @@ ROUNDING = 2.0 * EPSILON
 class Series:
     """Motion from `now` on in `direction`, or at rest or in flight by the contact mode.
 
-    Friction is that of a bristle that `bends`, or else Coulomb's. At its `reach` [s] the last
-    terms are `tolerance` times the scale of velocities or, if that is much less, times the velocity
-    itself.
+    Friction is that of a bristle that `bends` (eq. 8), or else Coulomb's. With s the direction and
+    g = sigma_0 z the former is F = faces N (g + sigma_1 z'), z' = v (1 - s g / mu). At its `reach`
+    [s] the last terms are `tolerance` times the scale of velocities or, if that is much less, times
+    the velocity itself.
     """
 
     def __init__(
@@ -59,18 +60,26 @@ class Series:
     ) -> None:
         w, q, mass = system.drive_frequency, system.normal_frequency, system.slider_mass
         sign = 0 if now.mode == LIFTED else direction
-        bending = _Bending(system.device, now.bristle, direction) if bends else None
         spring, damper, load = system.spring, system.damper, system.load
         stiffness, damping = system.stick.stiffness, 2.0 * system.stick.decay
         drive = -1j * rect(1.0, now.theta)
         normal = -1j * system.friction_amplitude * rect(1.0, now.psi + system.phase)
         v, y, u = [now.velocity], [now.displacement], [now.rate]
-        limit, needed, self._force = [system.friction_preload + normal.real], [], list[float]()
+        limit, needed, force = [system.friction_preload + normal.real], list[float](), list[float]()
+        mu, bristle = system.device.friction_coefficient, now.bristle
+        hardness, drag = system.device.bristle_stiffness, system.device.bristle_damping
+        unbent, shares = [(mu - direction * bristle) / mu] if bends else [], list[float]()
         for k, step in enumerate(_STEPS):
             pull = (system.holding_drive * drive).real + damper * u[k] + spring * y[k] - load
             needed.append(pull)
-            friction = sign * limit[k] if bending is None else bending.friction(v, limit, step)
-            self._force.append(friction)
+            friction = sign * limit[k]
+            if bends:
+                bending = sum(map(mul, v, reversed(unbent)))
+                shares.append((bristle + drag * bending) / mu)
+                bristle = hardness * bending * step
+                unbent.append(-direction * bristle / mu)
+                friction = sum(map(mul, limit, reversed(shares)))
+            force.append(friction)
             acceleration = 0.0 if rests else (pull - friction) / mass
             v.append(acceleration * step)
             swing = 0.0
@@ -83,7 +92,7 @@ class Series:
             drive *= complex(0.0, w * step)
             normal *= complex(0.0, q * step)
             limit.append(normal.real)
-        self._velocity, self._displacement, self._rate = v, y, u
+        self._velocity, self._displacement, self._rate, self._force = v, y, u, force
         self._position = [0.0, *map(truediv, v, _COUNT)]
         # The scale of velocities [m/s] is the sum of that of the drive, of what friction and load
         # change in a radian of it, and of those of slider and resonator.
@@ -134,28 +143,6 @@ class Series:
         return [0.0, *map(truediv, powers, _COUNT)]
 
 
-class _Bending:
-    """Series of the friction of a bristle that bends (eq. 8), with s the `sign` of the velocity v.
-
-    With g = sigma_0 z, z' = v (1 - s g / mu) and F = faces N (g + sigma_1 z').
-    """
-
-    def __init__(self, device: Device, bristle: float, sign: int) -> None:
-        mu = device.friction_coefficient
-        self._g, self._unbent, self._shares = bristle, [(mu - sign * bristle) / mu], list[float]()
-        self._stiffness, self._damping = device.bristle_stiffness, device.bristle_damping
-        self._sign, self._mu = sign, mu
-
-    def friction(self, velocity: list[float], limit: list[float], step: float) -> float:
-        """The next coefficient of the friction force [N], from those of velocity and limit."""
-        drag = sum(map(mul, velocity, reversed(self._unbent)))
-        self._shares.append((self._g + self._damping * drag) / self._mu)
-        self._g = self._stiffness * drag * step
-        self._unbent.append(-self._sign * self._g / self._mu)
-        force: float = sum(map(mul, limit, reversed(self._shares)))
-        return force
-
-
 def _watch(coefficients: list[float], sizes: list[float], horizon: float) -> Watch:
     """A series as a signal up to `horizon` [s]; its rounding errors grow with `sizes`."""
     slope = list(map(mul, coefficients[1:], _COUNT))
@@ -176,13 +163,12 @@ def _value(coefficients: list[float], t: float) -> float:
 
 def _reach(coefficients: list[float], tolerance: float, scale: float) -> float:
     """How far the series of a velocity holds [s]; see Series."""
-    reach = _reach_of_last(coefficients, tolerance * scale)
     for _ in range(MAX_SHRINKS):
+        reach = _reach_of_last(coefficients, tolerance * scale)
         size = _value(list(map(abs, coefficients[:FIRST_TERMS])), reach)
         if not NEGLIGIBLE_MOTION < size < MUCH_SMALLER * scale:
             break
         scale = size
-        reach = _reach_of_last(coefficients, tolerance * scale)
     return reach
 
 
