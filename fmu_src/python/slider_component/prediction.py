@@ -39,8 +39,6 @@ class Prediction:
 MAX_TURNS = 32
 """Largest number of turns of the drive after which the normal load may repeat."""
 
-NO_VIBRATION = Prediction(0.0, 0.0, False)
-
 
 @lru_cache(maxsize=8)
 def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction:
@@ -67,7 +65,7 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
         steady = PeriodicMotion(period_map, psi, inputs.load, blocked=False)
         blocked = PeriodicMotion(period_map, psi, first.blocking_force, blocked=True)
         return Prediction(steady.found(first.steady_velocity), blocked.found(0.0), valid=True)
-    except (ArithmeticError, ValueError):
+    except (ArithmeticError, ValueError, Refusal):
         return replace(first, valid=False)
 
 
@@ -104,12 +102,11 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
     Both results are 0 without vibration, and where undamped resonance leaves no steady vibration.
     In these cases, and where the vibration does not break the contact loose, they are not `valid`.
     """
-    try:
+    fast = None
+    with suppress(Refusal):
         fast = vibration(device)
-    except Refusal:
-        return NO_VIBRATION
-    if fast.velocity == 0.0:
-        return NO_VIBRATION
+    if fast is None or fast.velocity == 0.0:
+        return Prediction(0.0, 0.0, valid=False)
     ratio, faces = inputs.frequency_ratio, device.friction_faces
     delta = inputs.phase + normal_lead + ratio * fast.lag
     law, load = MeanFriction(device, fast.velocity), VibratingLoad(device, ratio, delta)

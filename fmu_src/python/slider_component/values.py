@@ -11,7 +11,7 @@ BY_NAME = {variable.name: variable for variable in VARIABLES}
 SETTABLE = tuple(variable for variable in VARIABLES if variable.causality != "output")
 
 
-class Refusal(ValueError):
+class Refusal(Exception):
     """A refused call. The component is as it was before the call."""
 
     def __init__(self, text: str, **arguments: object) -> None:
