@@ -50,8 +50,8 @@ class Component:
             raise Refusal(refusal_texts.BAD_STOP_TIME, **times)
         if tolerance is not None and not (isfinite(tolerance) and tolerance > 0.0):
             raise Refusal(refusal_texts.BAD_TOLERANCE, tolerance=tolerance)
-        state.time = state.last_event_time = start_time
-        state.stop_time = inf if stop_time is None else stop_time
+        state.time = state.last_event_time = float(start_time)
+        state.stop_time = inf if stop_time is None else float(stop_time)
 
     def enter_initialization(self) -> None:
         """Begin initialization mode."""
