@@ -5,7 +5,8 @@ near resonance without damping, near critical damping, on soft resonators, under
 """
 
 from cmath import rect
-from functools import cached_property
+from functools import cached_property, lru_cache
+from itertools import accumulate
 from math import hypot, inf
 from operator import mul, truediv
 
@@ -59,18 +60,28 @@ class Series:
         rests: bool = False,
     ) -> None:
         w, q, mass = system.drive_frequency, system.normal_frequency, system.slider_mass
-        sign = 0 if now.mode == LIFTED else direction
-        spring, damper, load = system.spring, system.damper, system.load
+        sign, is_full = 0 if now.mode == LIFTED else direction, system.is_full
+        spring, damper, coupling = system.spring, system.damper, float(is_full)
         stiffness, damping = system.stick.stiffness, 2.0 * system.stick.decay
-        drive = -1j * rect(1.0, now.theta)
-        normal = -1j * system.friction_amplitude * rect(1.0, now.psi + system.phase)
-        v, y, u = [now.velocity], [now.displacement], [now.rate]
-        limit, needed, force = [system.friction_preload + normal.real], list[float](), list[float]()
+        drive, chi = -1j * rect(1.0, now.theta), now.psi + system.phase
+        pulls = _sinusoid(system.holding_drive * drive, w)
+        pulls[0] -= system.load
+        bases = _sinusoid(coupling * system.base_acceleration * drive, w)
+        limit = _sinusoid(-1j * system.friction_amplitude * rect(1.0, chi), q)
+        limit[0] += system.friction_preload
+        displacement, rate = (now.displacement, now.rate) if is_full else (0.0, 0.0)
+        v, y, u, needed, force = (
+            [now.velocity],
+            [displacement],
+            [rate],
+            list[float](),
+            list[float](),
+        )
         mu, bristle = system.device.friction_coefficient, now.bristle
         hardness, drag = system.device.bristle_stiffness, system.device.bristle_damping
         unbent, shares = [(mu - direction * bristle) / mu] if bends else [], list[float]()
         for k, step in enumerate(_STEPS):
-            pull = (system.holding_drive * drive).real + damper * u[k] + spring * y[k] - load
+            pull = pulls[k] + damper * rate + spring * displacement
             needed.append(pull)
             friction = sign * limit[k]
             if bends:
@@ -82,16 +93,10 @@ class Series:
             force.append(friction)
             acceleration = 0.0 if rests else (pull - friction) / mass
             v.append(acceleration * step)
-            swing = 0.0
-            if system.is_full:
-                swing = system.base_acceleration * drive.real - damping * u[k] - stiffness * y[k]
-                swing -= acceleration
-            y.append(u[k] * step if system.is_full else 0.0)
-            u.append(swing * step)
-            load = 0.0
-            drive *= complex(0.0, w * step)
-            normal *= complex(0.0, q * step)
-            limit.append(normal.real)
+            swing = bases[k] - damping * rate - stiffness * displacement - coupling * acceleration
+            displacement, rate = rate * step, swing * step
+            y.append(displacement)
+            u.append(rate)
         self._velocity, self._displacement, self._rate, self._force = v, y, u, force
         self._position = [0.0, *map(truediv, v, _COUNT)]
         # The scale of velocities [m/s] is the sum of that of the drive, of what friction and load
@@ -141,6 +146,19 @@ class Series:
         force, velocity = self._force, self._velocity
         powers = (sum(map(mul, force, reversed(velocity[: k + 1]))) for k in range(ORDER))
         return [0.0, *map(truediv, powers, _COUNT)]
+
+
+def _sinusoid(amplitude: complex, frequency: float) -> list[float]:
+    """The series of Re(amplitude exp(i frequency t))."""
+    return [(amplitude * power).real for power in _powers(frequency)]
+
+
+@lru_cache(maxsize=64)
+def _powers(frequency: float) -> list[complex]:
+    """The series of exp(i frequency t)."""
+    return list(
+        accumulate(_STEPS, lambda c, step: c * complex(0.0, frequency * step), initial=1 + 0j)
+    )
 
 
 def _watch(coefficients: list[float], sizes: list[float], horizon: float) -> Watch:
