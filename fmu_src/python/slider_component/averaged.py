@@ -121,7 +121,7 @@ class Averaged:
         """Contact mode, by the sign of the velocity with its fast part."""
         return LIFTED if self.system.is_lifted(now.psi) else direction_of(now.velocity)
 
-    def friction_force(self, now: Moment, mode: int) -> float:
+    def friction_force(self, now: Moment) -> float:
         """Mean friction force [N] over a drive period, positive against +X."""
         velocity, phase = now.mean_velocity, self._load_phase(now)
         if self.fast.velocity == 0.0 and velocity == 0.0:
@@ -129,10 +129,10 @@ class Averaged:
             return max(-full, min(full, -self.system.load))
         return self._mean_friction(phase, velocity)
 
-    def friction_power(self, now: Moment, mode: int) -> float:
+    def friction_power(self, now: Moment) -> float:
         """Mean power of friction [W] over a drive period, of slow motion and vibration."""
         if self.fast.velocity == 0.0:
-            return self.friction_force(now, mode) * now.mean_velocity
+            return self.friction_force(now) * now.mean_velocity
         load = VibratingLoad(self.system.device, self.waves, self._load_phase(now))
         return self.system.device.friction_faces * self.law.power(load, now.mean_velocity)
 

@@ -141,8 +141,7 @@ class Component:
     def _view(self, name: str) -> View:
         if self._state.lifecycle == Lifecycle.INSTANTIATED:
             self._required(f"reading {name}", Lifecycle.INITIALIZATION)
-        motion, now = self._motion, self._present()
-        return View(motion, now, motion.mode(now), self._state.last_event_time)
+        return View(self._motion, self._present(), self._state.last_event_time)
 
     @property
     def _motion(self) -> Motion:

@@ -35,10 +35,10 @@ SHORTEST = 1e-7
 that enclose a dip within rounding, and count as a touch."""
 
 SHORT = 0.01
-"""Steps [rad] below this count as short. After `PATIENCE` of them the shortest step doubles, up to
-this, which bounds the work on signals that stay within rounding of zero."""
+"""Steps [rad] below this count as short. After each of them the shortest step grows by `GROWTH`, up
+to this, which bounds the work on signals that stay within rounding of zero."""
 
-PATIENCE = 20
+GROWTH = 1.035
 
 MAX_NEWTON_STEPS = 80
 """Steps of Newton's method towards a zero that is simple, far more than it takes."""
@@ -64,7 +64,7 @@ def first_zero(watch: Watch, limit: float) -> float | None:
         # Beyond the limit the bound of the signal may not hold.
         zero, steepness = _newton(watch, expected, limit, MAX_EXPECTING_STEPS)
     t = before = 0.0
-    shortest, short_steps = SHORTEST / fastest, 0
+    shortest = SHORTEST / fastest
     while t < limit:  # not a number ends the search, too
         value, slope, bound = signal(t)
         margin = 2.2 * (value + noise)
@@ -90,9 +90,7 @@ def first_zero(watch: Watch, limit: float) -> float | None:
         ):
             return zero
         if step * fastest < SHORT:
-            short_steps += 1
-            if short_steps % PATIENCE == 0:
-                shortest = min(2.0 * shortest, SHORT / fastest)
+            shortest = min(GROWTH * shortest, SHORT / fastest)
         before = t
         t += max(step, shortest)
     return None

@@ -62,13 +62,13 @@ class Resolved:
         """Contact mode under the held inputs."""
         return self.law.mode(self.system, now)
 
-    def friction_force(self, now: Moment, mode: int) -> float:
+    def friction_force(self, now: Moment) -> float:
         """Friction force [N] on the slider, positive against +X."""
-        return self.law.force(self.system, now, mode)
+        return self.law.force(self.system, now, self.mode(now))
 
-    def friction_power(self, now: Moment, mode: int) -> float:
+    def friction_power(self, now: Moment) -> float:
         """Mean power of friction [W] of the last whole period, or since the start, or there."""
-        momentary = self.friction_force(now, mode) * now.velocity
+        momentary = self.friction_force(now) * now.velocity
         return now.mean(now.friction_power, now.work, momentary)
 
     def resonator(self, now: Moment) -> tuple[float, float]:
