@@ -58,34 +58,22 @@ def watch_of(
 
     Its `fastest` frequency [rad/s]; a zero may be `expected` at a time [s].
     """
-    parts, size, bound = [], abs(k0), 0.0
+    parts, size, k0, k1 = [], abs(k0), side * k0, side * k1
     for z, v, _ in terms:
         amplitude = abs(v)
         size += amplitude
-        bound += amplitude * abs(z * z)
-        if side < 0:
-            v = -v
-        parts.append((z, v, z * v))
-    noise = 2.0 * EPSILON * size
-    (z1, a1, b1), (z2, a2, b2), *others = parts if len(parts) > 1 else [*parts, (0j, 0j, 0j)]
-    k0, k1 = side * k0, side * k1
+        parts.append((z, side * v, side * z * v, amplitude * abs(z * z)))
 
     def signal(t: float) -> tuple[float, float, float]:
-        turn, own = exp(z1 * t), exp(z2 * t)
-        swing, change = a1 * turn + a2 * own, b1 * turn + b2 * own
-        if others:
-            for z, a, b in others:
-                turn = exp(z * t)
-                swing += a * turn
-                change += b * turn
-        return k0 + k1 * t + swing.real, k1 + change.real, bound
+        value, slope, bound = k0 + k1 * t, k1, 0.0
+        for z, swing, change, bend in parts:
+            turn = exp(z * t)
+            value += (swing * turn).real
+            slope += (change * turn).real
+            bound += bend * abs(turn)
+        return value, slope, bound
 
-    def signal_that_decays(t: float) -> tuple[float, float, float]:
-        value, slope, _ = signal(t)
-        return value, slope, sum(abs(a) * abs(z * z) * exp(z.real * t).real for z, a, _ in parts)
-
-    decays = not terms[-1][0].imag
-    return Watch(signal_that_decays if decays else signal, noise, fastest, expected)
+    return Watch(signal, 2.0 * EPSILON * size, fastest, expected)
 
 
 class Exponentials:
