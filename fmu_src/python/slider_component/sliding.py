@@ -9,8 +9,7 @@ of drive, normal load and free resonator, and friction s (F0 + F1 sin(chi)),
 """
 
 from cmath import exp, rect, sinh
-from cmath import phase as argument
-from math import acos, inf, sin, tau
+from math import inf, sin
 from typing import Protocol
 
 from .contact import LIFTED
@@ -51,13 +50,8 @@ class Segment(Protocol):
         ...
 
 
-def watch_of(
-    side: int, k0: float, k1: float, terms: list[Term], fastest: float, expected: float = 0.0
-) -> Watch:
-    """A watch of the signal `side` (k0 + k1 t + sum of Re(v_z exp(z t))).
-
-    Its `fastest` frequency [rad/s]; a zero may be `expected` at a time [s].
-    """
+def watch_of(side: int, k0: float, k1: float, terms: list[Term], fastest: float) -> Watch:
+    """A watch of `side` (k0 + k1 t + sum of Re(v_z exp(z t))), of frequencies up to `fastest`."""
     parts, size, k0, k1 = [], abs(k0), side * k0, side * k1
     for z, v, _ in terms:
         amplitude = abs(v)
@@ -73,7 +67,7 @@ def watch_of(
             bound += bend * abs(turn)
         return value, slope, bound
 
-    return Watch(signal, 2.0 * EPSILON * size, fastest, expected)
+    return Watch(signal, 2.0 * EPSILON * size, fastest)
 
 
 class Exponentials:
@@ -146,17 +140,10 @@ class Exponentials:
         """See Segment. None where the forces on a slider at rest stay below the smallest limit."""
         if self.rests:
             return self._margins()
-        direction, k0, terms, expected = self.direction, self._k0, self._terms, 0.0
-        if direction == 0:
+        if self.direction == 0:
             return ()
-        z, drive, _ = terms[0]
-        amplitude = abs(drive)
-        if -amplitude < k0 < amplitude:
-            # Where the drive alone would stop the slider: its cosine falls through -k0 in its first
-            # half turn, and rises through it before.
-            stop = direction * acos(-k0 / amplitude) - argument(drive)
-            expected = stop % tau / z.imag
-        return (watch_of(direction, k0, self._k1, terms, self._system.fastest, expected),)
+        fastest = self._system.fastest
+        return (watch_of(self.direction, self._k0, self._k1, self._terms, fastest),)
 
     def _margins(self) -> tuple[Watch, ...]:
         system, load = self._system, self._system.load
