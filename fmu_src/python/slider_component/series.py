@@ -113,11 +113,6 @@ class Series:
             scale *= tolerance * system.total_mass * w
             self.reach = min(self.reach, *(_reach_of_last(c, scale) for c in (limit, needed)))
 
-    def departs(self) -> bool:
-        """Whether the motion begins in its direction, or stays at rest."""
-        first = next((c for c in self._velocity if c != 0.0), 0.0)
-        return self.direction * first >= 0.0
-
     def watches(self, horizon: float) -> tuple[Watch, ...]:
         """See Segment."""
         if self.rests:
