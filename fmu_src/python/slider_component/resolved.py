@@ -138,7 +138,7 @@ class Resolved:
         if zero_of is not None and not segment.rests:
             now.velocity = 0.0
         if direction not in (0, now.sliding) and watches:
-            signal, noise, fastest, *_ = watches[0]
+            signal, noise, fastest = watches[0]
             # Most travel is far more than rounding; where it is not, the velocity in the middle
             # tells.
             if direction * travelled * fastest > MOVES * noise or signal(0.5 * t)[0] > noise:
