@@ -43,7 +43,7 @@ class Sum:
 
 @dataclass(frozen=True)
 class Search:
-    """How a search is asked for; no zero is expected at times below 0."""
+    """How a search is asked for; native ones may expect a zero, but not at times below 0."""
 
     limit: float
     expected: float = -1.0
@@ -77,7 +77,7 @@ def python(signal: Sum, search: Search) -> Found:
         calls.append(t)
         return signal.value(t), sum(a * w * math.cos(w * t + p) for a, w, p in signal.waves), bound
 
-    watch = Watch(evaluated, search.noise, search.fastest, search.expected)
+    watch = Watch(evaluated, search.noise, search.fastest)
     return first_zero(watch, search.limit), len(calls)
 
 
@@ -165,7 +165,6 @@ def test_nothing_is_passed_over(find: Find, waves: list[Wave], offset: float, lo
     assert zero is None or abs(signal.value(zero)) < 1e-12
 
 
-@both
 @given(
     offset=st.floats(-0.9, 0.9),
     phase=st.floats(0.0, 6.0),
@@ -173,14 +172,14 @@ def test_nothing_is_passed_over(find: Find, waves: list[Wave], offset: float, lo
     expected=st.floats(-1.0, 12.0),
 )
 def test_an_expected_zero_changes_nothing(
-    find: Find, offset: float, phase: float, second: Wave, expected: float
+    offset: float, phase: float, second: Wave, expected: float
 ) -> None:
     """Wherever a zero is expected, the first one is found, to what rounding makes of its slope."""
     signal = Sum(offset, ((1.0, 1.0, phase), second))
     if signal.value(0.0) <= 0.0:
         return
     plain, guided = (
-        find(signal, Search(10.0, guess, fastest=4.0))[0] for guess in (-1.0, expected)
+        native(signal, Search(10.0, guess, fastest=4.0))[0] for guess in (-1.0, expected)
     )
     assert (plain is None) == (guided is None)
     if plain is not None and guided is not None:
@@ -188,29 +187,16 @@ def test_an_expected_zero_changes_nothing(
         assert guided == pytest.approx(plain, abs=ROUNDING * 20.0 / steepness + 4e-15)
 
 
-@both
-def test_a_zero_where_it_is_expected_costs_few_evaluations(find: Find) -> None:
+def test_a_zero_where_it_is_expected_costs_few_evaluations() -> None:
     search = Search(10.0, expected=math.pi - 0.1 + 1e-6)
-    zero, work = find(Sum(0.0, ((1.0, 1.0, 0.1),)), search)
+    zero, work = native(Sum(0.0, ((1.0, 1.0, 0.1),)), search)
     assert zero == pytest.approx(math.pi - 0.1, abs=ROUNDING)
     assert work <= 3
 
 
-def zero_of(signal: Signal, noise: float = 1e-16, expected: float = 0.0) -> float | None:
+def zero_of(signal: Signal, noise: float = 1e-16) -> float | None:
     """That of the Python build in [0, 1), of a signal that is no sum of sines."""
-    return first_zero(Watch(signal, noise, 1.0, expected), 1.0)
-
-
-@pytest.mark.parametrize("expected", [0.97, 0.98, 0.99])
-def test_a_zero_expected_beyond_the_limit_does_not_hide_the_first(expected: float) -> None:
-    """The bound of the curvature holds up to the limit; beyond it the signal falls steeply."""
-    w = math.tau / 0.96
-
-    def signal(t: float) -> tuple[float, float, float]:
-        value, slope = 0.5 + math.cos(w * min(t, 1.0)), -w * math.sin(w * min(t, 1.0))
-        return value - 1e4 * max(0.0, t - 1.0), slope - 1e4 * (t > 1.0), w * w
-
-    assert zero_of(signal, expected=expected) == pytest.approx(0.32, abs=1e-15)
+    return first_zero(Watch(signal, noise, 1.0), 1.0)
 
 
 @pytest.mark.parametrize("bound", [1e300, math.inf, math.nan])

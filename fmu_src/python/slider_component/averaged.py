@@ -12,12 +12,12 @@ harmonics, and counts with its phase near fractions too.
 The bristle follows the motion periodically; it has no state here.
 """
 
-from math import ceil, copysign, cos, hypot, inf, isfinite, pi, sin, tau
+from math import ceil, copysign, hypot, inf, isfinite, pi, sin, tau
 
 from .budget import too_much_work
 from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .contact import LIFTED, direction_of
-from .device import System, full_friction, steady_swing, vibration
+from .device import System, full_friction, vibration
 from .dormand_prince import Rates, dormand_prince, linear_step, simpson_error, step_growth
 from .mean_friction import MAX_WAVES, MeanFriction
 from .moment import Moment
@@ -103,7 +103,7 @@ class Averaged:
     def advance(self, moment: Moment, duration: float) -> Moment:
         """The moment `duration` > 0 [s] later. Raises Refusal for too many steps."""
         system, fast, now = self.system, self.fast, moment.copied()
-        w, share = system.drive_frequency, system.device.mass_fraction
+        w, share = system.drive_frequency, fast.mass_fraction
         reach = fast.pair_velocity / w
         slow = self._slow_velocity(now)
         centre = now.position + share * now.displacement + reach * sin(now.theta)
@@ -111,8 +111,8 @@ class Averaged:
         slow, moved = passed(self._load_phase(now), slow, duration)
         now.theta = (now.theta + w * duration) % tau
         now.psi = (now.psi + system.normal_frequency * duration) % tau
-        now.displacement, now.rate = steady_swing(fast.resonator, now.theta, w)
-        now.velocity = slow - fast.pair_velocity * cos(now.theta) - share * now.rate
+        now.displacement, now.rate = fast.swing(now.theta)
+        now.velocity = slow - fast.ahead(now.theta, now.rate)
         now.position = centre + moved - reach * sin(now.theta) - share * now.displacement
         now.mean_velocity, now.mode = slow, self.mode(now)
         return now
@@ -121,7 +121,7 @@ class Averaged:
         """Contact mode, by the sign of the velocity with its fast part."""
         return LIFTED if self.system.is_lifted(now.psi) else direction_of(now.velocity)
 
-    def friction_force(self, now: Moment, mode: int) -> float:
+    def friction_force(self, now: Moment) -> float:
         """Mean friction force [N] over a drive period, positive against +X."""
         velocity, phase = now.mean_velocity, self._load_phase(now)
         if self.fast.velocity == 0.0 and velocity == 0.0:
@@ -129,16 +129,16 @@ class Averaged:
             return max(-full, min(full, -self.system.load))
         return self._mean_friction(phase, velocity)
 
-    def friction_power(self, now: Moment, mode: int) -> float:
+    def friction_power(self, now: Moment) -> float:
         """Mean power of friction [W] over a drive period, of slow motion and vibration."""
         if self.fast.velocity == 0.0:
-            return self.friction_force(now, mode) * now.mean_velocity
+            return self.friction_force(now) * now.mean_velocity
         load = VibratingLoad(self.system.device, self.waves, self._load_phase(now))
         return self.system.device.friction_faces * self.law.power(load, now.mean_velocity)
 
     def resonator(self, now: Moment) -> tuple[float, float]:
         """Displacement [m] and velocity [m/s] of the steady vibration."""
-        return steady_swing(self.fast.resonator, now.theta, self.system.drive_frequency)
+        return self.fast.swing(now.theta)
 
     def slow_motion_error(self, now: Moment) -> float:
         """The estimate of the error of the slow velocity [m/s].
@@ -166,8 +166,7 @@ class Averaged:
         return min(FIRST_ORDER * share * swing, 1.0) * fast
 
     def _slow_velocity(self, now: Moment) -> float:
-        momentum = now.velocity + self.system.device.mass_fraction * now.rate
-        return momentum + self.fast.pair_velocity * cos(now.theta)
+        return now.velocity + self.fast.ahead(now.theta, now.rate)
 
     def _load_phase(self, now: Moment) -> float:
         """Phase [rad] of the waves of the load in the angle of the fast velocity."""

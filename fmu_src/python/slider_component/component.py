@@ -1,7 +1,8 @@
 """The component between numerics and FMI: values by name, lifecycle, steps, outputs."""
 
 import cmath
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import astuple, replace
 from math import inf, isfinite, log10, nan, remainder, tau, ulp
 from typing import Any
@@ -49,8 +50,8 @@ class Component:
             raise Refusal(refusal_texts.BAD_STOP_TIME, **times)
         if tolerance is not None and not (isfinite(tolerance) and tolerance > 0.0):
             raise Refusal(refusal_texts.BAD_TOLERANCE, tolerance=tolerance)
-        state.time = state.last_event_time = start_time
-        state.stop_time = inf if stop_time is None else stop_time
+        state.time = state.last_event_time = float(start_time)
+        state.stop_time = inf if stop_time is None else float(stop_time)
 
     def enter_initialization(self) -> None:
         """Begin initialization mode."""
@@ -89,16 +90,12 @@ class Component:
 
     def get(self, *names: str) -> list[float]:
         """Return values of any variables; outputs from initialization mode on."""
-        view: View | None = None
-        found = []
-        for name in names:
-            output = OUTPUTS.get(name)
-            if output is None:
-                found.append(self._state.values[name])
-            else:
-                view = view or self._view(name)
-                found.append(_finite_output(name, output, view))
-        return found
+        outputs = [name for name in names if name in OUTPUTS]
+        found = dict(self._state.values)
+        if outputs:
+            view = self._view(outputs[0])
+            found |= {name: _finite_output(name, view) for name in outputs}
+        return [found[name] for name in names]
 
     def step(self, time: float, step_size: float) -> None:
         """Advance from the present `time` [s] by `step_size` > 0 [s], inputs held."""
@@ -144,8 +141,7 @@ class Component:
     def _view(self, name: str) -> View:
         if self._state.lifecycle == Lifecycle.INSTANTIATED:
             self._required(f"reading {name}", Lifecycle.INITIALIZATION)
-        motion, now = self._motion, self._present()
-        return View(motion, now, motion.mode(now), self._state.last_event_time)
+        return View(self._motion, self._present(), self._state.last_event_time)
 
     @property
     def _motion(self) -> Motion:
@@ -157,17 +153,12 @@ class Component:
         return self._state.moment or self._motion.start()
 
     def _advanced(self, step_size: float) -> Moment:
-        try:
+        with suppress(ArithmeticError, ValueError):
             now = self._motion.advance(self._present(), step_size)
             numbers = now.position, now.velocity, now.displacement, now.rate, now.psi, now.theta
-            finite = all(map(isfinite, numbers))
-        except Refusal:
-            raise
-        except (ArithmeticError, ValueError):
-            finite = False
-        if not finite:
-            raise Refusal(refusal_texts.INFINITE_MOTION, step_size=step_size)
-        return now
+            if all(map(isfinite, numbers)):
+                return now
+        raise Refusal(refusal_texts.INFINITE_MOTION, step_size=step_size)
 
 
 def _prepare(values: Mapping[str, Any]) -> Motion:
@@ -175,18 +166,15 @@ def _prepare(values: Mapping[str, Any]) -> Motion:
     inputs = Inputs(**{v.name: values[v.name] for v in SETTABLE if v.causality == "input"})
     device = _driven(device, inputs)
     inputs = replace(inputs, phase=remainder(inputs.phase, tau))
-    try:
+    with suppress(ArithmeticError):
         motion = motion_of(device, inputs)
         system = motion.system
         numbers = [*vars(system).values(), *astuple(system.slip), *astuple(system.stick)]
         numbers += theory_range(device)
         finite = all(cmath.isfinite(x) for x in numbers if isinstance(x, (float, complex)))
-        finite = finite and system.mass_fraction < 1.0  # beside it, the slider's mass counts
-    except ArithmeticError:
-        finite = False
-    if not finite:
-        raise _extreme(values)
-    return motion
+        if finite and system.mass_fraction < 1.0:  # beside it, the slider's mass counts
+            return motion
+    raise _extreme(values)
 
 
 def _driven(device: Device, inputs: Inputs) -> Device:
@@ -222,14 +210,11 @@ def motion_of(device: Device, inputs: Inputs) -> Motion:
     return Resolved(system) if device.fidelity > 0 else Averaged(system)
 
 
-def _finite_output(name: str, output: Callable[[View], float], view: View) -> float:
+def _finite_output(name: str, view: View) -> float:
     """Return an output. Raises Refusal for one that is not a finite number."""
-    try:
-        value = output(view)
-    except Refusal:
-        raise
-    except (ArithmeticError, ValueError):
-        value = nan
+    value = nan
+    with suppress(ArithmeticError, ValueError):
+        value = OUTPUTS[name](view)
     if not isfinite(value):
         raise Refusal(refusal_texts.INFINITE_OUTPUT, name=name, value=value)
     return value

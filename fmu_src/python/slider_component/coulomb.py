@@ -10,7 +10,7 @@ from .contact import BACKWARD, FORWARD, LIFTED, STICK, direction_of
 from .device import System
 from .moment import Moment
 from .series import Series
-from .sliding import Rest, Segment, Slide
+from .sliding import Exponentials, Segment
 
 BALANCED = 1e-12
 """Relative difference of the forces on a slider up to which they count as balanced."""
@@ -35,10 +35,10 @@ class Coulomb:
 
     def begin(self, system: System, now: Moment) -> Segment:
         """The motion on from `now`."""
-        if now.mode != STICK:
-            return slide(system, now, 0 if now.mode == LIFTED else now.mode)
-        split = system.rest_split is not None
-        return Rest(system, now) if split else Series(system, now, 0, rests=True)
+        if now.mode == STICK:
+            split = system.rest_split is not None
+            return (Exponentials if split else Series)(system, now, 0, rests=True)
+        return slide(system, now, 0 if now.mode == LIFTED else now.mode)
 
     def succeed(
         self, system: System, now: Moment, travelled: float, zero_of: int | None, switches: bool
@@ -61,7 +61,7 @@ def slide(system: System, now: Moment, direction: int) -> Segment:
 
     The velocity is watched in `direction`, unless that is 0.
     """
-    return (Series if system.slide_split is None else Slide)(system, now, direction)
+    return (Series if system.slide_split is None else Exponentials)(system, now, direction)
 
 
 def _needed_force(system: System, now: Moment) -> float:

@@ -68,16 +68,32 @@ class Device(Parameters):
 class Vibration(NamedTuple):
     """The steady vibration without friction or load, in closed form (31)-(34), with direct drive.
 
-    Velocity amplitudes [m/s], lag theta_1 [rad], and complex amplitudes of e: of the `force` on
-    slider and resonator together, F_T* exp(-i theta_1) [N], and of the `resonator` [m]. `velocity`
-    is v_q of the slider, `pair_velocity` the one that the drive force gives to the pair.
+    Its `frequency` [rad/s], velocity amplitudes [m/s], `lag` theta_1 [rad], and complex amplitudes
+    of e: of the `force` on slider and resonator together, F_T* exp(-i theta_1) [N], and of the
+    `resonator` [m]. `velocity` is v_q of the slider, `pair_velocity` the one that the drive force
+    gives to the pair, of which the resonator has the `mass_fraction`.
     """
 
+    frequency: float
     velocity: float
     pair_velocity: float
     lag: float
     force: complex
     resonator: complex
+    mass_fraction: float
+
+    def swing(self, theta: float) -> tuple[float, float]:
+        """Displacement [m] and velocity [m/s] of the resonator at drive phase `theta` [rad]."""
+        real, imag, sine, cosine = self.resonator.real, self.resonator.imag, sin(theta), cos(theta)
+        return real * sine + imag * cosine, self.frequency * (real * cosine - imag * sine)
+
+    def ahead(self, theta: float, rate: float) -> float:
+        """By how much the slow velocity V is above that of the slider [m/s].
+
+        The resonator moves at `rate` [m/s]. V is the momentum of the pair over its mass, without
+        what the drive force gives to it: V' is due to friction and load alone.
+        """
+        return self.mass_fraction * rate + self.pair_velocity * cos(theta)
 
 
 def vibration(device: Device) -> Vibration:
@@ -91,7 +107,8 @@ def vibration(device: Device) -> Vibration:
     force = m * (w * w) * (device.base_amplitude + resonator) + direct
     inertia = device.total_mass * w
     pair = m * device.base_amplitude * w * w + direct
-    return Vibration(abs(force) / inertia, pair / inertia, -argument(force), force, resonator)
+    velocities, lag = (abs(force) / inertia, pair / inertia), -argument(force)
+    return Vibration(w, *velocities, lag, force, resonator, device.mass_fraction)
 
 
 def held_amplitude(device: Device) -> float:
@@ -112,12 +129,6 @@ def _is_unbounded(device: Device, oscillator: Oscillator) -> bool:
     return near and device.damping_ratio == 0.0
 
 
-def steady_swing(amplitude: complex, theta: float, frequency: float) -> tuple[float, float]:
-    """Displacement [m] and velocity [m/s] of amplitude e at drive phase `theta` [rad]."""
-    real, imag, sine, cosine = amplitude.real, amplitude.imag, sin(theta), cos(theta)
-    return real * sine + imag * cosine, frequency * (real * cosine - imag * sine)
-
-
 def full_friction(device: Device) -> float:
     """Mean friction [N] of sliding in one direction, but for the shape of a clipped load."""
     normal = max(device.normal_preload, device.normal_amplitude / pi)
@@ -128,16 +139,29 @@ Term = tuple[complex, complex, complex]
 """Rate z [1/s] of an exponential, velocity v_z of the slider, displacement y_z of the resonator."""
 
 
+class Split(NamedTuple):
+    """Motion in a contact mode, split into forced terms and the free motion of an `oscillator`.
+
+    The terms are per unit exp(i theta) and, for s = 1, per unit exp(i chi). `compliance` is the
+    displacement of the resonator by a constant force [m/N]; in free motion the slider moves by
+    -`mass_fraction` times what the resonator does.
+    """
+
+    drive: Term
+    normal: Term
+    oscillator: Oscillator
+    mass_fraction: float
+    compliance: float
+
+
 class System:
     """A device under held inputs (SI units; complex numbers are amplitudes of e).
 
     The full device (`is_full`) follows its resonator. At fidelity 1 this acts by its steady force
     only: `slider_mass` is the total mass, `mass_fraction`, `spring` and `damper` are 0, and
-    `resonator_amplitude` is its steady displacement [m]. `holding_drive` is the part of the force
+    it vibrates in a `steady` way. `holding_drive` is the part of the force
     on a held slider that follows the drive directly [N], `drive` the force of the drive on the pair
-    per total mass [m/s^2]. `slide_split` are the forced terms of sliding per unit exp(i theta) and,
-    for s = 1, per unit exp(i chi), `rest_split` the displacement of the resonator at rest; both are
-    None where they do not split off. `compliance` is the displacement by a constant force [m/N].
+    per total mass [m/s^2]. `slide_split` and `rest_split` are None where splitting loses digits.
     The contact lifts at times, or always, in the `window` of chi, which it enters and leaves where
     it `switches`. `fastest` [rad/s] is the highest frequency, `arc` [s] the longest segment: after
     it a motion begins anew from its state. Neither depends on `phase` and `load`.
@@ -158,7 +182,6 @@ class System:
         self.slip, self.stick = device.slip_oscillator, device.stick_oscillator
         self.is_full = device.fidelity == 2
         self.fastest = max(w, abs(self.normal_frequency))
-        self.resonator_amplitude = 0j
         if self.is_full:
             self.slider_mass, self.mass_fraction = device.slider_mass, device.mass_fraction
             self.spring, self.damper = m * wn * wn, 2.0 * device.damping_ratio * m * wn
@@ -169,15 +192,12 @@ class System:
         else:
             self.slider_mass, self.mass_fraction = device.total_mass, 0.0
             self.spring = self.damper = 0.0
-            steady = vibration(device)
-            force = self.holding_drive = steady.force
-            self.resonator_amplitude = steady.resonator
+            self.steady = vibration(device)
+            force = self.holding_drive = self.steady.force
         self.drive, self.arc = force / device.total_mass, LONGEST_ARC / self.fastest
         self.slide_split, self.rest_split = self._slide_split(), self._rest_split()
-        free = self.slip.stiffness * self.slider_mass
-        self.compliance = 1.0 / free if self.is_full and self.slide_split else 0.0
 
-    def _slide_split(self) -> tuple[Term, Term] | None:
+    def _slide_split(self) -> Split | None:
         w, q, slip = self.drive_frequency, self.normal_frequency, self.slip
         if 0.0 < abs(q) < SLOW * w or (self.is_full and not slip.splits(w, q)):
             return None
@@ -190,17 +210,21 @@ class System:
         by_friction = self.mass_fraction * q * q * swing_by_friction
         by_friction -= self.friction_amplitude / self.total_mass
         slowed = -by_friction / q if q else 0j
-        return (
+        return Split(
             (complex(0.0, w), -pushed / w, -1j * swing),
             (complex(0.0, q), slowed, -1j * swing_by_friction),
+            slip,
+            self.mass_fraction,
+            1.0 / (slip.stiffness * self.slider_mass) if self.is_full else 0.0,
         )
 
-    def _rest_split(self) -> complex | None:
-        if not self.is_full:
-            return 0j
-        if not self.stick.splits(self.drive_frequency):
-            return None
-        return -1j * self.base_acceleration * self.stick.transfer(self.drive_frequency)
+    def _rest_split(self) -> Split | None:
+        w, stick, swing = self.drive_frequency, self.stick, 0j
+        if self.is_full:
+            if not stick.splits(w):
+                return None
+            swing = self.base_acceleration * stick.transfer(w)
+        return Split((complex(0.0, w), 0j, -1j * swing), (0j, 0j, 0j), stick, 0.0, 0.0)
 
     def friction_limit(self, psi: float) -> float:
         """Friction force [N] of all faces at normal phase `psi` [rad] when sliding, 0 in flight."""

@@ -216,7 +216,7 @@ class SlowMotion:
                 return n, travel, error
             try:
                 passed, to, of_step = self._step(n, h, longest - n)
-            except (ArithmeticError, ValueError):
+            except (ArithmeticError, ValueError, Refusal):
                 h = 0.5 * h
                 continue
             if of_step <= self.allowed:
@@ -282,7 +282,7 @@ def _leap(
     are to be resolved before the next leap.
     """
     now, passed, maps = begin, 0.0, ORDER
-    with suppress(ArithmeticError, ValueError):
+    with suppress(ArithmeticError, ValueError, Refusal):
         slow = SlowMotion(period_map, begin, budget, longest)
         n, travel, error = slow.integrate(longest - ORDER, begin.leap_error)
         maps = slow.maps

@@ -12,7 +12,7 @@ There is no sticking: presliding is resolved as an oscillation on the bristles.
 
 from math import copysign, expm1
 
-from .contact import BACKWARD, FORWARD, LIFTED, direction_of
+from .contact import FORWARD, LIFTED, direction_of
 from .coulomb import slide
 from .device import System
 from .moment import Moment
@@ -22,6 +22,9 @@ from .sliding import Segment
 TOLERANCE_SHARE = 0.01
 """Share of the tolerance for the error of one series, and for the bend that a bristle still lacks
 when closed forms take over."""
+
+SOON = 1e-3
+"""Share of a radian, or of a series, after which the slider moves as it began, beyond rounding."""
 
 
 class LuGre:
@@ -41,10 +44,13 @@ class LuGre:
         return system.friction_limit(now.psi) * share
 
     def begin(self, system: System, now: Moment) -> Segment:
-        """As of `Coulomb`. The direction is that of the velocity or, at rest, of the force."""
-        segment = _segment(system, now, BACKWARD if now.velocity < 0.0 else FORWARD)
-        if now.velocity == 0.0 and not _departs(segment):
-            segment = _segment(system, now, BACKWARD)
+        """As of `Coulomb`. At rest the direction is the one in which the slider soon moves."""
+        direction = direction_of(now.velocity) or -now.sliding or FORWARD
+        segment = _segment(system, now, direction)
+        if now.velocity == 0.0:
+            soon = SOON * min(segment.reach, 1.0 / system.fastest)
+            if direction * segment.at(soon)[0] < 0.0:
+                segment = _segment(system, now, -direction)
         return segment
 
     def succeed(
@@ -66,11 +72,3 @@ def _segment(system: System, now: Moment, direction: int) -> Segment:
     if now.mode == LIFTED or abs(mu - direction * now.bristle) <= tolerance * mu:
         return slide(system, now, direction)
     return Series(system, now, direction, bends=True, tolerance=tolerance)
-
-
-def _departs(segment: Segment) -> bool:
-    """Whether a slider at rest begins to move in the direction of `segment`, or not at all."""
-    if isinstance(segment, Series):
-        return segment.departs()
-    (watch,) = segment.watches(segment.reach)
-    return watch.signal(0.0)[1] >= 0.0

@@ -7,7 +7,6 @@ explicit in the path between the two reversals: what friction differs by from Co
 quadrature. Soft bristles give the paper's slow manifold (17), hard ones Coulomb friction (5).
 """
 
-from collections.abc import Iterator
 from itertools import pairwise
 from math import acos, cos, exp, expm1, hypot, pi, sin, sqrt, tau
 from typing import NamedTuple
@@ -81,9 +80,7 @@ class MeanFriction:
         total = load.integral(turning, tau - turning) - load.integral(-turning, turning)
         total *= self.coefficient
         if self.is_expensive:
-            total += sum(
-                load.at(angle) * friction for angle, _, friction in self._bending(turning, load)
-            )
+            total += sum(weight * force for weight, _, force in self._bending(turning, load))
         return total / tau
 
     def power(self, load: VibratingLoad, velocity: float) -> float:
@@ -95,39 +92,30 @@ class MeanFriction:
         nodes = self._bending(turning, load) if self.is_expensive else []
         for arc in self._arcs(turning):
             full = arc.direction * self.coefficient
-            for ahead, weight in _nodes(arc, arc.length, load):
-                swing = arc.direction * self.fast * arc.way(ahead)[0]
-                nodes.append((arc.begin + ahead, swing, weight * full))
-        total = sum(load.at(angle) * (swing + beyond) * force for angle, swing, force in nodes)
-        return total / tau
+            nodes += [(w, swing, full) for w, swing, _ in arc.nodes(arc.length, load)]
+        return sum(w * (swing * self.fast + beyond) * force for w, swing, force in nodes) / tau
 
-    def _arcs(self, turning: float) -> tuple["_Arc", "_Arc"]:
+    def _arcs(self, turning: float) -> list["_Arc"]:
         """Sliding forward and backward."""
-        reach = self.fast / self._frequency
-        forward = _Arc(reach, 1, turning, tau - 2.0 * turning)
-        return forward, _Arc(reach, -1, -turning, 2.0 * turning)
+        reach, slope, height = self.fast / self._frequency, sin(turning), cos(turning)
+        forward = _Arc(reach, 1, turning, slope, height, tau - 2.0 * turning)
+        return [forward, _Arc(reach, -1, -turning, -slope, height, 2.0 * turning)]
 
     def _bending(self, turning: float, load: VibratingLoad) -> list[tuple[float, float, float]]:
         """Quadrature over both arcs of what the bristle still lacks of being fully bent.
 
-        Angles [rad], velocities [m/s] beyond that where the slider turns, and friction per unit
-        load beyond Coulomb's times a weight.
+        Weights with the load [N rad], velocities over v_q beyond that where the slider turns, and
+        friction per unit load beyond Coulomb's.
         """
-        mu, stiffness = self.coefficient, self.stiffness
-        forward, backward = self._arcs(turning)
-        paths = forward.way(forward.length)[1], backward.way(backward.length)[1]
-        begins = _periodic_friction(mu, *(-expm1(-stiffness * path / mu) for path in paths))
+        mu, stiffness, arcs = self.coefficient, self.stiffness, self._arcs(turning)
+        bent = (-expm1(-stiffness * arc.way(arc.length)[1] / mu) for arc in arcs)
         nodes = []
-        for arc, friction in zip((forward, backward), begins, strict=True):
-            unbent = friction - arc.direction * mu
-            if not abs(unbent) > EPSILON * mu:
-                continue
-            last = arc.bent_after(BENT * mu, stiffness)
-            for ahead, weight in _nodes(arc, last, load):
-                speed, path = arc.way(ahead)
-                lacking = unbent * exp(-stiffness * path / mu) * (1.0 - self.drag * speed / mu)
-                swing = arc.direction * self.fast * speed
-                nodes.append((arc.begin + ahead, swing, weight * lacking))
+        for arc, friction in zip(arcs, _periodic_friction(mu, *bent), strict=True):
+            unbent, drag = friction - arc.direction * mu, arc.direction * self.drag
+            if abs(unbent) > EPSILON * mu:
+                for w, swing, path in arc.nodes(arc.bent_after(BENT * mu, stiffness), load):
+                    lacking = unbent * exp(-stiffness * path / mu) * (1.0 - drag * swing / mu)
+                    nodes.append((w, swing, lacking))
         return nodes
 
 
@@ -135,21 +123,23 @@ class _Arc(NamedTuple):
     """A part of the turn with one direction of sliding, from `begin` on for `length` [rad].
 
     The velocity is v_q (cos(begin) - cos(begin + ahead)); differences of nearly equal numbers are
-    taken in closed form, for hard bristles see short paths. `reach` is v_q / w [m].
+    taken in closed form, for hard bristles see short paths. `reach` is v_q / w [m]; `sine` and
+    `cosine` are those of `begin`.
     """
 
     reach: float
     direction: int
     begin: float
+    sine: float
+    cosine: float
     length: float
 
     def way(self, ahead: float) -> tuple[float, float]:
-        """Speed over v_q, and path [m], `ahead` [rad] of where the arc begins."""
+        """Velocity over v_q, and path [m], `ahead` [rad] of where the arc begins."""
         half = 0.5 * ahead
-        sine = sin(half)
-        moved = cos(self.begin) * _beyond_sine(ahead) + 2.0 * sin(self.begin) * sine * sine
-        speed = 2.0 * sine * sin(self.begin + half)
-        return self.direction * speed, self.direction * self.reach * moved
+        rise = 2.0 * sin(half)
+        moved = self.cosine * _beyond_sine(ahead) + 0.5 * self.sine * rise * rise
+        return rise * sin(self.begin + half), self.direction * self.reach * moved
 
     def bent_after(self, full: float, stiffness: float) -> float:
         """How far ahead in the arc [rad] the path times `stiffness` [1/m] is `full`."""
@@ -162,6 +152,22 @@ class _Arc(NamedTuple):
             low, high = (low, middle) if bent else (middle, high)
         return high
 
+    def nodes(self, last: float, load: VibratingLoad) -> list[tuple[float, float, float]]:
+        """Quadrature up to `last` [rad] ahead: weights with the load [N rad], and the way.
+
+        Panels part at kinks of the load, and none is wider than WIDEST of it.
+        """
+        kinks = (kink - self.begin for kink in load.kinks(self.begin, self.begin + last))
+        found = []
+        for low, high in pairwise(sorted([0.0, last, *kinks])):
+            panels = 1 + int(abs(load.waves) * (high - low) / WIDEST)
+            half = 0.5 * (high - low) / panels
+            for i in range(panels):
+                for node, weight in _RULE:
+                    ahead = low + half * (2 * i + 1 + node)
+                    found.append((weight * half * load.at(self.begin + ahead), *self.way(ahead)))
+        return found
+
 
 def _beyond_sine(x: float) -> float:
     """x - sin(x) for x >= 0, without cancellation."""
@@ -170,20 +176,6 @@ def _beyond_sine(x: float) -> float:
     s = x * x
     beyond_third = 1 - s / 72 * (1 - s / 110 * (1 - s / 156 * (1 - s / 210 * (1 - s / 272))))
     return x * s / 6 * (1 - s / 20 * (1 - s / 42 * beyond_third))
-
-
-def _nodes(arc: _Arc, last: float, load: VibratingLoad) -> Iterator[tuple[float, float]]:
-    """Nodes up to `last` [rad] ahead of where an arc begins, and weights [rad].
-
-    Panels part at kinks of the load, and none is wider than WIDEST of it.
-    """
-    kinks = (kink - arc.begin for kink in load.kinks(arc.begin, arc.begin + last))
-    for low, high in pairwise(sorted([0.0, last, *kinks])):
-        panels = 1 + int(abs(load.waves) * (high - low) / WIDEST)
-        half = 0.5 * (high - low) / panels
-        for i in range(panels):
-            for node, weight in _RULE:
-                yield low + half * (2 * i + 1 + node), weight * half
 
 
 def _periodic_friction(mu: float, forward: float, backward: float) -> tuple[float, float]:

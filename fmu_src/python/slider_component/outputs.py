@@ -16,17 +16,21 @@ phases, predictions are the same from one period to the next."""
 
 
 class View(NamedTuple):
-    """What outputs are read from; `mode` is the contact mode under the present inputs."""
+    """What outputs are read from."""
 
     motion: Resolved | Averaged
     now: Moment
-    mode: int
     last_event_time: float
 
 
 def _normal_force(view: View) -> float:
     device, chi = view.motion.system.device, view.now.psi + view.motion.system.phase
     return max(0.0, device.normal_preload + device.normal_amplitude * sin(chi))
+
+
+def _stick_fraction(view: View) -> float:
+    now, sticks = view.now, view.motion.mode(view.now) == STICK
+    return min(now.mean(now.stick_fraction, now.sticking, float(sticks)), 1.0)
 
 
 def _theory(view: View) -> Prediction:
@@ -46,16 +50,14 @@ OUTPUTS: dict[str, Callable[[View], float]] = {
     "resonator_displacement": lambda view: view.motion.resonator(view.now)[0],
     "resonator_velocity": lambda view: view.motion.resonator(view.now)[1],
     "normal_force": _normal_force,
-    "friction_force": lambda view: view.motion.friction_force(view.now, view.mode),
-    "contact_mode": lambda view: float(view.mode),
+    "friction_force": lambda view: view.motion.friction_force(view.now),
+    "contact_mode": lambda view: float(view.motion.mode(view.now)),
     "reversals": lambda view: float(view.now.reversals),
-    "stick_fraction": lambda view: min(
-        view.now.mean(view.now.stick_fraction, view.now.sticking, float(view.mode == STICK)), 1.0
-    ),
+    "stick_fraction": _stick_fraction,
     "last_event_time": lambda view: view.last_event_time,
     "steady_velocity": lambda view: _theory(view).steady_velocity,
     "blocking_force": lambda view: _theory(view).blocking_force,
     "prediction_valid": lambda view: float(_theory(view).valid),
-    "friction_power": lambda view: view.motion.friction_power(view.now, view.mode),
+    "friction_power": lambda view: view.motion.friction_power(view.now),
     "slow_motion_error": lambda view: view.motion.slow_motion_error(view.now),
 }

@@ -10,7 +10,7 @@ change slowly and smoothly (stroboscopic averaging: Calvo, Chartier, Murua, Sanz
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import replace
-from math import cos, exp, isfinite, pi, remainder, tau
+from math import exp, isfinite, pi, remainder, tau
 
 from .budget import Budget
 from .contact import LIFTED, STICK
@@ -88,8 +88,7 @@ class PeriodMap:
 
     def numbers(self, now: Moment) -> Numbers:
         """The numbers at the section; V is the slow velocity but for its change within a period."""
-        carried = now.velocity + self.motion.system.mass_fraction * now.rate
-        velocity = carried + self.vibration.pair_velocity * cos(now.theta)
+        velocity = now.velocity + self.vibration.ahead(now.theta, now.rate)
         return velocity, now.position, now.displacement, now.rate, now.bristle
 
     def place(self, begin: Moment, velocity: float, fast: Fast, periods: float = 0.0) -> Moment:
@@ -98,8 +97,7 @@ class PeriodMap:
         placed.theta = self.section
         placed.psi = (begin.psi + remainder(self.drift * periods, tau)) % tau
         placed.displacement, placed.rate, placed.bristle = fast
-        vibrating = self.vibration.pair_velocity * cos(self.section)
-        placed.velocity = velocity - vibrating - self.motion.system.mass_fraction * placed.rate
+        placed.velocity = velocity - self.vibration.ahead(self.section, placed.rate)
         placed.mode = self.motion.mode(placed)
         placed.sliding = STICK if placed.mode == LIFTED else placed.mode
         return placed

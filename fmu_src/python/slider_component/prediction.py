@@ -43,8 +43,6 @@ class Prediction:
 MAX_TURNS = 32
 """Largest number of turns of the drive after which the normal load may repeat."""
 
-NO_VIBRATION = Prediction(0.0, 0.0, holds=False, valid=False)
-
 
 @lru_cache(maxsize=8)
 def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction:
@@ -72,7 +70,7 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
         blocked = PeriodicMotion(period_map, psi, first.blocking_force, blocked=True)
         velocity, force = steady.found(first.steady_velocity), blocked.found(0.0)
         return Prediction(velocity, force, holds=True, valid=True)
-    except (ArithmeticError, ValueError):
+    except (ArithmeticError, ValueError, Refusal):
         return replace(first, valid=False)
 
 
@@ -109,12 +107,11 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
     Both results are 0 without vibration, and where undamped resonance leaves no steady vibration.
     In these cases, and where the vibration does not break the contact loose, they are not `valid`.
     """
-    try:
+    fast = None
+    with suppress(Refusal):
         fast = vibration(device)
-    except Refusal:
-        return NO_VIBRATION
-    if fast.velocity == 0.0:
-        return NO_VIBRATION
+    if fast is None or fast.velocity == 0.0:
+        return Prediction(0.0, 0.0, holds=False, valid=False)
     ratio, faces = inputs.frequency_ratio, device.friction_faces
     delta = inputs.phase + normal_lead + ratio * fast.lag
     law, load = MeanFriction(device, fast.velocity), VibratingLoad(device, ratio, delta)

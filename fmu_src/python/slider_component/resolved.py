@@ -5,12 +5,12 @@ of what it watches (a stop of the slider, or a release), at the latest where the
 touches down. Another contact mode succeeds it. There is no step size.
 """
 
-from math import floor, inf, tau
+from math import inf, tau
 
 from .budget import Budget, Clock, too_much_work
 from .contact import LIFTED
 from .coulomb import Coulomb
-from .device import LONGEST_ARC, System, steady_swing
+from .device import LONGEST_ARC, System
 from .first_zero import first_zero
 from .lugre import LuGre
 from .moment import Moment
@@ -25,8 +25,8 @@ MOVES = 64.0
 in which the fastest oscillation advances by a radian: more than a segment can add up."""
 
 COUNTED = 3.0
-"""Drive periods before the end of a motion from which the work of friction counts: its mean is that
-of the last whole one, and the first that ends is counted in part."""
+"""Drive periods before the end of a motion from which outputs count: means are those of the last
+whole one, and the first that ends is counted in part."""
 
 MARK_TOLERANCE = 1e-7
 """Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps
@@ -51,8 +51,7 @@ class Resolved:
         device, system = self.system.device, self.system
         velocity, rate = device.initial_velocity, device.initial_resonator_velocity
         if not system.is_full:
-            _, steady = steady_swing(system.resonator_amplitude, 0.0, system.drive_frequency)
-            velocity += device.mass_fraction * (rate - steady)
+            velocity += device.mass_fraction * (rate - system.steady.swing(0.0)[1])
         now = Moment(velocity, device.initial_resonator_displacement, rate, device.initial_position)
         if device.friction_law == 1:
             now.bristle = device.bristle_stiffness * device.initial_bristle_deflection
@@ -63,21 +62,20 @@ class Resolved:
         """Contact mode under the held inputs."""
         return self.law.mode(self.system, now)
 
-    def friction_force(self, now: Moment, mode: int) -> float:
+    def friction_force(self, now: Moment) -> float:
         """Friction force [N] on the slider, positive against +X."""
-        return self.law.force(self.system, now, mode)
+        return self.law.force(self.system, now, self.mode(now))
 
-    def friction_power(self, now: Moment, mode: int) -> float:
+    def friction_power(self, now: Moment) -> float:
         """Mean power of friction [W] of the last whole period, or since the start, or there."""
-        momentary = self.friction_force(now, mode) * now.velocity
+        momentary = self.friction_force(now) * now.velocity
         return now.mean(now.friction_power, now.work, momentary)
 
     def resonator(self, now: Moment) -> tuple[float, float]:
         """Displacement [m] and velocity [m/s] of the resonator: its own or the steady ones."""
-        system = self.system
-        if system.is_full:
+        if self.system.is_full:
             return now.displacement, now.rate
-        return steady_swing(system.resonator_amplitude, now.theta, system.drive_frequency)
+        return self.system.steady.swing(now.theta)
 
     def slow_motion_error(self, now: Moment) -> float:
         """The estimate of the error of the slow velocity [m/s]; 0 for motion that never leaps."""
@@ -101,7 +99,7 @@ class Resolved:
         if duration > budget.left * arc:
             raise budget.refusal(budget.left * arc)
         clock, remaining, in_turn, turn_began = Clock(duration), duration, 0, 0.0
-        turn, counted = tau / LONGEST_ARC * arc, COUNTED * tau / system.drive_frequency
+        turn, period = tau / LONGEST_ARC * arc, tau / system.drive_frequency
         now = moment.copied()
         now.enter(self.mode(now))
         while remaining > 0.0:
@@ -115,20 +113,21 @@ class Resolved:
             in_turn += 1
             budget.left -= 1
             longest = min(remaining, arc)
-            t = self._follow(now, longest, remaining - longest <= counted)
+            counts = remaining - longest <= COUNTED * period
+            t = self._follow(now, min(longest, period) if counts else longest, counts)
             if modes is not None and modes[-1] != now.mode:
                 modes.append(now.mode)
             remaining = clock.advance(t) if t != remaining else 0.0
         return now
 
-    def _follow(self, now: Moment, longest: float, counts_work: bool) -> float:
+    def _follow(self, now: Moment, longest: float, counts: bool) -> float:
         """Advance `now` by one segment of up to `longest` [s], and return its time [s]."""
-        system, switching = self.system, inf
+        system, w, switching = self.system, self.system.drive_frequency, inf
         if system.switches:
             chi, lifted = now.psi + system.phase, now.mode == LIFTED
             switching = system.window.time_to_switch(chi, system.normal_frequency, lifted)
         segment = self.law.begin(system, now)
-        rests, direction = segment.rests, segment.direction
+        direction = segment.direction
         t, zero_of = min(longest, switching, segment.reach), None
         watches = segment.watches(t) if t > 0.0 else ()
         for index, watch in enumerate(watches):
@@ -136,51 +135,42 @@ class Resolved:
             if zero is not None:
                 t, zero_of = zero, index
         now.velocity, now.displacement, now.rate, travelled = segment.at(t)
-        if zero_of is not None and not rests:
+        if zero_of is not None and not segment.rests:
             now.velocity = 0.0
         if direction not in (0, now.sliding) and watches:
-            signal, noise, fastest, *_ = watches[0]
+            signal, noise, fastest = watches[0]
             # Most travel is far more than rounding; where it is not, the velocity in the middle
             # tells.
             if direction * travelled * fastest > MOVES * noise or signal(0.5 * t)[0] > noise:
                 now.turn(direction)
-        _count(now, segment, t, travelled, system.drive_frequency, counts_work)
+        if counts:
+            _count(now, segment, t, travelled, w)
+        else:
+            now.theta = (now.theta + w * t) % tau
         now.psi = (now.psi + system.normal_frequency * t) % tau
-        switches = zero_of is None and t == switching
-        self.law.succeed(system, now, travelled, zero_of, switches)
+        now.position += travelled
+        now.event_age += t
+        self.law.succeed(system, now, travelled, zero_of, zero_of is None and t == switching)
         return t
 
 
-def _count(
-    now: Moment, segment: Segment, t: float, travelled: float, frequency: float, counts_work: bool
-) -> None:
-    """Advance position, drive phase and means over the first `t` [s] of a segment.
+def _count(now: Moment, segment: Segment, t: float, travelled: float, frequency: float) -> None:
+    """Advance drive phase and sums over the first `t` [s] of a segment, at most a period.
 
-    Where drive periods end in it, the last of them gives the means. The drive has `frequency`
-    [rad/s].
+    Where a drive period ends in it, the sums give the means. The drive has `frequency` [rad/s].
     """
     end, rests = now.theta + frequency * t, segment.rests
-    work = segment.work(t, travelled) if counts_work else 0.0
-    now.position += travelled
-    now.event_age += t
+    work = segment.work(t, travelled)
     if end + MARK_TOLERANCE >= tau:
-        ended = floor((end + MARK_TOLERANCE) / tau)
-        last = (tau * ended - now.theta) / frequency
-        if ended > 1:
-            # Sums as of the begin of the last period.
-            begin = last - tau / frequency
-            before = segment.at(begin)[3]
-            now.travel, now.work = -before, -segment.work(begin, before) if counts_work else 0.0
-            now.elapsed, now.sticking = -begin, -begin if rests else 0.0
-        passed = segment.at(last)[3]
-        worked = segment.work(last, passed) if counts_work else 0.0
-        stuck, length = last if rests else 0.0, now.elapsed + last
+        last = (tau - now.theta) / frequency
+        passed, stuck = segment.at(last)[3], last if rests else 0.0
+        worked, length = segment.work(last, passed), now.elapsed + last
         now.mean_velocity = (now.travel + passed) / length
         now.friction_power = (now.work + worked) / length
         now.stick_fraction = min(max((now.sticking + stuck) / length, 0.0), 1.0)
         now.complete = True
         now.travel, now.work, now.sticking, now.elapsed = -passed, -worked, -stuck, -last
-        end -= tau * ended
+        end -= tau
     now.travel += travelled
     now.work += work
     now.sticking += t if rests else 0.0

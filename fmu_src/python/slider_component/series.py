@@ -5,12 +5,13 @@ near resonance without damping, near critical damping, on soft resonators, under
 """
 
 from cmath import rect
-from functools import cached_property
+from functools import cached_property, lru_cache
+from itertools import accumulate
 from math import hypot, inf
 from operator import mul, truediv
 
 from .contact import LIFTED
-from .device import EPSILON, Device, System
+from .device import EPSILON, System
 from .first_zero import Watch
 from .moment import Moment, Place
 
@@ -43,9 +44,10 @@ ROUNDING = 2.0 * EPSILON
 class Series:
     """Motion from `now` on in `direction`, or at rest or in flight by the contact mode.
 
-    Friction is that of a bristle that `bends`, or else Coulomb's. At its `reach` [s] the last
-    terms are `tolerance` times the scale of velocities or, if that is much less, times the velocity
-    itself.
+    Friction is that of a bristle that `bends` (eq. 8), or else Coulomb's. With s the direction and
+    g = sigma_0 z the former is F = faces N (g + sigma_1 z'), z' = v (1 - s g / mu). At its `reach`
+    [s] the last terms are `tolerance` times the scale of velocities or, if that is much less, times
+    the velocity itself.
     """
 
     def __init__(
@@ -58,32 +60,44 @@ class Series:
         rests: bool = False,
     ) -> None:
         w, q, mass = system.drive_frequency, system.normal_frequency, system.slider_mass
-        sign = 0 if now.mode == LIFTED else direction
-        bending = _Bending(system.device, now.bristle, direction) if bends else None
-        spring, damper, load = system.spring, system.damper, system.load
+        sign, is_full = 0 if now.mode == LIFTED else direction, system.is_full
+        spring, damper, coupling = system.spring, system.damper, float(is_full)
         stiffness, damping = system.stick.stiffness, 2.0 * system.stick.decay
-        drive = -1j * rect(1.0, now.theta)
-        normal = -1j * system.friction_amplitude * rect(1.0, now.psi + system.phase)
-        v, y, u = [now.velocity], [now.displacement], [now.rate]
-        limit, needed, self._force = [system.friction_preload + normal.real], [], list[float]()
+        drive, chi = -1j * rect(1.0, now.theta), now.psi + system.phase
+        pulls = _sinusoid(system.holding_drive * drive, w)
+        pulls[0] -= system.load
+        bases = _sinusoid(coupling * system.base_acceleration * drive, w)
+        limit = _sinusoid(-1j * system.friction_amplitude * rect(1.0, chi), q)
+        limit[0] += system.friction_preload
+        displacement, rate = (now.displacement, now.rate) if is_full else (0.0, 0.0)
+        v, y, u, needed, force = (
+            [now.velocity],
+            [displacement],
+            [rate],
+            list[float](),
+            list[float](),
+        )
+        mu, bristle = system.device.friction_coefficient, now.bristle
+        hardness, drag = system.device.bristle_stiffness, system.device.bristle_damping
+        unbent, shares = [(mu - direction * bristle) / mu] if bends else [], list[float]()
         for k, step in enumerate(_STEPS):
-            pull = (system.holding_drive * drive).real + damper * u[k] + spring * y[k] - load
+            pull = pulls[k] + damper * rate + spring * displacement
             needed.append(pull)
-            friction = sign * limit[k] if bending is None else bending.friction(v, limit, step)
-            self._force.append(friction)
+            friction = sign * limit[k]
+            if bends:
+                bending = sum(map(mul, v, reversed(unbent)))
+                shares.append((bristle + drag * bending) / mu)
+                bristle = hardness * bending * step
+                unbent.append(-direction * bristle / mu)
+                friction = sum(map(mul, limit, reversed(shares)))
+            force.append(friction)
             acceleration = 0.0 if rests else (pull - friction) / mass
             v.append(acceleration * step)
-            swing = 0.0
-            if system.is_full:
-                swing = system.base_acceleration * drive.real - damping * u[k] - stiffness * y[k]
-                swing -= acceleration
-            y.append(u[k] * step if system.is_full else 0.0)
-            u.append(swing * step)
-            load = 0.0
-            drive *= complex(0.0, w * step)
-            normal *= complex(0.0, q * step)
-            limit.append(normal.real)
-        self._velocity, self._displacement, self._rate = v, y, u
+            swing = bases[k] - damping * rate - stiffness * displacement - coupling * acceleration
+            displacement, rate = rate * step, swing * step
+            y.append(displacement)
+            u.append(rate)
+        self._velocity, self._displacement, self._rate, self._force = v, y, u, force
         self._position = [0.0, *map(truediv, v, _COUNT)]
         # The scale of velocities [m/s] is the sum of that of the drive, of what friction and load
         # change in a radian of it, and of those of slider and resonator.
@@ -98,11 +112,6 @@ class Series:
         if rests:
             scale *= tolerance * system.total_mass * w
             self.reach = min(self.reach, *(_reach_of_last(c, scale) for c in (limit, needed)))
-
-    def departs(self) -> bool:
-        """Whether the motion begins in its direction, or stays at rest."""
-        first = next((c for c in self._velocity if c != 0.0), 0.0)
-        return self.direction * first >= 0.0
 
     def watches(self, horizon: float) -> tuple[Watch, ...]:
         """See Segment."""
@@ -134,26 +143,17 @@ class Series:
         return [0.0, *map(truediv, powers, _COUNT)]
 
 
-class _Bending:
-    """Series of the friction of a bristle that bends (eq. 8), with s the `sign` of the velocity v.
+def _sinusoid(amplitude: complex, frequency: float) -> list[float]:
+    """The series of Re(amplitude exp(i frequency t))."""
+    return [(amplitude * power).real for power in _powers(frequency)]
 
-    With g = sigma_0 z, z' = v (1 - s g / mu) and F = faces N (g + sigma_1 z').
-    """
 
-    def __init__(self, device: Device, bristle: float, sign: int) -> None:
-        mu = device.friction_coefficient
-        self._g, self._unbent, self._shares = bristle, [(mu - sign * bristle) / mu], list[float]()
-        self._stiffness, self._damping = device.bristle_stiffness, device.bristle_damping
-        self._sign, self._mu = sign, mu
-
-    def friction(self, velocity: list[float], limit: list[float], step: float) -> float:
-        """The next coefficient of the friction force [N], from those of velocity and limit."""
-        drag = sum(map(mul, velocity, reversed(self._unbent)))
-        self._shares.append((self._g + self._damping * drag) / self._mu)
-        self._g = self._stiffness * drag * step
-        self._unbent.append(-self._sign * self._g / self._mu)
-        force: float = sum(map(mul, limit, reversed(self._shares)))
-        return force
+@lru_cache(maxsize=64)
+def _powers(frequency: float) -> list[complex]:
+    """The series of exp(i frequency t)."""
+    return list(
+        accumulate(_STEPS, lambda c, step: c * complex(0.0, frequency * step), initial=1 + 0j)
+    )
 
 
 def _watch(coefficients: list[float], sizes: list[float], horizon: float) -> Watch:
@@ -176,13 +176,12 @@ def _value(coefficients: list[float], t: float) -> float:
 
 def _reach(coefficients: list[float], tolerance: float, scale: float) -> float:
     """How far the series of a velocity holds [s]; see Series."""
-    reach = _reach_of_last(coefficients, tolerance * scale)
     for _ in range(MAX_SHRINKS):
+        reach = _reach_of_last(coefficients, tolerance * scale)
         size = _value(list(map(abs, coefficients[:FIRST_TERMS])), reach)
         if not NEGLIGIBLE_MOTION < size < MUCH_SMALLER * scale:
             break
         scale = size
-        reach = _reach_of_last(coefficients, tolerance * scale)
     return reach
 
 

@@ -9,8 +9,7 @@ of drive, normal load and free resonator, and friction s (F0 + F1 sin(chi)),
 """
 
 from cmath import exp, rect, sinh
-from cmath import phase as argument
-from math import acos, inf, sin, tau
+from math import inf, sin
 from typing import Protocol
 
 from .contact import LIFTED
@@ -51,54 +50,64 @@ class Segment(Protocol):
         ...
 
 
-def watch_of(
-    side: int, k0: float, k1: float, terms: list[Term], fastest: float, expected: float = 0.0
-) -> Watch:
-    """A watch of the signal `side` (k0 + k1 t + sum of Re(v_z exp(z t))).
-
-    Its `fastest` frequency [rad/s]; a zero may be `expected` at a time [s].
-    """
-    parts, size, bound = [], abs(k0), 0.0
+def watch_of(side: int, k0: float, k1: float, terms: list[Term], fastest: float) -> Watch:
+    """A watch of `side` (k0 + k1 t + sum of Re(v_z exp(z t))), of frequencies up to `fastest`."""
+    parts, size, k0, k1 = [], abs(k0), side * k0, side * k1
     for z, v, _ in terms:
         amplitude = abs(v)
         size += amplitude
-        bound += amplitude * abs(z * z)
-        if side < 0:
-            v = -v
-        parts.append((z, v, z * v))
-    noise = 2.0 * EPSILON * size
-    (z1, a1, b1), (z2, a2, b2), *others = parts if len(parts) > 1 else [*parts, (0j, 0j, 0j)]
-    k0, k1 = side * k0, side * k1
+        parts.append((z, side * v, side * z * v, amplitude * abs(z * z)))
 
     def signal(t: float) -> tuple[float, float, float]:
-        turn, own = exp(z1 * t), exp(z2 * t)
-        swing, change = a1 * turn + a2 * own, b1 * turn + b2 * own
-        if others:
-            for z, a, b in others:
-                turn = exp(z * t)
-                swing += a * turn
-                change += b * turn
-        return k0 + k1 * t + swing.real, k1 + change.real, bound
+        value, slope, bound = k0 + k1 * t, k1, 0.0
+        for z, swing, change, bend in parts:
+            turn = exp(z * t)
+            value += (swing * turn).real
+            slope += (change * turn).real
+            bound += bend * abs(turn)
+        return value, slope, bound
 
-    def signal_that_decays(t: float) -> tuple[float, float, float]:
-        value, slope, _ = signal(t)
-        return value, slope, sum(abs(a) * abs(z * z) * exp(z.real * t).real for z, a, _ in parts)
-
-    decays = not terms[-1][0].imag
-    return Watch(signal_that_decays if decays else signal, noise, fastest, expected)
+    return Watch(signal, 2.0 * EPSILON * size, fastest)
 
 
 class Exponentials:
-    """A motion of such terms (methods as of `Segment`)."""
+    """Rest, sliding in `direction` under full friction, or flight (methods as of `Segment`)."""
 
-    __slots__ = ("_k0", "_k1", "_offset", "_terms", "direction")
     reach = inf
-    rests = False
-    _k0: float
-    _k1: float
-    _offset: float
-    _terms: list[Term]
-    direction: int
+
+    def __init__(self, system: System, now: Moment, direction: int, rests: bool = False) -> None:
+        split = system.rest_split if rests else system.slide_split
+        assert split is not None
+        sign = 0 if now.mode == LIFTED else direction
+        constant, swinging = sign * system.friction_preload, 0j
+        turn, chi = rect(1.0, now.theta), now.psi + system.phase
+        z, v, y = split.drive
+        v, y = v * turn, y * turn
+        terms = [(z, v, y)]
+        k0, displacement, rate = now.velocity - v.real, now.displacement - y.real, z.imag * y.imag
+        z, v, y = split.normal
+        if not z:
+            constant += sign * system.friction_amplitude * sin(chi)
+        elif sign:
+            turned = rect(sign, chi)
+            swinging = system.friction_amplitude * turned
+            v, y = v * turned, y * turned
+            k0, displacement, rate = k0 - v.real, displacement - y.real, rate + z.imag * y.imag
+            if z == terms[0][0]:
+                terms = [(z, v + terms[0][1], y + terms[0][2])]
+            else:
+                terms.append((z, v, y))
+        resisting = 0.0 if rests else constant + system.load
+        offset = resisting * split.compliance
+        if system.is_full:
+            for z, y in split.oscillator.free(displacement - offset, now.rate + rate):
+                v = -split.mass_fraction * z * y
+                k0 -= v.real
+                terms.append((z, v, y))
+        self.direction, self.rests, self._system = direction, rests, system
+        self._k0, self._k1, self._offset = k0, -resisting / system.total_mass, offset
+        self._terms, self._turn, self._chi = terms, turn, chi
+        self._constant, self._swinging = constant, swinging
 
     def at(self, t: float) -> Place:
         """See Segment."""
@@ -114,54 +123,11 @@ class Exponentials:
         travelled = (k0 + 0.5 * k1 * t) * t + passed.real
         return k0 + k1 * t + swing.real, self._offset + moved.real, turning.real, travelled
 
-
-class Slide(Exponentials):
-    """Sliding in `direction` under full friction, or flight, for s = 0.
-
-    The velocity is watched in that direction, unless it is 0.
-    """
-
-    __slots__ = ("_constant", "_fastest", "_frequency", "_swinging")
-
-    def __init__(self, system: System, now: Moment, direction: int) -> None:
-        assert system.slide_split is not None
-        drive, normal = system.slide_split
-        sign = 0 if now.mode == LIFTED else direction
-        constant, swinging = sign * system.friction_preload, 0j
-        turn, chi = rect(1.0, now.theta), now.psi + system.phase
-        z, v, y = drive
-        v, y = v * turn, y * turn
-        terms = [(z, v, y)]
-        k0, displacement, rate = now.velocity - v.real, now.displacement - y.real, z.imag * y.imag
-        z, v, y = normal
-        if not z:
-            constant += sign * system.friction_amplitude * sin(chi)
-        elif sign:
-            turn = rect(sign, chi)
-            swinging = system.friction_amplitude * turn
-            v, y = v * turn, y * turn
-            k0, displacement, rate = k0 - v.real, displacement - y.real, rate + z.imag * y.imag
-            if z == drive[0]:
-                terms = [(z, v + terms[0][1], y + terms[0][2])]
-            else:
-                terms.append((z, v, y))
-        resisting = constant + system.load
-        offset = resisting * system.compliance
-        if system.is_full:
-            for z, y in system.slip.free(displacement - offset, now.rate + rate):
-                v = -system.mass_fraction * z * y
-                k0 -= v.real
-                terms.append((z, v, y))
-        self._k0, self._k1, self._offset = k0, -resisting / system.total_mass, offset
-        self._terms, self.direction, self._fastest = terms, direction, system.fastest
-        self._constant, self._swinging = constant, swinging
-        self._frequency = system.normal_frequency
-
     def work(self, t: float, travelled: float) -> float:
         """See Segment. The friction is constant + Im(swinging exp(i q t)), q that of the load."""
         work = self._constant * travelled
         if self._swinging:
-            z = complex(0.0, self._frequency)
+            z = complex(0.0, self._system.normal_frequency)
             growth = (exp(z * t) - 1.0) / z
             swung = self._k0 * growth + self._k1 * (t * exp(z * t) - growth) / z
             for rate, v, _ in self._terms:
@@ -171,18 +137,29 @@ class Slide(Exponentials):
         return work
 
     def watches(self, horizon: float) -> tuple[Watch, ...]:
-        """The velocity in the direction to watch."""
-        direction, k0, terms, expected = self.direction, self._k0, self._terms, 0.0
-        if direction == 0:
+        """See Segment. None where the forces on a slider at rest stay below the smallest limit."""
+        if self.rests:
+            return self._margins()
+        if self.direction == 0:
             return ()
-        z, drive, _ = terms[0]
-        amplitude = abs(drive)
-        if -amplitude < k0 < amplitude:
-            # Where the drive alone would stop the slider: its cosine falls through -k0 in its first
-            # half turn, and rises through it before.
-            stop = direction * acos(-k0 / amplitude) - argument(drive)
-            expected = stop % tau / z.imag
-        return (watch_of(direction, k0, self._k1, terms, self._fastest, expected),)
+        fastest = self._system.fastest
+        return (watch_of(self.direction, self._k0, self._k1, self._terms, fastest),)
+
+    def _margins(self) -> tuple[Watch, ...]:
+        system, load = self._system, self._system.load
+        w, q = system.drive_frequency, system.normal_frequency
+        needed = [(complex(0.0, w), -1j * system.holding_drive * self._turn, 0j)]
+        needed += [(z, (system.spring + system.damper * z) * y, 0j) for z, _, y in self._terms]
+        pull = abs(load) + sum(abs(a) for _, a, _ in needed)
+        if pull == 0.0 or pull < SURE * (system.friction_preload - system.friction_amplitude):
+            return ()
+        fastest = max(w, abs(q), system.stick.frequency)
+        limit = (complex(0.0, q), -1j * system.friction_amplitude * rect(1.0, self._chi), 0j)
+        forward = [limit, *((z, -a, y) for z, a, y in needed)]
+        return (
+            watch_of(1, system.friction_preload + load, 0.0, forward, fastest),
+            watch_of(1, system.friction_preload - load, 0.0, [limit, *needed], fastest),
+        )
 
 
 def _integral(z: complex, t: float) -> complex:
@@ -191,47 +168,3 @@ def _integral(z: complex, t: float) -> complex:
         return (exp(z * t) - 1.0) / z
     half = 0.5 * t * z
     return t * exp(half) * sinh(half) / half if half else complex(t)
-
-
-class Rest(Exponentials):
-    """Rest: the resonator swings against the slider, while |needed force| <= F0 + F1 sin(chi)."""
-
-    __slots__ = ("_direct", "_normal", "_sys")
-    rests = True
-
-    def __init__(self, system: System, now: Moment) -> None:
-        turn, w = rect(1.0, now.theta), system.drive_frequency
-        terms: list[Term] = []
-        if system.is_full and system.rest_split is not None:
-            y = system.rest_split * turn
-            terms = [(complex(0.0, w), 0j, y)]
-            free = system.stick.free(now.displacement - y.real, now.rate + w * y.imag)
-            terms += [(z, 0j, y) for z, y in free]
-        self._k0 = self._k1 = self._offset = 0.0
-        self._terms, self.direction = terms, 0
-        self._direct, self._sys = -1j * system.holding_drive * turn, system
-        self._normal = -1j * system.friction_amplitude * rect(1.0, now.psi + system.phase)
-
-    def work(self, t: float, travelled: float) -> float:
-        """See Segment."""
-        return 0.0
-
-    def watches(self, horizon: float) -> tuple[Watch, ...]:
-        """Forward margin (limit - needed force), then backward margin (limit + needed force).
-
-        None where the forces stay below the smallest limit.
-        """
-        system = self._sys
-        w, q = system.drive_frequency, system.normal_frequency
-        needed = [(complex(0.0, w), self._direct, 0j)]
-        needed += [(z, (system.spring + system.damper * z) * y, 0j) for z, _, y in self._terms]
-        pull = abs(system.load) + sum(abs(a) for _, a, _ in needed)
-        if pull == 0.0 or pull < SURE * (system.friction_preload - system.friction_amplitude):
-            return ()
-        fastest = max(w, abs(q), system.stick.frequency)
-        limit = (complex(0.0, q), self._normal, 0j)
-        forward = [limit, *((z, -a, y) for z, a, y in needed)]
-        return (
-            watch_of(1, system.friction_preload + system.load, 0.0, forward, fastest),
-            watch_of(1, system.friction_preload - system.load, 0.0, [limit, *needed], fastest),
-        )

@@ -13,7 +13,7 @@ from . import refusal_texts
 from .contact import BACKWARD, FORWARD, LIFTED
 from .moment import Moment
 from .resolved import MARK_TOLERANCE
-from .values import BY_NAME, SETTABLE, Refusal, checked, is_finite_number
+from .values import BY_NAME, SETTABLE, Refusal, checked
 
 FORMAT = f"{__name__.rpartition('.')[0]} state"
 """The package inside an FMU is named after its content, so this names the build: a state of one
@@ -85,29 +85,23 @@ def _state(plain: object) -> State:
         lifecycle = Lifecycle(stored["lifecycle"])
     except ValueError as error:
         raise Refusal("FMU state refused: {error}", error=error) from error
-    time, stop, event = (
-        _number(name, stored[name]) for name in ("time", "stop_time", "last_event_time")
-    )
+    times = {name: _number(name, stored[name]) for name in ("time", "stop_time", "last_event_time")}
     values = _entries("values", stored["values"], [v.name for v in SETTABLE])
     values = {name: checked(BY_NAME[name], value) for name, value in values.items()}
     moment = None
     if stored["moment"] is not None:
-        names = [f.name for f in fields(Moment)]
-        numbers = _entries("moment", stored["moment"], names)
+        numbers = _entries("moment", stored["moment"], [f.name for f in fields(Moment)])
         moment = Moment(*(_number(f.name, numbers[f.name], f.type) for f in fields(Moment)))
     elif lifecycle in (Lifecycle.STEP_COMPLETE, Lifecycle.TERMINATED):
         raise Refusal(refusal_texts.STATE_WITHOUT_MOTION)
-    return State(lifecycle, time, stop, event, values, moment)
+    return State(lifecycle, **times, values=values, moment=moment)
 
 
 def _number(name: str, value: object, kind: object = float) -> Any:
     """Return a number of a stored state, of type `kind`. Raises Refusal for anything else."""
     low, high = LIMITS.get(name, (-float_info.max, float_info.max))
-    if isinstance(value, (int, float)) and low <= value <= high:
-        if kind is float and (is_finite_number(value) or value == inf):
-            return float(value)
-        if type(value) is kind:
-            return value
+    if type(value) is kind and low <= value <= high:  # type: ignore[operator]
+        return value
     shown = {"name": name, "value": repr(value)}
     if kind is bool:
         raise Refusal("FMU state refused: {name} = {value}; must be true or false", **shown)
@@ -127,9 +121,8 @@ def _entries(name: str, plain: object, names: Iterable[str]) -> Mapping[str, Any
         raise Refusal(text, name=name, value=repr(plain))
     odd = sorted(plain.keys() ^ set(names))
     if odd:
-        raise Refusal(
-            "FMU state refused: entries of {name} that do not fit: {odd}", name=name, odd=odd
-        )
+        text = "FMU state refused: entries of {name} that do not fit: {odd}"
+        raise Refusal(text, name=name, odd=odd)
     return plain
 
 

@@ -7,7 +7,6 @@ looked for. Newton's method finds both, from first-order averages on.
 from math import inf
 
 from .budget import Budget
-from .device import steady_swing
 from .moment import Moment
 from .period_map import NoMapError, PeriodMap
 
@@ -62,9 +61,7 @@ class PeriodicMotion:
         the blocked slider never reverses: it sticks, under other loads, too.
         """
         period_map, device = self._map, self._map.motion.system.device
-        swing = steady_swing(
-            period_map.vibration.resonator, period_map.section, device.drive_frequency
-        )
+        swing = period_map.vibration.swing(period_map.section)
         bristle = device.friction_coefficient if device.friction_law == 1 else 0.0
         fast = [x / s for x, s in zip((*swing, bristle), self._scale[2:], strict=True)]
         unknowns = [velocity / period_map.speed, self._load, *fast]

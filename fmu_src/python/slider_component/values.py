@@ -1,7 +1,7 @@
 """The bounds of values, and what is raised for others."""
 
+from contextlib import suppress
 from math import isfinite
-from typing import TypeGuard
 
 from . import refusal_texts
 from .variable import Variable
@@ -11,7 +11,7 @@ BY_NAME = {variable.name: variable for variable in VARIABLES}
 SETTABLE = tuple(variable for variable in VARIABLES if variable.causality != "output")
 
 
-class Refusal(ValueError):
+class Refusal(Exception):
     """A refused call. The component is as it was before the call."""
 
     def __init__(self, text: str, **arguments: object) -> None:
@@ -22,26 +22,15 @@ class Refusal(ValueError):
 def checked(variable: Variable, value: object) -> float:
     """Return the value in the variable's type. Raises Refusal for one that the table excludes."""
     low, high = variable.minimum, variable.maximum
-    if (
-        not is_finite_number(value)
-        or (low is not None and value < low)
-        or (high is not None and value > high)
-        or (variable.type == "Integer" and value != int(value))
-    ):
-        raise Refusal(
-            refusal_texts.OUT_OF_BOUNDS,
-            name=variable.name,
-            value=repr(value),
-            requirement=variable.requirement,
-        )
-    return float(value) if variable.type == "Real" else int(value)
-
-
-def is_finite_number(value: object) -> TypeGuard[int | float]:
-    """Whether a value is a number that a float can hold; an int may be too large for one."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return False
-    try:
-        return isfinite(value)
-    except OverflowError:
-        return False
+    with suppress(OverflowError):  # an int may be too large for a float
+        if (
+            isinstance(value, (int, float))
+            and not isinstance(value, bool)
+            and isfinite(value)
+            and (low is None or value >= low)
+            and (high is None or value <= high)
+            and (variable.type == "Real" or value == int(value))
+        ):
+            return float(value) if variable.type == "Real" else int(value)
+    shown = {"name": variable.name, "value": repr(value), "requirement": variable.requirement}
+    raise Refusal(refusal_texts.OUT_OF_BOUNDS, **shown)

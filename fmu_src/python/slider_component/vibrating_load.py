@@ -49,7 +49,7 @@ class VibratingLoad:
         self._dip = asin(self._preload / self._amplitude) if device.lifts else 0.5 * pi
         self._per_turn = self._in_turn(pi + 2.0 * self._dip)
         if abs(ratio) <= EXACT:  # the integral below would lose its digits to 1 / n
-            self._flatten(self._load(delta))
+            self._flatten(self.at(0.0))
         elif turns is None:
             self._flatten(self._per_turn / tau)
 
@@ -73,8 +73,11 @@ class VibratingLoad:
 
     def at(self, angle: float) -> float:
         """Normal load [N] at drive angle `angle` [rad]."""
-        loads = [self._load(self.waves * angle + phase) for phase in self._phases]
-        return sum(loads) / len(loads)
+        total = 0.0
+        for phase in self._phases:
+            load = self._preload + self._amplitude * sin(self.waves * angle + phase)
+            total += load if load > 0.0 else 0.0
+        return total / len(self._phases)
 
     def integral(self, begin: float, end: float) -> float:
         """Integral over the drive angle from `begin` to `end` [N rad]."""
@@ -86,10 +89,6 @@ class VibratingLoad:
         """Become a constant load [N]: a wave without amplitude."""
         self._preload, self._amplitude, self._dip, self._per_turn = load, 0.0, 0.5 * pi, tau * load
         self.waves, self._phases = 1.0, [0.0]
-
-    def _load(self, chi: float) -> float:
-        load = self._preload + self._amplitude * sin(chi)
-        return load if load > 0.0 else 0.0
 
     def _up_to(self, chi: float) -> float:
         """Integral of N over its own phase, from the touchdown at -dip up to `chi`."""

@@ -21,7 +21,7 @@ from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.oscillator import Oscillator
 from fmu_src.python.slider_component.parameters import Inputs
 from fmu_src.python.slider_component.series import Series
-from fmu_src.python.slider_component.sliding import Rest, Segment, Slide
+from fmu_src.python.slider_component.sliding import Exponentials
 from fmu_src.python.slider_component.vibrating_load import VibratingLoad
 
 W = 40.0
@@ -59,12 +59,9 @@ def test_exponentials_and_series_agree(ratio: float, mode: int, damping: float) 
     system = System(device, Inputs(phase=0.3, load=0.02, frequency_ratio=ratio))
     velocity = 0.1 * mode if mode != LIFTED else 0.1
     now = Moment(velocity, 2e-4, -1.1, 0.0, theta=1.0, psi=1.7, mode=mode)
-    if mode == STICK:
-        motions: tuple[Segment, ...] = (Rest(system, now), Series(system, now, 0, rests=True))
-    else:
-        direction = 0 if mode == LIFTED else mode
-        motions = (Slide(system, now, direction), Series(system, now, direction))
-    fast, slow = motions
+    direction, rests = 0 if mode == LIFTED else mode, mode == STICK
+    fast = Exponentials(system, now, direction, rests)
+    slow = Series(system, now, direction, rests=rests)
     assert slow.reach > 1e-5
     for t in (1e-7, 0.5 * slow.reach, slow.reach):
         assert fast.at(t) == pytest.approx(slow.at(t), rel=1e-12, abs=1e-14)
