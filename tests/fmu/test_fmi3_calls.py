@@ -114,7 +114,7 @@ def test_more_references_than_variables_are_refused(instance: Instance3) -> None
     with pytest.raises(FMICallException):
         instance.slave.getFloat64([position, *some])
     refused = f"nValueReferences = {len(VARIABLES) + 1} refused: must be at most"
-    assert refused in instance.log[-1][2]
+    assert refused in instance.log[-1]
 
 
 @pytest.mark.parametrize("type_name", OTHER_TYPES)
@@ -129,15 +129,15 @@ def test_null_pointers_are_refused(instance: Instance3) -> None:
     step, zero = ctypes.c_double(STEP), ctypes.c_double(0.0)
     nothing = [ctypes.c_void_p()] * 4
     assert call(instance, "fmi3DoStep", zero, step, ctypes.c_bool(True), *nothing) == fmi3Error
-    assert "fmi3DoStep: a null pointer refused" in instance.log[-1][2]
+    assert "fmi3DoStep: a null pointer refused" in instance.log[-1]
     assert call(instance, "fmi3GetFloat64", None, 1, None, 1) == 3
     assert call(instance, "fmi3GetFMUState", None) == fmi3Error
-    assert "null pointer" in instance.log[-1][2]
+    assert "null pointer" in instance.log[-1]
     assert instance.slave.dll.fmi3Reset(None) == fmi3Error
     many = (ctypes.c_uint32 * 1)(2)
     value = (ctypes.c_double * 2)()
     assert call(instance, "fmi3GetFloat64", many, 1, value, 2) == fmi3Error
-    assert "nValues = 2 refused: must be 1" in instance.log[-1][2]
+    assert "nValues = 2 refused: must be 1" in instance.log[-1]
 
 
 def test_calls_out_of_order_are_refused(unpacked_3: Unpacked) -> None:
@@ -173,3 +173,4 @@ def test_debug_logging_selects_categories(instance: Instance3) -> None:
     instance.slave.setDebugLogging(True, ["logStatusError"])
     with instance.refuses("fmi3SetDebugLogging: category 'noise' refused: must be one of"):
         instance.slave.setDebugLogging(True, ["noise"])
+    assert instance.entries[-1][1:3] == (fmi3Error, "logStatusError")
