@@ -70,9 +70,14 @@ def test_a_step_in_which_an_input_leaves_its_bounds_is_refused(
     instance.step(STEP)
 
 
+LIGHT = {"fidelity": 2, "friction_law": 1, "slider_mass": 1.1e-9, "resonator_mass": 1.1}
+"""Damper and bristles turn a slider of next to no mass within 1e-11 s."""
+
+
 @pytest.mark.parametrize(
     ("values", "growth", "turns", "text"),
     [
+        (LIGHT, {}, 1.0 / 32.0, "than 20000 segments in a turn of the fastest"),
         ({"fidelity": 2}, {"frequency_ratio": 1e15}, None, "must be at most 8000000 turns of it"),
         ({"fidelity": 1}, {"phase": 1e300}, None, "must be at most 8000000 turns of it"),
         ({"averaging_order": 1}, {"frequency_ratio": 1e9}, None, "more work than 1000 slow phases"),
@@ -111,6 +116,13 @@ def test_the_work_of_a_step_stays_bounded(
     with instance.refuses(f"doStep: communicationStepSize = {size!r} refused", text):
         instance.slave.doStep(instance.time, size)
     assert instance.get(*OUTPUTS) == before, "a refusal leaves the state as it was"
+
+
+def test_a_prediction_that_takes_too_much_work_is_not_valid(instantiate: Instantiate) -> None:
+    """All maps of a search draw from one budget: a read takes no longer than a few steps may."""
+    for ratio, valid in ((1.0, 1.0), (9999.03125, 0.0)):
+        instance = instantiate().initialize(normal_amplitude=1.5, frequency_ratio=ratio)
+        assert instance.get("prediction_valid") == (valid,)
 
 
 MOVING = ("position", "velocity", "resonator_displacement", "resonator_velocity", "normal_force")
