@@ -1,4 +1,7 @@
-"""Averaged motion does not depend on the communication step, whatever kinks friction has."""
+"""Averaged motion does not depend on the communication step, whatever kinks friction has.
+
+The scene `averaged_kinks` judges another device.
+"""
 
 import numpy as np
 import pytest
@@ -10,7 +13,7 @@ pytestmark = both_fmus
 
 AVERAGES = {"fidelity": 0, "averaging_order": 1}
 STEP = 0.04
-PARTS = 40
+PARTS = 10
 STEPS = 40
 
 FAST_VELOCITY = 0.144
@@ -20,14 +23,6 @@ FAST_VELOCITY = 0.144
 @pytest.mark.parametrize(
     "device",
     [
-        {
-            "friction_faces": 1,
-            "normal_amplitude": 1.38947176,
-            "phase": -1.17139713,
-            "load": -0.09284973,
-            "frequency_ratio": 2.00710621,
-            "initial_velocity": 0.15158376,
-        },
         {
             "normal_amplitude": 1.56488675,
             "phase": -1.71231049,
@@ -44,13 +39,6 @@ FAST_VELOCITY = 0.144
             "initial_velocity": -0.28410927,
         },
         {
-            "normal_amplitude": 0.71836823,
-            "phase": -1.40669784,
-            "load": -0.06146456,
-            "frequency_ratio": 2.0,
-            "initial_velocity": -0.2904101,
-        },
-        {
             "friction_faces": 1,
             "normal_amplitude": 1.7,
             "phase": 0.4,
@@ -58,7 +46,7 @@ FAST_VELOCITY = 0.144
             "initial_velocity": 0.2,
         },
     ],
-    ids=["lifts, beat at 2", "lifts, beat at 1", "beyond v_q", "beyond v_q, no beat", "slow load"],
+    ids=["lifts, beat at 1", "beyond v_q", "slow load"],
 )
 def test_long_steps_pass_kinks_as_short_ones_do(
     instantiate: Instantiate, device: dict[str, float]
