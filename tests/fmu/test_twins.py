@@ -99,12 +99,16 @@ def both(twins: Twins, values: Mapping[str, float], course: Schedule) -> tuple[R
 
 
 SCENES = {scene.name: scene for scene in find_scenes([])}
+SLOW = pytest.mark.slow
 IN_BOTH = [
-    pytest.param(name, marks=() if is_core(scene) else pytest.mark.slow)
+    pytest.param(name, marks=() if is_core(scene) and not scene.device.friction_law else SLOW)
     for name, scene in SCENES.items()
     if scene.stop_time and not scene.interpolates
 ]
-"""Scenes with a run that both can do: the Python FMU takes no derivatives of inputs."""
+"""Scenes with a run that both can do: the Python FMU takes no derivatives of inputs.
+
+On bristles the builds agree to the tolerance only, to which scenes judge each of them as well.
+"""
 
 
 @pytest.mark.parametrize("name", IN_BOTH)
@@ -206,8 +210,11 @@ def test_lugre_devices(
         ({"frequency_ratio": 1.002, "friction_coefficient": 1.0}, {}, 1e-9),
         ({"frequency_ratio": 1.002, "normal_amplitude": 1.5}, {}, 1e-9),
         ({}, {"phase": [0.0, 1.0, 0.3, 2.0, -1.0, 0.5, 1.7], "load": [0.0, 0.05]}, ROUNDING),
-        ({"friction_law": 1, "tolerance": 1e-10, "phase": 0.4}, {"load": [0.0, 0.05]}, 1e-8),
-        ({"friction_law": 1, "tolerance": 1e-10}, {"phase": [0.4, 1.0]}, 1e-8),
+        (
+            {"friction_law": 1, "tolerance": 1e-10},
+            {"phase": [0.4, 1.0], "load": [0.0, 0.0, 0.05]},
+            1e-8,
+        ),
         ({"resonator_mass": 0.0, "tangential_force": 900.0}, {}, ROUNDING),
         ({"frequency_ratio": 1.37}, {}, ROUNDING),
         ({"damping_ratio": 0.0}, {}, ROUNDING),
@@ -217,7 +224,7 @@ def test_short_steps_of_order_2(
     twins: Twins, values: dict[str, float], inputs: dict[str, list[float]], allowed: float
 ) -> None:
     held = {
-        name: steps([(0.05 * i, numbers[i % len(numbers)]) for i in range(14)])
+        name: steps([(0.05 * i, numbers[i % len(numbers)]) for i in range(10)])
         for name, numbers in inputs.items()
     }
     # The ratio is an input, too.
@@ -225,7 +232,7 @@ def test_short_steps_of_order_2(
     held |= {"frequency_ratio": steps([(0.0, ratio)])}
     held |= {"phase": steps([(0.0, values["phase"])])} if "phase" in values else {}
     given = {k: v for k, v in values.items() if k not in ("frequency_ratio", "phase")}
-    native, python = both(twins, {"fidelity": 0, **given}, schedule(0.7, 0.01, **held))
+    native, python = both(twins, {"fidelity": 0, **given}, schedule(0.5, 0.01, **held))
     assert_equal(native, python, allowed)
 
 
