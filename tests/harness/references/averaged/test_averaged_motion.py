@@ -51,15 +51,12 @@ def both(
 
 CASES: dict[str, tuple[Device, dict[str, Any]]] = {
     "Coulomb": (COULOMB, {"phase": 0.4, "load": 0.05}),
-    "Coulomb, ratio 3": (COULOMB, {"phase": 0.4, "frequency_ratio": 3.0}),
     "Coulomb, lifting": (replace(COULOMB, normal_amplitude=2.0), {"phase": 0.4}),
     "Coulomb, lifting, ratio 1.37": (
         replace(COULOMB, normal_amplitude=2.0),
         {"frequency_ratio": 1.37, "load": 0.1},
     ),
-    "Coulomb, overload": (COULOMB, {"load": 1.4}),
     "soft": (replace(BRISTLES, bristle_stiffness=2e3, bristle_damping=2.0), {"phase": 0.4}),
-    "medium": (replace(BRISTLES, bristle_stiffness=3e4), {"phase": 0.4, "load": 0.05}),
     "hard": (replace(BRISTLES, bristle_stiffness=1e7), {"phase": 0.4}),
     "medium, ratio 3": (
         replace(BRISTLES, bristle_stiffness=3e4),
@@ -68,7 +65,7 @@ CASES: dict[str, tuple[Device, dict[str, Any]]] = {
     "medium, lifting": (replace(BRISTLES, normal_amplitude=2.0), {"phase": -0.4}),
     "medium, overload": (BRISTLES, {"load": -1.4}),
 }
-QUICK = ("Coulomb, lifting", "Coulomb, overload", "soft")
+QUICK = ("Coulomb, lifting", "soft")
 
 
 @pytest.mark.parametrize(
@@ -89,7 +86,7 @@ def test_error_falls_with_the_drive_frequency(name: str) -> None:
 
 def test_phase_is_slow_up_to_a_detuning_of_one_tenth() -> None:
     held = [HeldInputs(0.0, 1.0, 0.4, frequency_ratio=ratio) for ratio in (1.0999, 1.1001)]
-    times = np.linspace(0.0, 1.0, 400)
+    times = np.linspace(0.0, 1.0, 100)
     beating, still = (simulate_averaged(COULOMB, [inputs], times) for inputs in held)
     assert (np.diff(still.mean_velocity) < 0.0).all(), "without a slow phase V only decays"
     assert (np.diff(beating.mean_velocity) > 0.0).any(), "with one it swings"
@@ -165,7 +162,7 @@ def test_held_steps_tend_to_a_ratio_that_grows(device: Device, rate: float, orde
     line = first_order(device, [growing], RAMP_TIMES)
     errors = [
         np.abs(first_order(device, staircase(growing, n), RAMP_TIMES) - line).max()
-        for n in (100, 400)
+        for n in (50, 200)
     ]
     assert order == 0.0 or errors[1] < errors[0] / 4.0**order
     assert errors[1] < 1e-3 * np.abs(line).max()

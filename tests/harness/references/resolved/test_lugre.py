@@ -22,7 +22,7 @@ QUIET = Device(
 """A slider that nothing shakes, its resonator too light to matter."""
 
 
-QUICK = ("table 1", "ratio 1.37, lift-off", "deep presliding", "schedule", "1e6")
+QUICK = ("deep presliding", "schedule", "1e8, presliding")
 
 
 @pytest.mark.parametrize(
@@ -38,7 +38,7 @@ def test_scipy_agrees(name: str) -> None:
     assert_agree(simulate(device, held, TIMES), found, allowed=1e-8)
 
 
-@pytest.mark.parametrize("name", ["table 1", "ratio 1.37, lift-off", "schedule", "one face"])
+@pytest.mark.parametrize("name", ["ratio 1.37, lift-off", "one face"])
 def test_reversals_lift_offs_and_touchdowns_are_located(name: str) -> None:
     device, held = PROBLEMS[name]
     exact = simulate(device, held, TIMES)
