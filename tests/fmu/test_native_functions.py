@@ -13,7 +13,6 @@ from fmpy.fmi2 import (
     fmi2CallbackLoggerTYPE,
 )
 
-from fmu_src.model_description import LOG_CATEGORIES
 from fmu_src.python.slider_component.variables import VALUE_REFERENCE, VARIABLES
 from tests.fmu.host import HostMemory, Instance, Unpacked
 from tests.fmu.native_calls import DISCARD, ERROR, OK, call, reals, references
@@ -247,11 +246,6 @@ def test_only_wanted_categories_are_sent(
     assert messages_of(instance) == 0, "logging is off"
     assert debug_logging(instance, True) == OK
     assert messages_of(instance) == 2
-
-
-@pytest.mark.parametrize("category", LOG_CATEGORIES)
-def test_every_category_of_the_description_is_known(instance: Instance, category: str) -> None:
-    assert debug_logging(instance, True, category) == OK
 
 
 @pytest.mark.parametrize("category", ["logEverything", "", None, "100%d#r1#" * 50])
