@@ -27,7 +27,7 @@ class Run:
     events: list[Located] = field(default_factory=list)
 
 
-class _Slave(FMU3Slave):
+class _Slave(FMU3Slave):  # type: ignore[misc]
     """fmpy's object, whose calls for states have the names of FMI 2.0."""
 
     getFMUstate = FMU3Slave.getFMUState

@@ -18,7 +18,6 @@ from slider_resonator.references.resolved.contact import LIFTED
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.trading.peers import event_free, located_scipy
-from tests.harness.references.comparing import staircase
 
 STOP = 0.03
 TIMES = np.linspace(0.0, STOP, 200)
@@ -53,23 +52,6 @@ def off(one: Array, other: Array) -> float:
 @pytest.mark.parametrize("device", [DEVICE, LIFTS, STICKS, RIGID, LUGRE, LUGRE_LIFTS])
 def test_scipy_agrees(device: Device, inputs: HeldInputs) -> None:
     assert off(by_scipy(device, [inputs]), position(device, [inputs])) < 2e-9
-
-
-@pytest.mark.parametrize(
-    ("device", "inputs"),
-    [
-        pytest.param(DEVICE, PHASE, marks=pytest.mark.slow),
-        pytest.param(DEVICE, CHIRP, marks=pytest.mark.slow),
-        (LUGRE, LOAD),
-        (LIFTS, BACK),
-        pytest.param(LUGRE_LIFTS, BACK, marks=pytest.mark.slow),
-    ],
-)
-def test_held_steps_tend_to_the_line_with_second_order(device: Device, inputs: HeldInputs) -> None:
-    line = position(device, [inputs])
-    coarse, fine = (off(position(device, staircase(inputs, n)), line) for n in (200, 800))
-    assert fine < 1e-4
-    assert fine < coarse / 8.0, "sixteen, but for where steps lie in a period"
 
 
 def test_contact_changes_of_a_chirp_are_exact() -> None:

@@ -64,11 +64,12 @@ def test_blocking_loads_stop_the_motion() -> None:
 
 @pytest.mark.parametrize("load", [1.1, -1.1, 1.5, math.nan])
 def test_loads_above_friction_are_refused(load: float) -> None:
-    for velocity in (
+    velocities: list[Callable[[], float]] = [
         lambda: theory.steady_velocity(1.0, 1.0, 0.5, load),
         lambda: theory.lugre_steady_velocity(LugreCase(), load),
         lambda: theory.uniform_velocity(LugreCase(), 10.0, 10.0, load=load),
-    ):
+    ]
+    for velocity in velocities:
         with pytest.raises(ValueError, match=r"load = "):
             velocity()
 

@@ -3,24 +3,21 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
 from slider_resonator.references.averaged.averaged_outputs import AveragedOutputs, averaged_outputs
 from slider_resonator.references.averaged.device_average import prediction_valid, stable_velocity
-from slider_resonator.references.averaged.slow_trajectory import slide_of_block, slow_trajectory
+from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
-from tests.harness.references.comparing import staircase
 
 PERIOD = 2.0 * np.pi / 3500.0
 COULOMB = Device(fidelity=0)
@@ -124,14 +121,6 @@ def test_friction_and_load_are_the_rate_of_momentum(law: int) -> None:
     assert device.total_mass * change == pytest.approx(-impulse, rel=1e-4)
 
 
-def test_a_block_is_held_by_what_the_load_needs() -> None:
-    block = replace(DEVICE, base_amplitude=0.0, normal_amplitude=0.5)
-    held = [HeldInputs(0.0, HELD[-1].stop, load=0.07)]
-    assert outputs_of(block, held).friction_force == pytest.approx(np.full(4001, -0.07))
-    sliding = replace(block, initial_velocity=-1.0)
-    assert outputs_of(sliding, held).friction_force == pytest.approx(np.full(4001, -0.2))
-
-
 STOP = 0.3
 RAMP_TIMES = np.linspace(0.0, STOP, 40)
 LINE = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, phase_rate=2.0, load_rate=0.3)
@@ -141,57 +130,10 @@ FLIES = replace(CLOSED, normal_amplitude=1.4)
 LUGRE = replace(CLOSED, friction_law=1, bristle_stiffness=1e4)
 
 
-def first_order(device: Device, held: Sequence[HeldInputs], times: Array) -> Array:
-    return simulate_averaged(device, held, times).position
-
-
-@pytest.mark.parametrize("device", [CLOSED, LUGRE])
-def test_held_steps_tend_to_the_line(device: Device) -> None:
-    line = first_order(device, [LINE], RAMP_TIMES)
-    errors = [
-        np.abs(first_order(device, staircase(LINE, n), RAMP_TIMES) - line).max() for n in (10, 40)
-    ]
-    assert errors[1] < errors[0] / 10.0
-    assert errors[1] < 1e-4 * np.abs(line).max()
-
-
-@pytest.mark.parametrize(("device", "rate", "order"), [(CLOSED, 0.5, 1.8), (FLIES, 0.9, 0.0)])
-def test_held_steps_tend_to_a_ratio_that_grows(device: Device, rate: float, order: float) -> None:
-    """Of second order within a slow phase; at its edges friction jumps."""
-    growing = HeldInputs(0.0, STOP, 0.2, 0.01, 0.93, ratio_rate=rate)
-    line = first_order(device, [growing], RAMP_TIMES)
-    errors = [
-        np.abs(first_order(device, staircase(growing, n), RAMP_TIMES) - line).max()
-        for n in (50, 200)
-    ]
-    assert order == 0.0 or errors[1] < errors[0] / 4.0**order
-    assert errors[1] < 1e-3 * np.abs(line).max()
-
-
 def test_ramps_that_are_not_covered_are_refused() -> None:
     block = replace(CLOSED, base_amplitude=0.0)
     with pytest.raises(ValueError, match=r"load_rate = 0\.3: must be 0"):
         simulate_averaged(block, [LOAD], RAMP_TIMES)
-
-
-BLOCK_TIMES = np.linspace(0.0, 1.0, 11)
-
-
-def test_it_slides_to_rest_and_stays() -> None:
-    moved, velocity = slide_of_block(0.2, 0.3, 0.1, 1.0, BLOCK_TIMES)
-    assert velocity == pytest.approx(np.maximum(0.0, 0.2 - 0.4 * BLOCK_TIMES))
-    assert moved[-1] == pytest.approx(0.5 * 0.2**2 / 0.4)
-
-
-@pytest.mark.parametrize("load", [0.3, -0.2, 0.0])
-def test_friction_holds_it_at_rest(load: float) -> None:
-    moved, velocity = slide_of_block(0.0, 0.3, load, 1.0, BLOCK_TIMES)
-    assert not moved.any()
-    assert not velocity.any()
-
-
-def test_monotonic_friction_has_one_velocity() -> None:
-    assert stable_velocity(lambda v: v - 0.2, 1.0, 0.1) == pytest.approx(0.1, abs=1e-12)
 
 
 def test_forward_one_of_two_stable_velocities_is_returned() -> None:
@@ -227,17 +169,3 @@ def test_no_vibration_no_prediction() -> None:
     resonant = replace(TABLE_1, damping_ratio=0.0, resonator_frequency=free)
     assert not prediction_valid(resonant, 0.0, 0.0, 1.0)
     assert prediction_valid(replace(resonant, resonator_frequency=3500.0), 0.0, 0.0, 1.0)
-
-
-def test_a_load_beyond_friction_takes_the_slider_through_the_vibration() -> None:
-    """In one line or in many, though the integrator may step far where friction is constant."""
-    device = Device(fidelity=0, friction_coefficient=0.75948, initial_velocity=0.45596)
-    line = HeldInputs(0.0, 0.1394, -1.758, 4.3372, 1.0, load_rate=-60.69)
-    times = np.array([0.0, 0.1394])
-    cuts = np.linspace(0.0, 0.1394, 101)
-    parts = [
-        replace(line.later(float(start)), start=float(start), stop=float(stop))
-        for start, stop in pairwise(cuts)
-    ]
-    whole, fine = (first_order(device, held, times)[-1] for held in ([line], parts))
-    assert whole == pytest.approx(fine, rel=1e-8)
