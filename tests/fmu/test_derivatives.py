@@ -1,15 +1,11 @@
-"""First derivatives of inputs and outputs: refusals, bounded work, and resonators."""
+"""First derivatives of inputs and outputs: refusals and bounded work; scenes judge motion."""
 
 import ctypes
 import math
 
-import numpy as np
 import pytest
 
 from fmu_src.python.slider_component.variables import VALUE_REFERENCE, VARIABLES
-from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved.simulate import simulate
 from tests.fmu.host import OUTPUTS, Instance, Instantiate
 from tests.fmu.native_calls import ERROR, OK, call, reals, references
 from tests.fmus import native_fmu_only
@@ -158,28 +154,3 @@ def test_every_output_is_given_or_refused(instance: Instance) -> None:
     given = {*MOVING, *JUMPING, "mean_velocity"}
     assert given | set(WITHOUT) == set(OUTPUTS)
     assert all(map(math.isfinite, instance.derivatives(*given)))
-
-
-@pytest.mark.parametrize("frequency", [1e-3, 10.0, 100.0, 3500.0])
-@pytest.mark.parametrize("damping", [0.0, 0.05, 0.95, 1.0, 3.0, 50.0])
-def test_a_resonator_of_any_kind_follows_a_growing_load(
-    instantiate: Instantiate, frequency: float, damping: float
-) -> None:
-    """While the pair slides freely, without friction and drive."""
-    device = {
-        "base_amplitude": 0.0,
-        "friction_coefficient": 0.0,
-        "resonator_frequency": frequency,
-        "damping_ratio": damping,
-    }
-    held = HeldInputs(0.0, 0.02, load_rate=3.0)
-    reference = simulate(Device.from_mapping(device), [held], np.array([held.stop]))
-    instance = instantiate().initialize(**device)
-    instance.ramp(load=held.load_rate)
-    instance.step(held.stop)
-    for names, allowed in (
-        (("resonator_displacement", "resonator_velocity"), 1e-9),
-        (("position", "velocity"), 1e-11),
-    ):
-        for name in names:
-            assert instance.get(name) == pytest.approx(getattr(reference, name), rel=allowed), name

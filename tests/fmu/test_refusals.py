@@ -121,19 +121,6 @@ def test_undamped_resonance_to_rounding(instantiate: Instantiate, fidelity: int,
     instance.step(STEP)
 
 
-@pytest.mark.parametrize("fidelity", [0, 1, 2])
-def test_values_that_do_not_fit_each_other(instantiate: Instantiate, fidelity: int) -> None:
-    instance = instantiate().enter_initialization(
-        fidelity=fidelity, friction_law=1, friction_coefficient=0.0
-    )
-    with instance.refuses("friction_coefficient = 0.0 refused: with LuGre friction it must be"):
-        instance.slave.exitInitializationMode()
-    instance.set(friction_coefficient=0.1)
-    instance.slave.exitInitializationMode()
-    with instance.refuses("friction_coefficient = 0.0 refused: with LuGre friction it must be"):
-        instance.set(friction_coefficient=0.0)
-
-
 @pytest.mark.parametrize(
     ("name", "value", "others"),
     [
