@@ -162,44 +162,17 @@ def course_of(values: Mapping[str, float], inputs: list[tuple[float, float, floa
     return schedule(stop, 0.37 * period, phase=phases, load=loads, frequency_ratio=ratios)
 
 
-quick = settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
-
-
-@quick
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(parameters, courses)
 def test_coulomb_devices(
     twins: Twins, values: dict[str, float], inputs: list[tuple[float, float, float]]
 ) -> None:
+    """Random cases of the command `stress` are others, with bristles, too."""
     try:
         native, python = both(twins, values, course_of(values, inputs))
     except Refusal:
         assume(False)  # `test_refusals` compares those
     assert_equal(native, python, RANDOM)
-
-
-# Averages over a weak vibration change so fast with the velocity that Python takes seconds.
-strong = parameters.filter(lambda values: values["fidelity"] > 0 or values["base_amplitude"] > 1e-4)
-
-
-@pytest.mark.slow
-@quick
-@given(strong, courses, st.sampled_from([50.0, 1e3, 1e5, 1e8]), st.sampled_from([0.0, 10.0]))
-def test_lugre_devices(
-    twins: Twins,
-    values: dict[str, float],
-    inputs: list[tuple[float, float, float]],
-    stiffness: float,
-    damping: float,
-) -> None:
-    lugre = {"friction_law": 1, "bristle_stiffness": stiffness, "bristle_damping": damping}
-    tolerance = 1e-8
-    try:
-        native, python = both(
-            twins, values | lugre | {"tolerance": tolerance}, course_of(values, inputs)
-        )
-    except Refusal:
-        assume(False)  # `test_refusals` compares those
-    assert_equal(native, python, tolerance)
 
 
 @pytest.mark.parametrize(
