@@ -12,7 +12,7 @@ from numpy.polynomial import Polynomial
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
-from slider_resonator.references.averaged.averaged_outputs import AveragedOutputs, averaged_outputs
+from slider_resonator.references.averaged.averaged_outputs import averaged_outputs
 from slider_resonator.references.averaged.device_average import prediction_valid, stable_velocity
 from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.equivalent_force import equivalent_force
@@ -95,45 +95,21 @@ def test_invalid_averages_are_refused() -> None:
         simulate_averaged(replace(COULOMB, normal_preload=0.0), held, np.array([1.0]))
     with pytest.raises(ValueError, match="within the held inputs"):
         simulate_averaged(COULOMB, held, np.array([2.0]))
-
-
-DEVICE = Device(fidelity=0, normal_amplitude=1.3)
-HELD = [
-    HeldInputs(0.0, 20.3 * PERIOD, phase=0.4),
-    HeldInputs(20.3 * PERIOD, 40.0 * PERIOD, phase=2.0, load=0.02, frequency_ratio=2.0),
-]
-TIMES = np.linspace(0.0, 40.0 * PERIOD, 4001)
-
-
-def outputs_of(device: Device, held: list[HeldInputs] = HELD) -> AveragedOutputs:
-    return averaged_outputs(device, held, simulate_averaged(device, held, TIMES))
+    block, growing = replace(COULOMB, base_amplitude=0.0), HeldInputs(0.0, 1.0, load_rate=0.3)
+    with pytest.raises(ValueError, match=r"load_rate = 0\.3: must be 0"):
+        simulate_averaged(block, [growing], np.array([1.0]))
 
 
 @pytest.mark.parametrize("law", [0, 1])
 def test_friction_and_load_are_the_rate_of_momentum(law: int) -> None:
-    device = replace(DEVICE, friction_law=law, friction_faces=1)
-    held = HELD[:1]
+    device = Device(fidelity=0, normal_amplitude=1.3, friction_law=law, friction_faces=1)
+    held = [HeldInputs(0.0, 20.3 * PERIOD, phase=0.4)]
     times = np.linspace(0.0, held[0].stop, 201)
     motion = simulate_averaged(device, held, times)
     friction = averaged_outputs(device, held, motion).friction_force
     impulse = np.sum(0.5 * (friction[1:] + friction[:-1]) * np.diff(times))
     change = motion.mean_velocity[-1] - motion.mean_velocity[0]
     assert device.total_mass * change == pytest.approx(-impulse, rel=1e-4)
-
-
-STOP = 0.3
-RAMP_TIMES = np.linspace(0.0, STOP, 40)
-LINE = HeldInputs(0.0, STOP, 0.2, 0.01, 1.0, phase_rate=2.0, load_rate=0.3)
-LOAD = replace(LINE, phase_rate=0.0)
-CLOSED = Device(fidelity=0)
-FLIES = replace(CLOSED, normal_amplitude=1.4)
-LUGRE = replace(CLOSED, friction_law=1, bristle_stiffness=1e4)
-
-
-def test_ramps_that_are_not_covered_are_refused() -> None:
-    block = replace(CLOSED, base_amplitude=0.0)
-    with pytest.raises(ValueError, match=r"load_rate = 0\.3: must be 0"):
-        simulate_averaged(block, [LOAD], RAMP_TIMES)
 
 
 def test_forward_one_of_two_stable_velocities_is_returned() -> None:
