@@ -154,20 +154,3 @@ def test_motion_beyond_the_range_of_numbers_is_refused(instantiate: Instantiate)
     instance = instantiate().initialize(initial_velocity=1e308)
     with instance.refuses("leaves the range of floating point numbers"):
         instance.step(10.0)
-
-
-@pytest.mark.parametrize(
-    ("values", "named"),
-    [
-        ({"drive_frequency": 1e300, "base_amplitude": 1e300}, "base_amplitude = 1e+300 refused"),
-        ({"drive_frequency": 1e200, "frequency_ratio": 1e190}, "drive_frequency = 1e+200 refused"),
-        ({"base_amplitude": 1e160}, "base_amplitude = 1e+160 refused"),
-        ({"resonator_frequency": 1e170}, "resonator_frequency = 1e+170 refused"),
-    ],
-)
-def test_values_that_leave_the_range_are_named(
-    instantiate: Instantiate, values: dict[str, float], named: str
-) -> None:
-    instance = instantiate().enter_initialization(**values)
-    with instance.refuses(named, "must be nearer to"):
-        instance.slave.exitInitializationMode()
