@@ -1,4 +1,4 @@
-"""When the contact lifts and touches down, to rounding; scenes judge the motion."""
+"""Closed forms, series, contact and quadratures of the Python component."""
 
 import math
 
@@ -6,8 +6,56 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_component.contact import Window
-from fmu_src.python.slider_component.device import Device, flight_window
+from fmu_src.python.slider_component import mean_friction
+from fmu_src.python.slider_component.contact import BACKWARD, FORWARD, LIFTED, STICK, Window
+from fmu_src.python.slider_component.device import Device, System, flight_window
+from fmu_src.python.slider_component.mean_friction import (
+    MAX_WAVES,
+    NODES,
+    MeanFriction,
+    _gauss_legendre,
+)
+from fmu_src.python.slider_component.moment import Moment
+from fmu_src.python.slider_component.oscillator import Oscillator
+from fmu_src.python.slider_component.parameters import Inputs
+from fmu_src.python.slider_component.series import Series
+from fmu_src.python.slider_component.sliding import Rest, Segment, Slide
+from fmu_src.python.slider_component.vibrating_load import VibratingLoad
+
+W = 40.0
+
+
+def test_what_loses_digits_does_not_split() -> None:
+    assert not Oscillator(W, W * W).splits(W), "critical damping"
+    assert not Oscillator(0.0, W * W).splits(W, 3.0 * W), "resonance"
+    assert not Oscillator(0.1, 0.1).splits(W), "a soft spring"
+    assert Oscillator(0.05 * W, W * W).splits(W, -W, 0.0)
+    assert Oscillator(0.0, W * W).transfer(2.0 * W) == pytest.approx(-1.0 / (3.0 * W * W))
+    assert math.isclose(Oscillator(0.1, W * W).frequency, W)
+
+
+@pytest.mark.parametrize("ratio", [1.37, -1.0, 0.0])
+@pytest.mark.parametrize("mode", [FORWARD, BACKWARD, LIFTED, STICK])
+@pytest.mark.parametrize("damping", [0.025, 0.6, 2.0])
+def test_exponentials_and_series_agree(ratio: float, mode: int, damping: float) -> None:
+    device = Device(damping_ratio=damping, tangential_force=3.0)
+    system = System(device, Inputs(phase=0.3, load=0.02, frequency_ratio=ratio))
+    velocity = 0.1 * mode if mode != LIFTED else 0.1
+    now = Moment(velocity, 2e-4, -1.1, 0.0, theta=1.0, psi=1.7, mode=mode)
+    if mode == STICK:
+        motions: tuple[Segment, ...] = (Rest(system, now), Series(system, now, 0, rests=True))
+    else:
+        direction = 0 if mode == LIFTED else mode
+        motions = (Slide(system, now, direction), Series(system, now, direction))
+    fast, slow = motions
+    assert slow.reach > 1e-5
+    for t in (1e-7, 0.5 * slow.reach, slow.reach):
+        assert fast.at(t) == pytest.approx(slow.at(t), rel=1e-12, abs=1e-14)
+        for a, b in zip(fast.watches(t), slow.watches(t), strict=True):
+            value, slope, bound = a.signal(t)
+            assert (value, slope) == pytest.approx(b.signal(t)[:2], rel=1e-11, abs=1e-9)
+            before = a.signal(0.9 * t)[1]
+            assert abs(slope - before) <= 1.001 * a.signal(0.9 * t)[2] * 0.1 * t + 1e-9 * bound
 
 
 def window_of(preload: float, amplitude: float) -> Window:
@@ -48,6 +96,29 @@ def test_on_a_boundary_the_direction_decides(share: float, past: float) -> None:
     assert not window.is_lifted(last + past, 1.0)
     assert not window.is_lifted(first + past, -1.0)
     assert window.is_lifted(last + past, -1.0)
+
+
+@pytest.mark.parametrize("stiffness", [1e2, 1e6, 1e10])
+@pytest.mark.parametrize("n", [0.0, 1.0, 17.0])
+def test_twice_the_nodes_change_no_mean(
+    monkeypatch: pytest.MonkeyPatch, stiffness: float, n: float
+) -> None:
+    device = Device(friction_law=1, bristle_stiffness=stiffness, bristle_damping=0.01)
+    friction = MeanFriction(device, 0.2366)
+    load = VibratingLoad(Device(normal_amplitude=1.5), n, 0.7)
+    turnings = (1e-3, 0.3, 1.1, 2.0, 3.1)
+    means = [friction.mean(load, turning) for turning in turnings]
+    monkeypatch.setattr(mean_friction, "_RULE", _gauss_legendre(2 * NODES))
+    finer = [friction.mean(load, turning) for turning in turnings]
+    assert means == pytest.approx(finer, abs=1e-12 * 0.1)
+
+
+def test_beyond_a_thousand_waves_only_the_mean_counts() -> None:
+    friction = MeanFriction(Device(friction_law=1, bristle_stiffness=1e4), 0.2366)
+    waves = [VibratingLoad(Device(), float(MAX_WAVES + more), 0.4) for more in (0, 1)]
+    counted, beyond = (friction.mean(load, 1.1) for load in waves)
+    assert beyond == pytest.approx(friction.mean(waves[0].flattened(), 1.1), abs=1e-13)
+    assert 0.0 < abs(counted - beyond) < 1e-3 * friction.coefficient
 
 
 def test_constant_load_never_switches() -> None:

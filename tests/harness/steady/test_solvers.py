@@ -76,14 +76,14 @@ def test_bracketing_finds_a_root_out_of_reach_of_newton() -> None:
 
 
 @pytest.mark.parametrize(
-    "period_map",
+    ("period_map", "size"),
     [
-        pytest.param(lambda s: (s - 1e-3, 0.0), id="one-sided drift"),
-        pytest.param(lambda s: (np.array([-s[0], s[1] + 1.0]), 0.0), id="growing fast state"),
+        pytest.param(lambda s: (s - 1e-3, 0.0), 1, id="one-sided drift"),
+        pytest.param(lambda s: (np.array([-s[0], s[1] + 1.0]), 0.0), 2, id="growing fast state"),
     ],
 )
-def test_there_is_no_bracket(period_map: PeriodMap) -> None:
-    assert bracketed_state(period_map, np.zeros(2), np.ones(2)) is None
+def test_there_is_no_bracket(period_map: PeriodMap, size: int) -> None:
+    assert bracketed_state(period_map, np.zeros(size), np.ones(size)) is None
 
 
 def test_bracketing_renews_its_jacobian_for_a_bristle_state() -> None:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -145,3 +146,33 @@ def test_no_vibration_no_prediction() -> None:
     resonant = replace(TABLE_1, damping_ratio=0.0, resonator_frequency=free)
     assert not prediction_valid(resonant, 0.0, 0.0, 1.0)
     assert prediction_valid(replace(resonant, resonator_frequency=3500.0), 0.0, 0.0, 1.0)
+
+
+def test_a_block_is_held_by_what_the_load_needs() -> None:
+    held = [HeldInputs(0.0, 0.1, load=0.07)]
+    times = np.linspace(0.0, 0.1, 11)
+    for velocity, friction in ((0.0, -0.07), (-1.0, -0.2)):
+        block = Device(fidelity=0, base_amplitude=0.0, normal_amplitude=0.5)
+        block = replace(block, initial_velocity=velocity)
+        outputs = averaged_outputs(block, held, simulate_averaged(block, held, times))
+        assert outputs.friction_force == pytest.approx(np.full(11, friction))
+
+
+OUTRUN = Device(fidelity=0, friction_coefficient=0.75948, initial_velocity=0.45596)
+
+
+@pytest.mark.parametrize(
+    ("device", "line"),
+    [
+        (OUTRUN, HeldInputs(0.0, 0.1394, -1.758, 4.3372, 1.0, load_rate=-60.69)),
+        (COULOMB, HeldInputs(0.0, 0.3, 0.2, 0.01, 0.93, ratio_rate=0.5)),
+    ],
+    ids=["load beyond friction", "ratio into and out of a slow phase"],
+)
+def test_a_line_in_parts_is_the_line(device: Device, line: HeldInputs) -> None:
+    """Though the integrator may step far where friction is constant."""
+    times = np.array([0.0, line.stop])
+    cuts = np.linspace(0.0, line.stop, 101).tolist()
+    parts = [replace(line.later(a), start=a, stop=b) for a, b in pairwise(cuts)]
+    whole, fine = (simulate_averaged(device, held, times).position[-1] for held in ([line], parts))
+    assert whole == pytest.approx(fine, rel=1e-8)
