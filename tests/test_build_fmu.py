@@ -7,6 +7,7 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
+from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 
 from build_fmu import main
@@ -112,6 +113,44 @@ def test_icon_and_licence_are_inside(archive: zipfile.ZipFile) -> None:
 def test_page_lists_every_variable(page: str) -> None:
     for v in VARIABLES:
         assert page.count(f"<td><code>{v.name}</code></td>") == 1, v.name
+
+
+@every_slider
+def test_variables_are_those_of_the_table(fmu: Path) -> None:
+    """After the time, which is a variable in FMI 3.0. Numbers read back exactly."""
+    variables = read_model_description(str(fmu)).modelVariables[-len(VARIABLES) :]
+    first = variables[0].valueReference
+    types = {"Float64": "Real", "Int32": "Integer"}
+    for reference, (row, found) in enumerate(zip(VARIABLES, variables, strict=True), start=first):
+        assert (found.name, found.valueReference) == (row.name, reference)
+        assert (types.get(found.type, found.type), found.causality) == (row.type, row.causality)
+        assert (found.variability, found.description) == (row.variability, row.description)
+        assert (found.unit, found.displayUnit) == (row.unit, row.display_unit), row.name
+        numbers = (found.start, found.min, found.max, found.nominal)
+        assert [None if x is None else float(x) for x in numbers] == [
+            row.start,
+            row.minimum,
+            row.maximum,
+            row.nominal,
+        ], row.name
+    assert first == {PYTHON_MODEL: 0, "SliderResonator": 0, "SliderResonator3": 2}[fmu.stem]
+
+
+@every_slider
+def test_dependencies_are_those_of_the_table(fmu: Path) -> None:
+    outputs = {v.name: v for v in VARIABLES if v.causality == "output"}
+    description = read_model_description(str(fmu))
+    for unknowns, attribute in (
+        (description.outputs, "depends_on"),
+        (description.initialUnknowns, "depends_initially_on"),
+    ):
+        assert [u.variable.name for u in unknowns] == list(outputs), "each output once"
+        for unknown in unknowns:
+            name, found = unknown.variable.name, [v.name for v in unknown.dependencies]
+            assert set(found) == set(getattr(outputs[name], attribute)), name
+            assert set(found).isdisjoint(outputs), "on no other output"
+            assert set(unknown.dependenciesKind) <= {"dependent"}, name
+            assert len(unknown.dependenciesKind) == len(found), f"{name}: one kind for each"
 
 
 def test_all_but_the_page_are_built_for_this_machine(

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import pytest
 from fmpy import calloc, extract, free, read_model_description
@@ -38,6 +38,16 @@ class Unpacked:
     def status_of_refusals(self) -> int:
         """pythonfmu cannot say fmi2Error."""
         return int(fmi2Fatal if self.description.modelName == "SliderResonatorPy" else fmi2Error)
+
+    @property
+    def arguments(self) -> dict[str, str]:
+        """What fmpy asks for."""
+        return {
+            "guid": self.description.guid,
+            "modelIdentifier": self.description.coSimulation.modelIdentifier,
+            "unzipDirectory": str(self.folder),
+            "instanceName": "slider",
+        }
 
 
 def unpack(fmu: Path, folder: Path) -> Unpacked:
@@ -79,48 +89,26 @@ class Entry(NamedTuple):
     text: str
 
 
-class Instance:
-    """One instance; `slave` is fmpy's object, for calls that a proper host does not make."""
+class AnyInstance:
+    """One instance of any version of FMI.
 
-    def __init__(
-        self, unpacked: Unpacked, *, logging_on: bool = True, memory: HostMemory | None = None
-    ) -> None:
+    `slave` is fmpy's object, for calls that a proper host does not make.
+    """
+
+    real = "Real"
+    """The type of real variables."""
+
+    def __init__(self, unpacked: Unpacked, slave: Any) -> None:
+        self.slave = slave
         self.entries: list[Entry] = []
         self.time = 0.0
         self._status_of_refusals = unpacked.status_of_refusals
         self._variables = {v.name: v for v in unpacked.description.modelVariables}
-        self.slave = FMU2Slave(
-            guid=unpacked.description.guid,
-            modelIdentifier=unpacked.description.coSimulation.modelIdentifier,
-            unzipDirectory=str(unpacked.folder),
-            instanceName="slider",
-        )
-        # Not fmpy's own logger: that sends the messages of all instances to the newest of them.
-        callbacks = fmi2CallbackFunctions(
-            logger=fmi2CallbackLoggerTYPE(self._receive),
-            allocateMemory=fmi2CallbackAllocateMemoryTYPE(memory.allocate if memory else calloc),
-            freeMemory=fmi2CallbackFreeMemoryTYPE(memory.release if memory else free),
-        )
-        self.slave.instantiate(callbacks=callbacks, loggingOn=logging_on)
-
-    def _receive(self, _: object, name: bytes, status: int, category: bytes, text: bytes) -> None:
-        self.entries.append(Entry(name.decode(), status, (category or b"").decode(), text.decode()))
 
     @property
     def log(self) -> list[str]:
         """Texts of all messages so far."""
         return [entry.text for entry in self.entries]
-
-    def enter_initialization(self, start_time: float = 0.0, **values: float) -> Instance:
-        self.slave.setupExperiment(startTime=start_time)
-        self.slave.enterInitializationMode()
-        self.set(**values)
-        self.time = start_time
-        return self
-
-    def initialize(self, start_time: float = 0.0, **values: float) -> Instance:
-        self.enter_initialization(start_time, **values).slave.exitInitializationMode()
-        return self
 
     def reference(self, name: str) -> int:
         return int(self._variables[name].valueReference)
@@ -128,35 +116,13 @@ class Instance:
     def set(self, **values: float) -> None:
         """One call per variable, in the order given."""
         for name, value in values.items():
-            if self._variables[name].type == "Integer":
-                self.slave.setInteger([self.reference(name)], [int(value)])
-            else:
-                self.slave.setReal([self.reference(name)], [value])
-
-    def ramp(self, **derivatives: float) -> None:
-        """Set the first derivatives of inputs, per s; one call per input, in the order given."""
-        for name, derivative in derivatives.items():
-            self.slave.setRealInputDerivatives([self.reference(name)], [1], [derivative])
-
-    def derivatives(self, *names: str) -> tuple[float, ...]:
-        """First derivatives of outputs, per s."""
-        references = [self.reference(name) for name in names]
-        return tuple(self.slave.getRealOutputDerivatives(references, [1] * len(names)))
+            kind = self._variables[name].type
+            number = value if kind == self.real else int(value)
+            getattr(self.slave, f"set{kind}")([self.reference(name)], [number])
 
     def get(self, *names: str) -> tuple[float, ...]:
-        return tuple(self.slave.getReal([self.reference(name) for name in names]))
-
-    def step(self, size: float) -> None:
-        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=size)
-        self.time += size
-
-    def run(self, steps: int, size: float) -> list[tuple[float, ...]]:
-        """All outputs after each of equal steps."""
-        rows = []
-        for _ in range(steps):
-            self.step(size)
-            rows.append(self.get(*OUTPUTS))
-        return rows
+        references = [self.reference(name) for name in names]
+        return tuple(getattr(self.slave, f"get{self.real}")(references))
 
     def state(self) -> bytes:
         """The serialized state: everything that decides how a run goes on."""
@@ -189,6 +155,58 @@ class Instance:
         for fragment in fragments:
             assert fragment in self.log[-1], "the text names thing, value and requirement"
         assert self.state() == before, "a refused call leaves the state as it was, bit by bit"
+
+
+class Instance(AnyInstance):
+    """An instance of FMI 2.0."""
+
+    def __init__(
+        self, unpacked: Unpacked, *, logging_on: bool = True, memory: HostMemory | None = None
+    ) -> None:
+        super().__init__(unpacked, FMU2Slave(**unpacked.arguments))
+        # Not fmpy's own logger: that sends the messages of all instances to the newest of them.
+        callbacks = fmi2CallbackFunctions(
+            logger=fmi2CallbackLoggerTYPE(self._receive),
+            allocateMemory=fmi2CallbackAllocateMemoryTYPE(memory.allocate if memory else calloc),
+            freeMemory=fmi2CallbackFreeMemoryTYPE(memory.release if memory else free),
+        )
+        self.slave.instantiate(callbacks=callbacks, loggingOn=logging_on)
+
+    def _receive(self, _: object, name: bytes, status: int, category: bytes, text: bytes) -> None:
+        self.entries.append(Entry(name.decode(), status, (category or b"").decode(), text.decode()))
+
+    def enter_initialization(self, start_time: float = 0.0, **values: float) -> Instance:
+        self.slave.setupExperiment(startTime=start_time)
+        self.slave.enterInitializationMode()
+        self.set(**values)
+        self.time = start_time
+        return self
+
+    def initialize(self, start_time: float = 0.0, **values: float) -> Instance:
+        self.enter_initialization(start_time, **values).slave.exitInitializationMode()
+        return self
+
+    def ramp(self, **derivatives: float) -> None:
+        """Set the first derivatives of inputs, per s; one call per input, in the order given."""
+        for name, derivative in derivatives.items():
+            self.slave.setRealInputDerivatives([self.reference(name)], [1], [derivative])
+
+    def derivatives(self, *names: str) -> tuple[float, ...]:
+        """First derivatives of outputs, per s."""
+        references = [self.reference(name) for name in names]
+        return tuple(self.slave.getRealOutputDerivatives(references, [1] * len(names)))
+
+    def step(self, size: float) -> None:
+        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=size)
+        self.time += size
+
+    def run(self, steps: int, size: float) -> list[tuple[float, ...]]:
+        """All outputs after each of equal steps."""
+        rows = []
+        for _ in range(steps):
+            self.step(size)
+            rows.append(self.get(*OUTPUTS))
+        return rows
 
 
 Instantiate = Callable[[], Instance]

@@ -3,13 +3,12 @@
 import ctypes
 from collections.abc import Sequence
 
-from tests.fmu.host import Instance
-from tests.fmu.host_3 import Instance3
+from tests.fmu.host import AnyInstance
 
 OK, WARNING, DISCARD, ERROR = range(4)
 
 
-def call(instance: Instance | Instance3, function: str, *arguments: object) -> int:
+def call(instance: AnyInstance, function: str, *arguments: object) -> int:
     """The status of `function(instance, *arguments)`; integers are passed as size_t."""
     passed = [ctypes.c_size_t(a) if isinstance(a, int) else a for a in arguments]
     foreign = instance.slave.dll[function]

@@ -1,6 +1,6 @@
 """The drive as inputs: deviations of its amplitude and frequency from what the parameters say."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import pytest
 
@@ -22,8 +22,6 @@ BURST = [(0.0, 0.0), (-1.0, 0.0), (-1.0, 0.1), (0.3, -0.05), (0.0, 0.0)]
 STEP = 0.123
 """Some 68 periods: long enough for a leap."""
 
-Course = Sequence[tuple[float, float]]
-
 
 def tuned(amplitude: float, frequency: float) -> Mapping[str, float]:
     """The parameters of a drive with these deviations."""
@@ -38,15 +36,18 @@ def deviating(amplitude: float, frequency: float) -> Mapping[str, float]:
     return {"amplitude_deviation": amplitude, "frequency_deviation": frequency}
 
 
-def assert_deviates_as_tuned(
-    instances: tuple[Instance, Instance], device: Mapping[str, float], course: Course, step: float
+@both_fmus
+@pytest.mark.parametrize("law", LAWS, ids=str)
+@pytest.mark.parametrize("motion", MOTIONS, ids=str)
+def test_deviations_are_tuning_to_the_last_bit(
+    instantiate: Instantiate, motion: Mapping[str, float], law: Mapping[str, float]
 ) -> None:
     """Every output is equal after each change and each step, through a saved state on the way."""
-    deviates, is_tuned = instances
-    for instance, values in ((deviates, deviating(*course[0])), (is_tuned, tuned(*course[0]))):
-        instance.slave.reset()
-        instance.initialize(**{**device, **values})
-    for one in course:
+    deviates, is_tuned = instances = instantiate(), instantiate()
+    step = STEP if motion["fidelity"] == 0 else 0.1 * STEP
+    for instance, values in ((deviates, deviating(*BURST[0])), (is_tuned, tuned(*BURST[0]))):
+        instance.initialize(**{**DEVICE, **motion, **law, **values})
+    for one in BURST:
         deviates.set(**deviating(*one))
         is_tuned.set(**tuned(*one))
         assert deviates.get(*OUTPUTS) == is_tuned.get(*OUTPUTS), f"{one} at once"
@@ -58,17 +59,6 @@ def assert_deviates_as_tuned(
         for instance in instances:
             instance.step(step)
         assert deviates.get(*OUTPUTS) == is_tuned.get(*OUTPUTS), f"{one} after a step"
-
-
-@both_fmus
-@pytest.mark.parametrize("law", LAWS, ids=str)
-@pytest.mark.parametrize("motion", MOTIONS, ids=str)
-def test_deviations_are_tuning_to_the_last_bit(
-    instantiate: Instantiate, motion: Mapping[str, float], law: Mapping[str, float]
-) -> None:
-    device = {**DEVICE, **motion, **law}
-    step = STEP if motion["fidelity"] == 0 else 0.1 * STEP
-    assert_deviates_as_tuned((instantiate(), instantiate()), device, BURST, step)
 
 
 @native_fmu_only

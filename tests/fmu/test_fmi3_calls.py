@@ -46,46 +46,45 @@ def test_what_is_not_offered_says_so(instance: Instance3, name: str) -> None:
         raise FMICallException(function=name, status=status)
 
 
-@pytest.mark.parametrize("kind", ["ModelExchange", "ScheduledExecution"])
-def test_other_interface_types_are_refused(instance: Instance3, kind: str) -> None:
+def refused_instantiation(instance: Instance3, function: str, *arguments: object) -> str:
+    """The text of a refused instantiation.
+
+    Called by ctypes: the slave of older versions of fmpy asks for no intermediate variables.
+    """
     said: list[bytes] = []
     logger = fmi3LogMessageCallback(lambda _, status, category, text: said.append(text))
-    instantiate = instance.slave.dll[f"fmi3Instantiate{kind}"]
+    instantiate = instance.slave.dll[f"fmi3Instantiate{function}"]
     instantiate.restype = ctypes.c_void_p
-    nothing = ctypes.c_void_p()
-    arguments = [b"x", b"token", None, False, False, fmi3InstanceEnvironment(), logger]
-    rest = [nothing] * (3 if kind == "ScheduledExecution" else 0)
-    assert instantiate(*arguments, *rest) is None
-    assert said == [b"fmi3Instantiate%s refused: this FMU is for co-simulation" % kind.encode()]
+    callbacks = {"ModelExchange": 0, "CoSimulation": 1, "ScheduledExecution": 3}[function]
+    assert (
+        instantiate(*arguments, fmi3InstanceEnvironment(), logger, *[ctypes.c_void_p()] * callbacks)
+        is None
+    )
+    (message,) = said
+    return message.decode()
+
+
+@pytest.mark.parametrize("kind", ["ModelExchange", "ScheduledExecution"])
+def test_other_interface_types_are_refused(instance: Instance3, kind: str) -> None:
+    said = refused_instantiation(instance, kind, b"x", b"token", None, False, False)
+    assert said == f"fmi3Instantiate{kind} refused: this FMU is for co-simulation"
 
 
 @pytest.mark.parametrize(
     ("name", "token", "intermediate", "text"),
     [
-        (b"slider", b"another", 0, b"instantiationToken = 'another' refused"),
-        (b"", None, 0, b"instanceName refused: it is empty"),
-        (b"slider", None, 1, b"nRequiredIntermediateVariables = 1 refused"),
+        (b"slider", b"another", 0, "instantiationToken = 'another' refused"),
+        (b"", None, 0, "instanceName refused: it is empty"),
+        (b"slider", None, 1, "nRequiredIntermediateVariables = 1 refused"),
     ],
 )
 def test_instantiation_is_refused(
-    unpacked_3: Unpacked,
-    instance: Instance3,
-    name: bytes,
-    token: bytes | None,
-    intermediate: int,
-    text: bytes,
+    instance: Instance3, name: bytes, token: bytes | None, intermediate: int, text: str
 ) -> None:
-    """Called by ctypes: the slave of older versions of fmpy asks for no intermediate variables."""
-    said: list[bytes] = []
-    logger = fmi3LogMessageCallback(lambda _, status, category, message: said.append(message))
-    instantiate = instance.slave.dll["fmi3InstantiateCoSimulation"]
-    instantiate.restype = ctypes.c_void_p
-    required = (ctypes.c_uint32 * 1)(TIME)
-    arguments = [name, token or unpacked_3.description.guid.encode(), None, *[False] * 4]
-    arguments += [required, ctypes.c_size_t(intermediate), fmi3InstanceEnvironment(), logger]
-    assert instantiate(*arguments, ctypes.c_void_p()) is None
-    (message,) = said
-    assert text in message
+    token = token or instance.slave.guid.encode()
+    required = (ctypes.c_uint32 * 1)(TIME), ctypes.c_size_t(intermediate)
+    arguments = (name, token, None, *[False] * 4, *required)
+    assert text in refused_instantiation(instance, "CoSimulation", *arguments)
 
 
 def test_time_is_read_and_not_set(instance: Instance3) -> None:
@@ -114,7 +113,7 @@ def test_more_references_than_variables_are_refused(instance: Instance3) -> None
     with pytest.raises(FMICallException):
         instance.slave.getFloat64([position, *some])
     refused = f"nValueReferences = {len(VARIABLES) + 1} refused: must be at most"
-    assert refused in instance.log[-1][2]
+    assert refused in instance.log[-1]
 
 
 @pytest.mark.parametrize("type_name", OTHER_TYPES)
@@ -129,15 +128,15 @@ def test_null_pointers_are_refused(instance: Instance3) -> None:
     step, zero = ctypes.c_double(STEP), ctypes.c_double(0.0)
     nothing = [ctypes.c_void_p()] * 4
     assert call(instance, "fmi3DoStep", zero, step, ctypes.c_bool(True), *nothing) == fmi3Error
-    assert "fmi3DoStep: a null pointer refused" in instance.log[-1][2]
+    assert "fmi3DoStep: a null pointer refused" in instance.log[-1]
     assert call(instance, "fmi3GetFloat64", None, 1, None, 1) == 3
     assert call(instance, "fmi3GetFMUState", None) == fmi3Error
-    assert "null pointer" in instance.log[-1][2]
+    assert "null pointer" in instance.log[-1]
     assert instance.slave.dll.fmi3Reset(None) == fmi3Error
     many = (ctypes.c_uint32 * 1)(2)
     value = (ctypes.c_double * 2)()
     assert call(instance, "fmi3GetFloat64", many, 1, value, 2) == fmi3Error
-    assert "nValues = 2 refused: must be 1" in instance.log[-1][2]
+    assert "nValues = 2 refused: must be 1" in instance.log[-1]
 
 
 def test_calls_out_of_order_are_refused(unpacked_3: Unpacked) -> None:
@@ -173,3 +172,4 @@ def test_debug_logging_selects_categories(instance: Instance3) -> None:
     instance.slave.setDebugLogging(True, ["logStatusError"])
     with instance.refuses("fmi3SetDebugLogging: category 'noise' refused: must be one of"):
         instance.slave.setDebugLogging(True, ["noise"])
+    assert instance.entries[-1][1:3] == (fmi3Error, "logStatusError")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import pytest
 
-from tests.fmu.host import OUTPUTS, Instance, Instantiate
+from tests.fmu.host import OUTPUTS, Instantiate
 from tests.fmus import native_fmu_only
 
 pytestmark = native_fmu_only
@@ -208,10 +208,6 @@ def test_the_load_drifts_on_in_leaps_that_neglect_it(instantiate: Instantiate, l
     assert leaping.get("normal_force") == pytest.approx(full.get("normal_force"), abs=1e-11)
 
 
-def last_outputs(instance: Instance, size: float) -> list[tuple[float, ...]]:
-    return instance.run(3, size)
-
-
 @pytest.mark.parametrize("law", [0, 1])
 def test_replay_is_equal_bit_by_bit(instantiate: Instantiate, law: int) -> None:
     """In the same instance, in another, and after other motion between."""
@@ -219,10 +215,10 @@ def test_replay_is_equal_bit_by_bit(instantiate: Instantiate, law: int) -> None:
     one, other = instantiate().initialize(**values), instantiate().initialize(**values)
     one.step(500.0 * PERIOD)
     data, time = one.state(), one.time
-    expected = last_outputs(one, 300.0 * PERIOD)
+    expected = one.run(3, 300.0 * PERIOD)
     for instance in (one, other):
         instance.set(load=0.1)
         instance.step(100.0 * PERIOD)
         instance.restore(data)
         instance.time = time
-        assert last_outputs(instance, 300.0 * PERIOD) == expected
+        assert instance.run(3, 300.0 * PERIOD) == expected

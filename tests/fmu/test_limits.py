@@ -109,50 +109,16 @@ PERIOD = math.tau / W
 WEAK = {"fidelity": 0, "averaging_order": 1, "base_amplitude": 1e-10}
 """The drive is some millionth of friction: slow motion settles a million times in ten periods."""
 
-LIGHT = {"friction_law": 1, "slider_mass": 1.1e-9, "resonator_mass": 1.1}
-"""Damper and bristles turn a slider of next to no mass within 1e-11 s."""
-
-
 MANY_WAVES = {"normal_amplitude": 2.0, "frequency_ratio": 100.05}
 
 
-@pytest.mark.parametrize("law", [0, 1])
-@pytest.mark.parametrize("ratio", [1.0, 3.0, math.pi])
-def test_weak_vibration_settles(instantiate: Instantiate, law: int, ratio: float) -> None:
-    values = {**WEAK, "friction_law": law, "phase": 0.4, "frequency_ratio": ratio}
-    whole = instantiate().initialize(**values)
-    whole.step(1000.0 * PERIOD)
-    mean, steady, far = whole.get("mean_velocity", "steady_velocity", "position")
-    fast = whole.get("resonator_velocity")[0]
-    assert mean == pytest.approx(steady, abs=1e-8 * abs(fast)), "it settles"
-    parts = instantiate().initialize(**values)
-    parts.run(10, 100.0 * PERIOD)
-    (near,) = parts.get("position")
-    assert near == pytest.approx(far, abs=1e-7 * abs(fast) * 1000.0 * PERIOD), "in any steps"
-
-
-@pytest.mark.parametrize(
-    ("values", "size", "work", "limit", "carried_out"),
-    [
-        # Near a whole ratio the slow velocity follows the phase, and never settles.
-        ({**WEAK, "frequency_ratio": 1.05}, 1e3, "00 steps of averaged motion", "1e", 1e-3),
-        (LIGHT, PERIOD / 32.0, " 20000 segments in a turn of the fastest", "1e-7 s", 1e-9),
-    ],
-    ids=["a beat", "a slider too light for its bristles"],
-)
-def test_a_step_of_too_much_work_is_refused(
-    instantiate: Instantiate,
-    values: dict[str, float],
-    size: float,
-    work: str,
-    limit: str,
-    carried_out: float,
-) -> None:
-    instance = instantiate().initialize(**values)
-    refused = f"communicationStepSize = {size!r} refused"
-    with instance.refuses(refused, "more work than", work, f"must be at most {limit}"):
-        instance.step(size)
-    instance.step(carried_out)
+def test_a_step_of_too_much_work_is_refused(instantiate: Instantiate) -> None:
+    """Near a whole ratio the slow velocity follows the phase, and never settles."""
+    instance = instantiate().initialize(**WEAK, frequency_ratio=1.05)
+    work = ("more work than", "00 steps of averaged motion", "must be at most 1e")
+    with instance.refuses("communicationStepSize = 1000.0 refused", *work):
+        instance.step(1e3)
+    instance.step(1e-3)
 
 
 @pytest.mark.slow
@@ -188,27 +154,3 @@ def test_motion_beyond_the_range_of_numbers_is_refused(instantiate: Instantiate)
     instance = instantiate().initialize(initial_velocity=1e308)
     with instance.refuses("leaves the range of floating point numbers"):
         instance.step(10.0)
-
-
-@pytest.mark.parametrize(
-    ("values", "named"),
-    [
-        ({"drive_frequency": 1e300, "base_amplitude": 1e300}, "base_amplitude = 1e+300 refused"),
-        ({"drive_frequency": 1e200, "frequency_ratio": 1e190}, "drive_frequency = 1e+200 refused"),
-        ({"base_amplitude": 1e160}, "base_amplitude = 1e+160 refused"),
-        ({"resonator_frequency": 1e170}, "resonator_frequency = 1e+170 refused"),
-    ],
-)
-def test_values_that_leave_the_range_are_named(
-    instantiate: Instantiate, values: dict[str, float], named: str
-) -> None:
-    instance = instantiate().enter_initialization(**values)
-    with instance.refuses(named, "must be nearer to"):
-        instance.slave.exitInitializationMode()
-
-
-def test_a_prediction_that_takes_too_much_work_is_not_valid(instantiate: Instantiate) -> None:
-    """All maps of a search draw from one budget: a read takes no longer than a few steps may."""
-    for ratio, valid in ((1.0, 1.0), (9999.03125, 0.0)):
-        instance = instantiate().initialize(normal_amplitude=1.5, frequency_ratio=ratio)
-        assert instance.get("prediction_valid") == (valid,)

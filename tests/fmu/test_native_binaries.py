@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from fmu_src.building.c_sources import slider_sources, write_sources
+from fmu_src.building.c_sources import FmiVersion, slider_sources, write_sources
 from fmu_src.building.compiling import FLAGS, default_compiler
-from fmu_src.building.native_fmu import build_native
+from fmu_src.building.native_fmu import build_native, build_native_3
 from fmu_src.building.platforms import PLATFORMS
 from tests.fmu.binary_files import elf_exports, mach_libraries, pe_exports
 
@@ -25,10 +25,11 @@ LINUX, WINDOWS, MACOS = (PLATFORMS[n] for n in ("linux64", "win64", "darwin64"))
 MODEL = "SliderResonator"
 
 
-def fmi_functions() -> set[str]:
-    """All functions of the standard, those of model exchange too, by its header."""
-    header = slider_sources()["fmi/fmi2Functions.h"]
-    return set(re.findall(r"FMI2_Export +(?:fmi2\w+TYPE) +(fmi2\w+);", header))
+def fmi_functions(version: FmiVersion = "2.0") -> set[str]:
+    """All functions of the standard, those of other interface types too, by its header."""
+    n = version[0]
+    header = slider_sources(version)[f"fmi/fmi{n}Functions.h"]
+    return set(re.findall(rf"FMI{n}_Export +(?:fmi{n}\w+TYPE) +(fmi{n}\w+);", header))
 
 
 @pytest.fixture(scope="session")
@@ -37,12 +38,18 @@ def complete_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return build_native(tmp_path_factory.mktemp("complete"))
 
 
-@pytest.fixture(scope="session")
-def linux_binary(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+@pytest.fixture(params=["2.0", "3.0"])
+def version(request: pytest.FixtureRequest) -> FmiVersion:
+    found: FmiVersion = request.param
+    return found
+
+
+@pytest.fixture
+def linux_binary(version: FmiVersion, tmp_path: Path) -> bytes:
     """That for Linux, which any machine builds quickly."""
-    fmu = build_native(tmp_path_factory.mktemp("linux"), platforms=[LINUX.name])
-    with zipfile.ZipFile(fmu) as archive:
-        return archive.read(LINUX.binary(MODEL))
+    build = build_native if version == "2.0" else build_native_3
+    with zipfile.ZipFile(build(tmp_path, platforms=[LINUX.name])) as archive:
+        return next(archive.read(n) for n in archive.namelist() if n.endswith(".so"))
 
 
 @pytest.fixture(scope="session")
@@ -61,8 +68,23 @@ def test_platforms(binaries: dict[str, bytes]) -> None:
     ]
 
 
-def test_linux_exports(linux_binary: bytes) -> None:
-    assert elf_exports(linux_binary) == fmi_functions(), "nothing but FMI is shown"
+@pytest.mark.interop
+def test_platforms_of_fmi_3(tmp_path: Path) -> None:
+    """By the first bytes of each binary, and the processor in those of Linux."""
+    with zipfile.ZipFile(build_native_3(tmp_path)) as archive:
+        binaries = {n: archive.read(n) for n in archive.namelist() if n.startswith("binaries/")}
+    heads = {name: data[:2] + data[18:20] * name.endswith(".so") for name, data in binaries.items()}
+    assert heads == {
+        "binaries/aarch64-darwin/SliderResonator3.dylib": b"\xcf\xfa",
+        "binaries/aarch64-linux/SliderResonator3.so": b"\x7fE\xb7\x00",
+        "binaries/x86_64-darwin/SliderResonator3.dylib": b"\xcf\xfa",
+        "binaries/x86_64-linux/SliderResonator3.so": b"\x7fE\x3e\x00",
+        "binaries/x86_64-windows/SliderResonator3.dll": b"MZ",
+    }
+
+
+def test_linux_exports(linux_binary: bytes, version: FmiVersion) -> None:
+    assert elf_exports(linux_binary) == fmi_functions(version), "nothing but FMI is shown"
 
 
 def test_linux_needs(linux_binary: bytes) -> None:

@@ -51,7 +51,7 @@ def test_each_binary_is_released_once_before_exit(python_fmu: Path, tmp_path: Pa
 def test_many_instances_leave_the_search_path_as_it_was(unpacked: Unpacked) -> None:
     Instance(unpacked).initialize().free()
     before = list(sys.path)
-    for _ in range(200):
+    for _ in range(60):
         instance = Instance(unpacked).initialize()
         instance.step(STEP)
         instance.free()

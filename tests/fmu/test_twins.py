@@ -99,12 +99,16 @@ def both(twins: Twins, values: Mapping[str, float], course: Schedule) -> tuple[R
 
 
 SCENES = {scene.name: scene for scene in find_scenes([])}
+SLOW = pytest.mark.slow
 IN_BOTH = [
-    pytest.param(name, marks=() if is_core(scene) else pytest.mark.slow)
+    pytest.param(name, marks=() if is_core(scene) and not scene.device.friction_law else SLOW)
     for name, scene in SCENES.items()
     if scene.stop_time and not scene.interpolates
 ]
-"""Scenes with a run that both can do: the Python FMU takes no derivatives of inputs."""
+"""Scenes with a run that both can do: the Python FMU takes no derivatives of inputs.
+
+On bristles the builds agree to the tolerance only, to which scenes judge each of them as well.
+"""
 
 
 @pytest.mark.parametrize("name", IN_BOTH)
@@ -158,44 +162,17 @@ def course_of(values: Mapping[str, float], inputs: list[tuple[float, float, floa
     return schedule(stop, 0.37 * period, phase=phases, load=loads, frequency_ratio=ratios)
 
 
-quick = settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
-
-
-@quick
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(parameters, courses)
 def test_coulomb_devices(
     twins: Twins, values: dict[str, float], inputs: list[tuple[float, float, float]]
 ) -> None:
+    """Random cases of the command `stress` are others, with bristles, too."""
     try:
         native, python = both(twins, values, course_of(values, inputs))
     except Refusal:
         assume(False)  # `test_refusals` compares those
     assert_equal(native, python, RANDOM)
-
-
-# Averages over a weak vibration change so fast with the velocity that Python takes seconds.
-strong = parameters.filter(lambda values: values["fidelity"] > 0 or values["base_amplitude"] > 1e-4)
-
-
-@pytest.mark.slow
-@quick
-@given(strong, courses, st.sampled_from([50.0, 1e3, 1e5, 1e8]), st.sampled_from([0.0, 10.0]))
-def test_lugre_devices(
-    twins: Twins,
-    values: dict[str, float],
-    inputs: list[tuple[float, float, float]],
-    stiffness: float,
-    damping: float,
-) -> None:
-    lugre = {"friction_law": 1, "bristle_stiffness": stiffness, "bristle_damping": damping}
-    tolerance = 1e-8
-    try:
-        native, python = both(
-            twins, values | lugre | {"tolerance": tolerance}, course_of(values, inputs)
-        )
-    except Refusal:
-        assume(False)  # `test_refusals` compares those
-    assert_equal(native, python, tolerance)
 
 
 @pytest.mark.parametrize(
@@ -206,8 +183,11 @@ def test_lugre_devices(
         ({"frequency_ratio": 1.002, "friction_coefficient": 1.0}, {}, 1e-9),
         ({"frequency_ratio": 1.002, "normal_amplitude": 1.5}, {}, 1e-9),
         ({}, {"phase": [0.0, 1.0, 0.3, 2.0, -1.0, 0.5, 1.7], "load": [0.0, 0.05]}, ROUNDING),
-        ({"friction_law": 1, "tolerance": 1e-10, "phase": 0.4}, {"load": [0.0, 0.05]}, 1e-8),
-        ({"friction_law": 1, "tolerance": 1e-10}, {"phase": [0.4, 1.0]}, 1e-8),
+        (
+            {"friction_law": 1, "tolerance": 1e-10},
+            {"phase": [0.4, 1.0], "load": [0.0, 0.0, 0.05]},
+            1e-8,
+        ),
         ({"resonator_mass": 0.0, "tangential_force": 900.0}, {}, ROUNDING),
         ({"frequency_ratio": 1.37}, {}, ROUNDING),
         ({"damping_ratio": 0.0}, {}, ROUNDING),
@@ -217,7 +197,7 @@ def test_short_steps_of_order_2(
     twins: Twins, values: dict[str, float], inputs: dict[str, list[float]], allowed: float
 ) -> None:
     held = {
-        name: steps([(0.05 * i, numbers[i % len(numbers)]) for i in range(14)])
+        name: steps([(0.05 * i, numbers[i % len(numbers)]) for i in range(10)])
         for name, numbers in inputs.items()
     }
     # The ratio is an input, too.
@@ -225,7 +205,7 @@ def test_short_steps_of_order_2(
     held |= {"frequency_ratio": steps([(0.0, ratio)])}
     held |= {"phase": steps([(0.0, values["phase"])])} if "phase" in values else {}
     given = {k: v for k, v in values.items() if k not in ("frequency_ratio", "phase")}
-    native, python = both(twins, {"fidelity": 0, **given}, schedule(0.7, 0.01, **held))
+    native, python = both(twins, {"fidelity": 0, **given}, schedule(0.5, 0.01, **held))
     assert_equal(native, python, allowed)
 
 

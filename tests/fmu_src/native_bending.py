@@ -43,22 +43,6 @@ class NativeBending:
         self.library.gauss(*(_pointer(row) for row in (node, weight, integral)))
         return node, weight, integral
 
-    def run(
-        self,
-        values: Values,
-        step: float,
-        steps: int,
-        *,
-        tolerance: float,
-        panels: bool = True,
-        warm: bool = False,
-    ) -> NDArray[np.float64] | None:
-        """Return position, velocity, displacement, rate, bristle, (5, steps); None on failure."""
-        states = np.zeros((steps, 5))
-        start = (_values(values), ctypes.c_double(tolerance), int(panels), int(warm))
-        failed = self.library.run_bending(*start, ctypes.c_double(step), steps, _pointer(states))
-        return None if failed else states.T
-
     def panel(
         self, values: Values, start: float, tolerance: float, share: float
     ) -> PanelErrors | None:

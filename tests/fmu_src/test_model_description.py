@@ -10,9 +10,6 @@ from fmu_src.model_description import LOG_CATEGORIES, model_description
 from fmu_src.python.slider_component.variable import Variable
 from fmu_src.python.slider_component.variables import VARIABLES
 
-NAMES = [v.name for v in VARIABLES]
-OUTPUTS = [v for v in VARIABLES if v.causality == "output"]
-
 
 def describe(**changes: Any) -> bytes:
     arguments: dict[str, Any] = {
@@ -36,40 +33,6 @@ def found(root: ET.Element, path: str) -> ET.Element:
     return element
 
 
-def unknowns(root: ET.Element, section: str) -> dict[str, ET.Element]:
-    elements = root.iterfind(f"ModelStructure/{section}/Unknown")
-    return {NAMES[int(e.attrib["index"]) - 1]: e for e in elements}
-
-
-def dependencies(unknown: ET.Element) -> list[str]:
-    return [NAMES[int(i) - 1] for i in unknown.attrib["dependencies"].split()]
-
-
-def test_variables_are_those_of_the_table_in_its_order(root: ET.Element) -> None:
-    elements = list(root.iterfind("ModelVariables/ScalarVariable"))
-    assert [e.attrib["name"] for e in elements] == NAMES
-    assert [int(e.attrib["valueReference"]) for e in elements] == list(range(len(VARIABLES))), (
-        "the value reference is the position in the table"
-    )
-
-
-@pytest.mark.parametrize("variable", VARIABLES, ids=lambda v: v.name)
-def test_numbers_read_back_exactly(root: ET.Element, variable: Variable) -> None:
-    element = found(root, f"ModelVariables/ScalarVariable[@name='{variable.name}']/*")
-    assert element.tag == variable.type
-    expected = {
-        "start": variable.start,
-        "min": variable.minimum,
-        "max": variable.maximum,
-        "nominal": variable.nominal,
-    }
-    for attribute, number in expected.items():
-        text = element.get(attribute)
-        assert (None if text is None else float(text)) == number, (
-            f"{attribute} of {variable.name} must read back as the very same number"
-        )
-
-
 @pytest.mark.parametrize(
     ("unit", "display", "value", "shown"),
     [
@@ -90,23 +53,6 @@ def test_display_units(
     path = f"UnitDefinitions/Unit[@name='{unit}']/DisplayUnit[@name='{display}']"
     factor = float(found(root, path).attrib["factor"])
     assert factor * value == pytest.approx(shown, rel=1e-14), f"{value} {unit} in {display}"
-
-
-@pytest.mark.parametrize(
-    ("section", "attribute"),
-    [("Outputs", "depends_on"), ("InitialUnknowns", "depends_initially_on")],
-)
-def test_unknowns_are_the_outputs_with_their_dependencies(
-    root: ET.Element, section: str, attribute: str
-) -> None:
-    found = unknowns(root, section)
-    assert list(found) == [v.name for v in OUTPUTS], "each output once"
-    for variable in OUTPUTS:
-        depends = dependencies(found[variable.name])
-        assert set(depends) == set(getattr(variable, attribute)), variable.name
-        assert set(depends).isdisjoint(v.name for v in OUTPUTS), "on no other output"
-        kinds = found[variable.name].attrib["dependenciesKind"].split()
-        assert len(kinds) == len(depends), f"{variable.name}: one kind per dependency"
 
 
 @pytest.mark.parametrize("host_manages_memory", [True, False])

@@ -12,7 +12,12 @@ import pytest
 from fmpy import read_model_description, simulate_fmu
 
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.c_sources import controller_sources, slider_sources, write_sources
+from fmu_src.building.c_sources import (
+    FmiVersion,
+    controller_sources,
+    slider_sources,
+    write_sources,
+)
 from fmu_src.building.compiling import FLAGS, Compiler, default_compiler
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST, host_platform
@@ -40,11 +45,6 @@ def guid(fmu: Path) -> str:
     return ET.fromstring(contents(fmu)["modelDescription.xml"]).attrib["guid"]
 
 
-def source_files(fmu: Path) -> list[str]:
-    root = ET.fromstring(contents(fmu)["modelDescription.xml"])
-    return [e.attrib["name"] for e in root.iterfind("CoSimulation/SourceFiles/File")]
-
-
 @pytest.fixture
 def code() -> dict[str, str]:
     """The C sources, to be edited."""
@@ -67,16 +67,25 @@ def test_the_guid_is_in_the_sources_and_in_the_binary(native_fmu: Path) -> None:
         assert inside[name].count(guid(native_fmu).encode()) == 1, name
 
 
-def test_every_source_is_inside_and_listed(native_fmu: Path, code: dict[str, str]) -> None:
-    written = {
-        str(p.relative_to(C_SOURCES))
-        for p in C_SOURCES.rglob("*.[ch]")
-        if not p.name.startswith("fmi3")
-    }
-    assert written < code.keys()
-    inside = {n.removeprefix("sources/") for n in contents(native_fmu) if n.startswith("sources/")}
-    assert inside == code.keys()
-    assert source_files(native_fmu) == sorted(n for n in code if n.endswith(".c"))
+@pytest.mark.parametrize(
+    ("fmu", "document", "tag", "version"),
+    [
+        ("native", "modelDescription.xml", "CoSimulation/SourceFiles/File", "2.0"),
+        ("native_3", "sources/buildDescription.xml", "BuildConfiguration/SourceFileSet/*", "3.0"),
+    ],
+    indirect=["fmu"],
+)
+def test_every_source_is_inside_and_listed(
+    fmu: Path, document: str, tag: str, version: FmiVersion
+) -> None:
+    code, archive = slider_sources(version), contents(fmu)
+    other_shell = "fmi3" if version == "2.0" else "fmi2"
+    paths = [p.relative_to(C_SOURCES) for p in C_SOURCES.rglob("*.[ch]")]
+    assert {str(p) for p in paths if not p.name.startswith(other_shell)} < code.keys()
+    inside = {n.removeprefix("sources/") for n in archive if n.startswith("sources/")}
+    assert inside - {"buildDescription.xml"} == code.keys()
+    listed = [e.get("name") for e in ET.fromstring(archive[document]).iterfind(tag)]
+    assert listed == sorted(name for name in code if name.endswith(".c"))
 
 
 @pytest.mark.parametrize(

@@ -2,15 +2,12 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdlib.h>
 
 #include "base/fast_decay.h"
 #include "base/gauss_nodes.h"
 #include "friction/bending_panel.h"
 #include "resolved/motion.h"
 #include "component/parameter_values.h"
-
-enum { STATES = 5 };
 
 static bool law_of(Law *law, const double *values, double tolerance, Refusal *refusal) {
     Device device = device_of(values);
@@ -36,36 +33,6 @@ void gauss(double *node, double *weight, double *integral) {
             integral[GAUSS_NODES * i + j] = gauss.integral[i][j];
         }
     }
-}
-
-/* Position, velocity, resonator displacement and rate, and bristle after each step, by series alone or also by
- * panels, from tables that are `warm` or not. Returns 0 if it could be followed. */
-int run_bending(const double *values, double tolerance, int panels, int warm, double step_size, int steps,
-                double *states) {
-    static BendingTables kept;
-    Law law;
-    Moment now, after;
-    Refusal refusal;
-    BendingTables *tables = warm ? &kept : calloc(1, sizeof *tables);
-    bool done = tables != NULL && law_of(&law, values, tolerance, &refusal);
-    if (done) {
-        law.bending = panels ? tables : NULL;
-        now = resolved_start(&law);
-    }
-    for (int i = 0; done && i < steps; i++) {
-        Budget budget = budget_of(step_size);
-        done = events_advance(&law, &now, step_size, NULL, NULL, &budget, &after, &refusal);
-        const double state[STATES] = {after.position, after.state.velocity, after.state.displacement,
-                                      after.state.rate, after.bristle};
-        for (int k = 0; k < STATES; k++) {
-            states[STATES * i + k] = state[k];
-        }
-        now = after;
-    }
-    if (!warm) {
-        free(tables);
-    }
-    return done ? 0 : 1;
 }
 
 /* Differences of the velocity [m/s] and the travel [m] of the panel and of series of tolerance 1e-14, `t` [s] after

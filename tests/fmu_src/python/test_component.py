@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from fmu_src.python.slider_component import lugre, resolved
+from fmu_src.python.slider_component import lugre, resolved, steady_motion
+from fmu_src.python.slider_component.budget import Budget
 from fmu_src.python.slider_component.component import Component, motion_of
 from fmu_src.python.slider_component.device import Device
 from fmu_src.python.slider_component.first_zero import Watch, first_zero
@@ -206,6 +207,20 @@ def test_a_long_step_takes_few_maps(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(PeriodMap, "sections", counted)
     after(20_000, replace(TABLE_1, fidelity=0))
     assert sum(maps) <= 1500
+
+
+def test_work_is_bounded_within_a_turn_and_in_a_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As `tests/fmu/test_limits.py` shows of the native FMU, with bounds that are soon reached."""
+    light = running(friction_law=1, slider_mass=1.1e-9, resonator_mass=1.1)
+    monkeypatch.setattr(resolved, "MAX_TURN_SEGMENTS", 200)
+    with pytest.raises(Refusal, match="more work than 200 segments in a turn of the fastest"):
+        light.step(0.0, PERIOD / 32.0)
+    light.step(0.0, 1e-9)
+    # Enough for each map of a search, but not for all. A prediction that was made is kept.
+    monkeypatch.setattr(steady_motion, "Budget", lambda period: Budget(period, 50))
+    assert one(running(normal_amplitude=1.51), "prediction_valid") == 0.0
+    monkeypatch.undo()
+    assert one(running(normal_amplitude=1.52), "prediction_valid") == 1.0
 
 
 @pytest.mark.parametrize("phase", [0.3, -2.0, 3.0])

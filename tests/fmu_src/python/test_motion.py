@@ -1,9 +1,7 @@
 """Closed forms, series, contact and quadratures of the Python component."""
 
-import cmath
 import math
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -27,21 +25,6 @@ from fmu_src.python.slider_component.vibrating_load import VibratingLoad
 W = 40.0
 
 
-@pytest.mark.parametrize("damping", [0.0, 0.05, 0.8, 1.0, 1.3, 30.0])
-def test_free_motion_is_a_matrix_exponential(damping: float) -> None:
-    oscillator, t = Oscillator(damping * W, W * W), 0.03
-    (a, b), (c, d) = oscillator.free_map(t)
-    matrix = np.array([[0.0, 1.0], [-W * W, -2.0 * damping * W]]) * t / 2**30
-    power = np.eye(2) + matrix + matrix @ matrix / 2.0
-    for _ in range(30):
-        power = power @ power
-    scale = np.array([[1.0, 1.0 / W], [W, 1.0]])
-    assert np.array([[a, b], [c, d]]) / scale == pytest.approx(power / scale, abs=1e-6)
-    if oscillator.splits(3.0 * W):
-        y = sum((y * cmath.exp(z * t)).real for z, y in oscillator.free(2e-3, -0.7))
-        assert y == pytest.approx(2e-3 * a - 0.7 * b, rel=1e-9)
-
-
 def test_what_loses_digits_does_not_split() -> None:
     assert not Oscillator(W, W * W).splits(W), "critical damping"
     assert not Oscillator(0.0, W * W).splits(W, 3.0 * W), "resonance"
@@ -51,7 +34,7 @@ def test_what_loses_digits_does_not_split() -> None:
     assert math.isclose(Oscillator(0.1, W * W).frequency, W)
 
 
-@pytest.mark.parametrize("ratio", [1.0, 3.0, 1.37, -1.0, 0.0])
+@pytest.mark.parametrize("ratio", [1.37, -1.0, 0.0])
 @pytest.mark.parametrize("mode", [FORWARD, BACKWARD, LIFTED, STICK])
 @pytest.mark.parametrize("damping", [0.025, 0.6, 2.0])
 def test_exponentials_and_series_agree(ratio: float, mode: int, damping: float) -> None:
@@ -112,8 +95,8 @@ def test_on_a_boundary_the_direction_decides(share: float, past: float) -> None:
     assert window.is_lifted(last + past, -1.0)
 
 
-@pytest.mark.parametrize("stiffness", [1e2, 1e4, 1e6, 1e8, 1e10])
-@pytest.mark.parametrize("n", [0.0, 1.0, 3.0, 17.0, 50.0])
+@pytest.mark.parametrize("stiffness", [1e2, 1e6, 1e10])
+@pytest.mark.parametrize("n", [0.0, 1.0, 17.0])
 def test_twice_the_nodes_change_no_mean(
     monkeypatch: pytest.MonkeyPatch, stiffness: float, n: float
 ) -> None:

@@ -195,7 +195,7 @@ JUDGINGS = 3
 """Times that costs are measured before a choice counts as expensive."""
 OFTEN = ("late_jump", "polyline_that_is_held", "flight", "stiff_bristle", "steady_beside_a_run")
 """Scenes that are judged on each push, by stated costs: those of a busy machine decide nothing."""
-FIRST, CHUNK = 2, 25
+FIRST, CHUNK = 1, 25
 
 
 def judged(instance: Instance, scenes: dict[str, Scene]) -> None:

@@ -22,6 +22,8 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import Task
 
 TRUE = {"friction_coefficient": 0.13, "damping_ratio": 0.08, "normal_amplitude": 0.7}
+AVERAGES = {"fidelity": 0, "averaging_order": 1}
+"""A model whose predictions cost next to nothing."""
 POINTS = tuple(
     Point({"phase": 0.3 * i, "load": 0.01 * (i % 3)}, "steady_velocity", 0.0) for i in range(10)
 )
@@ -75,15 +77,21 @@ def test_a_datasheet_is_solved_without_intervals(instance: Instance) -> None:
     assert [one.low for one in found.parameters] == [None, None]
 
 
-def test_a_run_is_fitted_over_time(instance: Instance) -> None:
-    schedule = Schedule(np.linspace(0.0, 0.2, 41), {"phase": constant(0.4)})
-    empty = Run("run.csv", schedule, {"velocity": np.zeros(41), "position": np.zeros(41)})
+@pytest.mark.parametrize("first", [0, 30])
+def test_a_run_is_fitted_over_time(instance: Instance, first: int) -> None:
+    """Whole, or cut out of a recording from a later row on."""
+    schedule = Schedule(np.linspace(0.0, 0.2, 81), {"phase": constant(0.4)})
+    whole = Run("run.csv", schedule, {"velocity": np.zeros(81), "position": np.zeros(81)})
     true = {"friction_coefficient": 0.17, "slider_mass": 1.3}
-    velocity, position = np.split(predict(instance, true, Measurements(runs=(empty,))), 2)
-    velocity[5] = np.nan
-    run = Run("run.csv", schedule, {"velocity": velocity, "position": position})
-    found = fitted(instance, Measurements(runs=(run,)), list(true), starts=1)
+    velocity, position = np.split(predict(instance, true, Measurements(runs=(whole,))), 2)
+    velocity[first + 5] = np.nan
+    signals = {"time": schedule.times, "velocity": velocity, "position": position}
+    columns = {"phase": np.full(81 - first, 0.4), **{k: s[first:] for k, s in signals.items()}}
+    data = measurements_from(columns)
+    found = fitted(instance, data, list(true), starts=1)
     assert [one.value for one in found.parameters] == pytest.approx(list(true.values()), rel=1e-6)
+    assert found.notes == data.notes
+    assert ["begins at 75 ms" in note for note in found.notes] == [True] * (first > 0)
 
 
 @pytest.mark.parametrize("run_noise", [0.002, 0.2])
@@ -121,9 +129,9 @@ def test_a_noisy_source_does_not_outweigh_an_exact_one(
 
 def test_what_the_data_leave_open_is_named(instance: Instance) -> None:
     """Friction is coefficient times normal load: all three cannot be told from velocities."""
-    data = measured(instance, TRUE, POINTS, 0.01)
+    data = measured(instance, {**AVERAGES, **TRUE}, POINTS, 0.01)
     free = ["friction_coefficient", "normal_preload", "normal_amplitude", "damping_ratio"]
-    found = fitted(instance, data, free, starts=1)
+    found = fitted(instance, data, free, parameters=AVERAGES, starts=1)
     (direction,) = found.open_directions
     assert direction.spread == float("inf")
     assert direction.factors == pytest.approx(
@@ -310,7 +318,7 @@ def test_intervals_cover_the_truth_in_90_to_99_of_100(instance: Instance) -> Non
 
 
 def test_a_parameter_without_bounds_may_be_free(instance: Instance) -> None:
-    true = {**TRUE, "tangential_force": 40.0}
+    true = {**AVERAGES, **TRUE, "tangential_force": 40.0}
     start = {**true, "tangential_force": 30.0}
     free = ["tangential_force", "friction_coefficient"]
     found = fitted(instance, measured(instance, true, POINTS), free, parameters=start)
@@ -338,16 +346,3 @@ def test_an_end_at_a_bound_of_the_search_is_none(instance: Instance) -> None:
     given = {"damping_ratio": (1e-7, 1.0)}
     (one,) = fitted(instance, data, [*given], parameters=true, starts=1, bounds=given).parameters
     assert one.low == pytest.approx(1e-7), "a bound that was asked for is an end"
-
-
-def test_a_recording_cut_out_of_a_run_gives_the_parameters(instance: Instance) -> None:
-    schedule = Schedule(np.linspace(0.0, 0.4, 81), {"phase": constant(0.4)})
-    whole = Run("run.csv", schedule, {"velocity": np.zeros(81)})
-    true = {"friction_coefficient": 0.17, "slider_mass": 1.3}
-    velocity = predict(instance, true, Measurements(runs=(whole,)))[30:]
-    times = schedule.times[30:]
-    data = measurements_from({"time": times, "phase": np.full(51, 0.4), "velocity": velocity})
-    found = fitted(instance, data, list(true), starts=1)
-    assert [one.value for one in found.parameters] == pytest.approx(list(true.values()), rel=1e-6)
-    assert found.notes == data.notes
-    assert "begins at 150 ms" in found.notes[0]

@@ -1,6 +1,5 @@
-"""Comparing trajectories, and splitting the inputs of a run."""
+"""Comparing trajectories, and inputs of a run."""
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,16 +13,6 @@ from tests.problems import SIGNALS
 def until(stop: float, **inputs: Any) -> list[HeldInputs]:
     """Constant inputs from 0 to `stop`, s."""
     return [HeldInputs(0.0, stop, **inputs)]
-
-
-def staircase(inputs: HeldInputs, count: int) -> list[HeldInputs]:
-    """Return steps that hold the values in the middle of each."""
-    size = inputs.stop / count
-    still: dict[str, Any] = {"phase_rate": 0.0, "load_rate": 0.0, "ratio_rate": 0.0}
-    return [
-        replace(inputs.later((i + 0.5) * size), start=i * size, stop=(i + 1) * size, **still)
-        for i in range(count)
-    ]
 
 
 def deviation(expected: Trajectory, found: Trajectory, signal: str) -> float:

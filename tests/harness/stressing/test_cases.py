@@ -12,30 +12,27 @@ from slider_resonator.stressing.run import MAX_RELATIVE_COST, StressResult, run_
 from slider_resonator.stressing.verdict import FAILED, REFERENCE, REFUSED
 
 
-def test_every_device_is_run_by_every_model_that_covers_it() -> None:
-    for axis in (
-        "beat against step",
-        "start in flight",
-        "late jump",
-        "overflow",
-        "Omega",
-        "q",
-        "alpha",
-        "mu",
-        "r_m",
-        "xi",
-        "neutral motions",
-        "frequency ratio",
-    ):
-        counts = Counter(case.value for case in axis_cases() if case.axis == axis)
-        assert set(counts.values()) == {len(MODELS)}, axis
-    for axis in ("resonance", "communication step", "grazing release"):
-        counts = Counter(case.value for case in axis_cases() if case.axis == axis)
-        assert set(counts.values()) == {len(CHEAP)}, axis
+@pytest.fixture(scope="module")
+def cases() -> list[Case]:
+    return list(axis_cases())
 
 
-def test_long_runs_are_asked_for() -> None:
-    added = {case.name for case in axis_cases(long=True)} - {case.name for case in axis_cases()}
+COVERED_BY_ALL = (
+    *("beat against step", "start in flight", "late jump", "overflow", "Omega", "q", "alpha", "mu"),
+    *("r_m", "xi", "neutral motions", "frequency ratio"),
+)
+COVERED_BY_CHEAP = ("resonance", "communication step", "grazing release")
+
+
+def test_every_device_is_run_by_every_model_that_covers_it(cases: list[Case]) -> None:
+    for axes, models in ((COVERED_BY_ALL, MODELS), (COVERED_BY_CHEAP, CHEAP)):
+        for axis in axes:
+            counts = Counter(case.value for case in cases if case.axis == axis)
+            assert set(counts.values()) == {len(models)}, axis
+
+
+def test_long_runs_are_asked_for(cases: list[Case]) -> None:
+    added = {case.name for case in axis_cases(long=True)} - {case.name for case in cases}
     assert added == {
         *(f"drive periods: 1e+08: Coulomb, fidelity {n}" for n in (1, 2)),
         *(f"drive periods: 1e+06: LuGre, fidelity {n}" for n in (1, 2)),
@@ -47,8 +44,8 @@ def test_names_are_unique() -> None:
     assert [name for name, count in counts.items() if count > 1] == []
 
 
-def test_other_steps_cover_the_same_times() -> None:
-    for case in axis_cases():
+def test_other_steps_cover_the_same_times(cases: list[Case]) -> None:
+    for case in cases:
         total = sum(hold.size * hold.count for hold in case.holds)
         other = sum(hold.size * hold.count for hold in case.other_holds)
         assert abs(other - total) <= 1e-12 * total, case.name

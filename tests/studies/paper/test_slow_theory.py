@@ -41,24 +41,37 @@ def test_steady_velocity_balances_the_averaged_friction(
     assert mean == pytest.approx(-load, abs=1e-9), "(20): mean friction and load cancel"
 
 
-def test_linear_velocity_is_the_limit_of_the_steady_velocity() -> None:
-    ratio, phase = 1e-3, 0.8
-    exact = theory.steady_velocity(1.3, ratio, phase)
-    linear = theory.linear_velocity(1.3, ratio, phase)
+def test_linear_velocities_are_limits_of_small_ones() -> None:
+    linear = theory.linear_velocity(1.3, 1e-3, 0.8)
     assert linear == pytest.approx(1.3e-3 * math.sin(0.8)), "(7) is q alpha sin(phase)"
+    exact = theory.steady_velocity(1.3, 1e-3, 0.8)
     assert exact == pytest.approx(linear, rel=1e-6), "(5) becomes (7) for small velocities"
+    weak = LugreCase(strength=1.0, amplitude_ratio=1e-4, damping=1.0)
+    linear = theory.lugre_linear_velocity(weak)
+    assert linear == pytest.approx(theory.lugre_steady_velocity(weak), rel=1e-3)
 
 
-def test_blocking_load_stops_the_motion() -> None:
-    blocking = theory.blocking_load(0.7, 1.1)
-    velocity = theory.steady_velocity(1.3, 0.7, 1.1, blocking)
+def test_blocking_loads_stop_the_motion() -> None:
+    velocity = theory.steady_velocity(1.3, 0.7, 1.1, theory.blocking_load(0.7, 1.1))
     assert velocity == pytest.approx(0.0, abs=1e-14), "(21) is the load of (20) at rest"
+    case = LugreCase(strength=0.5, phase=0.4)
+    velocity = theory.lugre_steady_velocity(case, theory.lugre_blocking_load(case))
+    assert velocity == pytest.approx(0.0, abs=1e-12)
+    blocking = theory.uniform_blocking_load(CASE, 1000.0, 1000.0)
+    velocity = theory.uniform_velocity(CASE, 1000.0, 1000.0, load=blocking)
+    assert velocity == pytest.approx(0.0, abs=1e-10)
 
 
 @pytest.mark.parametrize("load", [1.1, -1.1, 1.5, math.nan])
-def test_load_above_friction_is_refused(load: float) -> None:
-    with pytest.raises(ValueError, match=r"load = "):
-        theory.steady_velocity(1.0, 1.0, 0.5, load)
+def test_loads_above_friction_are_refused(load: float) -> None:
+    velocities: list[Callable[[], float]] = [
+        lambda: theory.steady_velocity(1.0, 1.0, 0.5, load),
+        lambda: theory.lugre_steady_velocity(LugreCase(), load),
+        lambda: theory.uniform_velocity(LugreCase(), 10.0, 10.0, load=load),
+    ]
+    for velocity in velocities:
+        with pytest.raises(ValueError, match=r"load = "):
+            velocity()
 
 
 def test_table_1_has_the_strength_and_length_of_the_paper() -> None:
@@ -102,25 +115,6 @@ def test_steady_velocity_of_the_paper_case() -> None:
     assert theory.slow_manifold_friction(velocity, LugreCase()) == pytest.approx(0.0, abs=1e-12)
 
 
-def test_lugre_blocking_load_stops_the_motion() -> None:
-    case = LugreCase(strength=0.5, phase=0.4)
-    blocking = theory.lugre_blocking_load(case)
-    assert theory.lugre_steady_velocity(case, blocking) == pytest.approx(0.0, abs=1e-12)
-
-
-def test_linear_lugre_velocity_is_the_limit_of_small_velocities() -> None:
-    weak = LugreCase(strength=1.0, amplitude_ratio=1e-4, damping=1.0)
-    linear = theory.lugre_linear_velocity(weak)
-    assert linear == pytest.approx(theory.lugre_steady_velocity(weak), rel=1e-3)
-
-
-def test_lugre_load_above_friction_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"load = 0\.6"):
-        theory.lugre_steady_velocity(LugreCase(), 0.6)
-    with pytest.raises(ValueError, match=r"load = -0\.6"):
-        theory.uniform_velocity(LugreCase(), 10.0, 10.0, load=-0.6)
-
-
 def test_soft_bristle_is_on_the_slow_manifold() -> None:
     errors = []
     for stiffness in (10.0, 1.0):
@@ -141,9 +135,3 @@ def test_stiff_bristle_approaches_coulomb_friction(phase: float, order: float) -
         errors.append(abs(found / 0.4 - target))
     assert errors[1] < 3e-4, "(5) is the limit of a bristle faster than the vibration"
     assert math.log10(errors[0] / errors[1]) / 2.0 == pytest.approx(order, abs=0.02)
-
-
-def test_uniform_blocking_load_stops_the_motion() -> None:
-    blocking = theory.uniform_blocking_load(CASE, 1000.0, 1000.0)
-    velocity = theory.uniform_velocity(CASE, 1000.0, 1000.0, load=blocking)
-    assert velocity == pytest.approx(0.0, abs=1e-10)
