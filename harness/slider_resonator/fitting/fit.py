@@ -214,7 +214,7 @@ def _weighted(problem: Problem, best: Minimum, run: Runner) -> tuple[Problem, Mi
         noise = noise_of_series(problem, best)
         before = [problem.measurements.noise.get(one, 1.0) for one in noise]
         changes = np.log(np.array([*noise.values()]) / before)
-        if float(np.ptp(changes)) < STEADY_NOISE:
+        if not noise or float(np.ptp(changes)) < STEADY_NOISE:
             break
         problem = replace(problem, measurements=replace(problem.measurements, noise=noise))
         (best,) = run("weighting", [partial(minimise, problem=problem, start=best.internal)])

@@ -16,7 +16,7 @@ from fmpy.model_description import (
 )
 
 from slider_resonator.device.interface import FIRST, SETTABLE, VARIABLES
-from slider_resonator.errors import FmuError, NotApplicable, unknown_name
+from slider_resonator.errors import FmuError, HarnessError, NotApplicable, unknown_name
 from slider_resonator.fmu.interface_check import interface_problems
 from slider_resonator.fmu.limits import MAX_ENTRIES, UNPACKED, max_bytes
 from slider_resonator.output.temporary import temporary_folder
@@ -182,7 +182,7 @@ def _read_description(path: Path) -> ModelDescription:
         for variable in description.modelVariables:
             variable.type = _TYPES_OF_FMI_3.get(variable.type, variable.type)
         return description
-    except FmuError:
+    except HarnessError:
         raise
     except KeyError as error:
         raise FmuError(f"{path}: not an FMU: the archive has no modelDescription.xml") from error

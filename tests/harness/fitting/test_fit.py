@@ -289,6 +289,13 @@ def test_a_column_that_is_free_is_refused(instance: Instance) -> None:
         fitted(instance, data, ["damping_ratio"])
 
 
+def test_data_of_a_device_that_never_moves_leave_all_open(instance: Instance) -> None:
+    data = measurements_from({"phase": [0.1, 0.2, 0.3], "velocity": [0.1, 0.1, 0.1]})
+    still = {"fidelity": 0, "averaging_order": 1, "base_amplitude": 0.0}
+    found = fitted(instance, data, ["friction_coefficient"], parameters=still, starts=1)
+    assert found.parameters[0].is_open
+
+
 @pytest.mark.nightly
 def test_intervals_cover_the_truth_in_90_to_99_of_100(instance: Instance) -> None:
     """Random devices and truths, 20 velocities with 1 % noise, three free parameters each."""

@@ -81,10 +81,15 @@ def test_every_departure_from_the_interface_is_listed(native_fmu: Path, tmp_path
     assert "blocking_force has unit kN" in message
 
 
-def test_a_limit_that_is_no_number_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_limit_that_is_no_number_is_named(
+    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv(limits.MEMORY, "much")
     with pytest.raises(HarnessError, match="SLIDER_RESONATOR_MAX_MEMORY = 'much': must be a whole"):
         limits.max_bytes(limits.MEMORY)
+    monkeypatch.setenv(limits.UNPACKED, "much")
+    with pytest.raises(HarnessError, match="^SLIDER_RESONATOR_MAX_UNPACKED = 'much': must be"):
+        open_fmu(native_fmu).__enter__()
 
 
 NEWTON = {"kg": 1, "m": 1, "s": -2}
