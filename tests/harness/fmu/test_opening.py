@@ -88,7 +88,7 @@ def test_a_limit_that_is_no_number_is_named(
     with pytest.raises(HarnessError, match="SLIDER_RESONATOR_MAX_MEMORY = 'much': must be a whole"):
         limits.max_bytes(limits.MEMORY)
     monkeypatch.setenv(limits.UNPACKED, "much")
-    with pytest.raises(HarnessError, match="^SLIDER_RESONATOR_MAX_UNPACKED = 'much': must be"):
+    with pytest.raises(HarnessError, match=r"^SLIDER_RESONATOR_MAX_UNPACKED = 'much': must be"):
         open_fmu(native_fmu).__enter__()
 
 
