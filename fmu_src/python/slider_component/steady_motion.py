@@ -5,6 +5,7 @@ looked for. Newton's method finds both, from first-order averages on.
 """
 
 from math import inf
+from typing import NamedTuple
 
 from .budget import Budget
 from .moment import Moment
@@ -38,6 +39,18 @@ DECAYED = 0.5
 of its derivatives could make it."""
 
 
+class Change(NamedTuple):
+    """What a period of a motion changes.
+
+    `excess` is what periodic motion has none of, over the scales: of the position only in blocked
+    motion, otherwise what the load is beyond the given one. `travel` [m] and `reversals` count.
+    """
+
+    excess: Vector
+    travel: float
+    reversals: int
+
+
 class PeriodicMotion:
     """A periodic motion that is looked for, at normal phase `psi` [rad] at the section.
 
@@ -60,71 +73,75 @@ class PeriodicMotion:
         From a velocity on. Raises NoMapError where none is found, where it is not stable, and where
         the blocked slider never reverses: it sticks, under other loads, too.
         """
+        unknowns = self._led_in(velocity)
+        change = self._change(unknowns)
+        jacobian = self._jacobian(unknowns, change.excess)
+        for _ in range(MAX_ITERATIONS):
+            before = change.excess
+            step = solved(jacobian, [-e for e in before])
+            largest = max(map(abs, step))
+            share = min(1.0, MAX_CHANGE / largest) if largest > 0.0 else 1.0
+            step = [share * s for s in step]
+            unknowns = [u + s for u, s in zip(unknowns, step, strict=True)]
+            change = self._change(unknowns)
+            if largest <= CONVERGED:
+                return self._answer(unknowns, change)
+            if max(map(abs, change.excess)) > REDUCED * max(map(abs, before)):
+                jacobian = self._jacobian(unknowns, change.excess)
+                continue
+            # Broyden's update: what the Jacobian did not expect.
+            square = sum(s * s for s in step)
+            for row, new, old in zip(jacobian, change.excess, before, strict=True):
+                for j, s in enumerate(step):
+                    row[j] += (new - (1.0 - share) * old) * s / square
+        raise NoMapError
+
+    def _led_in(self, velocity: float) -> Vector:
+        """The unknowns after some periods of motion, without its travel where it is blocked.
+
+        It begins at a slow velocity [m/s] and in the steady vibration without friction.
+        """
         period_map, device = self._map, self._map.motion.system.device
         swing = period_map.vibration.swing(period_map.section)
         bristle = device.friction_coefficient if device.friction_law == 1 else 0.0
         fast = [x / s for x, s in zip((*swing, bristle), self._scale[2:], strict=True)]
         unknowns = [velocity / period_map.speed, self._load, *fast]
         for _ in range(LEAD_IN):
-            excess, _ = self._excess(unknowns)
-            travelled = excess[1] if self._blocked else 0.0
-            load = unknowns[1]
-            unknowns = [u + e for u, e in zip(unknowns, excess, strict=True)]
-            unknowns[:2] = unknowns[0] - travelled, load
-        excess, travel = self._excess(unknowns)
-        jacobian = self._jacobian(unknowns, excess)
-        for _ in range(MAX_ITERATIONS):
-            before = max(map(abs, excess))
-            step = solved(jacobian, [-e for e in excess])
-            largest = max(map(abs, step))
-            share = min(1.0, MAX_CHANGE / largest) if largest > 0.0 else 1.0
-            step = [share * s for s in step]
-            unknowns = [u + s for u, s in zip(unknowns, step, strict=True)]
-            expected = [(1.0 - share) * e for e in excess]
-            excess, travel = self._excess(unknowns)
-            if largest <= CONVERGED:
-                if self._blocked:
-                    if self._reversals == 0:
-                        break
-                    return unknowns[1] * self._scale[1]
-                if not _is_stable(self._jacobian(unknowns, excess)):
-                    break
-                return travel / period_map.period
-            if max(map(abs, excess)) > REDUCED * before:
-                jacobian = self._jacobian(unknowns, excess)
-                continue
-            # Broyden's update: what the Jacobian did not expect.
-            square = sum(s * s for s in step)
-            for row, e, x in zip(jacobian, excess, expected, strict=True):
-                for j, s in enumerate(step):
-                    row[j] += (e - x) * s / square
-        raise NoMapError
+            first, travelled, *others = self._change(unknowns).excess
+            if not self._blocked:
+                travelled = 0.0
+            steps = [first - travelled, 0.0, *others]
+            unknowns = [u + s for u, s in zip(unknowns, steps, strict=True)]
+        return unknowns
 
-    def _excess(self, unknowns: Vector) -> tuple[Vector, float]:
-        """What periodic motion has none of, over the scales, and the travel in a period [m].
+    def _answer(self, unknowns: Vector, change: Change) -> float:
+        if self._blocked:
+            if change.reversals == 0:
+                raise NoMapError
+            return unknowns[1] * self._scale[1]
+        if not _is_stable(self._jacobian(unknowns, change.excess)):
+            raise NoMapError
+        return change.travel / self._map.period
 
-        That is what a period changes, of the position only in blocked motion; otherwise it is what
-        the load is beyond the given one.
-        """
+    def _change(self, unknowns: Vector) -> Change:
         velocity, load, *fast = (u * s for u, s in zip(unknowns, self._scale, strict=True))
         period_map = self._map.under_load(load)
         begin = period_map.place(Moment(0.0, 0.0, 0.0, 0.0, psi=self._psi), velocity, fast)
         sections, _ = period_map.sections(begin, 1, self._budget)
-        self._reversals = sections[-1].reversals - sections[0].reversals
         first, last = map(period_map.numbers, sections)
         excess = [(b - a) / s for a, b, s in zip(first, last, period_map.scale, strict=True)]
         if not self._blocked:
             excess[1] = self._load - unknowns[1]
         if period_map.motion.system.device.friction_law == 0:
             excess[-1] = -unknowns[-1]
-        return excess, last[1]
+        return Change(excess, last[1], sections[-1].reversals - sections[0].reversals)
 
     def _jacobian(self, unknowns: Vector, excess: Vector) -> Matrix:
         columns = []
         for j in range(len(unknowns)):
             beside = list(unknowns)
             beside[j] += BESIDE
-            changed, _ = self._excess(beside)
+            changed = self._change(beside).excess
             columns.append([(b - e) / BESIDE for b, e in zip(changed, excess, strict=True)])
         return [list(row) for row in zip(*columns, strict=True)]
 
