@@ -35,7 +35,8 @@ enum { MAX_ITERATIONS = 24 };
  * reversal has become a stick. */
 #define REDUCED 0.5
 
-/* Periods by which the start of a search is followed: strong friction brings it near. */
+/* Periods by which the start of a search is followed where friction may change V by more than an iteration: it brings near what is
+ * looked for. */
 enum { LEAD_IN = 2 };
 
 /* Squarings of the linear map after which it must have decayed: in 2^24 periods, more than rounding of its derivatives could
@@ -125,10 +126,10 @@ static double largest_of(const Search *search, const double numbers[UNKNOWNS]) {
     return largest;
 }
 
-/* Follow the motion for some periods, without its travel where it is blocked. */
+/* Follow the motion for some periods under strong friction, without its travel where it is blocked. */
 static bool lead_in(Search *search) {
     int states = 1 + search->map.fast_count;
-    for (int k = 0; k < LEAD_IN; k++) {
+    for (int k = 0; k < LEAD_IN && search->map.share > MAX_CHANGE; k++) {
         if (!change_in_period(search, search->unknown, search->change)) {
             return false;
         }
@@ -232,7 +233,8 @@ static bool find_steady(const PeriodMap *map, double psi, double *velocity) {
         return false;
     }
     *velocity = search.travel / map->period;
-    return differentiate(&search) && is_stable(&search);
+    /* Derivatives that only iterations have updated may miss that it is. */
+    return is_stable(&search) || (differentiate(&search) && is_stable(&search));
 }
 
 /* Find the motion without travel and the `load` [N] that it takes, likewise, from a load on. One that never reverses is none:

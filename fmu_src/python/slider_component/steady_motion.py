@@ -29,7 +29,8 @@ REDUCED = 0.5
 anew, as where a reversal has become a stick."""
 
 LEAD_IN = 2
-"""Periods by which the start of a search is followed: strong friction brings it near."""
+"""Periods by which the start of a search is followed where friction may change V by more than an
+iteration: it brings near what is looked for."""
 
 SMALLEST_PIVOT = 1e-13
 """Smallest pivot that counts as different from 0, over the largest entry of a matrix."""
@@ -97,16 +98,16 @@ class PeriodicMotion:
         raise NoMapError
 
     def _led_in(self, velocity: float) -> Vector:
-        """The unknowns after some periods of motion, without its travel where it is blocked.
+        """The unknowns from a slow velocity [m/s] and the steady vibration without friction on.
 
-        It begins at a slow velocity [m/s] and in the steady vibration without friction.
+        Under strong friction after some periods, without their travel where motion is blocked.
         """
         period_map, device = self._map, self._map.motion.system.device
         swing = period_map.vibration.swing(period_map.section)
         bristle = device.friction_coefficient if device.friction_law == 1 else 0.0
         fast = [x / s for x, s in zip((*swing, bristle), self._scale[2:], strict=True)]
         unknowns = [velocity / period_map.speed, self._load, *fast]
-        for _ in range(LEAD_IN):
+        for _ in range(LEAD_IN if period_map.share > MAX_CHANGE else 0):
             first, travelled, *others = self._change(unknowns).excess
             if not self._blocked:
                 travelled = 0.0
