@@ -152,7 +152,7 @@ class OpenFmu:
         The device that the FMU was opened with takes the place of the scene's, as in
         `Scene.with_device`.
         """
-        read = read_scene(scene).with_device(self._device).with_values(_checked(values))
+        read = _scene_of(scene, self._device, values)
         task = partial(run_schedule, parameters=read.parameters, schedule=read.schedule())
         record: Record = self._isolated.run(task)
         return SceneRecord(**vars(record), scene=read)
@@ -249,8 +249,11 @@ def choose(
     device: DeviceLike | None = None,
     **values: Value,
 ) -> Choice:
-    """Choose the cheapest fidelity, friction law, tolerance and step that meet a scene's needs."""
-    return choose_model(read_scene(scene, **{**_stated(device), **values}), _fmu(fmu))
+    """Choose the cheapest fidelity, friction law, tolerance and step that meet a scene's needs.
+
+    A `device` takes the place of the scene's, as in `OpenFmu.run`.
+    """
+    return choose_model(_scene_of(scene, _stated(device), values), _fmu(fmu))
 
 
 @_plain_errors
@@ -367,7 +370,7 @@ def trade(
     periods; each method is repeated `repeats` times, or as often as the `budget` (s of CPU time)
     allows. Needs heyoka.
     """
-    read = read_scene(scene, **{**_stated(device), **values})
+    read = _scene_of(scene, _stated(device), values)
     shorter = None if periods is None else _whole("periods", periods)
     problems = [problem_of(point.scene, point.at, shorter) for point in read.points()]
     with opened(_fmus(fmus), _seconds(time_limit)) as instances:
@@ -375,6 +378,13 @@ def trade(
             problems, instances, repeats=_whole("repeats", repeats), budget=budget
         )
         return tuple(measured)
+
+
+def _scene_of(
+    scene: SceneLike, parameters: Mapping[str, float], values: Mapping[str, Value]
+) -> Scene:
+    """Return a scene with the device of some parameters, and values on top."""
+    return read_scene(scene).with_device(parameters).with_values(_checked(values))
 
 
 def _stated(device: DeviceLike | None) -> dict[str, float]:

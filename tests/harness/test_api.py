@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -240,6 +240,15 @@ def test_what_a_device_file_states_replaces_the_scene(native_fmu: Path, tmp_path
     grid = {"grid": {"phase": [0.4]}}
     table = sr.sweep(grid, tmp_path / "a.csv", native_fmu, device=mine, workers=1)
     assert table.columns["steady_velocity"] == pytest.approx([expected], rel=1e-9)
+
+
+def test_a_device_takes_the_place_of_that_of_the_scene(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In a choice, too, as with the commands: what it leaves out is that of table 1."""
+    monkeypatch.setattr("slider_resonator.api.choose_model", lambda scene, fmu: scene)
+    scene = {**SHORT, "device": {"damping_ratio": 0.3, "tolerance": 1e-6}}
+    read = cast(sr.Scene, sr.choose(scene, device={"slider_mass": 2.0}, load=0.01))
+    assert read.parameters == {"tolerance": 1e-6, "slider_mass": 2.0}
+    assert read.values["load"] == 0.01
 
 
 def test_stress_is_a_function(native_fmu: Path) -> None:
