@@ -242,11 +242,13 @@ def test_what_a_device_file_states_replaces_the_scene(native_fmu: Path, tmp_path
     assert table.columns["steady_velocity"] == pytest.approx([expected], rel=1e-9)
 
 
-def test_a_device_takes_the_place_of_that_of_the_scene(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_device_takes_the_place_of_that_of_the_scene(
+    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """In a choice, too, as with the commands: what it leaves out is that of table 1."""
     monkeypatch.setattr("slider_resonator.api.choose_model", lambda scene, fmu: scene)
     scene = {**SHORT, "device": {"damping_ratio": 0.3, "tolerance": 1e-6}}
-    read = cast(sr.Scene, sr.choose(scene, device={"slider_mass": 2.0}, load=0.01))
+    read = cast(sr.Scene, sr.choose(scene, native_fmu, device={"slider_mass": 2.0}, load=0.01))
     assert read.parameters == {"tolerance": 1e-6, "slider_mass": 2.0}
     assert read.values["load"] == 0.01
 

@@ -57,9 +57,10 @@ def test_a_setting_changes_the_scene(native_fmu: Path, tmp_path: Path) -> None:
     assert answer["tolerance"] < 1e-3
 
 
-def test_a_scene_without_needs_is_refused_and_one_that_has_some_named() -> None:
-    assert "has no [need]; must" in refused("choose", "lift_off")
-    assert "as the scene feed_forward has" in refused("choose", "lift_off")
+def test_a_scene_without_needs_is_refused_and_one_with_some_named(native_fmu: Path) -> None:
+    said = refused("choose", "lift_off", "--fmu", native_fmu)
+    assert "has no [need]; must" in said
+    assert "as the scene feed_forward has" in said
 
 
 def test_a_run_uses_the_choice_and_reports_it(native_fmu: Path, tmp_path: Path) -> None:
