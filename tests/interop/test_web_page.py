@@ -353,7 +353,7 @@ def test_a_device_file_is_refused_by_line_key_value_and_requirement(
 def test_curves_are_saved_where_the_prediction_is_valid(
     browser: Chrome, page: str, native_fmu: Path, tmp_path: Path
 ) -> None:
-    show(browser, page, "device=stick_slip")
+    show(browser, page, "device=stick_slip&friction_coefficient=0.5")
     (chart,) = [
         box
         for box in browser.find_elements(By.CLASS_NAME, "chart")
@@ -367,7 +367,7 @@ def test_curves_are_saved_where_the_prediction_is_valid(
         record = simulate_fmu(
             str(native_fmu),
             start_values=read_device_file("stick_slip").values
-            | {"phase": math.radians(float(row["phase [deg]"]))},
+            | {"friction_coefficient": 0.5, "phase": math.radians(float(row["phase [deg]"]))},
             output=["steady_velocity", "prediction_valid", "mean_velocity"],
             stop_time=0.05,
             step_size=0.05,

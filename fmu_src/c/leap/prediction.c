@@ -39,6 +39,9 @@ enum { MAX_ITERATIONS = 24 };
  * looked for. */
 enum { LEAD_IN = 2 };
 
+/* Share of the work of a step that a search may take: a host that reads an output does not expect to wait. */
+#define SHARE_OF_STEP 0.1
+
 /* Squarings of the linear map after which it must have decayed: in 2^24 periods, more than rounding of its derivatives could
  * make it. */
 enum { SQUARINGS = 24 };
@@ -212,6 +215,7 @@ static Search search_of(const PeriodMap *map, double psi, bool blocked, double v
     int states = 1 + map->fast_count;
     Search search = {.map = *map, .psi = psi, .blocked = blocked, .count = states + blocked};
     search.budget = budget_of(map->period);
+    search.budget.spent = 1.0 - SHARE_OF_STEP;
     Response swing = steady_swing(map->law.fast.resonator, map->section, plant->drive_frequency);
     const double fast[MAX_FAST] = {swing.displacement, swing.rate, map->scale[2]};
     search.scale[0] = map->speed;

@@ -7,7 +7,7 @@ looked for. Newton's method finds both, from first-order averages on.
 from math import inf
 from typing import NamedTuple
 
-from .budget import Budget
+from .budget import MAX_SEGMENTS, Budget
 from .moment import Moment
 from .period_map import NoMapError, PeriodMap
 
@@ -31,6 +31,10 @@ anew, as where a reversal has become a stick."""
 LEAD_IN = 2
 """Periods by which the start of a search is followed where friction may change V by more than an
 iteration: it brings near what is looked for."""
+
+SHARE_OF_STEP = 0.1
+"""Share of the work of a step that a search may take: a host that reads an output does not expect
+to wait."""
 
 SMALLEST_PIVOT = 1e-13
 """Smallest pivot that counts as different from 0, over the largest entry of a matrix."""
@@ -62,7 +66,7 @@ class PeriodicMotion:
 
     def __init__(self, period_map: PeriodMap, psi: float, load: float, blocked: bool) -> None:
         self._map, self._psi, self._blocked = period_map, psi, blocked
-        self._budget = Budget(period_map.period)
+        self._budget = Budget(period_map.period, int(SHARE_OF_STEP * MAX_SEGMENTS))
         # The force that stops v_q in a period [N].
         force = period_map.motion.system.total_mass * period_map.speed / period_map.period
         speed, _, *fast = period_map.scale
