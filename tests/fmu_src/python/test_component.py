@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 
 from fmu_src.python.slider_component import lugre, resolved, steady_motion
-from fmu_src.python.slider_component.budget import Budget
 from fmu_src.python.slider_component.component import Component, motion_of
 from fmu_src.python.slider_component.device import Device
 from fmu_src.python.slider_component.first_zero import Watch, first_zero
@@ -217,7 +216,7 @@ def test_work_is_bounded_within_a_turn_and_in_a_search(monkeypatch: pytest.Monke
         light.step(0.0, PERIOD / 32.0)
     light.step(0.0, 1e-9)
     # Enough for each map of a search, but not for all. A prediction that was made is kept.
-    monkeypatch.setattr(steady_motion, "Budget", lambda period: Budget(period, 50))
+    monkeypatch.setattr(steady_motion, "MAX_SEGMENTS", 500)
     assert one(running(normal_amplitude=1.51), "prediction_valid") == 0.0
     monkeypatch.undo()
     assert one(running(normal_amplitude=1.52), "prediction_valid") == 1.0
