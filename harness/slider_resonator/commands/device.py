@@ -113,9 +113,7 @@ def _derived(device: Device) -> list[str]:
     friction = with_unit("load", device.mean_friction)
     lines = [f"friction of {faces} at the mean normal load: {friction}"]
     if device.resonator_mass > 0.0:
-        free = (
-            device.resonator_frequency * (1.0 + device.resonator_mass / device.slider_mass) ** 0.5
-        )
+        free = device.resonator_frequency * (device.total_mass / device.slider_mass) ** 0.5
         lines.append(
             f"resonance of the slider without friction: {with_unit('resonator_frequency', free)}"
         )

@@ -21,7 +21,7 @@ ROUNDING = 1e-6
 MAX_NAMED = 5
 """Number of outliers that are named."""
 MISSED = 0.5
-"""Root mean square of the residuals over that of the quantity from which its unit is in doubt."""
+"""Root mean square of residuals over that of the quantity from which its unit must be checked."""
 LOW_FRICTION, HIGH_FRICTION = 0.01, 1.5
 """Coefficients between which dry friction mostly is."""
 
