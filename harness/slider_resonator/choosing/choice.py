@@ -7,7 +7,6 @@ from typing import Any
 
 from slider_resonator.choosing.candidate import Candidate, uses_tolerance
 from slider_resonator.choosing.errors import ErrorEstimate
-from slider_resonator.choosing.scales import Scales
 from slider_resonator.device.model import Model
 from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.scenes.scene import Scene
@@ -116,8 +115,9 @@ class Choice(Shown, Tabular):
     needed, by need in its unit (m/s, m, s, N, Hz), None where there is no such thing. `cost` is the
     measured CPU time (s) of a run, with the host's. `probe` says what the errors are against:
     resolved motion over the "whole" scene or its "beginning", "leaps" over the whole, or "steady
-    motion"; and `probe_drive_periods` how much was resolved. `inputs` is how inputs that are
-    straight lines reach the FMU, a key of `INPUTS`, None without any.
+    motion"; and `probe_drive_periods` how much was resolved, in periods of `drive_period` (s).
+    `inputs` is how inputs that are straight lines reach the FMU, a key of `INPUTS`, None without
+    any.
     """
 
     fidelity: int
@@ -133,7 +133,7 @@ class Choice(Shown, Tabular):
     reason: str
     probe: str
     probe_drive_periods: float
-    scales: Scales
+    drive_period: float
     inputs: str | None
 
     @property
@@ -184,6 +184,6 @@ class Choice(Shown, Tabular):
         tolerance = f", tolerance {self.tolerance:g}" if uses_tolerance(self.model) else ""
         if self.step is None:
             return f"none, nothing is run{tolerance}"
-        periods = self.step / self.scales.period
+        periods = self.step / self.drive_period
         inputs = f"; {INPUTS[self.inputs]}" if self.inputs else ""
         return f"{self.step:.6g} s, {periods:.4g} drive periods{tolerance}{inputs}"

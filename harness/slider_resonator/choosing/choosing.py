@@ -13,7 +13,6 @@ from slider_resonator.choosing.errors import Estimates
 from slider_resonator.choosing.ladder import coarsest
 from slider_resonator.choosing.probe import Probe
 from slider_resonator.choosing.reference import FINEST_TOLERANCE, HEAD_PERIODS, MAX_PERIODS
-from slider_resonator.choosing.scales import check_magnitudes
 from slider_resonator.choosing.steady_need import SteadyValue, find, steady_error
 from slider_resonator.device.model import COULOMB, LUGRE, Model
 from slider_resonator.errors import FmuError, SceneError
@@ -73,7 +72,6 @@ class Choosing:
                 f"{scene.source}: scene {scene.name} has no [need]; must have a table of what it "
                 "needs, such as mean_velocity = { rel = 0.01 }, as the scene feed_forward has"
             )
-        check_magnitudes(scene)
         self.instance = instance
         self.needs = scene.need.needs
         self.free = scene.need.friction_law == "free"
@@ -88,8 +86,8 @@ class Choosing:
     def answer(self, progress: Progress) -> Choice:
         """Try the models, the simplest first, and time those that serve in turn."""
         if impossible := self._impossible():
-            start = Candidate(self.probe.reference_model, START_TOLERANCE, self.probe.ladder[0])
-            self._evaluate(start)
+            model = self.probe.reference_model
+            self._evaluate(Candidate(model, START_TOLERANCE, self.steps(model)[0]))
             return self._choice(None, dict.fromkeys(self.models(), impossible))
         if self.probe.run_needs:
             self.probe.resolve()
@@ -103,6 +101,8 @@ class Choosing:
                 ruled_out[model] = found
             else:
                 good += found
+        if not self._evaluations:
+            raise FmuError(ruled_out[self.probe.reference_model])
         if not good:
             return self._choice(None, ruled_out)
         good = self._timed_again(good)
@@ -130,7 +130,7 @@ class Choosing:
 
     def steps(self, model: Model) -> tuple[float | None, ...]:
         """Return the communication steps (s) to choose from, descending."""
-        longest = MAX_PERIODS * self.probe.scales.period * (1.0 + ROUNDING)
+        longest = MAX_PERIODS * self.scene.drive_period * (1.0 + ROUNDING)
         fit = [step for step in self.probe.ladder if step is None or step <= longest]
         return tuple(fit) if model.fidelity > 0 else self.probe.ladder
 
@@ -185,7 +185,7 @@ class Choosing:
         if self.probe.run_needs:
             start = Candidate(model, tolerances(model)[0], self.steps(model)[0])
             try:
-                cost += self.probe.cost(start, HEAD_PERIODS * self.probe.scales.period)
+                cost += self.probe.cost(start, HEAD_PERIODS * self.scene.drive_period)
             except FmuError:
                 return 0.0
         return cost
@@ -255,6 +255,6 @@ class Choosing:
             reason="the cheapest that meets every need" if best else none,
             probe=evaluation.probe,
             probe_drive_periods=self.probe.drive_periods + self.periods,
-            scales=self.probe.scales,
+            drive_period=self.scene.drive_period,
             inputs=self.probe.inputs,
         )

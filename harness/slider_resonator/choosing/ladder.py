@@ -3,8 +3,8 @@
 from collections.abc import Callable, Collection
 from math import ceil, floor, inf, isfinite, log2
 
+from slider_resonator.choosing.beat import beat_frequency
 from slider_resonator.choosing.reference import MAX_PERIODS
-from slider_resonator.choosing.scales import Scales
 from slider_resonator.device import schedule
 from slider_resonator.scenes.scene import Scene
 
@@ -19,7 +19,7 @@ FINEST = 64
 
 
 def step_ladder(
-    scene: Scene, scales: Scales, needs: Collection[str], max_steps: int, *, varying: bool
+    scene: Scene, needs: Collection[str], max_steps: int, *, varying: bool
 ) -> tuple[float, ...]:
     """Return the steps (s) to choose from, descending.
 
@@ -33,19 +33,20 @@ def step_ladder(
     if SIGNAL_NEEDS & set(needs):
         longest = min(duration, own)
     elif varying or "beat" in needs:
-        longest = min(duration, MAX_PERIODS * scales.period)
+        longest = min(duration, MAX_PERIODS * scene.drive_period)
     else:
-        halvings = max(0, ceil(log2(duration / (MAX_PERIODS * scales.period))))
+        halvings = max(0, ceil(log2(duration / (MAX_PERIODS * scene.drive_period))))
         return tuple(duration * 2.0**-index for index in range(halvings + 1))
-    shortest = longest
+    shortest = min(longest, MAX_PERIODS * scene.drive_period)
     if "beat" in needs:
-        beat = 1.0 / scales.beat if scales.beat else inf
+        frequency = beat_frequency(scene)
+        beat = 1.0 / frequency if frequency else inf
         spaces = (BEAT_POINTS, duration), (STEPS_PER_BEAT, beat)
-        shortest = min(longest, *(length / most for (_, most), length in spaces))
+        shortest = min(shortest, *(length / most for (_, most), length in spaces))
         longest = min(longest, *(length / least for (least, _), length in spaces))
     first = own * 2.0 ** floor(log2(longest / own * (1.0 + 1e-9)))
     if varying:
-        finest = (scales.period / FINEST, duration / schedule.MAX_STEPS, duration / max_steps)
+        finest = (scene.drive_period / FINEST, duration / schedule.MAX_STEPS, duration / max_steps)
         shortest = min(first, max(finest))
         return tuple(first * 2.0**-k for k in range(floor(log2(first / shortest)) + 1))
     return tuple(first * 2.0**-k for k in range(ceil(log2(first / shortest)) + 1))

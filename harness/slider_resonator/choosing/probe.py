@@ -7,17 +7,15 @@ from math import ceil, inf
 import numpy as np
 
 from slider_resonator.arrays import Array
+from slider_resonator.choosing.beat import beat_frequency, lacking_beat, unseen_beat
 from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.errors import (
     ErrorEstimate,
     Estimates,
     Readings,
-    lacking_beat,
-    unseen_beat,
 )
 from slider_resonator.choosing.ladder import SIGNAL_NEEDS, step_ladder
 from slider_resonator.choosing.reference import Reference, must_hold
-from slider_resonator.choosing.scales import scales_of
 from slider_resonator.choosing.steady_need import timed_run
 from slider_resonator.device.model import Model
 from slider_resonator.device.schedule import communication_points
@@ -49,7 +47,6 @@ class Probe:
         can_interpolate = instance.fmu.interpolates
         self.inputs = scene.lines_reach(can_interpolate)
         self.scene = scene = scene if can_interpolate else scene.interpolating(False)
-        self.scales = scales_of(scene)
         needs = scene.need.needs if scene.need else {}
         self.run_needs = [name for name in RUN_NEEDS if name in needs]
         self.steady_needs = [name for name in STEADY_NEEDS if name in needs]
@@ -62,9 +59,7 @@ class Probe:
         self._finest = self.duration
         if self.run_needs:
             most = MAX_FOLLOWED_STEPS if can_interpolate else MAX_STEPS
-            self.ladder = ladder = step_ladder(
-                scene, self.scales, self.run_needs, most, varying=self.varying
-            )
+            self.ladder = ladder = step_ladder(scene, self.run_needs, most, varying=self.varying)
             self._finest = ladder[-1]
         self._periods = 0.0
 
@@ -96,7 +91,9 @@ class Probe:
             seconds = self.cost(candidate) * self._stop / self.duration
         reference, grid = self._reference.record(step), self._grid(step)
         seen = replace(self._reference.readings, grid=grid).errors(record, reference)
-        if "beat" in seen and (why := self.no_beat or unseen_beat(seen["beat"], self.scales)):
+        if "beat" in seen and (
+            why := self.no_beat or unseen_beat(seen["beat"], beat_frequency(self.scene))
+        ):
             seen["beat"] = ErrorEstimate(inf, 0.0, why)
         grown = seen if self._stop == self.duration else self._grown(candidate.model, seen)
         return grown, seconds * self.duration / self._stop
@@ -109,7 +106,7 @@ class Probe:
 
     def _run(self, candidate: Candidate, step: float, stop: float) -> tuple[Record, float]:
         if candidate.model.fidelity > 0:
-            self._periods += stop / self.scales.period
+            self._periods += stop / self.scene.drive_period
         scene = _cut(self.scene, stop).timed(step_size=step)
         schedule = replace(scene.schedule(), start_time=0.0, reads_twice=False)
         return timed_run(self.instance, {**scene.parameters, **candidate.parameters}, schedule)
@@ -137,7 +134,7 @@ class Probe:
     @cached_property
     def no_beat(self) -> str:
         """The reason why a run shows no beat; empty where it shows one or none is needed."""
-        return lacking_beat(self.scene, self.scales) if "beat" in self.run_needs else ""
+        return lacking_beat(self.scene) if "beat" in self.run_needs else ""
 
     @property
     def _stop(self) -> float:

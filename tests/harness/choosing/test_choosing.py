@@ -59,6 +59,22 @@ def test_a_quantity_that_does_not_exist_is_met_by_no_model(
     assert len(choice.ruled_out) == 4
 
 
+def test_no_model_takes_steps_that_an_fmu_refuses(instance: Instance) -> None:
+    """One of 150 s takes more work than an FMU may do in a step."""
+    run = "[run]\nstop_time = 150.0\nsteps_per_period = 1e-5\n[need]\n"
+    none = choose_with(
+        instance,
+        scene_of(
+            f"[inputs]\nfrequency_ratio = 1.0001\n{run}"
+            "mean_velocity = { rel = 0.01 }\nsteady_velocity = { rel = 0.01 }\n"
+        ),
+    )
+    assert not none.meets
+    assert "slow_beat" in none.reason
+    exact = choose_with(instance, scene_of(f"{run}position = {{ rel = 1e-11 }}\n"))
+    assert exact.meets, exact.reason
+
+
 def test_a_long_scene_is_not_resolved_as_a_whole(instance: Instance) -> None:
     """Half an hour: a million drive periods, of which some thousand are enough."""
     late = "[inputs]\nload = { steps = [[0, 0], [1799.9, 0.1]] }\n"

@@ -1,4 +1,4 @@
-"""Errors of candidates, their scales, and the inputs that they are measured under."""
+"""Errors of candidates, their beats, and the inputs that they are measured under."""
 
 from math import inf, pi
 
@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from slider_resonator.arrays import Array
+from slider_resonator.choosing.beat import beat_frequency, unseen_beat
 from slider_resonator.choosing.choosing import choose_with
-from slider_resonator.choosing.errors import ErrorEstimate, Readings, unseen_beat
+from slider_resonator.choosing.errors import ErrorEstimate, Readings
 from slider_resonator.choosing.reference import exact_schedule, must_hold
-from slider_resonator.choosing.scales import scales_of
 from slider_resonator.choosing.steady_need import SteadyValue, steady_error
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
@@ -74,10 +74,11 @@ def test_nothing_is_known_better_than_to_rounding() -> None:
 def test_the_strongest_oscillation_is_the_beat_or_a_multiple_of_it(
     found: float, shown: bool
 ) -> None:
-    scales = scales_of(scene_of("[inputs]\nfrequency_ratio = 1.02\n"))
-    reason = unseen_beat(ErrorEstimate(0.0, found * scales.beat), scales)
+    beat = beat_frequency(scene_of("[inputs]\nfrequency_ratio = 1.02\n"))
+    assert beat == pytest.approx(0.02 * 3500.0 / (2.0 * pi))
+    reason = unseen_beat(ErrorEstimate(0.0, found * beat), beat)
     assert (reason == "") == shown
-    assert shown or f"strongest oscillation has {found * scales.beat:.4g} Hz" in reason
+    assert shown or f"strongest oscillation has {found * beat:.4g} Hz" in reason
 
 
 def test_a_slow_motion_that_does_not_beat_has_no_beat(instance: Instance) -> None:
@@ -90,18 +91,6 @@ def test_a_slow_motion_that_does_not_beat_has_no_beat(instance: Instance) -> Non
     choice = choose_with(instance, scene)
     assert not choice.meets
     assert "in the resolved run" in choice.reason
-
-
-def test_table_1() -> None:
-    """Against the design's own figures: F_T* = 910.947 N on 1.1 kg, a transient of 2.05 s."""
-    scales = scales_of(scene_of("[device]\nfriction_law = 1\n"))
-    assert scales.period == pytest.approx(2.0 * pi / 3500.0)
-    assert scales.fast_velocity == pytest.approx(910.947 / (1.1 * 3500.0), rel=1e-6)
-    assert scales.relaxation == pytest.approx(2.05, rel=1e-2)
-    assert scales.slowness == pytest.approx(0.2 / 910.947, rel=1e-6)
-    assert scales.kappa == pytest.approx(1e5 * 910.947 / (1.1 * 3500.0) / 0.1 / 3500.0, rel=1e-6)
-    assert scales.mass_ratio == pytest.approx(1.0 / 11.0)
-    assert (scales.detuning, scales.beat, scales.saturation, scales.input_rate) == (0, 0, 0, 0)
 
 
 RAMP = (
