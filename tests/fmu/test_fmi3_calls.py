@@ -162,6 +162,18 @@ def test_event_mode_needs_the_announcement_of_the_host(unpacked_3: Unpacked) -> 
         instance.step_to(STEP)
 
 
+def test_a_state_in_event_mode_goes_on_without_that_mode(unpacked_3: Unpacked) -> None:
+    with instance_3(unpacked_3) as one, instance_3(unpacked_3, event_mode=False) as other:
+        one.initialize()
+        one.slave.enterEventMode()
+        other.initialize()
+        other.restore(one.state())
+        other.step_to(STEP)
+        one.slave.enterStepMode()
+        one.step_to(STEP)
+        assert other.get("position", "velocity") == one.get("position", "velocity")
+
+
 def test_debug_logging_selects_categories(instance: Instance3) -> None:
     instance.slave.setDebugLogging(False, [])
     with pytest.raises(FMICallException):

@@ -104,6 +104,19 @@ def test_friction_of_bristles_with_next_to_no_preload(
             assert abs(force) <= 2.0 * (0.1 + 10.0 * 0.5) / math.pi
 
 
+@pytest.mark.parametrize(
+    "device", [{"frequency_ratio": 0.01}, {"resonator_frequency": 50.0}, {"drive_frequency": 5e5}]
+)
+def test_without_any_force_the_slider_rests(
+    instantiate: Instantiate, device: dict[str, float]
+) -> None:
+    """By series, too, whose terms are all zero."""
+    free = {"normal_preload": 0.0, "normal_amplitude": 0.0, "base_amplitude": 0.0}
+    instance = instantiate().initialize(**free, **device)
+    instance.step(1.0)
+    assert instance.get("position", "velocity") == (0.0, 0.0)
+
+
 W = 3500.0
 PERIOD = math.tau / W
 WEAK = {"fidelity": 0, "averaging_order": 1, "base_amplitude": 1e-10}

@@ -154,7 +154,7 @@ static bool linear_step(SlowFriction *friction, const SlowPoint *from, double ga
     double weight = z < -NO_DECAY ? (mean - decayed) / (1.0 - decayed) : 0.5;
     to.travel = from->travel + h * (to.rate.travel + weight * (from->rate.travel - to.rate.travel));
     double error = h * mean * fabs(to.rate.acceleration - decayed * acceleration);
-    *step = (SlowStep){to, change, error, z / h};
+    *step = (SlowStep){.to = to, .change = change, .error = error, .gain = z / h};
     return true;
 }
 

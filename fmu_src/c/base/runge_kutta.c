@@ -47,7 +47,7 @@ bool runge_kutta_step(SlowRateFunction rate, void *motion, const SlowPoint *from
     }
     to.rate = rates[STAGES - 1];
     double risen = to.rate.acceleration - rates[STAGES - 2].acceleration;
-    *step = (SlowStep){to, h * gained, fabs(error), risen / (to.velocity - before)};
+    *step = (SlowStep){to, h * gained, fabs(error), risen / (to.velocity - before), risen};
     return true;
 }
 

@@ -18,10 +18,10 @@ typedef struct {
 } SlowPoint;
 
 /* A step to a point; `change` is that of the velocity, `error` its estimated error, `gain` the derivative of the acceleration
- * by the velocity, from two stages at the end. */
+ * by the velocity, from two stages at the end, between which the acceleration has `risen`. */
 typedef struct {
     SlowPoint to;
-    double change, error, gain;
+    double change, error, gain, risen;
 } SlowStep;
 
 /* Order of the solution of Dormand and Prince's pair 5(4), whose error is that of the other one. */

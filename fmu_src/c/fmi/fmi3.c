@@ -230,8 +230,14 @@ fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
     return state_get(instance, "fmi3GetFMUState", FMUState);
 }
 
+/* As events leave nothing to update, an instance without event mode goes on in step mode from a state that had it. */
 fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState FMUState) {
-    return state_set(instance, "fmi3SetFMUState", FMUState);
+    Instance *own = instance;
+    fmi3Status status = state_set(own, "fmi3SetFMUState", FMUState);
+    if (status == fmi3OK && !own->event_mode_used && own->component.now.lifecycle == EVENT_MODE) {
+        own->component.now.lifecycle = STEP_COMPLETE;
+    }
+    return status;
 }
 
 fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {

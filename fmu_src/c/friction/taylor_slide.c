@@ -44,10 +44,14 @@ enum { FIRST_TERMS = 5, MAX_SHRINKS = 10 };
 /* Smallest coefficient that limits how far a series holds: compilers divide before they choose, and hosts may trap x / 0. */
 #define SMALLEST 1e-300
 
-/* How far a series holds [s]: up to where one of its last two terms reaches the tolerance. */
+/* How far a series holds [s]: up to where one of its last two terms reaches the tolerance; at rest, where nothing moves, at
+ * any time. */
 static double series_reach(const double *coefficients, double tolerance) {
-    double lower = tolerance / fmax(fabs(coefficients[TAYLOR_ORDER - 1]), SMALLEST);
-    double higher = tolerance / fmax(fabs(coefficients[TAYLOR_ORDER]), SMALLEST);
+    double last = fabs(coefficients[TAYLOR_ORDER]), before = fabs(coefficients[TAYLOR_ORDER - 1]);
+    if (fmax(last, before) == 0.0) {
+        return INFINITY;
+    }
+    double lower = tolerance / fmax(before, SMALLEST), higher = tolerance / fmax(last, SMALLEST);
     return exp(fmin(INVERSE[TAYLOR_ORDER - 1] * log(lower), INVERSE[TAYLOR_ORDER] * log(higher)));
 }
 

@@ -93,8 +93,9 @@ Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *bu
     PathPoint *here = &path.here;
     Leap done = {.outcome = NO_GAIN, .periods = DIFFERENCES};
     double error = moment->leap_error;
-    bool found = slow_rates(manifold, 0.0, &here->moment, &here->after, &here->rates);
-    if (!found && isinf(here->rates.offset)) {
+    bool drifts = path.varies && periods_in_beat(map, 0.0) < SHORTEST_STEP;
+    bool found = !drifts && slow_rates(manifold, 0.0, &here->moment, &here->after, &here->rates);
+    if (drifts || (!found && isinf(here->rates.offset))) {
         *after = *moment;
         return (Leap){.outcome = NO_GAIN};
     }

@@ -45,8 +45,8 @@ static void prepare_fast_states(PeriodMap *map) {
     const Plant *plant = &law->plant;
     double w = plant->drive_frequency;
     double swing = complex_abs(map->law.fast.resonator);
-    double felt = map->speed / (plant->mass_fraction * w);
-    map->scale[0] = swing > 0.0 ? fmin(swing, felt) : felt;
+    double moved = map->speed / w, felt = moved / fmax(plant->mass_fraction, EPSILON);
+    map->scale[0] = fmin(swing > 0.0 ? swing : moved, felt);
     map->scale[1] = map->scale[0] * w;
     map->scale[2] = 1.0;
     map->fast_count = 2;

@@ -172,9 +172,6 @@ bool interpolated_step(SlowPath *path, double *h, PathStep *result) {
  * is the tolerance: what holds in most devices. */
 #define EXPECTED_STEP 3.3
 
-/* Largest drift of the load's phase [rad] in a step: an eighth of a beat, so that its stages see all phases. */
-#define MAX_STEP_DRIFT (PI / 4.0)
-
 /* Largest decay of the slow velocity in a period, over the share of friction: beyond, it is noise. */
 #define MAX_DECAY 4.0
 
@@ -185,6 +182,10 @@ static bool rate_at(void *data, double n, double velocity, SlowRate *rate) {
     }
     *rate = (SlowRate){path->last.rates.acceleration, path->last.rates.travel};
     return true;
+}
+
+double periods_in_beat(const PeriodMap *map, double n) {
+    return PI / 4.0 / fabs(drift_after(map, n));
 }
 
 double expected_step(const SlowPath *path) {
@@ -209,7 +210,7 @@ bool embedded_step(SlowPath *path, double *h, PathStep *result) {
     SlowRate rate = {here->rates.acceleration, here->rates.travel};
     SlowPoint from = {here->n, here->velocity, 0.0, rate};
     double to_reach = reach_of_step(path) / fabs(rate.acceleration);
-    double in_beat = MAX_STEP_DRIFT / fabs(drift_after(map, here->n));
+    double in_beat = periods_in_beat(map, here->n);
     double allowed = STEP_TOLERANCE * map->tolerance * map->speed;
     SlowStep step;
     *h = floor(fmin(*h, fmin(in_beat, to_reach)));
@@ -220,9 +221,11 @@ bool embedded_step(SlowPath *path, double *h, PathStep *result) {
         *h *= SHORTER;
         return false;
     }
-    double gain = fmax(step.gain, -MAX_DECAY * map->share);
-    double factor = gain < 0.0 ? exp(gain * *h) : 1.0;
-    double error = estimate / OVERESTIMATE + *h * error_of_rates(path);
+    double error_of_rate = error_of_rates(path), gain = 0.0;
+    if (fabs(step.risen) > error_of_rate) {
+        gain = fmin(0.0, fmax(step.gain, -MAX_DECAY * map->share));
+    }
+    double factor = exp(gain * *h), error = estimate / OVERESTIMATE + *h * error_of_rate;
     *result = (PathStep){*h, step.to.travel, factor, error};
     *h *= step_growth(estimate, allowed);
     return estimate <= allowed;

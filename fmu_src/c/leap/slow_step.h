@@ -16,6 +16,10 @@ typedef struct {
  * landing. Return false where there are no rates or too many points would be needed; `h` becomes what to try next. */
 bool interpolated_step(SlowPath *path, double *h, PathStep *result);
 
+/* Number of periods from period `n` on in which the load's phase drifts by an eighth of a beat: the stages of a step of so many
+ * see all phases. */
+double periods_in_beat(const PeriodMap *map, double n);
+
 /* Number of periods of an embedded step that may be expected to hold here. */
 double expected_step(const SlowPath *path);
 

@@ -255,7 +255,9 @@ class Leaping(Resolved):
         self._map: PeriodMap | None = None
         # Undamped resonance has no steady vibration: all is resolved.
         with suppress(Refusal, NoMapError):
-            self._map = PeriodMap(system, MAX_TURNS)
+            period_map = PeriodMap(system, MAX_TURNS)
+            if abs(period_map.drift) * SHORTEST_STEP <= MAX_STEP_DRIFT:
+                self._map = period_map
 
     def advance(self, moment: Moment, duration: float) -> Moment:
         """As of `Resolved`."""

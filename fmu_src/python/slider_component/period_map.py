@@ -21,7 +21,7 @@ from .vibrating_load import turns_to_repeat
 
 NEAR = 0.014
 """Largest distance of q times the frequency ratio from an integer, times q, at which a load counts
-as repeating after q turns. Beyond it more than an eighth of a beat passes in the shortest leap."""
+as repeating after q turns."""
 
 MAP_TOLERANCE = 1e-10
 """Largest tolerance of LuGre friction in a map: differences of high order amplify its error."""

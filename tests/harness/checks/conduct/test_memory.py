@@ -52,6 +52,6 @@ def test_what_is_not_given_back_is_a_fault(
         instance.start({})
         return [*{"state": state_leaks, "instance": instance_leaks}[kind](instance)]
 
-    assert found(0.5 * allowed) == []
-    (fault,) = found(1.5 * allowed)
+    assert found(0.25 * allowed) == []
+    (fault,) = found(4.0 * allowed)
     assert fault.startswith(f"each {kind} that is made and freed leaves ")
