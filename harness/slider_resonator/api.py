@@ -18,12 +18,15 @@ The `repr` of a result says what was found, on a screen at most. `to_pandas()` g
 `plot()` its picture.
 """
 
+import inspect
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial, wraps
+from itertools import takewhile
 from numbers import Integral, Real
 from pathlib import Path
+from traceback import walk_stack
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
@@ -395,17 +398,20 @@ def _stated(device: DeviceLike | None) -> dict[str, float]:
         start = vars(Device())
         return {n: value for n, value in _checked(vars(device)).items() if value != start[n]}
     if isinstance(device, Mapping):
+        values = device_values({"device": _plain(device)}, "device")
         _warn(possible_slips(device))
-        return device_values({"device": _plain(device)}, "device")
+        return values
     read = read_device_file(str(device))
     _warn(read.slips)
     return read.values
 
 
 def _warn(slips: Sequence[str]) -> None:
-    """Warn of numbers that may be meant in another unit."""
+    """Warn of numbers that may be meant in another unit, where this package was called."""
+    modules = (frame.f_globals["__name__"] for frame, _ in walk_stack(inspect.currentframe()))
+    inside = list(takewhile(lambda name: name.startswith("slider_resonator."), modules))
     for slip in slips:
-        warnings.warn(slip, stacklevel=2)
+        warnings.warn(slip, stacklevel=1 + len(inside))
 
 
 def _fmus(fmus: Sequence[str | Path]) -> list[Path]:

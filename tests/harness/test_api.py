@@ -285,7 +285,14 @@ def test_lines_that_do_not_fit_a_screen_are_counted(native_fmu: Path) -> None:
 
 
 def test_numbers_that_may_be_in_another_unit_are_warned_of(native_fmu: Path) -> None:
-    with pytest.warns(UserWarning, match="drive_frequency = 20000 is in rad/s"):
+    with pytest.warns(UserWarning, match="drive_frequency = 20000 is in rad/s") as caught:
         opened = sr.open_fmu(native_fmu, device={"drive_frequency": 20000.0})
     with opened as fmu, pytest.warns(UserWarning, match="phase = 30 is in rad, which is 1718.87"):
         fmu.steady(phase=30)
+    assert caught[0].filename == __file__, "where the package was called"
+
+
+def test_a_device_of_a_mapping_is_refused_as_one_of_a_file() -> None:
+    for device in ({"drive_frequency": "20 kHzz"}, {"resonator_frequency": 0}):
+        with pytest.raises(sr.HarnessError, match=f"{next(iter(device))}"):
+            sr.read_device(device)

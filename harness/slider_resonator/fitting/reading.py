@@ -90,9 +90,8 @@ def _measurements(columns: _Columns) -> Measurements:
 def _columns(path: Path) -> _Columns:
     """Return the columns of a file, empty cells as NaN."""
     try:
-        header, lines = csv_rows(path)
-        check_cells(path, header, lines)
-        filled = [(line, row) for line, row in lines if any(cell.strip() for cell in row)]
+        header, filled = csv_rows(path)
+        check_cells(path, header, filled)
         if not 1 <= len(filled) <= MAX_ROWS:
             raise ValueError(f"{len(filled)} rows below the header; must be 1 to {MAX_ROWS}")
         rows = [f"line {line}" for line, _ in filled]

@@ -32,8 +32,8 @@ def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     """Return the header of a CSV file, and its other rows with their line numbers.
 
     Columns are apart by commas, by what the header has of `SEPARATORS`, or by what a line `sep=`
-    above it says. Lines that begin with # are left out. Raises ValueError naming the file and
-    what is wrong.
+    above it says. Lines that begin with # and rows without a value are left out. Raises ValueError
+    naming the file and what is wrong.
     """
     try:
         file = io.StringIO(_text(path), newline="")
@@ -43,7 +43,8 @@ def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
         if said := _SEPARATOR_LINE.fullmatch(first):
             lines, separator = lines[1:], said[1]
         reader = csv.reader((line for _, line in lines), delimiter=separator)
-        rows = [(lines[reader.line_num - 1][0], row) for row in reader]
+        read = ((lines[reader.line_num - 1][0], row) for row in reader)
+        rows = [(line, row) for line, row in read if any(cell.strip() for cell in row)]
     except OSError as error:
         raise ValueError(f"csv {path} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:

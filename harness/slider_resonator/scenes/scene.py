@@ -341,7 +341,7 @@ def _plain_numbers(stated: Mapping[str, Any]) -> dict[str, Any]:
     """Return what a scene says of its device, and its largest phase, as they are written."""
     phase = stated.get("inputs", {}).get("phase")
     if isinstance(phase, Mapping):
-        points = phase.get("steps") or phase.get("ramp") or ()
+        points = phase.get("steps") or phase.get("ramp") or [(0.0, phase.get("constant"))]
         numbers = [value for _, value in points if isinstance(value, float | int)]
         phase = max(numbers, key=abs, default=None)
     return {**stated.get("device", {}), "phase": phase}

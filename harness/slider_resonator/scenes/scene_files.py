@@ -57,7 +57,7 @@ def find_scene(
 
 
 def find_scenes(names_or_files: Sequence[str]) -> list[Scene]:
-    """Return scenes by name, file or folder; all that are built in for an empty sequence.
+    """Return scenes by name, file or folder, each once; all built-in ones for an empty sequence.
 
     Raises SceneError for a folder without scene files, and as `find_scene` does.
     """
@@ -65,7 +65,8 @@ def find_scenes(names_or_files: Sequence[str]) -> list[Scene]:
         files = dict.fromkeys(built_in_scenes().values())
         read = {scene.name: scene for file in files for scene in read_scenes(file)}
         return [read[name] for name in built_in_scenes()]
-    return [scene for one in names_or_files for scene in _scenes_of(one, folders=True)]
+    given = dict.fromkeys(names_or_files)
+    return [scene for one in given for scene in _scenes_of(one, folders=True)]
 
 
 def _scenes_of(name_or_file: str, *, folders: bool = False) -> Sequence[Scene]:
