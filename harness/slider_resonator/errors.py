@@ -24,6 +24,19 @@ class NotApplicable(FmuError):
     """A check that needs what the FMU does not have, and may lack: it says nothing about it."""
 
 
+SYMBOLS = {
+    "M": "slider_mass",
+    "m": "resonator_mass",
+    "xi": "damping_ratio",
+    "zeta": "damping_ratio",
+    "A": "base_amplitude",
+    "w": "drive_frequency",
+    "omega": "drive_frequency",
+    "N0": "normal_preload",
+    "mu": "friction_coefficient",
+    "phi": "phase",
+}
+"""What books call parameters and inputs."""
 MAX_LISTED = 60
 """Number of allowed names up to which a message lists them all."""
 MAX_NEAR = 8
@@ -37,8 +50,9 @@ def unknown_name(kind: str, name: str, allowed: Iterable[str]) -> str:
     """
     names = sorted(allowed)
     by_folded = {candidate.lower(): candidate for candidate in names}
-    near = get_close_matches(name.lower(), by_folded, n=1, cutoff=0.5)
-    hint = f"; did you mean {by_folded[near[0]]!r}?" if near else ""
+    near = [by_folded[one] for one in get_close_matches(name.lower(), by_folded, n=1, cutoff=0.5)]
+    near = [SYMBOLS[name]] if SYMBOLS.get(name) in names else near
+    hint = f"; did you mean {near[0]!r}?" if near else ""
     listed = ", ".join(names)
     if len(names) > MAX_LISTED:
         alike = get_close_matches(name.lower(), by_folded, n=MAX_NEAR, cutoff=0.0)

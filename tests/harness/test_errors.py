@@ -10,3 +10,9 @@ def test_the_nearest_name_is_suggested_whatever_its_case() -> None:
     assert text.startswith("unknown scene 'steady_velocity'; did you mean 'steady_contact'?")
     assert "(must be one of 201, such as steady_contact, scene_" in text
     assert len(text) < 250
+
+
+def test_a_symbol_stands_for_its_parameter() -> None:
+    text = unknown_name("parameter", "mu", ["slider_mass", "friction_coefficient"])
+    assert "'mu'; did you mean 'friction_coefficient'?" in text
+    assert "did you mean" not in unknown_name("output", "mu", ["position"])
