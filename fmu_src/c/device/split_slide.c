@@ -141,23 +141,24 @@ static inline void rotate_turns(const SplitSlide *slide, const Turns *anchor, do
                                 : rotated(anchor->phasors.normal, plant->normal_frequency * ahead);
 }
 
-/* Turns at `t`: rotated from the start or the anchor (in `place`), or computed (in `fresh`). Close to the
- * start they are always rotated, so that rounding errors are those of the start: a slider that sets out
- * must not seem to move back. */
-static inline const Turns *turns_at(const SplitSlide *slide, double t, Turns *place, Turns *fresh) {
+/* Whether turns at `t` are rotated from the start or the anchor instead of computed. Close to the start they always are, so that
+ * rounding errors are those of the start: a slider that sets out must not seem to move back. */
+static inline bool is_near(const SplitSlide *slide, double t) {
+    return is_soon(slide, t) ||
+           (slide->anchored && fabs(t - slide->anchor.t) * slide->split->fastest < SMALL_TURN);
+}
+
+/* The turns at `t`: those of the start, or others, which are put in `place`. */
+static inline const Turns *turns_at(const SplitSlide *slide, double t, Turns *place) {
     if (t == 0.0) {
         return &slide->start;
     }
-    if (is_soon(slide, t)) {
-        rotate_turns(slide, &slide->start, t, place);
-        return place;
+    if (is_near(slide, t)) {
+        rotate_turns(slide, is_soon(slide, t) ? &slide->start : &slide->anchor, t, place);
+    } else {
+        compute_turns(slide, t, place);
     }
-    if (slide->anchored && fabs(t - slide->anchor.t) * slide->split->fastest < SMALL_TURN) {
-        rotate_turns(slide, &slide->anchor, t, place);
-        return place;
-    }
-    compute_turns(slide, t, fresh);
-    return fresh;
+    return place;
 }
 
 /* Free motion of the resonator, its displacement [m] and rate [m/s]. */
@@ -318,10 +319,13 @@ static inline double bound_by(const SplitSlide *slide, const Turns *turns, doubl
 static Signal velocity_ahead(void *motion, double t) {
     SplitSlide *slide = motion;
     const Oscillator *slip = &slide->plant->slip;
+    bool is_latest = !is_near(slide, t) && (!slide->anchored || t > slide->anchor.t);
+    if (is_latest) {
+        compute_turns(slide, t, &slide->anchor);
+        slide->anchored = true;
+    }
     Turns place;
-    bool later = !slide->anchored || t > slide->anchor.t;
-    const Turns *turns = turns_at(slide, t, &place, later ? &slide->anchor : &place);
-    slide->anchored = slide->anchored || turns == &slide->anchor;
+    const Turns *turns = is_latest ? &slide->anchor : turns_at(slide, t, &place);
     Response free = free_motion_at(slide, turns);
     double second = -2.0 * slip->decay * free.rate - slip->stiffness * free.displacement;
     return (Signal){slide->direction * velocity_by(slide, turns, free.rate),
@@ -375,7 +379,7 @@ static double work_by(const SplitSlide *slide, const Turns *turns, State state, 
 Place split_slide_place(const SplitSlide *slide, double t) {
     const Plant *plant = slide->plant;
     Turns place;
-    const Turns *turns = turns_at(slide, t, &place, &place);
+    const Turns *turns = turns_at(slide, t, &place);
     Response free = free_motion_at(slide, turns);
     Complex ae = complex_mul(slide->resonator_drive, turns->phasors.drive);
     State state = {velocity_by(slide, turns, free.rate),
