@@ -190,8 +190,7 @@ def test_trade(browser: Chrome, tmp_path: Path) -> None:
 def test_stress(browser: Chrome, tmp_path: Path) -> None:
     page = tmp_path / "index.html"
     write_stress_page(page, [RESULT], PROVENANCE)
-    assert opened(browser, page) == 1
-    assert "largest deviation over its bound [1]: " in hovered(browser)
+    assert opened(browser, page) == 0
     cells = browser.find_elements("css selector", ".matrix td[title]")
     assert [cell.text for cell in cells] == ["", "F", "r"]
     assert all(cell.size["height"] > 10 for cell in cells)

@@ -1,32 +1,28 @@
-"""The result as a page of HTML: every case over its bound, and a grid for each axis."""
+"""The result as a page of HTML: counts, what did not pass, and a grid for each axis."""
 
 from collections.abc import Sequence
 from math import log10
 from pathlib import Path
 
 from slider_resonator.fmu.provenance import Provenance, provenance_html
-from slider_resonator.output.hover_plot import (
-    Axis,
-    HoverPlot,
-    Series,
-    look,
-    plot_html,
-    write_plot_page,
-)
-from slider_resonator.output.html_page import escaped, rendered, section
+from slider_resonator.output.html_page import escaped, rendered, section, write_page
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict_so_far
 from slider_resonator.stressing.case import MODELS, RANDOM, name_of
 from slider_resonator.stressing.run import StressResult
-from slider_resonator.stressing.verdict import FAILED, MEANINGS, PASSED, SENSITIVE, Verdict
+from slider_resonator.stressing.verdict import FAILED, MEANINGS, PASSED, Verdict
 
 FAR, NEAR = -8.0, 0.0
 """Decimal logarithm of a deviation over its bound, at the ends of the scale."""
 SHADE = "rgb(47, 127, 121, {:.2f})"
 """Colour of the scale, with its opacity: 0.1 far from the bound, 1 at it."""
 REFUSED_COLOUR, FAILED_COLOUR = "#edc46b", "#c8553d"
-MAX_SHOWN = 1e6
-"""Deviation over its bound above which a point is drawn at this value."""
+_LEGEND_OF_GRIDS = (
+    "<p>Point at a cell of a grid for its checks. It is shaded by its largest deviation over the "
+    "allowed one; r is refused by name, F failed.</p>"
+    f'<p class="scale">{10.0**FAR:g} <i style="background: linear-gradient(to right, '
+    f'{SHADE.format(0.1)}, {SHADE.format(1.0)})"></i> {10.0**NEAR:g}</p>'
+)
 
 
 def write_stress_page(path: Path, results: Sequence[StressResult], provenance: Provenance) -> None:
@@ -44,18 +40,16 @@ def write_stress_page(path: Path, results: Sequence[StressResult], provenance: P
     legend: list[Row] = []
     for name, meaning in MEANINGS.items():
         count = sum(one.counts.get(name, 0) for one in results)
-        legend.append((_coloured(name) if count else name, str(count), meaning))
+        style = Style.FAIL if name == FAILED and count else Style.PLAIN
+        legend.append((Cell(name, style), str(count), meaning))
     parts = [
         rendered(Table((*texts("FMU", "verdict"), *counts), overview)),
         rendered(Table((*texts("verdict"), *numbers("cases"), *texts("meaning")), legend)),
-        "<p>A cell in a grid, or a point in the plot, says its checks. It is shaded by its largest "
-        "deviation over the allowed one; r is refused by name, F failed.</p>"
-        f'<p class="scale">{10.0**FAR:g} <i style="background: linear-gradient(to right, '
-        f'{SHADE.format(0.1)}, {SHADE.format(1.0)})"></i> {10.0**NEAR:g}</p>',
-        *(part for result in results for part in _of_one_fmu(result)),
-        provenance_html(provenance),
     ]
-    write_plot_page(path, "Stress test", parts)
+    if any(one.axis != RANDOM for result in results for one in result.verdicts):
+        parts.append(_LEGEND_OF_GRIDS)
+    parts += [part for result in results for part in _of_one_fmu(result)]
+    write_page(path, "Stress test", [*parts, provenance_html(provenance)])
 
 
 def _of_one_fmu(result: StressResult) -> list[str]:
@@ -66,11 +60,8 @@ def _of_one_fmu(result: StressResult) -> list[str]:
         if chosen:
             anchor = f"{name}-{Path(result.fmu).name}".replace(" ", "-")
             heading, count = name.capitalize(), number_of(len(chosen), "case")
-            others: list[Row] = [
-                (one.name, _coloured(one.verdict), one.reason, one.command(result.fmu))
-                for one in chosen
-            ]
-            table = rendered(Table(texts("case", "verdict", "reason", "run it again"), others))
+            others: list[Row] = [(one.name, one.reason, one.command(result.fmu)) for one in chosen]
+            table = rendered(Table(texts("case", "reason", "run it again"), others))
             parts.append(section(anchor, heading, count, table, unfolded=name == FAILED))
     nearest: list[Row] = [
         (model, f"{check.found:.2g}", check.name, case.name)
@@ -78,43 +69,10 @@ def _of_one_fmu(result: StressResult) -> list[str]:
         if (check := case.nearest)
     ]
     columns = (*texts("model"), *numbers("nearest to its bound"), *texts("in", "case"))
-    parts += [plot_html(_plot(result)), rendered(Table(columns, nearest))]
+    parts.append(rendered(Table(columns, nearest)))
     for axis in dict.fromkeys(one.axis for one in result.verdicts if one.axis != RANDOM):
         parts.append(_grid(axis, [one for one in result.verdicts if one.axis == axis]))
     return parts
-
-
-def _coloured(verdict: str) -> Cell:
-    return Cell(verdict, Style.FAIL if verdict == FAILED else Style.PLAIN)
-
-
-def _plot(result: StressResult) -> HoverPlot:
-    series = []
-    for index, name in enumerate(map(name_of, MODELS)):
-        ink, marker, _ = look(index)
-        for label, sign, shown, passed in (
-            (name, marker, ink, True),
-            (f"{name}: not passed", "✖", FAILED_COLOUR, False),
-        ):
-            group = [
-                (float(place), one)
-                for place, one in enumerate(result.verdicts, start=1)
-                if one.model == name and (one.verdict == PASSED) == passed
-            ]
-            if group:
-                places, cases = zip(*group, strict=True)
-                heights, notes = [*map(_height, cases)], [*map(_note, cases)]
-                series.append(Series(label, places, heights, shown, sign, notes=notes))
-    y = Axis("largest deviation over its bound [1]", log=True)
-    return HoverPlot("Each case over its bound", Axis("case"), y, series)
-
-
-def _height(one: Verdict) -> float | None:
-    """Return the deviation of a case that has one, within the scale where it passed."""
-    if one.verdict == PASSED:
-        return float(10.0 ** _margin(one))
-    far = one.nearest.found if one.nearest else 0.0
-    return min(far, MAX_SHOWN) if one.verdict in (FAILED, SENSITIVE) and far > 0.0 else None
 
 
 def _note(one: Verdict) -> str:

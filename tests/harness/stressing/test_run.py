@@ -116,14 +116,6 @@ def test_the_page_has_each_case_with_its_checks_or_command(tmp_path: Path) -> No
     assert_page_as_before("stress.html", page)
 
 
-def test_a_case_without_a_deviation_is_drawn_without_a_height(tmp_path: Path) -> None:
-    page = tmp_path / "index.html"
-    write_stress_page(page, [RESULT], PROVENANCE)
-    text = page.read_text(encoding="utf-8")
-    assert '"x":[2.0],"y":[null]' in text
-    assert '"x":[3.0,4.0,5.0],"y":[null,1000000.0,null]' in text
-
-
 def test_the_first_cases_pass(python_fmu: Path) -> None:
     """Others are run on the native FMU below."""
     reported: list[tuple[str, float]] = []
