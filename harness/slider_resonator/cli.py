@@ -28,10 +28,8 @@ INTERRUPTED = 130
 COMMANDS: Mapping[str, str] = {
     "baseline": "Compare an FMU with its own earlier results.",
     "blocking": "Find the load that stops an FMU, without a long run.",
-    "campaign": "Run the random devices of `stress`.",
     "choose": "Choose the cheapest model that meets a scene's needs.",
     "device": "Say what a device file means; devices to start from.",
-    "extremes": "Run the extremes of `stress`.",
     "fit": "Estimate parameters of a device from measurements.",
     "page": "Write a page that runs the component in a browser.",
     "run": "Run one scene and report results and cost.",
@@ -43,8 +41,13 @@ COMMANDS: Mapping[str, str] = {
     "validate": "Compare FMUs with the references, scene by scene.",
 }
 """Name to summary of what is installed."""
-ELSEWHERE: Mapping[str, str] = {"blocking": "steady", "campaign": "stress", "extremes": "stress"}
+ELSEWHERE: Mapping[str, str] = {"blocking": "steady"}
 """Commands that are in the module of another."""
+RENAMED: Mapping[str, tuple[Sequence[str], Mapping[str, str]]] = {
+    "campaign": (("stress", "--random", "1000"), {"--cases": "--random"}),
+    "extremes": (("stress",), {"--cell": "--case", "--limit": "--time-limit"}),
+}
+"""Old names of commands: the words in their place, and of their options that have other names."""
 
 
 click.Context.formatter_class = FittingHelp
@@ -91,6 +94,7 @@ class HarnessGroup(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """Return a command with its name and arguments; name the nearest to one that is unknown."""
+        args = _with_current_names(args)
         if args[0] not in self.summaries and not args[0].startswith("-"):
             ctx.fail(unknown_name("command", args[0], self.summaries))
         return super().resolve_command(ctx, args)
@@ -128,6 +132,16 @@ class HarnessGroup(click.Group):
                     click.echo(to_json({"error": message}))
             exit_with(INTERRUPTED if isinstance(cause, KeyboardInterrupt) else COULD_NOT_RUN)
         exit_with(code if isinstance(code, int) else 0)
+
+
+def _with_current_names(arguments: list[str]) -> list[str]:
+    """Return the arguments without old names; note what replaces that of a command."""
+    if arguments[0] not in RENAMED:
+        return arguments
+    words, options = RENAMED[arguments[0]]
+    _echo(f"note: {arguments[0]} is now {' '.join(words)}")
+    parts = (argument.partition("=") for argument in arguments[1:])
+    return [*words, *(options.get(name, name) + equals + value for name, equals, value in parts)]
 
 
 def _prints_json(arguments: Sequence[str]) -> bool:

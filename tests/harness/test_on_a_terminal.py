@@ -73,9 +73,9 @@ def test_an_error_is_wrapped_between_words() -> None:
 
 
 @pytest.mark.slow
-def test_an_interrupted_campaign_says_what_is_kept(native_fmu: Path, tmp_path: Path) -> None:
-    out = tmp_path / "campaign.json"
-    arguments = ("campaign", native_fmu, "--cases", 1000, "--out", out)
+def test_an_interrupted_stress_says_what_is_kept(native_fmu: Path, tmp_path: Path) -> None:
+    out = tmp_path / "stress"
+    arguments = ("stress", native_fmu, "--random", 1000, "--out", out)
     code, shown = on_terminal(*arguments, interrupt_at="4 of 1000: ")
     assert code == 130, shown
     assert "interrupted" in lines(shown)
@@ -83,7 +83,7 @@ def test_an_interrupted_campaign_says_what_is_kept(native_fmu: Path, tmp_path: P
     assert re.match(rf"the verdicts of \d+ cases are kept in {re.escape(str(out))};", words), shown
     long = [line for line in lines(shown.split("interrupted", 1)[1]) if len(line) > WIDTH]
     assert all(str(out) in line for line in long), "only a path may be longer than a line"
-    assert out.is_file()
+    assert (out / "stress.json").is_file()
 
 
 def test_an_interrupted_build_ends_with_130(tmp_path: Path) -> None:

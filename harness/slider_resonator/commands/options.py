@@ -365,13 +365,10 @@ def scenes_option(default: str) -> Callable[[FC], FC]:
     )
 
 
-def time_limit_option(default: float, help_text: str, *aliases: str) -> Callable[[FC], FC]:
-    """Return the option --time-limit (s); `aliases` are names that it once had."""
+def time_limit_option(default: float, help_text: str) -> Callable[[FC], FC]:
+    """Return the option --time-limit (s)."""
     return click.option(
         "--time-limit",
-        *aliases,
-        "time_limit",
-        cls=Renamed,
         type=click.FloatRange(min=0.0, min_open=True),
         default=default,
         show_default=True,

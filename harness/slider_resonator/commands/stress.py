@@ -1,4 +1,4 @@
-"""`stress`, once `extremes` and `campaign`: run FMUs at extremes and with random devices."""
+"""`stress`: run FMUs at extremes and with random devices."""
 
 import re
 from collections.abc import Callable, Sequence
@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 
 import click
+from click.core import ParameterSource
 
 from slider_resonator.commands import options
 from slider_resonator.commands.results import print_result
@@ -17,32 +18,15 @@ from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import part_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line
-from slider_resonator.output.targets import distinct, make_folder
+from slider_resonator.output.targets import make_folder
 from slider_resonator.stressing.axes import axis_cases, device_cases
 from slider_resonator.stressing.case import DEVICE, RANDOM, Case
-from slider_resonator.stressing.listing import (
-    Files,
-    as_plain,
-    in_folder,
-    values_of,
-    write_files,
-)
+from slider_resonator.stressing.listing import as_plain, values_of, write_results
 from slider_resonator.stressing.random_cases import random_case
 from slider_resonator.stressing.run import TIME_LIMIT, StressResult, applicable, run_cases
 
-CASES = 1000
-"""Random devices of a campaign."""
 _OWN = re.compile(rf"{DEVICE} (.+?): ")
 _DRAWN = re.compile(rf"{RANDOM}: seed (\d+), case (\d+)(?:: .*)?")
-
-
-long_option = click.option(
-    "--long",
-    is_flag=True,
-    help="Lengthen resolved runs from 1e5 to 1e8 drive periods, with LuGre friction from 1e3 to "
-    "1e6: minutes each in the native FMU, so give slower ones a --time-limit. Averaged motion "
-    "always has 1e8.",
-)
 
 
 def _random_option(name: str, default: int, text: str) -> Callable[[options.FC], options.FC]:
@@ -58,10 +42,6 @@ def _random_option(name: str, default: int, text: str) -> Callable[[options.FC],
     )
 
 
-first_option = _random_option("first", 0, "Number of the first random device.")
-seed_option = _random_option("seed", 1, "Seed of the random devices: the same cases everywhere.")
-
-
 @click.command("stress")
 @options.fmus_argument
 @click.option(
@@ -70,9 +50,15 @@ seed_option = _random_option("seed", 1, "Seed of the random devices: the same ca
     type=click.IntRange(min=1),
     help="Run this number of random devices instead of the axes. Each takes about half a second.",
 )
-@first_option
-@seed_option
-@long_option
+@_random_option("first", 0, "Number of the first random device.")
+@_random_option("seed", 1, "Seed of the random devices: the same cases everywhere.")
+@click.option(
+    "--long",
+    is_flag=True,
+    help="Lengthen resolved runs from 1e5 to 1e8 drive periods, with LuGre friction from 1e3 to "
+    "1e6: minutes each in the native FMU, so give slower ones a --time-limit. Averaged motion "
+    "always has 1e8.",
+)
 @options.device_option
 @click.option("--case", "name", metavar="NAME", help="Run the case of this name alone.")
 @options.time_limit_option(TIME_LIMIT, "For each case; one that hangs fails.")
@@ -83,7 +69,9 @@ seed_option = _random_option("seed", 1, "Seed of the random devices: the same ca
     help="Folder for stress.json and index.html.",
 )
 @options.json_option
+@click.pass_context
 def stress_command(
+    context: click.Context,
     fmus: tuple[Path, ...],
     count: int | None,
     first: int,
@@ -116,91 +104,29 @@ def stress_command(
     """
     given = {"--random": count, "--device": device, "--case": name}
     several = [f"{option} {value}" for option, value in given.items() if value is not None]
+    several += ["--long"] if long else []
     if len(several) > 1:
         raise click.UsageError(f"{' and '.join(several)}: must be only one")
+    drawn = [f"--{option}" for option in ("first", "seed") if _is_on_command_line(context, option)]
+    if drawn and count is None:
+        raise click.UsageError(f"{' and '.join(drawn)}: must be with --random")
     if name is not None:
-        cases = [case_named(name, "--case")]
+        cases = [case_named(name)]
     elif device is not None:
         cases = device_cases(device, options.device_file(device).values)
     elif count is not None:
         cases = [random_case(seed, number) for number in range(first, first + count)]
     else:
         cases = axis_cases(long=long)
-    files = Files() if out is None else in_folder(out, "stress")
-    return stress(fmus, cases, files, time_limit, jobs, as_json=as_json)
+    return stress(fmus, cases, out, time_limit, jobs, as_json=as_json)
 
 
-@click.command("extremes")
-@options.fmus_argument
-@options.out_folder_option("extremes.json and index.html")
-@options.time_limit_option(TIME_LIMIT, "For each case; one that hangs fails.", "--limit")
-@long_option
-@click.option("--cell", "name", metavar="NAME", help="Run only the case of this name.")
-@options.json_option
-def extremes_command(
-    fmus: tuple[Path, ...],
-    out: Path,
-    time_limit: float,
-    long: bool,
-    name: str | None,
-    as_json: bool,
-) -> int:
-    """Run `stress` on its axes.
-
-    \b
-    Examples:
-      slider-resonator extremes --out extremes
-      slider-resonator extremes my.fmu --out one --cell "r_m: 1e-12: Coulomb, fidelity 1"
-    """
-    cases = axis_cases(long=long) if name is None else [case_named(name, "--cell")]
-    return stress(fmus, cases, in_folder(out, "extremes"), time_limit, as_json=as_json)
+def _is_on_command_line(context: click.Context, option: str) -> bool:
+    """Whether an option was given, not by the environment, where it may be for other commands."""
+    return context.get_parameter_source(option) is ParameterSource.COMMANDLINE
 
 
-@click.command("campaign")
-@options.fmus_argument
-@click.option(
-    "--cases",
-    type=click.IntRange(min=1),
-    default=CASES,
-    show_default=True,
-    help="Number of cases. Each takes about half a second.",
-)
-@first_option
-@seed_option
-@click.option(
-    "--case",
-    "number",
-    type=click.IntRange(min=0),
-    help="Run only the case of this number, and print its values.",
-)
-@options.time_limit_option(60.0, "For each case; one that hangs fails.")
-@click.option("--out", type=options.target((".json",)), help="Write the result as JSON, too.")
-@click.option("--html", type=options.target((".html",)), help="One page with plots to point at.")
-@options.json_option
-def campaign_command(
-    fmus: tuple[Path, ...],
-    cases: int,
-    first: int,
-    seed: int,
-    number: int | None,
-    time_limit: float,
-    out: Path | None,
-    html: Path | None,
-    as_json: bool,
-) -> int:
-    """Run `stress` with random devices.
-
-    \b
-    Examples:
-      slider-resonator campaign --cases 10000 --out campaign.json --html campaign.html
-      slider-resonator campaign my.fmu --seed 1 --case 44
-    """
-    numbers = range(first, first + cases) if number is None else (number,)
-    drawn = [random_case(seed, one) for one in numbers]
-    return stress(fmus, drawn, Files(out, html), time_limit, as_json=as_json)
-
-
-def case_named(name: str, option: str) -> Case:
+def case_named(name: str) -> Case:
     """Return the case of a name, on an axis or drawn; HarnessError when there is none."""
     drawn = _DRAWN.fullmatch(name)
     if drawn:
@@ -214,8 +140,7 @@ def case_named(name: str, option: str) -> Case:
         near = get_close_matches(name, cases, n=1)
         hint = f"; did you mean {near[0]!r}?" if near else ""
         raise HarnessError(
-            f"{option} {name!r} refused: must be AXIS: VALUE: MODEL of a case, as in the result"
-            f"{hint}"
+            f"--case {name!r} refused: must be AXIS: VALUE: MODEL of a case, as in the result{hint}"
         )
     return cases[name]
 
@@ -223,46 +148,43 @@ def case_named(name: str, option: str) -> Case:
 def stress(
     fmus: Sequence[Path],
     cases: Sequence[Case],
-    files: Files,
+    out: Path | None,
     time_limit: float,
-    jobs: int | None = None,
+    jobs: int | None,
     *,
     as_json: bool,
 ) -> int:
     """Run the cases, print and write the result, and return the exit code."""
     chosen = fmus or options.default_fmus()
-    distinct(
-        {"--out": files.json, "--html": files.page}, {f"the FMU {path}": path for path in chosen}
-    )
     for path in chosen:
         applicable(path, cases)  # before any of them runs: it takes minutes
-    if files.folder is not None:
-        make_folder(files.folder)
+    if out is not None:
+        make_folder(out)
     provenance = provenance_of(*chosen)
     results: list[StressResult] = []
 
     def keep(result: StressResult) -> None:
         results.append(result)
-        write_files(results, files, provenance)
+        if out is not None:
+            write_results(results, out, provenance)
 
-    with noting_on_interrupt(partial(_kept, results, files)), progress_bar() as progress:
+    with noting_on_interrupt(partial(_kept, results, out)), progress_bar() as progress:
         for index, fmu in enumerate(chosen):
             part = part_of(progress, index, len(chosen))
             workers = jobs or available_cores()
             keep(run_cases(fmu, cases, part, time_limit, jobs=workers, keep=keep))
     lines = [line for result in results for line in result.sentences()]
     lines += [values_of(case) for case in cases if len(cases) == 1]
-    lines += [f"written {one_line(name)}" for name in files.names]
+    lines += [] if out is None else [f"written {one_line(str(out))}"]
     print_result(as_plain(results), "\n".join(lines), as_json=as_json, provenance=provenance)
     return 0 if all(result.passed for result in results) else 1
 
 
-def _kept(results: Sequence[StressResult], files: Files) -> str:
-    if not results or not files.names:
+def _kept(results: Sequence[StressResult], out: Path | None) -> str:
+    if not results or out is None:
         return "nothing is kept; --out keeps what is finished"
     ran = sum(len(result.verdicts) for result in results)
-    places = " and ".join(files.names)
     return (
-        f"the verdicts of {number_of(ran, 'case')} are kept in {places}; the same command runs "
+        f"the verdicts of {number_of(ran, 'case')} are kept in {out}; the same command runs "
         "all cases again"
     )

@@ -1,7 +1,6 @@
 """The result in words, as plain data and as files."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import accumulate
 from pathlib import Path
 
@@ -9,40 +8,15 @@ from slider_resonator.device.interface import INPUTS
 from slider_resonator.fmu.provenance import Provenance
 from slider_resonator.output.atomic import write_text
 from slider_resonator.output.json_output import to_json
-from slider_resonator.output.targets import make_folder
 from slider_resonator.stressing.case import Case
 from slider_resonator.stressing.page import write_stress_page
 from slider_resonator.stressing.run import StressResult
 
 
-@dataclass(frozen=True)
-class Files:
-    """What to write: the result as JSON, and the page; in a folder, where both are in one."""
-
-    json: Path | None = None
-    page: Path | None = None
-    folder: Path | None = None
-
-    @property
-    def names(self) -> list[str]:
-        """The folder, or else the files."""
-        paths = [self.folder] if self.folder else [self.json, self.page]
-        return [str(path) for path in paths if path is not None]
-
-
-def in_folder(folder: Path, name: str) -> Files:
-    """Return the files in a folder: NAME.json and index.html."""
-    return Files(folder / f"{name}.json", folder / "index.html", folder)
-
-
-def write_files(results: Sequence[StressResult], files: Files, provenance: Provenance) -> None:
-    """Write what is asked for; HarnessError when that is impossible."""
-    if files.folder is not None:
-        make_folder(files.folder)
-    if files.json is not None:
-        write_text(files.json, to_json(as_plain(results), provenance))
-    if files.page is not None:
-        write_stress_page(files.page, results, provenance)
+def write_results(results: Sequence[StressResult], folder: Path, provenance: Provenance) -> None:
+    """Write stress.json and index.html; HarnessError when that is impossible."""
+    write_text(folder / "stress.json", to_json(as_plain(results), provenance))
+    write_stress_page(folder / "index.html", results, provenance)
 
 
 def as_plain(results: Sequence[StressResult]) -> dict[str, object]:

@@ -7,6 +7,7 @@ from slider_resonator.commands import stress
 from slider_resonator.device.model import Model
 from slider_resonator.stressing.axes import device_cases
 from slider_resonator.stressing.case import MODELS, Case, Hold, Limit
+from slider_resonator.stressing.run import StressResult
 from tests.harness.calling import call
 from tests.harness.faulty_fmus import without_later_variables
 from tests.harness.public_json import assert_public_keys
@@ -31,52 +32,84 @@ def text_of(*arguments: object, code: int = 0) -> str:
     return result.output
 
 
-@pytest.mark.parametrize("command", ["stress", "extremes"])
 def test_results_of_the_axes_are_written(
-    native_fmu: Path, tmp_path: Path, few_cases: list[Case], command: str
+    native_fmu: Path, tmp_path: Path, few_cases: list[Case]
 ) -> None:
     flies = Limit("position", 1.0, 1e-9, "it flies")
     few_cases.append(Case("steps", "wrong", Model(1, 0), {}, HOLDS, limits=(flies,)))
     out = tmp_path / "new"
-    text = text_of(command, native_fmu, "--out", out, code=1)
+    text = text_of("stress", native_fmu, "--out", out, code=1)
     assert "3 cases: 1 passed, 1 refused by name, 1 failed, none skipped" in text
     assert "it flies" in text
     assert "worst cost of a step" in text
     assert "friction_coefficient = 0.0 refused" in text
-    document = (out / f"{command}.json").read_text(encoding="utf-8")
+    document = (out / "stress.json").read_text(encoding="utf-8")
     assert_public_keys("stress", document)
     verdicts = [one["verdict"] for one in json.loads(document)["fmus"][0]["verdicts"]]
     assert verdicts == ["passed", "refused by name", "failed"]
     assert "friction_coefficient = 0.0 refused" in (out / "index.html").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize(("command", "option"), [("stress", "--case"), ("extremes", "--cell")])
-def test_one_case_is_run_by_its_name(
-    native_fmu: Path, tmp_path: Path, command: str, option: str
-) -> None:
-    arguments = (command, native_fmu, "--out", tmp_path / "out", option)
+def test_one_case_is_run_by_its_name(native_fmu: Path, tmp_path: Path) -> None:
+    arguments = ("stress", native_fmu, "--out", tmp_path / "out", "--case")
     text = text_of(*arguments, GOOD.name)
     assert "1 case: 1 passed" in text
     assert "20 steps of 0.0001 to 0.0001 s from 0 s on" in text, "its values"
     text = " ".join(text_of(*arguments, GOOD.name.replace(",", ""), code=2).split())
-    assert f"{option} 'steps: few: Coulomb fidelity 2' refused: must be AXIS: VALUE: MODEL" in text
+    assert "--case 'steps: few: Coulomb fidelity 2' refused: must be AXIS: VALUE: MODEL" in text
     assert f"did you mean '{GOOD.name}'?" in text
 
 
-def test_a_random_device_is_run_by_its_name_and_by_its_number(
-    native_fmu: Path, tmp_path: Path
-) -> None:
-    out, page = tmp_path / "campaign.json", tmp_path / "campaign.html"
-    arguments = ("campaign", native_fmu, "--seed", 1, "--case", 10, "--out", out, "--html", page)
-    text = text_of(*arguments)
+def test_a_random_device_is_run_by_its_name_and_by_its_number(native_fmu: Path) -> None:
+    text = text_of("stress", native_fmu, "--case", DRAWN)
     assert "1 case: 1 passed" in text
     assert "slider_mass = " in text
-    written = json.loads(out.read_text())["fmus"][0]
-    again = json.loads(text_of("stress", native_fmu, "--case", DRAWN, "--json"))["fmus"][0]
-    assert again["verdicts"] == written["verdicts"]
-    assert "Coulomb, fidelity 0" in page.read_text(encoding="utf-8")
-    first = json.loads(text_of("stress", native_fmu, "--random", 1, "--first", 10, "--json"))
-    assert first["fmus"][0]["verdicts"] == written["verdicts"]
+    (named, numbered) = (
+        json.loads(text_of("stress", native_fmu, *chosen, "--json"))["fmus"][0]["verdicts"]
+        for chosen in (("--case", DRAWN), ("--random", 1, "--first", 10, "--seed", 1))
+    )
+    assert named == numbered
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("--seed", 7), "--seed: must be with --random"),
+        (("--case", DRAWN, "--first", 5, "--seed", 7), "--first and --seed: must be with --random"),
+        (("--long", "--random", 10), "--random 10 and --long: must be only one"),
+        (("--random", 10, "--case", DRAWN), f"--random 10 and --case {DRAWN}: must be only one"),
+    ],
+)
+def test_options_that_would_be_ignored_are_refused(
+    native_fmu: Path, arguments: tuple[object, ...], said: str
+) -> None:
+    assert said in " ".join(text_of("stress", native_fmu, *arguments, code=2).split())
+
+
+def test_the_environment_may_say_what_the_axes_do_not_need(native_fmu: Path) -> None:
+    result = call("stress", native_fmu, CAMPAIGN_SEED="7", CAMPAIGN_FIRST="2500")
+    assert result.exit_code == 0, result.output
+
+
+def test_old_names_of_the_command_and_its_options_go_on_working(
+    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = text_of("extremes", native_fmu, "--limit=60", "--cell", GOOD.name)
+    assert "note: extremes is now stress\n" in text
+    assert "1 case: 1 passed" in text
+    drawn: list[tuple[int, int]] = []
+
+    def random_case(seed: int, number: int) -> Case:
+        drawn.append((seed, number))
+        return GOOD
+
+    monkeypatch.setattr(stress, "random_case", random_case)
+    monkeypatch.setattr(stress, "run_cases", lambda fmu, *_, **__: StressResult(str(fmu), (), 0.0))
+    assert "note: campaign is now stress --random 1000\n" in text_of("campaign", native_fmu)
+    assert drawn == [(1, number) for number in range(1000)]
+    drawn.clear()
+    text_of("campaign", native_fmu, "--cases", 2, "--first", 3, "--seed", 7)
+    assert drawn == [(7, 3), (7, 4)]
 
 
 def test_a_device_is_run_by_all_models_and_again_by_the_name_of_a_case(
@@ -104,7 +137,6 @@ def test_what_cannot_run_exits_with_2_before_anything_runs(
     assert "missing.fmu: no such file" in text
     assert run == []
     assert not out.exists()
-    text_of("campaign", native_fmu, "--html", native_fmu, code=2)
 
 
 def test_an_fmu_to_which_no_case_applies_exits_with_2(
@@ -115,9 +147,3 @@ def test_an_fmu_to_which_no_case_applies_exits_with_2(
     older = without_later_variables(native_fmu, tmp_path / "older.fmu")
     text = text_of("stress", older, "--case", leaping.name, code=2)
     assert "no case applies to this FMU" in text
-
-
-FLIES = Limit("position", 1.0, 1e-9, "it flies")
-
-
-WRONG = Case("steps", "wrong", Model(1, 0), {}, HOLDS, limits=(FLIES,))
