@@ -371,7 +371,7 @@ def trade(
 
     The result has an entry for each point of the scene's sweep. Runs are cut to `periods` drive
     periods; each method is repeated `repeats` times, or as often as the `budget` (s of CPU time)
-    allows. Needs heyoka.
+    allows. The peer that needs heyoka is left out without it.
     """
     read = _scene_of(scene, _stated(device), values)
     shorter = None if periods is None else _whole("periods", periods)

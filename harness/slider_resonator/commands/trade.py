@@ -12,7 +12,7 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line
-from slider_resonator.output.targets import PICTURE_SUFFIXES, make_folder
+from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct, make_folder
 from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.trading.measure import BUDGET, REPEATS, TIME_LIMIT, measure_trades, opened
@@ -21,6 +21,8 @@ from slider_resonator.trading.plots import draw_picture
 from slider_resonator.trading.problem import Problem, problem_of
 from slider_resonator.trading.result import Trade, write_omissions, write_rows
 from slider_resonator.trading.summary import SUFFIXES, comparisons, standings, title, write_choices
+
+TABLES = ("index.html", "trade.csv", "omissions.csv")
 
 
 @click.command("trade", cls=options.SettingsCommand)
@@ -102,6 +104,9 @@ def trade_command(
       slider-resonator trade table_1 --device mine.toml --out trade
       slider-resonator trade my.toml --out trade --fmu my.fmu --json
     """
+    tables = {f"{name} of --out": out / name for name in TABLES}
+    documents = {f"--page {number}": page for number, page in enumerate(pages, 1)}
+    distinct({**tables, "--picture": picture, **documents}, {})
     names = scenes or ("table_1",)
     read = [find_scene(name, settings, device) for name in names]
     for scene, name in zip(read, names, strict=True):
@@ -133,8 +138,7 @@ def trade_command(
     else:
         for trade in trades:
             _print(trade)
-        tables = (out / name for name in ("index.html", "trade.csv", "omissions.csv"))
-        written = [*tables, *([] if picture is None else [picture]), *pages]
+        written = [*tables.values(), *([] if picture is None else [picture]), *pages]
         print_text(f"written {one_line(', '.join(map(str, written)))}")
 
 

@@ -93,6 +93,8 @@ def duration(seconds: float) -> str:
 
 BEGIN, END = "<!-- trade -->", "<!-- end of trade -->"
 SUFFIXES = (".md", ".html")
+NATIVE, PYTHON = "native FMU, ", "Python FMU, "
+"""Beginnings of the methods of the two FMUs of FMI 2.0."""
 NEEDS = (
     ("steady_velocity", 1e-2),
     ("steady_velocity", 1e-6),
@@ -124,24 +126,24 @@ def choices(trade: Trade) -> list[tuple[str, ...]]:
         rows = trade.candidates(quantity)
         if not rows:
             continue
-        native = cheapest([row for row in rows if row.family.startswith("native")], quantity, error)
+        native = cheapest([row for row in rows if row.method.startswith(NATIVE)], quantity, error)
         peer = cheapest([row for row in rows if row.kind == PEER], quantity, error)
-        twin, model, off = "", "none", ""
+        model, off = "none", ""
         if native is not None:
-            twin = native.method.replace("native", "Python", 1)
-            model = native.method.removeprefix("native FMU, ")
+            model = native.method.removeprefix(NATIVE)
             off = f"{native.errors[quantity]:.0e}"
-        python = cheapest([row for row in rows if row.method == twin], quantity, error)
-        costs = [
-            "not reached"
-            if row is None
-            else duration(row.cost) + (" / s" if row.answer == "run" else "")
-            for row in (native, python, peer)
-        ]
+        twin = [row for row in rows if row.method == PYTHON + model]
+        costs = [_cost(row) for row in (native, cheapest(twin, quantity, error), peer)]
         if peer is not None:
             costs[2] += f" ({peer.method})"
         found.append((quantity.replace("_", " "), f"{error:.0e}", model, off, *costs))
     return found
+
+
+def _cost(row: Row | None) -> str:
+    if row is None:
+        return "not reached"
+    return duration(row.cost) + (" / s" if row.answer == "run" else "")
 
 
 def write_choices(path: Path, trades: Sequence[Trade]) -> None:

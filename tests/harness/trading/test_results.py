@@ -171,6 +171,12 @@ def test_the_native_fmu_decides_the_model() -> None:
     assert {quantity for quantity, _ in found} == {"position"}, "the scene has nothing else"
 
 
+def test_an_fmu_of_fmi_3_that_is_cheaper_changes_nothing() -> None:
+    cheaper = row(1e-5, 1e-13)
+    fmi3 = named(cheaper, "native SliderResonator3.fmu FMU, fidelity 2", "steps of 10 periods")
+    assert choices(replace(TRADE, rows=(*TRADE.rows, fmi3))) == choices(TRADE)
+
+
 def test_markdown_and_html_hold_the_same(tmp_path: Path) -> None:
     paths = [tmp_path / "page.md", tmp_path / "page.html"]
     for path in paths:
