@@ -76,7 +76,7 @@ class IsolatedFmu:
         self._folder = self._resources.enter_context(temporary_folder())
         try:
             self._start(fmu)
-            self._result()
+            _value(self._answer())
         except BaseException:
             self.kill()
             raise
@@ -100,9 +100,9 @@ class IsolatedFmu:
         assert answers is not None
         self._resources.enter_context(suppress(OSError))  # it has closed its end of the pipe
         self._requests = self._resources.enter_context(requests)
+        self._resources.callback(self._process.end)
         self._messages: queue.SimpleQueue[Message | None] = queue.SimpleQueue()
         threading.Thread(target=_collect, args=(answers, self._messages), daemon=True).start()
-        self._resources.callback(self._process.end)
 
     @property
     def _log(self) -> Path:
@@ -123,17 +123,23 @@ class IsolatedFmu:
         """Return the result of a task, or raise the HarnessError that it raised.
 
         With `progress` the task must take a keyword argument of that name. Raises FmuDied when the
-        FMU crashed or exceeded the time limit.
+        FMU crashed or exceeded the time limit. An interrupt, or an exception of `progress`, ends
+        the process.
         """
         if self._killed:
             raise FmuDied("the process of the FMU has been ended")
         request = pickle.dumps((task, progress is not None))
-        # In a thread: it would wait for ever for a process that has stopped.
-        threading.Thread(target=_send, args=(self._requests, request), daemon=True).start()
-        return self._result(progress)
+        try:
+            # In a thread: it would wait for ever for a process that has stopped.
+            threading.Thread(target=_send, args=(self._requests, request), daemon=True).start()
+            answer = self._answer(progress)
+        except BaseException:  # else the next task would get the answer to this one
+            self.kill()
+            raise
+        return _value(answer)
 
-    def _result(self, progress: ReportProgress | None = None) -> Any:
-        """Wait for a result, and return or raise as `run` does."""
+    def _answer(self, progress: ReportProgress | None = None) -> Result | Failure:
+        """Wait for the answer to a request; FmuDied as `run`."""
         deadline = monotonic() + LOADING
         while True:
             match self._receive(deadline):
@@ -142,10 +148,8 @@ class IsolatedFmu:
                 case Progress(label, share):
                     if progress is not None:
                         progress(label, share)
-                case Failure(error):
-                    raise error
-                case Result(value):
-                    return value
+                case answer:
+                    return answer
 
     def close(self) -> None:
         """Free the FMU and end its process; FmuDied when it crashes or hangs meanwhile."""
@@ -193,6 +197,13 @@ class IsolatedFmu:
         over = missed_limit(trace, ending) or ending.over_limit
         self.kill()
         return FmuDied(report, over_limit=over)
+
+
+def _value(answer: Result | Failure) -> Any:
+    """Return the value of a result, or raise the error of a failure."""
+    if isinstance(answer, Failure):
+        raise answer.error
+    return answer.value
 
 
 def _send(requests: IO[bytes], content: bytes) -> None:

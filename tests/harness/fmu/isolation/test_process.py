@@ -3,12 +3,14 @@ import tempfile
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.isolation import process
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
+from slider_resonator.fmu.isolation.supervised import Supervised
 from tests.harness.fmu.isolation import tasks_of_tests as tasks
 from tests.processes import ROOT, has_ended
 
@@ -53,6 +55,37 @@ def test_progress_arrives_before_the_result(isolated: IsolatedFmu) -> None:
     reported: list[tuple[str, float]] = []
     assert isolated.run(tasks.in_thirds, lambda *done: reported.append(done)) == "done"
     assert reported == [("third 0", 0.0), ("third 1", 1 / 3), ("third 2", 2 / 3)]
+
+
+def test_an_interrupted_task_leaves_no_answer_to_the_next(native_fmu: Path) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    with IsolatedFmu(native_fmu, 60.0) as interrupted:
+        with pytest.raises(KeyboardInterrupt):
+            interrupted.run(tasks.in_thirds, interrupt)
+        with pytest.raises(FmuDied, match="has been ended"):
+            interrupted.run(tasks.disturb)
+
+
+def test_a_process_that_cannot_be_listened_to_is_ended(
+    native_fmu: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[Supervised] = []
+
+    def supervised(*arguments: Any, **streams: Any) -> Supervised:
+        started.append(Supervised(*arguments, **streams))
+        return started[0]
+
+    def refuse(**_: object) -> None:
+        raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr(process, "Supervised", supervised)
+    monkeypatch.setattr(process.threading, "Thread", refuse)
+    with pytest.raises(RuntimeError, match="new thread"):
+        IsolatedFmu(native_fmu, 60.0)
+    assert started[0].poll()
+    assert not list(temporary.iterdir())
 
 
 def test_the_fmu_shares_no_stream_with_the_harness(isolated: IsolatedFmu) -> None:
