@@ -137,11 +137,18 @@ def write_recorded(folder: Path, recorded: Recorded) -> None:
 
 
 def replace_folder(fresh: Path, folder: Path) -> None:
-    """Move a folder to the place of another, if there is one; OSError when that fails."""
+    """Move a folder to the place of another, if there is one; OSError when that fails.
+
+    The other one is then still there.
+    """
     if folder.exists():
         with tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as old:
-            folder.rename(Path(old) / folder.name)
-            fresh.rename(folder)
+            moved = folder.rename(Path(old) / folder.name)
+            try:
+                fresh.rename(folder)
+            except OSError:
+                moved.rename(folder)
+                raise
     else:
         fresh.rename(folder)
 

@@ -16,6 +16,7 @@ from slider_resonator.baseline.store import (
     key,
     read_recorded,
     recorded_scenes,
+    replace_folder,
     write_recorded,
 )
 from slider_resonator.checks.compare import Check
@@ -174,3 +175,11 @@ def test_a_line_that_makes_no_sense_is_named(
     (tmp_path / "mine" / "numbers.csv").unlink()
     with pytest.raises(HarnessError, match=r"numbers.csv: cannot be read"):
         read_recorded(tmp_path / "mine")
+
+
+def test_results_stay_where_others_cannot_take_their_place(tmp_path: Path) -> None:
+    write_recorded(tmp_path / "mine", RECORDED)
+    with pytest.raises(FileNotFoundError):
+        replace_folder(tmp_path / "removed meanwhile", tmp_path / "mine")
+    assert read_recorded(tmp_path / "mine").provenance == RECORDED.provenance
+    assert [path.name for path in tmp_path.iterdir()] == ["mine"]

@@ -75,7 +75,7 @@ def _as_in_a_new_process() -> Iterator[None]:
     finally:
         locale.setlocale(locale.LC_ALL, language)
         for name, value in environment.items():
-            del os.environ[name]
+            os.environ.pop(name, None)
             if value is not None:
                 os.environ[name] = value
         for one, handler in handlers.items():

@@ -1,5 +1,6 @@
 """Faults of conduct are found and named."""
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
+from slider_resonator.checks.conduct import process
 from slider_resonator.checks.conduct.dependencies import dependency_faults
 from slider_resonator.checks.conduct.findings import differences
 from slider_resonator.checks.conduct.host_calls import derivative_offer_faults
@@ -95,3 +97,17 @@ def test_a_status_that_ends_a_run_is_a_fault_by_the_name_of_its_version(
 
     trial.refuses("a step", refused)
     assert trial.faults == [f"a step gives {status}, at which hosts end a run"]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="nothing is compared on Windows")
+def test_a_process_without_resources_keeps_its_environment(
+    instance: Instance, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse() -> None:
+        raise OSError("no space left on device")
+
+    monkeypatch.delenv("TZ", raising=False)
+    monkeypatch.setattr(process, "TemporaryDirectory", refuse)
+    with pytest.raises(OSError, match="no space left"):
+        [*process.process_faults(instance)]
+    assert "TZ" not in os.environ
