@@ -6,6 +6,7 @@ import os
 import platform
 import shutil
 import tempfile
+from collections import namedtuple
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -23,6 +24,7 @@ from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.opening import Fmu
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import built_in_scenes
+from slider_resonator.scenes.schema import RunTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 FMU_DIGEST = "fmu_sha256"
@@ -30,6 +32,11 @@ SCENE_DIGEST = "scene_sha256"
 SCENE_FILE = "scene_file"
 BUILT_IN = "built in"
 """In place of the file of a built-in scene."""
+RUN_KEYS = (
+    *("stop_time", "drive_periods", "step_size", "steps_per_period", "step_sizes"),
+    *("start_time", "read_twice", "interpolate"),
+)
+"""Keys of [run] that the digest of a scene contains, whatever their values."""
 
 Provenance = Mapping[str, str]
 """The recorded provenance, in the order of the file."""
@@ -71,10 +78,21 @@ def scene_digest(scene: Scene) -> str:
     runs: tuple[Any, ...]
     runs = (sorted(scene.parameters.items()), signals, scene.stop_time, scene.step_size, swept)
     run = scene.run
-    if scene.tuning or (run and (run.start_time or run.step_sizes or run.read_twice)):
+    has_later_keys = run and (run.start_time or run.step_sizes or run.read_twice)
+    if scene.tuning or scene.interpolates or has_later_keys:
         tuning = [(name, s.times, s.values, s.hold) for name, s in sorted(scene.tuning.items())]
-        runs = (*runs, tuning, run)
+        runs = (*runs, tuning, run and _keys_in_digest(run))
     return hashlib.sha256(repr(runs).encode()).hexdigest()
+
+
+def _keys_in_digest(run: RunTable) -> Any:
+    """Return an object whose representation has the keys of [run], and is that of earlier records.
+
+    Keys that came later appear only where they are set: other records stay valid.
+    """
+    defaults = {name: field.default for name, field in type(run).model_fields.items()}
+    keys = {name: value for name, value in run if name in RUN_KEYS or value != defaults[name]}
+    return namedtuple("RunTable", keys)(**keys)
 
 
 def _seen_from(folder: Path, file: Path) -> str:

@@ -1,6 +1,7 @@
 """Golden results: in files, and compared with new ones."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from slider_resonator.baseline.store import (
     read_recorded,
     recorded_scenes,
     replace_folder,
+    scene_digest,
     write_recorded,
 )
 from slider_resonator.checks.compare import Check
@@ -25,6 +27,8 @@ from slider_resonator.checks.verdict import sentence
 from slider_resonator.errors import HarnessError, SceneError
 from slider_resonator.scenes.scene import ScenePoint
 from slider_resonator.scenes.scene_files import find_scene
+from slider_resonator.scenes.schema import RunTable
+from tests.harness.scene_text import scene_of
 
 TIMES = np.linspace(0.0, 0.1, 48)
 WAVE = 1e-3 * np.sin(500.0 * TIMES)
@@ -98,6 +102,26 @@ GOLDEN = {
 RECORDED = Recorded(
     {key({"phase": 0.4}): GOLDEN, key({"phase": -1.5}): GOLDEN}, {"fmu": "my.fmu", "scene": "mine"}
 )
+
+
+def test_a_digest_notices_whether_lines_are_interpolated() -> None:
+    line = "[inputs]\nload = { ramp = [[0.0, 0.0], [0.01, 0.1]] }\n"
+    held = scene_of(line + "[run]\nstop_time = 0.01\nstep_size = 1e-3\n")
+    assert scene_digest(held.interpolating(True)) != scene_digest(held)
+
+
+def test_a_key_that_is_not_set_leaves_a_digest_as_it_was() -> None:
+    class LaterTable(RunTable):
+        another: bool = False
+
+    scene = scene_of("[run]\nstop_time = 0.01\nstep_size = 1e-3\nread_twice = true\n")
+    assert scene.run is not None
+    keys = scene.run.model_dump(exclude_unset=True)
+    later = replace(scene, run=LaterTable(**keys))
+    changed = replace(scene, run=LaterTable(**keys, another=True))
+    recorded = "eb20f8d4fb07683ac6a970e5e0dbc9e882933436d78b0b12f88fff3b5907619b"
+    assert scene_digest(scene) == scene_digest(later) == recorded
+    assert scene_digest(changed) != recorded
 
 
 def test_written_results_are_read_back(tmp_path: Path) -> None:
