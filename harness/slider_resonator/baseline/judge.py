@@ -9,7 +9,7 @@ from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.curves import Curves, curves_of
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measuring import Measurement, measure
-from slider_resonator.errors import SceneError
+from slider_resonator.errors import NotApplicable, SceneError
 from slider_resonator.scenes.scene import ScenePoint
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -42,8 +42,6 @@ def measure_golden(fmu: FmuSide) -> Golden:
 
     Raises FmuError and Refusal as the FMU does, NotApplicable where it cannot run the scene.
     """
-    if fmu.scene.interpolates:
-        fmu.instance.fmu.require("canInterpolateInputs")
     found = {}
     names: list[str] = []
     if fmu.scene.stop_time is not None:
@@ -56,7 +54,7 @@ def measure_golden(fmu: FmuSide) -> Golden:
         except SceneError:
             continue
         if not measured.applicable:
-            continue
+            raise NotApplicable(measured.note)
         if name in SIGNALS:
             assert measured.times is not None
             last = len(measured.times) - 1

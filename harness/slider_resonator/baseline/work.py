@@ -36,7 +36,7 @@ from slider_resonator.output.atomic import replacing
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.targets import make_folder
 from slider_resonator.scenes.scene import Scene, ScenePoint
-from slider_resonator.scenes.scene_files import built_in_scenes, find_scene, find_scenes
+from slider_resonator.scenes.scene_files import built_in_scenes, find_scene
 
 CHANGED = ".changed"
 """Folder beside the scenes with the changed results of the last check; git ignores it."""
@@ -48,11 +48,13 @@ def record(
     folder: Path,
     progress: Progress = no_progress,
     *,
+    must_apply: bool = True,
     replace: bool = False,
     time_limit: float = TIME_LIMIT,
 ) -> tuple[tuple[str, ...], tuple[RunFailure, ...]]:
     """Record scenes; return the names of those written and the run failures.
 
+    A scene that does not apply to the FMU is a run failure, without `must_apply` it is left out.
     Raises HarnessError, before anything is run, where a scene is recorded already and `replace` is
     not set, where two scenes have one name, and for a folder that cannot be made; FmuError for a
     file that is no FMU.
@@ -71,24 +73,13 @@ def record(
         pass  # nothing is made in `folder` for a file that is no FMU
     make_folder(folder)
     measured, run_failures, not_applied = _measure(fmu, scenes, folder, progress, time_limit)
-    run_failures += [RunFailure(one.scene, one.reason, one.at) for one in not_applied]
+    if must_apply:
+        run_failures += [RunFailure(one.scene, one.reason, one.at) for one in not_applied]
     whole = [scene for scene in scenes if scene.source in measured]
     for scene in whole:
         write_recorded(folder / scene.name, measured[scene.source])
         shutil.rmtree(folder / CHANGED / scene.name, ignore_errors=True)
     return tuple(scene.name for scene in whole), tuple(run_failures)
-
-
-def applicable_scenes(fmu: Path) -> list[Scene]:
-    """Return the built-in scenes that the FMU can run; FmuError for no FMU.
-
-    Those with `interpolate` are for FMUs that take derivatives of inputs.
-    """
-    scenes = find_scenes([])
-    with open_fmu(fmu) as opened:
-        if opened.interpolates:
-            return scenes
-    return [scene for scene in scenes if not scene.interpolates]
 
 
 def check(

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from slider_resonator.baseline.judge import TOLERANCE
-from slider_resonator.baseline.work import accept, applicable_scenes, check, record
+from slider_resonator.baseline.work import accept, check, record
 from slider_resonator.commands.options import fmu_argument, scenes_option, time_limit_option
 from slider_resonator.commands.reports import (
     Reports,
@@ -69,10 +69,15 @@ def record_command(
       slider-resonator baseline record my.fmu --dir baseline
       slider-resonator baseline record my.fmu --dir baseline --scene scenes/mine.toml --replace
     """
-    found = find_scenes(scenes) if scenes else applicable_scenes(fmu)
     with progress_bar() as progress:
         names, run_failures = record(
-            fmu, found, folder, progress, replace=replace, time_limit=time_limit
+            fmu,
+            find_scenes(scenes),
+            folder,
+            progress,
+            must_apply=bool(scenes),
+            replace=replace,
+            time_limit=time_limit,
         )
     print_text(f"recorded {number_of(len(names), 'scene')} in {one_line(str(folder))}")
     print_run_failures(str(fmu), run_failures)

@@ -9,8 +9,8 @@ from xml.etree import ElementTree as ET
 import pytest
 from click.testing import Result
 
-from slider_resonator.baseline.work import applicable_scenes
-from slider_resonator.scenes.scene_files import find_scenes
+from slider_resonator.commands import baseline as commands
+from slider_resonator.scenes.scene_files import find_scene
 from tests.harness import calling, faulty_fmus
 from tests.harness.public_json import assert_public_keys
 
@@ -183,6 +183,17 @@ def test_lines_that_an_fmu_cannot_take_do_not_apply(
     assert "canInterpolateInputs" in refused(
         "record", python_fmu, tmp_path / "other", "--scene", line
     )
-    kept = {scene.name for scene in applicable_scenes(python_fmu)}
-    left_out = [one for one in applicable_scenes(native_fmu) if one.name not in kept]
-    assert left_out == [one for one in find_scenes([]) if one.run and one.run.interpolate]
+
+
+def test_scenes_that_do_not_apply_are_left_out_unless_they_are_named(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    old = faulty_fmus.without_later_variables(native_fmu, tmp_path / "old.fmu")
+    scenes = ("burst", "tuned", "table_1")
+    named = run("record", old, tmp_path / "named", *(f"--scene={name}" for name in scenes))
+    assert (named.exit_code, named.stdout[:17]) == (2, "recorded 1 scene ")
+    assert "scene tuned at friction_faces 1: needs amplitude_deviation" in named.stderr
+    few = [find_scene(name) for name in scenes]
+    monkeypatch.setattr(commands, "find_scenes", lambda names: few)
+    assert run("record", old, tmp_path / "all").exit_code == 0
+    assert sorted(path.name for path in (tmp_path / "all").iterdir()) == ["table_1"]
