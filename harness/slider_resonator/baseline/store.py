@@ -3,25 +3,21 @@
 import csv
 import hashlib
 import os
-import platform
 import shutil
 import tempfile
 from collections import namedtuple
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, TypeVar
 
-import fmpy
 import numpy as np
 
-from slider_resonator import __version__
 from slider_resonator.baseline.judge import MAX_POINTS, NUMBERS_AND_WORDS, SIGNALS, Golden, order
 from slider_resonator.checks.compare import Value
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.errors import HarnessError, unknown_name
-from slider_resonator.fmu.opening import Fmu
+from slider_resonator.fmu.provenance import FmuIdentity, provenance_of, provenance_properties
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import built_in_scenes
 from slider_resonator.scenes.schema import RunTable
@@ -42,33 +38,19 @@ Provenance = Mapping[str, str]
 """The recorded provenance, in the order of the file."""
 
 
-def provenance(fmu: Fmu, scene: Scene, folder: Path) -> dict[str, str]:
+def provenance(fmu: FmuIdentity, scene: Scene, folder: Path) -> Provenance:
     """Return FMU, scene, host and tools; the scene's file as seen from the baseline's folder."""
-    description = fmu.description
+    found = provenance_of(fmu)
     is_built_in = built_in_scenes().get(scene.name) == scene.files[0]
     return {
-        "fmu": fmu.path.name,
-        FMU_DIGEST: file_digest(fmu.path),
-        "fmu_guid": str(description.guid),
-        "model": str(description.modelName),
-        "model_version": str(description.version or ""),
-        "generation_tool": str(description.generationTool or ""),
+        **provenance_properties(found, fmu),
+        "fmu": Path(fmu.fmu).name,
+        "date": found.date.partition("T")[0],  # recorded again on a day, the file is the same
         "scene": scene.name,
         SCENE_FILE: BUILT_IN if is_built_in else _seen_from(folder, scene.files[0]),
         SCENE_DIGEST: scene_digest(scene),
         "points_kept": str(MAX_POINTS),
-        "harness": __version__,
-        "fmpy": fmpy.__version__,
-        "numpy": np.__version__,
-        "python": platform.python_version(),
-        "platform": f"{platform.system()} {platform.machine()}",
-        "recorded": datetime.now(UTC).date().isoformat(),
     }
-
-
-def file_digest(file: Path) -> str:
-    """Return the SHA-256 of the content of a file."""
-    return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
 def scene_digest(scene: Scene) -> str:

@@ -15,7 +15,6 @@ from slider_resonator.baseline.store import (
     SCENE_FILE,
     At,
     Recorded,
-    file_digest,
     key,
     provenance,
     read_recorded,
@@ -31,7 +30,7 @@ from slider_resonator.checks.validate import NotApplied, RunFailure, Validation
 from slider_resonator.errors import HarnessError, NotApplicable, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.fmu.provenance import identity_of
+from slider_resonator.fmu.provenance import digest_of, identity_of
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.targets import make_folder
@@ -148,7 +147,7 @@ def accept(fmu: Path, folder: Path, names: Sequence[str]) -> tuple[str, ...]:
     if not chosen:
         return ()
     with open_fmu(fmu):
-        digest = file_digest(fmu)
+        digest = digest_of(fmu)
     for name in chosen:
         checked = read_recorded(waiting[name]).provenance
         if checked.get(FMU_DIGEST) != digest:
@@ -194,8 +193,9 @@ def _measure(
         done = next(number)
         progress(counted(point.scene.name, done, len(all_points)), done / len(all_points))
 
-    with open_fmu(fmu) as opened:
-        origins = {scene.source: provenance(opened, scene, folder) for scene in scenes}
+    with open_fmu(fmu):
+        identity = identity_of(fmu)
+        origins = {scene.source: provenance(identity, scene, folder) for scene in scenes}
         runs = measure_points(fmu, all_points, measure_golden, time_limit, meanwhile)
         with closing(runs) as finished:
             for one in finished:

@@ -76,20 +76,20 @@ def provenance_of(*fmus: str | Path | FmuIdentity) -> Provenance:
 
 def identity_of(fmu: str | Path) -> FmuIdentity:
     """Return what identifies an FMU file, as far as a missing or corrupt one allows."""
-    guid = version = tool = None
+    guid = version = tool = digest = None
+    with suppress(OSError):
+        digest = digest_of(Path(fmu))
     with suppress(Exception):  # it may have no description, or a corrupt one
         root = root_attributes(Path(fmu))
         guid = root.get("guid", root.get("instantiationToken"))
         version, tool = root.get("version", ""), root.get("generationTool", "")
-    return FmuIdentity(str(fmu), guid, _digest(Path(fmu)), version, tool)
+    return FmuIdentity(str(fmu), guid, digest, version, tool)
 
 
-def _digest(fmu: Path) -> str | None:
-    try:
-        with fmu.open("rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
-    except OSError:
-        return None
+def digest_of(fmu: Path) -> str:
+    """Return the SHA-256 of the content of a file."""
+    with fmu.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def _cpu() -> str:

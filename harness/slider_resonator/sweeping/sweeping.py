@@ -16,6 +16,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, Processes
 from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.provenance import digest_of
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.output.readable import number_of
@@ -129,7 +130,7 @@ def run_sweep(
     before = {} if overwrite else replaceable(out, sweep.task, sweep.points)
     with open_fmu(fmu):
         pass  # the file is checked once, not at every point
-    fmu_digest = hashlib.sha256(fmu.read_bytes()).hexdigest()
+    fmu_digest = digest_of(fmu)
     # All that the rows of a journal depend on.
     content = json.dumps([__version__, fmu_digest, asdict(sweep.task), sweep.points])
     digest = hashlib.sha256(content.encode()).hexdigest()
