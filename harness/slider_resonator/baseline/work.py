@@ -3,7 +3,6 @@
 import shutil
 from collections.abc import Sequence
 from contextlib import closing
-from itertools import count
 from pathlib import Path
 from time import perf_counter
 
@@ -34,7 +33,7 @@ from slider_resonator.fmu.provenance import digest_of, identity_of
 from slider_resonator.output.atomic import replacing
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.targets import make_folder
-from slider_resonator.scenes.scene import Scene, ScenePoint
+from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import built_in_scenes, find_scene
 
 CHANGED = ".changed"
@@ -187,25 +186,24 @@ def _measure(
     found: dict[str, dict[At, Golden]] = {source: {} for source in points}
     run_failures: list[RunFailure] = []
     not_applied: list[NotApplied] = []
-    number = count()
-
-    def meanwhile(point: ScenePoint) -> None:
-        done = next(number)
-        progress(counted(point.scene.name, done, len(all_points)), done / len(all_points))
-
     with open_fmu(fmu):
-        identity = identity_of(fmu)
-        origins = {scene.source: provenance(identity, scene, folder) for scene in scenes}
-        runs = measure_points(fmu, all_points, measure_golden, time_limit, meanwhile)
-        with closing(runs) as finished:
-            for one in finished:
-                if isinstance(one.error, NotApplicable) and one.item is not None:
-                    place = (one.item.scene.name, "the run", str(one.error), one.item.at)
-                    not_applied.append(NotApplied(*place))
-                elif one.error is not None or one.item is None:
-                    run_failures.append(RunFailure.of(fmu, one.item, one.error))
-                else:
-                    found[one.item.scene.source][key(one.item.at)] = one.result
+        pass
+    identity = identity_of(fmu)
+    origins = {scene.source: provenance(identity, scene, folder) for scene in scenes}
+    with closing(measure_points(fmu, all_points, measure_golden, time_limit)) as outcomes:
+        for done, (point, outcome) in enumerate(outcomes):
+            error = outcome.error
+            if point is None:
+                run_failures.append(RunFailure.of(fmu, None, error))
+                continue
+            name, at = point.scene.name, point.at
+            progress(counted(name, done, len(all_points)), done / len(all_points))
+            if isinstance(error, NotApplicable):
+                not_applied.append(NotApplied(name, "the run", str(error), at))
+            elif error is not None:
+                run_failures.append(RunFailure.of(fmu, point, error))
+            else:
+                found[point.scene.source][key(at)] = outcome.value
     progress("", 1.0)
     whole = [source for source in points if len(found[source]) == len(points[source])]
     recorded = {source: Recorded(found[source], origins[source]) for source in whole}

@@ -1,8 +1,7 @@
-"""Expected values of scenes: on demand in this process, or ahead in processes of their own."""
+"""Expected values of scenes, computed ahead in processes of their own."""
 
 import os
 from collections.abc import Sequence
-from concurrent.futures import Future
 from functools import partial
 from typing import Any
 
@@ -10,11 +9,11 @@ from slider_resonator.checks.expecting import expected_value
 from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.errors import HarnessError, SceneError
 from slider_resonator.fmu.isolation.process import FmuDied
-from slider_resonator.fmu.isolation.tasks import LocalProcesses, Outcome
+from slider_resonator.fmu.isolation.tasks import LocalProcesses
 from slider_resonator.scenes.scene import Scene, ScenePoint
 
 MIN_POINTS = 8
-"""Fewest points for a process: loading it takes as long as some references."""
+"""Fewest points for a further process: loading it takes as long as some references."""
 TIME_LIMIT = 1e6
 """Time limit (s) of a reference: none."""
 PRIORITY = 5
@@ -22,21 +21,19 @@ PRIORITY = 5
 
 
 class ExpectedValues:
-    """The expected values of scenes at their points, each computed once.
+    """The expected values of scenes at some points, each computed once.
 
-    With `jobs` above 1 and enough `points`, that many processes compute those of `points` from the
-    beginning on, in this order. Use it in a `with` block, at the end of which they are ended.
+    Up to `jobs` processes compute them from the beginning on, in this order, with enough points for
+    each. Use it in a `with` block, at the end of which they are ended.
     """
 
-    def __init__(self, points: Sequence[ScenePoint] = (), jobs: int = 1) -> None:
-        self._values: dict[ScenePoint, list[Any]] = {}
-        self._ahead: dict[ScenePoint, Future[Outcome]] = {}
-        count = min(jobs, len(points) // MIN_POINTS)
-        self._processes = LocalProcesses(None, TIME_LIMIT, count) if count > 1 else None
-        if self._processes is not None:
-            for point in points:
-                task = partial(_values_ahead, scene=point.scene)
-                self._ahead[point] = self._processes.submit(task)
+    def __init__(self, points: Sequence[ScenePoint], jobs: int = 1) -> None:
+        count = max(1, min(jobs, len(points) // MIN_POINTS))
+        self._processes = LocalProcesses(None, TIME_LIMIT, count)
+        self._values = {
+            point: self._processes.submit(partial(_values_ahead, scene=point.scene))
+            for point in points
+        }
 
     def __enter__(self) -> "ExpectedValues":
         """Return this."""
@@ -44,27 +41,14 @@ class ExpectedValues:
 
     def __exit__(self, *_: object) -> None:
         """End the processes, also in the middle of a reference."""
-        if self._processes is not None:
-            self._processes.end()
-
-    def prepare(self, point: ScenePoint) -> None:
-        """Compute the values at a point now, unless a process does."""
-        if point not in self._ahead and point not in self._values:
-            self._values[point] = values_in(point.scene)
-
-    def ready(self, point: ScenePoint) -> bool:
-        """Whether `at` does not wait for a process."""
-        return point not in self._ahead or self._ahead[point].done()
+        self._processes.end()
 
     def at(self, point: ScenePoint) -> list[Any]:
-        """Return a value for each expectation, or the SceneError where there is none.
+        """Wait for a value for each expectation, or the SceneError where there is none.
 
         Raises HarnessError where a process that computes them has ended.
         """
-        if point not in self._ahead:
-            self.prepare(point)
-            return self._values[point]
-        outcome = self._ahead[point].result()
+        outcome = self._values[point].result()
         if isinstance(outcome.error, FmuDied):
             reason = str(outcome.error).replace("the FMU", "it")
             raise HarnessError(

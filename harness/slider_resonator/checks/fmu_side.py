@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.isolation.tasks import Finished, run_tasks
+from slider_resonator.fmu.isolation.tasks import Outcome, run_tasks
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
 from slider_resonator.scenes.scene import Scene, ScenePoint
@@ -85,21 +85,12 @@ def measure_points(
     points: Sequence[Point],
     measure: Callable[[FmuSide], Any],
     time_limit: float,
-    meanwhile: Callable[[Point], None] = lambda point: None,
     jobs: int = 1,
-) -> Generator[Finished[Point], None, None]:
-    """Yield the result of `measure`, which must be picklable, at each point, or the error there.
+) -> Generator[tuple[Point | None, Outcome], None, None]:
+    """Yield each point with the outcome of `measure` there, which must be picklable.
 
-    `meanwhile` is called for a point while the FMU is at work on it. Up to `jobs` processes of the
-    FMU share the points, as `run_tasks` has it. After a crash or a missed
-    `time_limit` (s) the other points of that scene are left out.
+    Up to `jobs` processes of the FMU share the points, as `run_tasks` has it. After a crash or a
+    missed `time_limit` (s) the other points of that scene are left out.
     """
     tasks = [(p, partial(_measure, scene=p.scene, measure=measure)) for p in points]
-    return run_tasks(
-        fmu,
-        tasks,
-        time_limit,
-        name=lambda point: point.scene.name,
-        meanwhile=meanwhile,
-        jobs=jobs,
-    )
+    return run_tasks(fmu, tasks, time_limit, name=lambda point: point.scene.name, jobs=jobs)

@@ -1,9 +1,8 @@
 """Run scenes on isolated FMUs and compare the results with the references."""
 
-from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from itertools import count
 from pathlib import Path
 from time import perf_counter
@@ -13,11 +12,10 @@ from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.curves import Curves, curves_of, overview_of
 from slider_resonator.checks.expected_values import ExpectedValues
 from slider_resonator.checks.fmu_side import measure_points
-from slider_resonator.checks.measuring import measure_all
+from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.verdict import place, sentence, title
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
-from slider_resonator.fmu.isolation.tasks import Finished
 from slider_resonator.fmu.opening import lacking
 from slider_resonator.fmu.provenance import FmuIdentity, Provenance, identity_of, provenance_of
 from slider_resonator.output.progress import Progress, counted, no_progress
@@ -155,24 +153,23 @@ def validate(
 ) -> tuple[Validation, ...]:
     """Compare each FMU with the references in every scene and at every point of its sweep.
 
-    Expected values are computed once for all FMUs, while they run: by `jobs` processes, or with 1
-    by this one; an FMU that shows no fault runs in up to `jobs` processes. The verdicts and their
-    order are those with 1. `progress` gets the scene at work and the share of the work done. An
-    FMU that does not answer within `time_limit` (s) for a point is stopped. Raises SceneError for a
-    scene that expects nothing; what is wrong with an FMU is among the run failures of its
-    validation.
+    Expected values are computed once for all FMUs, by up to `jobs` processes while the FMUs run; an
+    FMU that shows no fault runs in up to `jobs` processes. The verdicts and their order are those
+    with 1. `progress` gets the scene that is judged and the share of the work done. An FMU that
+    does not answer within `time_limit` (s) for a point is stopped. Raises SceneError for a scene
+    that expects nothing; what is wrong with an FMU is among the run failures of its validation.
     """
     points = [point for scene in scenes for point in points_to_check(scene)]
     total, steps = len(fmu_paths) * len(points), count()
 
     def report(point: ScenePoint) -> None:
-        """Report a point when it is run and when it is judged, which count as equal work."""
-        done = min(next(steps), 2 * total)
-        progress(counted(point.scene.name, done // 2, total), done / (2 * total))
+        done = next(steps)
+        progress(counted(point.scene.name, done, total), done / total)
 
     with ExpectedValues(points, jobs) as expected:
-        judging = [_measure(path, points, expected, report, time_limit, jobs) for path in fmu_paths]
-        validations = tuple(finish() for finish in judging)
+        validations = tuple(
+            _validated(path, points, expected, report, time_limit, jobs) for path in fmu_paths
+        )
     progress("", 1.0)
     return validations
 
@@ -186,74 +183,68 @@ def points_to_check(scene: Scene) -> tuple[ScenePoint, ...]:
     return scene.points()
 
 
-def _measure(
+def _validated(
     path: Path,
     points: Sequence[ScenePoint],
     expected: ExpectedValues,
     report: Callable[[ScenePoint], None],
     time_limit: float,
     jobs: int,
-) -> Callable[[], Validation]:
-    """Run an FMU at all points, and return what gives the verdicts, in order.
-
-    References that take longer than the FMU do not keep the next one waiting.
-    """
-    began, identity = perf_counter(), identity_of(path)
-    checks, curves = list[Check](), list[Curves]()
-    failures, not_applied = list[RunFailure](), list[NotApplied]()
-    overviews: dict[str, Curves | None] = {}
-    waiting: deque[Finished[ScenePoint]] = deque()
-
-    def meanwhile(point: ScenePoint) -> None:
-        report(point)
-        expected.prepare(point)
-
-    def judge(one: Finished[ScenePoint]) -> None:
-        point = one.item
-        if point is not None:
-            report(point)
-        if one.error is not None or point is None:
-            failures.append(RunFailure.of(path, point, one.error))
-            return
-        signals: list[Curves] = []
-        values = expected.at(point)
-        for expect, measured, value in zip(point.scene.expect, one.result, values, strict=True):
-            if not measured.applicable:
-                where = (point.scene.name, expect.quantity, measured.note, point.at)
-                not_applied.append(NotApplied(*where))
-            elif isinstance(value, SceneError):
-                failures.append(RunFailure.of(path, point, value))
+) -> Validation:
+    """Run an FMU at all points, and judge each while it runs at the next ones."""
+    began, identity, found = perf_counter(), identity_of(path), _Verdicts()
+    with closing(measure_points(path, points, measure_all, time_limit, jobs)) as outcomes:
+        for point, outcome in outcomes:
+            if point is not None:
+                report(point)
+            if point is None or outcome.error is not None:
+                found.failures.append(RunFailure.of(path, point, outcome.error))
             else:
-                checks.append(compare(Comparison.of(expect), measured, value, point))
-                if shown := curves_of(checks[-1], measured, value):
+                found.judge(point, outcome.value, expected.at(point))
+    return Validation(
+        str(path),
+        tuple(found.checks),
+        perf_counter() - began,
+        tuple(found.failures),
+        tuple(found.curves),
+        lacking(path),
+        tuple(found.not_applied),
+        identity,
+        tuple(overview for overview in found.overviews.values() if overview is not None),
+    )
+
+
+@dataclass
+class _Verdicts:
+    """What an FMU has shown so far, in the order of the points; the fields of a `Validation`.
+
+    `overviews` has each scene by its name, with None for one without a signal.
+    """
+
+    checks: list[Check] = field(default_factory=list)
+    failures: list[RunFailure] = field(default_factory=list)
+    not_applied: list[NotApplied] = field(default_factory=list)
+    curves: list[Curves] = field(default_factory=list)
+    overviews: dict[str, Curves | None] = field(default_factory=dict)
+
+    def judge(
+        self, point: ScenePoint, measurements: Sequence[Measurement], values: Sequence[Any]
+    ) -> None:
+        """Compare each measurement at a point with the expected value, or why there is none."""
+        name, at, signals = point.scene.name, point.at, list[Curves]()
+        for expect, measured, value in zip(point.scene.expect, measurements, values, strict=True):
+            if not measured.applicable:
+                self.not_applied.append(NotApplied(name, expect.quantity, measured.note, at))
+            elif isinstance(value, SceneError):
+                self.failures.append(RunFailure(name, str(value), at))
+            else:
+                check = compare(Comparison.of(expect), measured, value, point)
+                self.checks.append(check)
+                if shown := curves_of(check, measured, value):
                     signals.append(shown)
-        curves.extend(shown for shown in signals if not shown.check.passed)
-        if point.scene.name not in overviews:
-            overviews[point.scene.name] = overview_of(signals)
-
-    runs = measure_points(path, points, measure_all, time_limit, meanwhile, jobs)
-    with closing(runs) as finished:
-        for one in finished:
-            waiting.append(one)
-            while waiting and (waiting[0].item is None or expected.ready(waiting[0].item)):
-                judge(waiting.popleft())
-
-    def finish() -> Validation:
-        for one in waiting:
-            judge(one)
-        return Validation(
-            str(path),
-            tuple(checks),
-            perf_counter() - began,
-            tuple(failures),
-            tuple(curves),
-            lacking(path),
-            tuple(not_applied),
-            identity,
-            tuple(overview for overview in overviews.values() if overview is not None),
-        )
-
-    return finish
+        self.curves.extend(shown for shown in signals if not shown.check.passed)
+        if name not in self.overviews:
+            self.overviews[name] = overview_of(signals)
 
 
 def provenance_of_all(validations: Sequence[Validation]) -> Provenance:

@@ -305,8 +305,8 @@ def isolated(
         def run(label: str, tasks: Sequence[Task]) -> list[Any]:
             results = []
             progress(counted(label, 0, len(tasks)), 0.0)
-            for _, result, _ in run_all_tasks(processes, list(enumerate(tasks)), outcomes=()):
-                results.append(result)
+            for _, outcome in run_all_tasks(processes, list(enumerate(tasks)), outcomes=()):
+                results.append(outcome.value)
                 progress(counted(label, len(results), len(tasks)), len(results) / len(tasks))
             return results
 

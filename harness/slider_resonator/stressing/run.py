@@ -230,11 +230,11 @@ def run_cases(
     tasks = [(case, partial(observe, case=case)) for case in chosen]
     try:
         with LocalProcesses(fmu, time_limit, jobs) as processes:
-            for case, seen, error in run_all_tasks(
-                processes, tasks, outcomes=(FmuDied,), meanwhile=report
-            ):
+            for case, outcome in run_all_tasks(processes, tasks, outcomes=(FmuDied,)):
+                report(case)
+                error = outcome.error
                 failed = error and verdict_on(case, FAILED, str(error))
-                verdicts.append(failed or judge(case, seen))
+                verdicts.append(failed or judge(case, outcome.value))
     except BaseException:
         if verdicts:
             keep(result())

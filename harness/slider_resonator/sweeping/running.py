@@ -56,11 +56,12 @@ def _prove(
     tasks = [(batch, partial(prove_points, task=task, points=batch)) for batch in batches]
     left: list[tuple[Point, Proved]] = []
     lost: list[Point] = []
-    for batch, found, error in run_all_tasks(processes, tasks, outcomes=(HarnessError,)):
+    for batch, outcome in run_all_tasks(processes, tasks, outcomes=(HarnessError,)):
+        error = outcome.error
         if isinstance(error, FmuDied) and not error.over_limit:
             lost += batch
             continue
-        proofs = found if error is None else [{}] * len(batch)
+        proofs = outcome.value if error is None else [{}] * len(batch)
         done = []
         for point, proved in zip(batch, proofs, strict=True):
             row = proved_row(task, point, proved)
@@ -84,9 +85,10 @@ def _measure(
     measure = partial(measure_point, task=task)
     tasks = [(one, partial(measure, point=one[0], proved=one[1])) for one in points]
     died: list[tuple[Point, Proved]] = []
-    for one, row, error in run_all_tasks(processes, tasks, outcomes=(HarnessError,)):
+    for one, outcome in run_all_tasks(processes, tasks, outcomes=(HarnessError,)):
+        error = outcome.error
         if isinstance(error, FmuDied) and not error.over_limit and not is_last:
             died.append(one)
         else:
-            keep([row if error is None else failed_row(task, one[0][0], str(error))])
+            keep([outcome.value if error is None else failed_row(task, one[0][0], str(error))])
     return died

@@ -46,20 +46,21 @@ def bench_of(fmu: Path, judging: Judging) -> list[BenchPoint]:
     ]
     bench: list[BenchPoint] = []
     limit, jobs = judging.time_limit, judging.jobs
-    with ExpectedValues(points, jobs) as expected:
-        runs = measure_points(fmu, points, _timed, limit, expected.prepare, jobs)
-        with closing(runs) as finished:
-            for one in finished:
-                rejection = not_run(one)
-                if rejection is None and one.item is not None:
-                    measured, cost = one.result
-                    point = _completed(one.item, expected, measured, cost)
-                    rejection = first_failure(point, measured)
-                    bench.append(point)
-                    label = counted(f"{point_name(point)} unchanged", len(bench) - 1, len(points))
-                    judging.progress(label, len(bench) / len(points))
-                if rejection is not None:
-                    raise _rejected_unchanged(fmu, rejection)
+    with (
+        ExpectedValues(points, jobs) as expected,
+        closing(measure_points(fmu, points, _timed, limit, jobs)) as outcomes,
+    ):
+        for at, outcome in outcomes:
+            rejection = not_run(at, outcome)
+            if rejection is None and at is not None:
+                measured, cost = outcome.value
+                point = _completed(at, expected, measured, cost)
+                rejection = first_failure(point, measured)
+                bench.append(point)
+                label = counted(f"{point_name(point)} unchanged", len(bench) - 1, len(points))
+                judging.progress(label, len(bench) / len(points))
+            if rejection is not None:
+                raise _rejected_unchanged(fmu, rejection)
     return bench
 
 

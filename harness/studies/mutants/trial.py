@@ -11,7 +11,7 @@ from slider_resonator.checks.compare import Comparison, compare
 from slider_resonator.checks.fmu_side import measure_points
 from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.verdict import place, sentence
-from slider_resonator.fmu.isolation.tasks import Finished
+from slider_resonator.fmu.isolation.tasks import Outcome
 from slider_resonator.scenes.scene import ScenePoint
 
 NEGLIGIBLE = 0.01
@@ -59,24 +59,24 @@ def trial(
     set, with a result that says nothing.
     """
     differs = False
-    with closing(measure_points(fmu, points, measure_all, time_limit)) as finished:
-        for one in finished:
+    with closing(measure_points(fmu, points, measure_all, time_limit)) as outcomes:
+        for point, outcome in outcomes:
             if stopped.is_set():
                 break
-            rejection = not_run(one)
-            if rejection is None and one.item is not None:
-                rejection = first_failure(one.item, one.result)
-                differs = differs or _differs(one.item, one.result)
+            rejection = not_run(point, outcome)
+            if rejection is None and point is not None:
+                rejection = first_failure(point, outcome.value)
+                differs = differs or _differs(point, outcome.value)
             if rejection is not None:
                 return Tried(rejection, differs)
     return Tried(None, differs)
 
 
-def not_run(one: Finished[BenchPoint]) -> Rejection | None:
+def not_run(point: BenchPoint | None, outcome: Outcome) -> Rejection | None:
     """Return why an FMU could not be run at a point, None where it could."""
-    if one.error is None:
+    if outcome.error is None:
         return None
-    return Rejection(point_name(one.item) if one.item else "", "", str(one.error))
+    return Rejection(point_name(point) if point else "", "", str(outcome.error))
 
 
 def first_failure(point: BenchPoint, measured: Sequence[Measurement]) -> Rejection | None:

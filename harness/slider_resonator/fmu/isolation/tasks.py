@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from threading import Event
 from time import monotonic
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, Task
@@ -131,64 +131,51 @@ QUEUED = 2
 Item = TypeVar("Item")
 
 
-@dataclass(frozen=True)
-class Finished(Generic[Item]):
-    """The `result` of the task of an item, or the `error` in its place.
-
-    Without an item the error is about the FMU as a whole.
-    """
-
-    item: Item | None
-    result: Any = None
-    error: HarnessError | None = None
-
-
 def run_tasks(
     fmu: Path,
     tasks: Sequence[tuple[Item, Task]],
     time_limit: float,
     *,
     name: Callable[[Item], str],
-    meanwhile: Callable[[Item], None] = lambda item: None,
     jobs: int = 1,
-) -> Generator[Finished[Item], None, None]:
-    """Run a task for each item in up to `jobs` processes, and yield each outcome, in this order.
+) -> Generator[tuple[Item | None, Outcome], None, None]:
+    """Run a task for each item in up to `jobs` processes; yield item and outcome, in this order.
 
-    `meanwhile` is called for an item while the FMU works on it, or has. After a crash or an
-    exceeded limit the other items of that `name` are left out. All remaining items are left out
-    after an exceeded limit of time, memory or processes, after `MAX_CRASHES` crashes, and after
-    crashes that took `time_limit` (s) together.
+    After a crash or an exceeded limit the other items of that `name` are left out. All remaining
+    items are left out after an exceeded limit of time, memory or processes, after `MAX_CRASHES`
+    crashes, and after crashes that took `time_limit` (s) together. An outcome without an item has
+    an error of the FMU as a whole.
     """
-    crashed: set[str] = set()
-    crashes, wasted = 0, 0.0
+    crashed, finished = set[str](), set[str]()
+    wasted = 0.0
     processes = LocalProcesses(fmu, time_limit, jobs)
     try:
-        for index, outcome in _outcomes(
-            processes, tasks, meanwhile, left_out=lambda item: name(item) in crashed
-        ):
-            item = tasks[index][0]
+        for item, outcome in _outcomes(processes, tasks, lambda item: name(item) in crashed):
             if not outcome.is_open:
-                yield Finished(None, error=outcome.error)
+                yield None, outcome
                 return
-            if isinstance(outcome.error, FmuDied):
-                crashed.add(name(item))
-                crashes += 1
-                wasted += time_limit if outcome.error.over_limit else outcome.seconds
-            yield Finished(item, outcome.value, outcome.error)
-            if crashes >= MAX_CRASHES or wasted >= time_limit:
-                rest = [name(other) for other, _ in tasks[index + 1 :]]
-                not_run = [one for one in dict.fromkeys(rest) if one not in crashed]
-                if not_run:
-                    many = f"{crashes} crashes or exceeded limits"
-                    if crashes == 1:
-                        many = "1 crash or exceeded limit"
-                    reason = f"given up after {many}; not run: {', '.join(not_run)}"
-                    yield Finished(None, error=FmuError(reason))
+            yield item, outcome
+            finished.add(name(item))
+            if not isinstance(outcome.error, FmuDied):
+                continue
+            crashed.add(name(item))
+            wasted += time_limit if outcome.error.over_limit else outcome.seconds
+            if len(crashed) >= MAX_CRASHES or wasted >= time_limit:
+                names = dict.fromkeys(name(one) for one, _ in tasks)
+                if not_run := [one for one in names if one not in finished]:
+                    yield None, Outcome(error=_given_up(len(crashed), not_run))
                 return
         if error := processes.close():
-            yield Finished(None, error=error)
+            yield None, Outcome(error=error)
     finally:
         processes.end()
+
+
+def _given_up(crashes: int, not_run: Sequence[str]) -> FmuError:
+    many = "1 crash or exceeded limit"
+    if crashes > 1:
+        many = f"{crashes} crashes or exceeded limits"
+    return FmuError(f"given up after {many}; not run: {', '.join(not_run)}")
 
 
 def run_all_tasks(
@@ -196,53 +183,52 @@ def run_all_tasks(
     tasks: Sequence[tuple[Item, Task]],
     *,
     outcomes: tuple[type[HarnessError], ...],
-    meanwhile: Callable[[Item], None] = lambda item: None,
-) -> Iterator[tuple[Item, Any, HarnessError | None]]:
-    """Run a task for each item, however many crash, and yield item, result and error of each.
+) -> Iterator[tuple[Item, Outcome]]:
+    """Run a task for each item, however many crash; yield item and outcome, in this order.
 
     Errors that are among the `outcomes` of a task are yielded, others raised: FmuError when the FMU
     cannot be run at all.
     """
-    for index, outcome in _outcomes(processes, tasks, meanwhile, queued=QUEUED):
+    for item, outcome in _outcomes(processes, tasks, queued=QUEUED):
         error = outcome.error
         if error is not None and not (outcome.is_open and isinstance(error, outcomes)):
             raise error
-        yield tasks[index][0], outcome.value, error
+        yield item, outcome
 
 
 def _outcomes(
     processes: Processes,
     tasks: Sequence[tuple[Item, Task]],
-    meanwhile: Callable[[Item], None],
-    *,
-    left_out: Callable[[Item], bool] = lambda item: False,
+    is_left_out: Callable[[Item], bool] = lambda item: False,
     queued: int = 1,
-) -> Iterator[tuple[int, Outcome]]:
-    """Yield index and outcome of each task, in this order, but of items that are `left_out`.
+) -> Iterator[tuple[Item, Outcome]]:
+    """Yield item and outcome of each task, in this order, but of items that are left out.
 
     A run that takes longer than `ALONE` gets all processes, with `queued` tasks for each of them.
     The outcomes do not depend on their number, for an FMU in which each run is independent of those
     before. The last outcome is that of an FMU that cannot be opened.
     """
-    submitted: dict[int, Future[Outcome]] = {}
-    waiting = deque(range(len(tasks)))
-    count, began = processes.count, monotonic()
-    for index, (item, task) in enumerate(tasks):
-        if left_out(item):
-            if future := submitted.pop(index, None):
-                future.cancel()
-            continue
+    waiting = deque(tasks)
+    submitted: deque[tuple[Item, Task, Future[Outcome]]] = deque()
+    count, began, has_opened = processes.count, monotonic(), False
+    while True:
         at_once = queued * (count if monotonic() - began >= ALONE else 1)
         while waiting and len(submitted) < at_once:
-            following = waiting.popleft()
-            if not left_out(tasks[following][0]):
-                submitted[following] = processes.submit(tasks[following][1])
-        meanwhile(item)
-        outcome = processes.outcome(submitted.pop(index))
-        if not outcome.is_open and index > 0:  # it may run in fewer processes only
+            item, task = waiting.popleft()
+            if not is_left_out(item):
+                submitted.append((item, task, processes.submit(task)))
+        if not submitted:
+            return
+        item, task, future = submitted.popleft()
+        if is_left_out(item):
+            future.cancel()
+            continue
+        outcome = processes.outcome(future)
+        if has_opened and not outcome.is_open:  # it may run in fewer processes only
             count = 1
-            wait(submitted.values())
+            wait(other for _, _, other in submitted)
             outcome = processes.outcome(processes.submit(task))
-        yield index, outcome
+        yield item, outcome
         if not outcome.is_open:
             return
+        has_opened = True

@@ -81,7 +81,7 @@ def test_a_process_that_cannot_be_listened_to_is_ended(
         raise RuntimeError("can't start new thread")
 
     monkeypatch.setattr(process, "Supervised", supervised)
-    monkeypatch.setattr(process.threading, "Thread", refuse)
+    monkeypatch.setattr("threading.Thread", refuse)
     with pytest.raises(RuntimeError, match="new thread"):
         IsolatedFmu(native_fmu, 60.0)
     assert started[0].poll()

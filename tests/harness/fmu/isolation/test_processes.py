@@ -43,16 +43,16 @@ def opened(monkeypatch: pytest.MonkeyPatch) -> list[float]:
 
 def outcomes(fmu: Path, given: list[tuple[str, Task]], jobs: int) -> list[tuple[object, ...]]:
     return [
-        (one.item, one.result, type(one.error), str(one.error))
-        for one in run_tasks(fmu, given, 60.0, name=lambda item: item[0], jobs=jobs)
+        (item, one.value, type(one.error), str(one.error))
+        for item, one in run_tasks(fmu, given, 60.0, name=lambda item: item[0], jobs=jobs)
     ]
 
 
 def test_processes_share_the_tasks_and_keep_the_order(native_fmu: Path) -> None:
     given = [(str(index), SLOW) for index in range(6)]
     finished = list(run_tasks(native_fmu, given, 60.0, name=str, jobs=2))
-    assert [one.item for one in finished] == [item for item, _ in given]
-    assert len({one.result for one in finished}) == 2
+    assert [item for item, _ in finished] == [item for item, _ in given]
+    assert len({outcome.value for _, outcome in finished}) == 2
 
 
 ABORT, REFUSED = tasks_of_tests.abort, tasks_of_tests.refused
@@ -99,7 +99,7 @@ def test_an_fmu_that_runs_only_once_at_a_time_is_run_by_one_process(
     finished = list(
         run_tasks(native_fmu, [(name, SLOW) for name in "abcd"], 60.0, name=str, jobs=2)
     )
-    assert len({one.result for one in finished}) == 1
+    assert len({outcome.value for _, outcome in finished}) == 1
 
 
 def test_a_run_that_is_left_ends_the_tasks_at_work(native_fmu: Path, opened: list[float]) -> None:
