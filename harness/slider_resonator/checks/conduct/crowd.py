@@ -1,4 +1,4 @@
-"""Several instances in a process: in turn, in threads, freed in their runs, or thousands."""
+"""Several instances in a process: in threads, freed in their runs, or thousands."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -15,7 +15,6 @@ from slider_resonator.device.schedule import schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance, instantiate
-from slider_resonator.fmu.run import Running
 
 INSTANCES = 4
 """How many instances there are at a time, beside that of the scene."""
@@ -32,8 +31,8 @@ PATIENCE = 5.0
 def crowd_faults(instance: Instance) -> Iterator[str]:
     """Compare each of several instances with the same run alone, to the last bit.
 
-    Each has its own load. They are stepped in turn, then each in a thread of its own, and freed
-    while they run. Nothing is tried where a process can have only one.
+    Each has its own load and is stepped in a thread of its own; all are freed in their runs.
+    Nothing is tried where a process can have only one.
     """
     if instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
         return
@@ -48,17 +47,6 @@ def crowd_faults(instance: Instance) -> Iterator[str]:
         except FmuError as error:
             yield f"an instance beside {INSTANCES} others is refused: {error}"
             return
-        for other in others:
-            stack.enter_context(other.explained())
-        runs = [Running(*one) for one in zip(others, courses, strict=True)]
-        for run in runs:
-            run.start({})
-            run.read()
-        for step in range(STEPS):
-            for run in runs:
-                run.advance(step)
-        if [run.rows for run in runs] != alone:
-            yield "instances that step in turn have other outputs than alone"
         with _small_stacks(), ThreadPoolExecutor(INSTANCES) as pool:
             if list(pool.map(plain_rows, others, repeat({}), courses)) != alone:
                 yield "instances that step in threads have other outputs than alone"

@@ -24,7 +24,6 @@ from slider_resonator.checks.conduct.memory import instance_leaks
 from slider_resonator.checks.conduct.process import process_faults
 from slider_resonator.checks.conduct.refusals import explains
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.device.interface import INTEGERS, PARAMETERS, VARIABLES
 from slider_resonator.errors import NotApplicable
 from slider_resonator.fmu import fmu_log
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
@@ -84,7 +83,6 @@ def host_faults(fmu: FmuSide) -> list[str]:
     faults += _offer_faults(instance, slave)
     with instance.explained():
         instance.terminate()
-    faults += _integer_faults(instance)
     if instance.fmu.runs_without_python:
         slave.dll.fmi2FreeInstance(None)  # which is no error, and must not crash
         faults += crowd_faults(instance)
@@ -245,26 +243,6 @@ def _many_values_faults(instance: Instance) -> Iterator[str]:
         instance.call("fmi2GetReal", references, MANY, found)
         if set(found) != {expected}:
             yield f"normal_force read {MANY} times in a call is not {expected!r} each time"
-
-
-def _integer_faults(instance: Instance) -> Iterator[str]:
-    """Set and read all Integers in one call each, at lowest and highest values in turn."""
-    names = [name for name in PARAMETERS if name in INTEGERS and name in instance.fmu.variables]
-    references = [instance.fmu.reference(name) for name in names]
-    ranges = [(VARIABLES[name].minimum or 0.0, VARIABLES[name].maximum or 0.0) for name in names]
-    for begin in range(2):
-        values = [int(ends[(begin + place) % 2]) for place, ends in enumerate(ranges)]
-        with instance.explained():
-            instance.set_up()
-            instance.slave.setInteger(references, values)
-            instance.call("fmi2EnterInitializationMode")
-            at_once = list(instance.slave.getInteger(references))
-            one_by_one = [instance.slave.getInteger([one])[0] for one in references]
-        if not values == at_once == one_by_one:
-            yield (
-                f"Integers set to {values} in a call are {at_once} in a call, and {one_by_one} in "
-                "calls of their own"
-            )
 
 
 def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:

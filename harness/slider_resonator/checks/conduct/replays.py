@@ -1,15 +1,13 @@
 """The same run in other ways, each of which must give the same outputs to the last bit."""
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
-from slider_resonator.checks.conduct.findings import differences, is_refused, other_value, unequal
+from slider_resonator.checks.conduct.findings import differences, other_value, unequal
 from slider_resonator.checks.conduct.output_derivatives import (
     derivative_faults,
     read_derivatives,
@@ -205,27 +203,21 @@ def beside_differences(fmu: FmuSide) -> list[str]:
 
 
 def overwritten_differences(fmu: FmuSide) -> list[str]:
-    """Set another and a refused value before each value, at the start and in the run.
+    """Set another value before each value, at the start and in the run.
 
     Before the run outputs are read under the other values.
     """
     plain = Replay(fmu)
     instance, running = fmu.instance, Running(fmu.instance, plain.schedule)
     values = dict(instance.fmu.settings({**plain.parameters, **running.first}))
-    accepted: list[str] = []
-
-    def set_others(name: str, value: float) -> None:
-        instance.set({name: other_value(name, value)})
-        accepted.extend(_refused(instance, name))
-
     with instance.explained():
         instance.set_up(running.stop_time, start_time=plain.schedule.start_time)
         for name, value in values.items():
-            set_others(name, value)
+            instance.set({name: other_value(name, value)})
         instance.set(values)
         instance.call("fmi2EnterInitializationMode")
         for name, value in reversed(values.items()):
-            set_others(name, value)
+            instance.set({name: other_value(name, value)})
             with suppress(FMICallException):  # some values have no meaning together
                 instance.read(instance.fmu.outputs)
             instance.set({name: value})
@@ -234,11 +226,10 @@ def overwritten_differences(fmu: FmuSide) -> list[str]:
         for step in range(running.steps):
             present = running.values_at(step)
             for name, value in present.items():
-                set_others(name, value)
+                instance.set({name: other_value(name, value)})
             instance.set(present)
             running.advance(step)
-    found = plain.differences("with values set again", running.rows)
-    return found + list(dict.fromkeys(accepted))
+    return plain.differences("with values set again", running.rows)
 
 
 def separate_differences(fmu: FmuSide) -> list[str]:
@@ -264,17 +255,6 @@ def separate_differences(fmu: FmuSide) -> list[str]:
             before = present
             running.advance(step)
     return plain.differences("with values set one by one", running.rows)
-
-
-def _refused(instance: Instance, name: str) -> list[str]:
-    """Set a variable to NaN, an Integer to a value that none has; return a fault if it is taken."""
-    variable, slave = instance.fmu.variables[name], instance.slave
-    write, value = (slave.setReal, math.nan)
-    if variable.type == "Integer":
-        write, value = (slave.setInteger, 1 << 20)
-    if is_refused(partial(write, [variable.valueReference], [value])):
-        return []
-    return [f"{name} takes a value that must be refused"]
 
 
 def reading_differences(fmu: FmuSide) -> list[str]:

@@ -1,11 +1,12 @@
 """What the variables of an FMU are before a run, and whether they keep what is set."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
+from itertools import product
 
 from slider_resonator.checks.conduct.findings import is_refused, other_value, unequal
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.device.interface import INPUTS, VARIABLES
+from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS, VARIABLES
 from slider_resonator.fmu.instance import Instance
 
 PHASE = 1.3
@@ -36,7 +37,8 @@ def start_faults(fmu: FmuSide) -> list[str]:
         for name, value in others.items():
             instance.set({name: value})
         faults += early(instance, others, "after it was set")
-        faults += _in_one_call(instance, others)
+        instance.call("fmi2EnterInitializationMode")
+        faults += unequal(instance, others, "in initialization mode")
         first = _one_by_one(instance, instance.fmu.outputs)
         instance.begin()
         faults += unequal(instance, others, "in a run")
@@ -51,6 +53,7 @@ def start_faults(fmu: FmuSide) -> list[str]:
         instance.call("fmi2Reset")
         faults += early(instance, starts, "after a reset in initialization mode")
         faults += _set_in_initialization(instance)
+        faults += _integer_faults(instance)
     return faults
 
 
@@ -75,17 +78,25 @@ def no_faults(*_: object) -> Sequence[str]:
     return ()
 
 
-def _in_one_call(instance: Instance, others: Mapping[str, float]) -> Iterator[str]:
-    """Set all Integers in one call, the last first, and read them so in initialization mode."""
-    variables = instance.fmu.variables
-    integers = [name for name in others if variables[name].type == "Integer"][::-1]
-    references = [variables[name].valueReference for name in integers]
-    instance.slave.setInteger(references, [int(others[name]) for name in integers])
-    instance.call("fmi2EnterInitializationMode")
-    for name, found in zip(integers, instance.slave.getInteger(references), strict=True):
-        if found != others[name]:
-            yield f"{name} is {found!r} among others in one call, must be {others[name]!r}"
-    yield from unequal(instance, others, "after it was set with others")
+def _integer_faults(instance: Instance) -> Iterator[str]:
+    """Set and read all Integers in one call each, in two orders, at their ends in turn."""
+    names = [name for name in PARAMETERS if name in INTEGERS and name in instance.fmu.variables]
+    for ordered, begin in product((names, names[::-1]), range(2)):
+        references = [instance.fmu.reference(name) for name in ordered]
+        ends = [
+            (VARIABLES[name].minimum or 0.0, VARIABLES[name].maximum or 0.0) for name in ordered
+        ]
+        values = [int(pair[(begin + place) % 2]) for place, pair in enumerate(ends)]
+        instance.set_up()
+        instance.slave.setInteger(references, values)
+        instance.call("fmi2EnterInitializationMode")
+        at_once = list(instance.slave.getInteger(references))
+        one_by_one = [instance.slave.getInteger([one])[0] for one in references]
+        if not values == at_once == one_by_one:
+            yield (
+                f"Integers set to {values} in a call are {at_once} in a call, and {one_by_one} in "
+                "calls of their own"
+            )
 
 
 def _one_by_one(instance: Instance, names: Iterable[str]) -> dict[str, float]:

@@ -15,7 +15,7 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.blocks import WARNED
-from slider_resonator.fmu.instance import Instance, instantiate
+from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.saved_state import SavedState
 
@@ -44,7 +44,6 @@ def state_faults(fmu: FmuSide) -> list[str]:
         faults.extend(_overwriting_faults(instance))
         if instance.fmu.offers.canSerializeFMUstate:
             faults.extend(_damage_faults(instance))
-            faults.extend(_outliving_faults(instance))
             faults.extend(_process_faults(instance))
         faults.extend(_freeing_faults(instance))
         faults.extend(_later_faults(instance, fmu.scene.parameters))
@@ -118,31 +117,11 @@ def _damage_faults(instance: Instance) -> Iterator[str]:
     slave.freeFMUstate(state)
 
 
-def _outliving_faults(instance: Instance) -> Iterator[str]:
-    """Take over the serialised state of an instance that is freed before it is read."""
-    if instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
-        return
-    with instantiate(instance.fmu) as other:
-        other.start({"load": LOAD})
-        other.step_by(STEP)
-        expected, time = other.read(other.fmu.outputs), other.time
-        state = SavedState.of(other)
-        content = bytes(other.slave.serializeFMUstate(state.handle))
-        state.free()
-    try:
-        handle = instance.slave.deSerializeFMUstate(content)
-        instance.slave.setFMUstate(handle)
-    except FMICallException:
-        yield "the serialised state of an instance that is freed by then is refused"
-        return
-    instance.slave.freeFMUstate(handle)
-    instance.time = time
-    if instance.read(instance.fmu.outputs) != expected:
-        yield "the serialised state of an instance that is freed by then is another one"
-
-
 def _process_faults(instance: Instance) -> Iterator[str]:
-    """Take over a serialised state in another process, as a run that goes on after a restart."""
+    """Take over a serialised state in another process, as a run that goes on after a restart.
+
+    What the state refers to is not there, such as the instance that it was saved of.
+    """
     instance.start({"load": LOAD})
     instance.step_by(STEP)
     state = SavedState.of(instance)
