@@ -99,6 +99,8 @@ def check(
     identity = identity_of(fmu)
     scenes = list({one.source: one for one in scenes or scenes_recorded(folder)}.values())
     golden = [_recorded(folder, scene) for scene in scenes]
+    with open_fmu(fmu):
+        pass  # one that cannot be opened is no run failure
     measured, run_failures, not_applied = _measure(fmu, scenes, folder, progress, time_limit)
     compared: list[tuple[Check, Curves | None]] = []
     for scene, before in zip(scenes, golden, strict=True):
@@ -178,16 +180,13 @@ def _measure(
 ) -> tuple[dict[str, Recorded], list[RunFailure], list[NotApplied]]:
     """Return the results by the source of the scene, what could not be run and what did not apply.
 
-    A scene that fails at a point is left out. `folder` is where the results are to be kept. Raises
-    FmuError for a file that is no FMU.
+    A scene that fails at a point is left out. `folder` is where the results are to be kept.
     """
     points = {scene.source: scene.points() for scene in scenes}
     all_points = [point for some in points.values() for point in some]
     found: dict[str, dict[At, Golden]] = {source: {} for source in points}
     run_failures: list[RunFailure] = []
     not_applied: list[NotApplied] = []
-    with open_fmu(fmu):
-        pass
     identity = identity_of(fmu)
     origins = {scene.source: provenance(identity, scene, folder) for scene in scenes}
     with closing(measure_points(fmu, all_points, measure_golden, time_limit)) as outcomes:

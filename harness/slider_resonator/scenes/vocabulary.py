@@ -71,8 +71,8 @@ _FAULTS_OF_RUN: Mapping[str, str] = {
     "a serialised state",
     "beside_differences": "outputs that differ while two instances step in turn, from those of "
     "each alone",
-    "overwritten_differences": "outputs of the run that differ where other and refused values are "
-    "set before each value",
+    "overwritten_differences": "outputs of the run that differ where other values are set before "
+    "each value",
     "separate_differences": "outputs of the run that differ where each value that changes is set "
     "by a call of its own",
     "reading_differences": "outputs of the run that differ where everything is read again between "
@@ -95,7 +95,7 @@ _FAULTS: Mapping[str, str] = {
     "are refused or change the motion",
     "host_faults": "wrong answers about the FMU itself: versions, instances that must not be made, "
     "disturb each other or stay in memory, logging, event mode, what it changes in its process",
-    "state_faults": "states that are got again, damaged, outlive an instance or a run or are "
+    "state_faults": "states that are got again, damaged, outlive a process or a run or are "
     "freed, and wrong then or still in memory",
 }
 """The same without a run."""
