@@ -89,15 +89,14 @@ static Rates rates(const Law *law, const Moment *moment) {
 }
 
 /* Share of mean friction in the inertia of the vibration, faces mu N0 / (Mt w v_q): the small number by which averages
- * expand. A bristle bends over a path of 2 mu/s0 after each of two reversals in a turn, and damps by the impulse of 2 mu
- * s1/s0 per normal load; but by no more than s1 v_q all the time. */
+ * expand. What bristles damp counts, too. */
 static double friction_share(const Law *law) {
     const Device *device = &law->device;
     const Bristle *bristle = &law->bristle;
-    double w = device->drive_frequency, fast = law->fast.velocity, mu = bristle->coefficient;
+    double w = device->drive_frequency, fast = law->fast.velocity;
     double normal = fmax(device->normal_preload, device->normal_amplitude / PI);
-    double damping = fmin(bristle->damping * fast / mu, 2.0 / PI * bristle->damping / bristle->stiffness * w);
-    double friction = device->friction_faces * mu * normal * hypot(1.0, damping);
+    double resisting = bristle->coefficient * hypot(1.0, damping_share(bristle, fast, w));
+    double friction = device->friction_faces * resisting * normal;
     return friction / (device_total_mass(device) * w * fast);
 }
 

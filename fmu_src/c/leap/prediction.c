@@ -270,24 +270,36 @@ static bool full_law(const Law *law, Law *full) {
     return true;
 }
 
-/* By second order both belong to periodic motions of the full device, found from those of first order on. */
+/* Find both periodic motions from averages of first order on, which must hold the load. */
+static bool find_both(const PeriodMap *map, double psi, const Averaged *start, Averaged *exact) {
+    *exact = (Averaged){start->steady_velocity, start->blocking_force, true, true};
+    return start->holds && find_steady(map, psi, &exact->steady_velocity) &&
+           find_blocked(map, psi, &exact->blocking_force);
+}
+
+/* By second order both belong to periodic motions of the full device. They are looked for from averages on. Where bristles
+ * damp less than they hold, so that one velocity alone balances a load, those of Coulomb friction are near, and cost least. */
 static Averaged second_order(const Law *law, double normal_lead) {
-    Averaged prediction = averaged(law, normal_lead), exact = prediction;
-    prediction.valid = false;
-    exact.valid = true;
-    if (!prediction.holds) {
-        return prediction;
-    }
-    Law full;
+    Law full, coulomb = *law;
     PeriodMap map;
+    Averaged start, exact;
     int turns = turns_of_load(law);
-    if (turns == 0 || !full_law(law, &full) || !period_map_prepare(&map, &full, turns)) {
-        return prediction;
+    bool repeats = turns > 0 && full_law(law, &full) && period_map_prepare(&map, &full, turns);
+    double psi = repeats ? within_turn(normal_lead + law->inputs.frequency_ratio * map.section) : 0.0;
+    double damping = damping_share(&law->bristle, law->fast.velocity, law->device.drive_frequency);
+    if (repeats && is_elastic(&law->bristle) && damping <= 1.0) {
+        coulomb.bristle = (Bristle){law->bristle.coefficient, INFINITY, 0.0};
+        start = averaged(&coulomb, normal_lead);
+        if (find_both(&map, psi, &start, &exact)) {
+            return exact;
+        }
     }
-    double psi = within_turn(normal_lead + law->inputs.frequency_ratio * map.section);
-    bool found = find_steady(&map, psi, &exact.steady_velocity) &&
-                 find_blocked(&map, psi, &exact.blocking_force);
-    return found ? exact : prediction;
+    start = averaged(law, normal_lead);
+    if (repeats && find_both(&map, psi, &start, &exact)) {
+        return exact;
+    }
+    start.valid = false;
+    return start;
 }
 
 Averaged prediction_of(const Law *law, double normal_lead) {

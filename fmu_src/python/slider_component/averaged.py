@@ -144,9 +144,8 @@ class Averaged:
         """The estimate of the error of the slow velocity [m/s].
 
         Averages expand by the share of friction in the inertia of the vibration, faces mu N0 /
-        (Mt w v_q). What bristles damp while they bend counts, too: by the impulse of 2 mu s1/s0 per
-        normal load after each reversal, but no more than s1 v_q. What averages leave out lasts as
-        long as the slowest transient of resonator and bristle.
+        (Mt w v_q); what bristles damp counts, too. What averages leave out lasts as long as the
+        slowest transient of resonator and bristle.
         """
         device, w, fast = self.system.device, self.system.drive_frequency, self.fast.velocity
         friction, decay = full_friction(device), inf
@@ -155,12 +154,9 @@ class Averaged:
         if device.resonator_mass > 0.0:
             decay = -self.system.slip.eigenvalues[0].real * tau / w
         if device.friction_law == 1:
-            stiffness, mu = device.bristle_stiffness, device.friction_coefficient
-            damped = device.bristle_damping * fast / mu
-            if stiffness > 0.0:
-                damped = min(damped, 2.0 / pi * device.bristle_damping / stiffness * w)
-            friction *= hypot(1.0, damped)
-            decay = min(decay, stiffness * 4.0 * fast / w / mu)
+            friction *= hypot(1.0, self.law.damping_share)
+            bend_rate = device.bristle_stiffness / device.friction_coefficient
+            decay = min(decay, bend_rate * 4.0 * fast / w)
         share = friction / (device.total_mass * w * fast)
         swing = 1.0 + (1.0 / decay if decay > 0.0 else inf)
         return min(FIRST_ORDER * share * swing, 1.0) * fast

@@ -67,6 +67,18 @@ class MeanFriction:
         bend = hypot(self.stiffness, self._frequency * self.damping)
         return min(self.coefficient, self.fast / self._frequency * bend)
 
+    @property
+    def damping_share(self) -> float:
+        """What bristles damp, over mu.
+
+        They bend over a path of 2 mu/s0 after each of two reversals in a turn, and damp by the
+        impulse of 2 mu s1/s0 per normal load; but by no more than s1 v_q all the time.
+        """
+        share = self.drag / self.coefficient if self.drag else 0.0
+        if self.stiffness:
+            share = min(share, 2.0 / pi * self.damping / self.stiffness * self._frequency)
+        return share
+
     def turning(self, velocity: float) -> float:
         """Theta [rad] at a slow velocity [m/s]; 0 or pi where the slider never reverses."""
         if abs(velocity) >= self.fast:

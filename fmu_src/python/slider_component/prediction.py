@@ -9,7 +9,7 @@ met and the mean load counts.
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from math import copysign, cos, pi, tau
 
 from .device import EPSILON, Device, System, held_amplitude, vibration
@@ -49,14 +49,34 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
     """The prediction of the averaging order of the device; `normal_lead` [rad] as below.
 
     By second order both are those of periodic motions of the full device, and valid only where such
-    were found.
+    were found. They are looked for from averages on. Where bristles damp less than they hold, so
+    that one velocity alone balances a load, those of Coulomb friction are near, and cost least.
     """
-    first = first_order(device, inputs, normal_lead)
+    first = partial(first_order, inputs=inputs, normal_lead=normal_lead)
+    if device.averaging_order == 2 and device.friction_law == 1 and _damps_little(device):
+        start = first(replace(device, friction_law=0))
+        if found := _second_order(device, inputs, normal_lead, start):
+            return found
+    start = first(device)
     if device.averaging_order == 1:
-        return first
+        return start
+    found = _second_order(device, inputs, normal_lead, start)
+    return found or replace(start, valid=False)
+
+
+def _damps_little(device: Device) -> bool:
+    with suppress(Refusal):
+        return MeanFriction(device, vibration(device).velocity).damping_share <= 1.0
+    return False
+
+
+def _second_order(
+    device: Device, inputs: Inputs, normal_lead: float, start: Prediction
+) -> Prediction | None:
+    """The prediction by periodic motions from averages on, None where these find none."""
     turns = turns_of_load(device, inputs.frequency_ratio)
-    if turns is None or not first.holds:
-        return replace(first, valid=False)
+    if turns is None or not start.holds:
+        return None
     full = replace(device, fidelity=2)
     if device.resonator_mass == 0.0:
         # It moves nothing: one that settles within a period takes its place, so that the search
@@ -67,11 +87,11 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
         period_map = PeriodMap(System(full, inputs), turns)
         psi = (normal_lead + inputs.frequency_ratio * period_map.section) % tau
         steady = PeriodicMotion(period_map, psi, inputs.load, blocked=False)
-        blocked = PeriodicMotion(period_map, psi, first.blocking_force, blocked=True)
-        velocity, force = steady.found(first.steady_velocity), blocked.found(0.0)
+        blocked = PeriodicMotion(period_map, psi, start.blocking_force, blocked=True)
+        velocity, force = steady.found(start.steady_velocity), blocked.found(0.0)
         return Prediction(velocity, force, holds=True, valid=True)
     except (ArithmeticError, ValueError, Refusal):
-        return replace(first, valid=False)
+        return None
 
 
 def turns_of_load(device: Device, ratio: float) -> int | None:
