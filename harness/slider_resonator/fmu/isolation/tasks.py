@@ -125,8 +125,8 @@ MAX_CRASHES = 3
 """Crashes after which no more tasks are run."""
 ALONE = 2.0
 """Time (s) for which one process runs the tasks before others start; short runs end sooner."""
-QUEUED = 2
-"""Tasks submitted for each process where every task is run, so that it never waits."""
+QUEUED = 4
+"""Tasks submitted for each process, so that none waits for a long one of another."""
 
 Item = TypeVar("Item")
 
@@ -189,7 +189,7 @@ def run_all_tasks(
     Errors that are among the `outcomes` of a task are yielded, others raised: FmuError when the FMU
     cannot be run at all.
     """
-    for item, outcome in _outcomes(processes, tasks, queued=QUEUED):
+    for item, outcome in _outcomes(processes, tasks):
         error = outcome.error
         if error is not None and not (outcome.is_open and isinstance(error, outcomes)):
             raise error
@@ -200,11 +200,10 @@ def _outcomes(
     processes: Processes,
     tasks: Sequence[tuple[Item, Task]],
     is_left_out: Callable[[Item], bool] = lambda item: False,
-    queued: int = 1,
 ) -> Iterator[tuple[Item, Outcome]]:
     """Yield item and outcome of each task, in this order, but of items that are left out.
 
-    A run that takes longer than `ALONE` gets all processes, with `queued` tasks for each of them.
+    A run that takes longer than `ALONE` gets all processes, with `QUEUED` tasks for each of them.
     The outcomes do not depend on their number, for an FMU in which each run is independent of those
     before. The last outcome is that of an FMU that cannot be opened.
     """
@@ -212,7 +211,7 @@ def _outcomes(
     submitted: deque[tuple[Item, Task, Future[Outcome]]] = deque()
     count, began, has_opened = processes.count, monotonic(), False
     while True:
-        at_once = queued * (count if monotonic() - began >= ALONE else 1)
+        at_once = QUEUED * count if monotonic() - began >= ALONE else 1
         while waiting and len(submitted) < at_once:
             item, task = waiting.popleft()
             if not is_left_out(item):
