@@ -14,8 +14,8 @@ have numpy arrays and ranges for lists. Without an FMU the native one of this in
 Every error is a `HarnessError`, whose text is what the command would print; arguments of another
 type than stated may raise a `TypeError`. A number that may be meant in another unit is warned of.
 
-The `repr` of a result says what was found, on a screen at most. `to_pandas()` gives its table,
-`plot()` its picture.
+The `repr` of a result says what was found, on a screen at most. `to_pandas()` gives its table and
+`plot()` its picture, where it has one.
 """
 
 import inspect

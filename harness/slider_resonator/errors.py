@@ -51,7 +51,11 @@ def unknown_name(kind: str, name: str, allowed: Iterable[str]) -> str:
     names = sorted(allowed)
     by_folded = {candidate.lower(): candidate for candidate in names}
     near = [by_folded[one] for one in get_close_matches(name.lower(), by_folded, n=1, cutoff=0.5)]
-    near = [SYMBOLS[name]] if SYMBOLS.get(name) in names else near
+    parts = [one for one in names if name.lower() in one.lower().split("_")]
+    if SYMBOLS.get(name) in names:
+        near = [SYMBOLS[name]]
+    elif len(parts) == 1:
+        near = parts
     hint = f"; did you mean {near[0]!r}?" if near else ""
     listed = ", ".join(names)
     if len(names) > MAX_LISTED:

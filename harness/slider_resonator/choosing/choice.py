@@ -23,6 +23,14 @@ INPUTS = {
 }
 """How inputs that are straight lines reach an FMU, in words."""
 
+PROBES = {
+    "whole": "resolved motion of the whole run",
+    "beginning": "resolved motion of the beginning",
+    "leaps": "leaps over the whole run",
+    "steady motion": "steady motion",
+}
+"""What errors are against, in words."""
+
 UNITS: Mapping[str, str] = {
     "mean_velocity": "m/s",
     "mean_velocity_throughout": "m/s",
@@ -117,7 +125,7 @@ class Choice(Shown, Tabular):
     resolved motion over the "whole" scene or its "beginning", "leaps" over the whole, or "steady
     motion"; and `probe_drive_periods` how much was resolved, in periods of `drive_period` (s).
     `inputs` is how inputs that are straight lines reach the FMU, a key of `INPUTS`, None without
-    any.
+    any. Where inputs have `jumps`, steps end at these, too.
     """
 
     fidelity: int
@@ -135,6 +143,7 @@ class Choice(Shown, Tabular):
     probe_drive_periods: float
     drive_period: float
     inputs: str | None
+    jumps: bool
 
     @property
     def model(self) -> Model:
@@ -158,7 +167,8 @@ class Choice(Shown, Tabular):
             f"step     {self._step}",
             f"why      {self.reason}",
             f"cost     {self.cost:.3g} s of CPU time, measured",
-            f"probe    {self.probe_drive_periods:.0f} drive periods resolved ({self.probe})",
+            f"probe    against {PROBES[self.probe]}; {self.probe_drive_periods:.0f} drive periods "
+            "resolved in all",
         ]
 
     def table(self) -> dict[str, list[Any]]:
@@ -186,4 +196,5 @@ class Choice(Shown, Tabular):
             return f"none, nothing is run{tolerance}"
         periods = self.step / self.drive_period
         inputs = f"; {INPUTS[self.inputs]}" if self.inputs else ""
+        inputs += "; steps also end where inputs jump" if self.jumps else ""
         return f"{self.step:.6g} s, {periods:.4g} drive periods{tolerance}{inputs}"

@@ -35,6 +35,7 @@ NEAR, DISTURBANCE = 2.0, 1e-3
 first timing may be too long."""
 ROUNDS, ENOUGH = 25, 0.4
 """Times that they are run in turn, at most, and CPU time (s) after which no other turn begins."""
+CHEAPEST = "the cheapest that meets every need"
 TIME_LIMIT = 600.0
 """Default time limit of a choice, s."""
 
@@ -96,7 +97,7 @@ class Choosing:
         every = self.models()
         for index, model in enumerate(every):
             progress(counted(model.name, index, len(every)), index / len(every))
-            found = self._suitable(model, min((one.cost for one in good), default=inf))
+            found = self._suitable(model, min(good, key=lambda one: one.cost, default=None))
             if isinstance(found, str):
                 ruled_out[model] = found
             else:
@@ -107,10 +108,12 @@ class Choosing:
             return self._choice(None, ruled_out)
         good = self._timed_again(good)
         best = cheapest(good)
+        least = min(one.cost for one in good)
+        why = CHEAPEST if best.cost == least else f"{CHEAPEST}, {least:.3g} s, or within 5 % of it"
         for one in sorted(good, key=lambda one: -one.cost):
-            why = f"meets the needs too, at {one.cost:.3g} s instead of {best.cost:.3g} s"
-            ruled_out[one.candidate.model] = why
-        return self._choice(best, {model: ruled_out[model] for model in every})
+            other = f"meets the needs too, at {one.cost:.3g} s instead of {best.cost:.3g} s"
+            ruled_out[one.candidate.model] = other
+        return self._choice(best, {model: ruled_out[model] for model in every}, why)
 
     def _impossible(self) -> str:
         """Return why the resolved device itself lacks a needed quantity, empty if it does not."""
@@ -134,19 +137,19 @@ class Choosing:
         fit = [step for step in self.probe.ladder if step is None or step <= longest]
         return tuple(fit) if model.fidelity > 0 else self.probe.ladder
 
-    def _suitable(self, model: Model, best: float) -> list[Evaluation] | str:
+    def _suitable(self, model: Model, best: Evaluation | None) -> list[Evaluation] | str:
         """Return the candidates of a model that serve: few tolerances at the largest step.
 
-        The reason where none does, or where they cost much more than `best` (s).
+        The reason where none does, or where they cost much more than the `best` of other models.
         """
         if model.fidelity == 0 and "event_times" in self.needs:
             return "averaged motion has no events"
         if (
             model.fidelity > 0
-            and best < inf
-            and (cost := self._cost_of(model)) > MAX_COST_RATIO * best
+            and best is not None
+            and (cost := self._cost_of(model)) > MAX_COST_RATIO * best.cost
         ):
-            return f"costs about {cost:.3g} s, another one {best:.3g} s"
+            return f"costs about {cost:.3g} s, {best.candidate.model.name} {best.cost:.3g} s"
         choices, steps = tolerances(model), self.steps(model)
         refused = ""
 
@@ -233,7 +236,9 @@ class Choosing:
                 costs[candidate] = min(cost, costs[candidate])
         return [replace(one, cost=costs[one.candidate]) for one in good]
 
-    def _choice(self, best: Evaluation | None, ruled_out: Mapping[Model, str]) -> Choice:
+    def _choice(
+        self, best: Evaluation | None, ruled_out: Mapping[Model, str], why: str = ""
+    ) -> Choice:
         evaluation = best or self._nearest()
         model = evaluation.candidate.model
         none = f"none suffices: {evaluation.why}"
@@ -252,9 +257,10 @@ class Choosing:
                 for other, why in ruled_out.items()
                 if best is None or other != model
             ),
-            reason="the cheapest that meets every need" if best else none,
+            reason=why if best else none,
             probe=evaluation.probe,
             probe_drive_periods=self.probe.drive_periods + self.periods,
             drive_period=self.scene.drive_period,
             inputs=self.probe.inputs,
+            jumps=any(signal.jumps for signal in self.scene.signals.values()),
         )

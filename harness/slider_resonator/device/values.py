@@ -45,6 +45,8 @@ _TEXT = re.compile(
     rf"\s*(?P<unit>(?:1\s*/\s*)?{_UNIT}(?:\s*[*/]\s*{_UNIT})*)\s*"
 )
 """A number with a unit: what the library evaluates is no more than that."""
+_MISREAD = ("gr",)
+"""Units of the library (grains) that are not meant."""
 _SHOWN = {"rad/s": "Hz", "rad": "deg"}
 """For an SI unit, the one in which engineers state such a value."""
 _EXAMPLES = {
@@ -108,6 +110,8 @@ def si_number(name: str, text: str, unit: str) -> float:
     must = f"must be a {number}, or a text with a unit such as {_EXAMPLES.get(unit, '1')!r}"
     if match is None:
         raise ValueError(f"{name} = {text!r}: {must}")
+    if match["unit"] in _MISREAD:
+        raise ValueError(f"{name} = {text!r}: unknown unit {match['unit']!r}; {must}")
     import pint
 
     try:

@@ -12,6 +12,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.device.values import check_value, si_number, si_value, with_unit
 from slider_resonator.errors import SceneError, unknown_name
+from slider_resonator.scenes.key_table import PARAMETER_MEANINGS
 from slider_resonator.scenes.toml_file import read_toml, toml_value
 
 _TEXTS = ("name", "title", "description")
@@ -129,8 +130,12 @@ def _value(name: str, value: Any) -> Any:
         raise ValueError(f"device: {_no_parameter(name)}")
     if isinstance(value, bool):
         raise ValueError(f"{key} = {str(value).lower()}: must be a number")
-    if isinstance(value, str) and VARIABLES[name].kind == "Real":
-        value = si_number(key, value, VARIABLES[name].unit)
+    variable = VARIABLES[name]
+    if isinstance(value, str) and variable.kind == "Integer":
+        must = f"{variable.requirement}: {PARAMETER_MEANINGS[name]}"
+        raise ValueError(f"{key} = {value!r}: must be {must}")
+    if isinstance(value, str):
+        value = si_number(key, value, variable.unit)
     try:
         check_value(name, value)
     except ValueError as error:

@@ -63,7 +63,8 @@ class NeedTable(KeyTable):
         "mean velocity over the last drive period of the run", {"rel": 0.02}, unit="m/s"
     )
     mean_velocity_throughout: AllowedTable | None = key(
-        "mean velocity over the last drive period at each communication point",
+        "mean velocity over the last drive period at each communication point from the end of the "
+        "first period on",
         {"abs": 1e-3},
         unit="m/s",
     )

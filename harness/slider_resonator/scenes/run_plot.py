@@ -44,11 +44,12 @@ def run_figure(record: Record, scene: Scene) -> Figure:
     gaps = np.diff(before)
     resolved = gaps.size > 0 and bool(np.max(gaps) * MIN_POINTS <= 1.0)
     with style():
-        zoomed = ZOOMED if resolved else ()
+        has_resonator = scene.device.resonator_mass > 0.0
+        zoomed = [one for one in ZOOMED if resolved and (has_resonator or one[0] != "resonator")]
         heights = [2.0, 2.0, *(height for _, height, _ in zoomed), *[1.3 for _ in varying]]
         figure = Picture(figsize=(8.0, sum(heights) + 0.3), layout="constrained")
         axes = figure.subplots(len(heights), 1, height_ratios=heights)
-        figure.suptitle(f"{scene.title}  ({scene.name}){_constant_inputs(record, varying)}")
+        figure.suptitle(f"{scene.heading}{_constant_inputs(record, varying)}")
         factor, unit = plot_unit("s", record.times)
         times = factor * record.times
         _position(axes[0], record, times)

@@ -180,6 +180,11 @@ class Scene(Shown):
             tuning=tuning,
         )
 
+    @property
+    def heading(self) -> str:
+        """Title and name, for pictures."""
+        return self.title if self.name in self.title else f"{self.title}  ({self.name})"
+
     def with_device(self, device: Mapping[str, float]) -> "Scene":
         """Return the scene with another device, or as it is if `device` states nothing.
 

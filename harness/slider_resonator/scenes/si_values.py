@@ -24,6 +24,8 @@ _INHERITED = (
     *("abs", "absolute", "value", "at_most", "at_least"),
 )
 """Keys of values whose unit is that of the table they are in."""
+_NEED = re.compile(r"need\.\w+")
+"""The path of a needed quantity."""
 _POINT = re.compile(r"\.(steps|ramp)\[\d+\]$")
 """The end of the path of a pair [time, value]."""
 
@@ -43,6 +45,8 @@ def with_si_values(content: Mapping[str, Any], source: str) -> dict[str, Any]:
 def _in_si(value: Any, path: str, unit: str) -> Any:
     """Return a value, list or table; `unit` is that of its values, empty for what has none."""
     if isinstance(value, str):
+        if _NEED.fullmatch(path):
+            return value  # it must be a table
         is_number = unit and re.search(HAS_UNIT, value) and not value.lower().endswith(".csv")
         return si_number(path, value, unit) if is_number else value
     if isinstance(value, Mapping):

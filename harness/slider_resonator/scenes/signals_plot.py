@@ -160,7 +160,7 @@ def plot_signals(
     heights = [1.2 if below else 1.9 for _, below in rows]
     with style():
         figure = Figure(figsize=(8.0, sum(heights) + 0.8), layout="constrained")
-        figure.suptitle(f"{scene.title}  ({scene.name})")
+        figure.suptitle(scene.heading)
         panels = figure.subplots(len(rows), 1, sharex=True, squeeze=False, height_ratios=heights)[
             :, 0
         ]

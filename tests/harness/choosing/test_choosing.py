@@ -112,6 +112,17 @@ def test_the_mean_velocity_can_be_needed_throughout(instance: Instance) -> None:
     assert choose_with(instance, table_1(between, 8000.0, 0.01)).averaging_order != 1
 
 
+def test_a_mean_throughout_begins_with_the_first_whole_period(instance: Instance) -> None:
+    """At the start the slider rests, but the slow velocity of averages is not 0."""
+    device = "[device]\nresonator_mass = 0.0\ntangential_force = 500.0\n"
+    inputs = "[inputs]\nload = { steps = [[0.0, 0.0], [0.5, 0.02]] }\n"
+    run = "[run]\nstop_time = 1.0\nsteps_per_period = 0.1\n"
+    need = "[need]\nmean_velocity_throughout = { rel = 0.01 }\n"
+    choice = choose_with(instance, scene_of(device + inputs + run + need))
+    assert (choice.meets, choice.fidelity, choice.averaging_order) == (True, 0, 1)
+    assert "steps also end where inputs jump" in "\n".join(choice.sentences())
+
+
 @pytest.mark.parametrize(
     ("device", "averages"),
     [

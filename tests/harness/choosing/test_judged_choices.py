@@ -108,6 +108,8 @@ class Judge:
             found, resolved = (_beat(r, step) for r in (record, true))
             return abs(found - resolved), resolved
         checkpoints = self.scene.schedule().times
+        if name == "mean_velocity_throughout":
+            checkpoints = checkpoints[checkpoints >= period]
         at, there = (nearest(r.times, checkpoints) for r in (record, true))
         if name == "event_times":
             if record.final("reversals") != true.final("reversals"):

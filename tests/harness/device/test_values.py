@@ -71,6 +71,7 @@ def test_text_becomes_si(name: str, text: str, value: float) -> None:
     [
         ("base_amplitude", "3 kg", "not in m; must be a number in m"),
         ("drive_frequency", "20 khz", "unknown unit 'khz'"),
+        ("slider_mass", "50 gr", "unknown unit 'gr'"),
         ("load", "0.2", ""),
         ("load", "9**9**9 N", "such as '200 mN'"),
         ("load", "", "such as '200 mN'"),

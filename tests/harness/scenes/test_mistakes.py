@@ -69,6 +69,7 @@ BELOW_THE_HEAD = {
     "no values": '[sweep]\nvariable = "load"\nvalues = []\n',
     "unknown need": NEED + "positon = { rel = 0.1 }\n",
     "a need without a tolerance": NEED + "position = 1e-3\n",
+    "a need of a share alone": NEED + "mean_velocity = '1 %'\n",
     "a need of no error": NEED + "position = { rel = 0.0 }\n",
     "a need below 0": NEED + "position = { abs = -1e-6 }\n",
     "unknown tolerance of a need": NEED + "position = { relative = 0.1 }\n",
