@@ -34,9 +34,8 @@ def words_for_start(*curves: Array) -> str:
 
 
 def limit_to_later(axes: Axes, times: Array, *curves: Array) -> None:
-    """Let what follows a start far outside set the axis of y, and say so in the plot."""
+    """Let what follows a start far outside set the axis of y, and say so above the plot."""
     found = range_after_start(times, *curves)
     if found is not None:
         axes.set_ylim(found)
-        words = axes.text(0.02, 0.97, words_for_start(*curves), transform=axes.transAxes)
-        words.set(ha="left", va="top", fontsize=8)
+        axes.set_title(words_for_start(*curves), loc="right", fontsize=8, pad=2.0)
