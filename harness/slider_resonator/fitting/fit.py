@@ -162,7 +162,7 @@ def fit(
         notes += friction_notes(device)
     if spare:
         notes += unit_notes(measurements, predicted)
-        notes += misfit_notes(measurements, predicted, len(free))
+        notes += misfit_notes(measurements, predicted, best.jacobian)
     if not directions:
         notes += [_as_good(one, free) for one in others]
     return Fit(

@@ -4,16 +4,19 @@ from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import ndtr
+from scipy.special import ndtr, stdtrit
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import VARIABLES
+from slider_resonator.fitting.estimation import NOTHING
 from slider_resonator.fitting.measurements import Measurements
 from slider_resonator.scenes.device_file import possible_slips
 
-OUTLIER = 5.0
-"""Residual, in robust standard deviations, from which a number counts as an outlier."""
+OUTLIER_LEVEL = 0.005
+"""Level of the test for outliers: normal errors alone give some in fewer than 1 of 100 fits."""
+MAX_OUTLIERS = 20
+"""Number of outliers of a series that are sought, at most one for five numbers to spare."""
 CHANCE = 0.01
 """Probability of as few runs about the median below which residuals count as systematic."""
 ROUNDING = 1e-6
@@ -74,10 +77,10 @@ def unit_notes(measurements: Measurements, predicted: Array) -> list[str]:
     return notes
 
 
-def misfit_notes(measurements: Measurements, predicted: Array, free: int) -> list[str]:
-    """Return outliers and systematic residuals of a fit with a number of free parameters.
+def misfit_notes(measurements: Measurements, predicted: Array, jacobian: Array) -> list[str]:
+    """Return outliers and systematic residuals of a fit.
 
-    `predicted` has shape (n,).
+    `predicted` has shape (n,), `jacobian` (n, p): the slopes of the weighted residuals.
     """
     measured = measurements.measured
     weighted = (predicted - measured) / measurements.scales
@@ -89,9 +92,10 @@ def misfit_notes(measurements: Measurements, predicted: Array, free: int) -> lis
     outliers: list[str] = []
     systematic = []
     for (quantity, source), rows in series.items():
-        own = weighted[rows]
-        far = np.abs(own) > OUTLIER * robust_deviation(own, free)
-        for index in np.array(rows)[far & is_seen[rows]].tolist():
+        found = np.array(rows)[
+            outlying(weighted[rows], jacobian[rows], OUTLIER_LEVEL / len(series))
+        ]
+        for index in found[is_seen[found]].tolist():
             values = (measurements.shown(quantity, one[index]) for one in (measured, predicted))
             number, fit = values
             outliers.append(f"{source} {places[index].row}: {quantity} {number}, fit {fit}")
@@ -111,20 +115,35 @@ def misfit_notes(measurements: Measurements, predicted: Array, free: int) -> lis
     if outliers:
         more = len(outliers) - MAX_NAMED
         named = "; ".join([*outliers[:MAX_NAMED], *([f"and {more} more"] if more > 0 else [])])
-        systematic.insert(
-            0, f"outliers, off by over {OUTLIER:g} robust standard deviations: {named}"
-        )
+        systematic.insert(0, f"outliers, by their studentised deleted residuals: {named}")
     return systematic
 
 
-def robust_deviation(residuals: Array, free: int) -> float:
-    """Return the standard deviation of residuals (n,) by their median, infinite if that is 0.
+def outlying(residuals: Array, jacobian: Array, level: float) -> list[int]:
+    """Return the indices of outliers among residuals (n,), by their slopes (n, p).
 
-    Rousseeuw and Leroy, Robust Regression and Outlier Detection (1987), 5.1: the factor corrects
-    for the `free` parameters that few residuals are fitted by.
+    The number with the largest studentised deleted residual is left out, and the linear model is
+    fitted to the others, again and again. Outliers are those up to the last that is beyond
+    Student's t at `level` over the numbers left, so that none hides another: the generalised
+    extreme studentised residuals of Paul and Fung, Technometrics 33 (1991), 339-348.
     """
-    correction = 1.0 + 5.0 / max(len(residuals) - free, 1)
-    return 1.4826 * correction * float(np.median(np.abs(residuals))) or float("inf")
+    kept, left_out, count = np.arange(len(residuals)), list[int](), 0
+    for _ in range(max(1, min((len(residuals) - jacobian.shape[1]) // 5, MAX_OUTLIERS))):
+        basis, sizes, _ = np.linalg.svd(jacobian[kept], full_matrices=False)
+        basis = basis[:, sizes > NOTHING * sizes[0]]
+        spare = len(kept) - basis.shape[1]
+        if spare < 2:
+            break
+        rest = residuals[kept] - basis @ (basis.T @ residuals[kept])
+        redundancy = 1.0 - np.sum(basis**2, axis=1)
+        deleted = (rest @ rest * redundancy - rest**2) / (spare - 1)
+        size = np.abs(rest) / np.sqrt(deleted.clip(min=1e-300))
+        farthest = int(np.argmax(size))
+        left_out.append(int(kept[farthest]))
+        if size[farthest] > stdtrit(spare - 1, 1.0 - level / 2.0 / len(kept)):
+            count = len(left_out)
+        kept = np.delete(kept, farthest)
+    return sorted(left_out[:count])
 
 
 def runs_about_median(residuals: Array) -> tuple[NDArray[np.intp], float, float]:

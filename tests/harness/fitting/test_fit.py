@@ -14,7 +14,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fitting.estimation import Problem, minimise, predict
 from slider_resonator.fitting.fit import fit, free_parameters
 from slider_resonator.fitting.measurements import Measurements, Point, Run, datasheet
-from slider_resonator.fitting.notes import data_notes
+from slider_resonator.fitting.notes import OUTLIER_LEVEL, data_notes, outlying
 from slider_resonator.fitting.reading import measurements_from
 from slider_resonator.fitting.report import parameter_table
 from slider_resonator.fitting.result import Fit
@@ -205,20 +205,35 @@ def test_numbers_that_no_device_has_are_not_met(instance: Instance) -> None:
     assert "not met: steady_velocity" in str(found)
 
 
-def test_an_outlier_is_named_and_honest_noise_is_not(instance: Instance) -> None:
+@pytest.mark.parametrize(("count", "factor"), [(20, 1.5), (12, 0.1)])
+def test_an_outlier_is_named_and_honest_noise_is_not(
+    instance: Instance, count: int, factor: float
+) -> None:
     points = [
         Point({"phase": 0.1 * i}, "steady_velocity", 0.0, source="a.csv", row=f"line {i + 2}")
-        for i in range(20)
+        for i in range(count)
     ]
     data = measured(instance, TRUE, points, 0.01, seed=3)
     assert not fitted(instance, data, ["damping_ratio"], parameters=TRUE, starts=1).notes
     noisy = list(data.points)
-    noisy[6] = replace(noisy[6], measured=1.5 * noisy[6].measured)
+    noisy[6] = replace(noisy[6], measured=factor * noisy[6].measured)
     wrong = Measurements(tuple(noisy))
     (note,) = fitted(instance, wrong, ["damping_ratio"], parameters=TRUE, starts=1).notes
-    assert note.startswith(
-        "outliers, off by over 5 robust standard deviations: a.csv line 8: steady"
-    )
+    assert note.startswith("outliers, by their studentised deleted residuals: a.csv line 8: steady")
+
+
+def test_normal_noise_has_outliers_in_fewer_than_1_of_100_fits() -> None:
+    """In linear models of two or three parameters. Two gross errors do not hide each other."""
+    random = np.random.default_rng(2)
+    false_alarms = 0
+    for _ in range(2000):
+        phases = random.uniform(-np.pi, np.pi, random.integers(12, 41))
+        slopes = np.column_stack([np.sin(phases), np.cos(phases), np.cos(2.0 * phases)])
+        noise = 0.01 * random.normal(size=len(phases))
+        false_alarms += bool(outlying(noise, slopes[:, : random.integers(2, 4)], OUTLIER_LEVEL))
+    assert false_alarms < 20
+    noise[[3, 7]] += 1.0
+    assert outlying(noise, slopes, OUTLIER_LEVEL) == [3, 7]
 
 
 def test_systematic_residuals_are_noted(instance: Instance) -> None:
