@@ -111,17 +111,18 @@ class Problem:
     free: tuple[Free, ...]
     measurements: Measurements
 
+    def values(self, internal: Array) -> dict[str, float]:
+        """Return all parameters in SI units, from the internal free ones (p,)."""
+        found = zip(self.free, internal.tolist(), strict=True)
+        return {**self.parameters, **{one.name: one.value(number) for one, number in found}}
+
     def residuals(self, instance: Instance) -> Callable[[Array], Array]:
         """Return the function from internal parameters (p,) to weighted residuals (n,)."""
         measured, scales = self.measurements.measured, self.measurements.scales
         no_motion = NO_MOTION * self.measurements.sizes / scales
 
         def at(internal: Array) -> Array:
-            values = {
-                one.name: one.value(number)
-                for one, number in zip(self.free, internal.tolist(), strict=True)
-            }
-            found = predict(instance, {**self.parameters, **values}, self.measurements)
+            found = predict(instance, self.values(internal), self.measurements)
             weighted = (found - measured) / scales
             return np.where(np.isfinite(weighted), weighted, no_motion)
 

@@ -27,8 +27,15 @@ from slider_resonator.fitting.estimation import (
     profile_end,
 )
 from slider_resonator.fitting.measurements import Measurements
-from slider_resonator.fitting.notes import data_notes, friction_notes, misfit_notes, unit_notes
-from slider_resonator.fitting.result import Fit, FittedParameter
+from slider_resonator.fitting.notes import (
+    SUPPOSITIONS,
+    data_notes,
+    friction_notes,
+    misfit_notes,
+    miss_notes,
+    missed_quantities,
+)
+from slider_resonator.fitting.result import AS_STATED, Fit, FittedParameter
 from slider_resonator.fmu.isolation.process import Task
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks
 from slider_resonator.output.progress import Progress, counted, no_progress
@@ -49,6 +56,10 @@ APART = 0.01
 """Distance of two minima, in units of a parameter, from which they are two solutions."""
 WIDE = 1e4
 """Factor beside the start to which a positive parameter without other bounds is confined."""
+NO_INTERVALS = (
+    "no intervals: they mean nothing where the fit misses over half of the data; for noise of that "
+    "size, state standard deviations"
+)
 MET = 1e-4
 """Error, in root mean squares of the quantity, up to which as many parameters meet a number."""
 
@@ -150,18 +161,24 @@ def fit(
     measurements = problem.measurements
     scale = (best.sum_of_squares / spare) ** 0.5 if spare else None
     unit = 1.0 if measurements.knows_deviations else scale or 0.0
+    is_as_stated = scale is None or (measurements.knows_deviations and scale <= AS_STATED)
     directions = open_directions(problem, best, unit)
     left_open = {name for one in directions for name in one.factors}
-    fitted = _estimates(problem, best, unit, left_open, run)
-    found = {**problem.parameters, **{one.name: one.value for one in fitted}}
+    found = problem.values(best.internal)
     (predicted,) = run("comparing", [partial(predict, parameters=found, measurements=measurements)])
+    missed = {} if is_as_stated else missed_quantities(measurements, predicted)
+    is_near = len(missed) < len({*measurements.quantities})
+    fitted = _estimates(problem, best, unit if is_near else 0.0, left_open, run)
     off = np.abs(predicted - measurements.measured)
     unmet = () if spare else np.flatnonzero(~(off <= MET * measurements.sizes)).tolist()
     device = Device.from_mapping(found)
     if "friction_coefficient" in {one.name for one in free} - left_open:
         notes += friction_notes(device)
     if spare:
-        notes += unit_notes(measurements, predicted)
+        if missed:
+            notes += miss_notes(measurements, missed, _supposed(problem, run))
+        if not is_near:
+            notes.append(NO_INTERVALS)
         notes += misfit_notes(measurements, predicted, best.jacobian)
     if not directions:
         notes += [_as_good(one, free) for one in others]
@@ -205,6 +222,16 @@ def _problem(
             f"{count} measured numbers for {len(free)} free parameters; must be at least as many"
         )
     return Problem(parameters, free, measurements.under(inputs))
+
+
+def _supposed(problem: Problem, run: Runner) -> dict[str, Array]:
+    """Return what the device before the fit predicts, as `miss_notes` has it."""
+    start = problem.values(np.array([one.internal(one.start) for one in problem.free]))
+    meant = {"": problem.measurements}
+    for what, (name, factor) in SUPPOSITIONS.items():
+        meant[what] = problem.measurements.multiplied(name, factor)
+    tasks = [partial(predict, parameters=start, measurements=one) for one in meant.values()]
+    return dict(zip(meant, run("supposing", tasks), strict=True))
 
 
 def _weighted(problem: Problem, best: Minimum, run: Runner) -> tuple[Problem, Minimum, int]:

@@ -118,9 +118,13 @@ class Measurements:
         """The quantity of each number, length n."""
         return [place.quantity for place in self.places]
 
+    def unit(self, name: str) -> tuple[str, float]:
+        """Return the unit of the data, or else the SI unit, and the factor to the latter."""
+        return self.units.get(name, (VARIABLES[name].unit, 1.0))
+
     def shown(self, quantity: str, value: float) -> str:
         """Return a value in the unit of the data, or else in its SI unit."""
-        unit, factor = self.units.get(quantity, (VARIABLES[quantity].unit, 1.0))
+        unit, factor = self.unit(quantity)
         return f"{value / factor:.3g} {unit}"
 
     @property
@@ -162,6 +166,14 @@ class Measurements:
         """Return the same with inputs of the points that do not say them."""
         points = (replace(point, values={**inputs, **point.values}) for point in self.points)
         return replace(self, points=tuple(points))
+
+    def multiplied(self, name: str, factor: float) -> "Measurements":
+        """Return the points alone, with what was set by this name times a factor."""
+        points = (
+            replace(point, values={**point.values, name: factor * point.values.get(name, 0.0)})
+            for point in self.points
+        )
+        return replace(self, points=tuple(points), runs=())
 
     def __add__(self, other: "Measurements") -> "Measurements":
         """Return both together."""

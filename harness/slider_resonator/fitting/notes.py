@@ -1,6 +1,7 @@
 """What a report notes about measurements and their residuals."""
 
 from collections.abc import Mapping
+from math import log10, pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +25,14 @@ ROUNDING = 1e-6
 MAX_NAMED = 5
 """Number of outliers that are named."""
 MISSED = 0.5
-"""Root mean square of residuals over that of the quantity from which its unit must be checked."""
+"""Root mean square of residuals over that of the quantity from which the fit is not near it."""
+SUPPOSITIONS = {
+    "phase in rad": ("phase", 180.0 / pi),
+    "the other sign of phase": ("phase", -1.0),
+    "the other sign of load": ("load", -1.0),
+}
+"""What may be meant by settings: the name of one, and the factor from what was read."""
+_PREFIXES = {-9: "n", -6: "u", -3: "m", 0: "", 3: "k"}
 LOW_FRICTION, HIGH_FRICTION = 0.01, 1.5
 """Coefficients between which dry friction mostly is."""
 
@@ -54,27 +62,71 @@ def friction_notes(fitted: Device) -> list[str]:
         return []
     usual = f"above {HIGH_FRICTION:g}" if coefficient > 1.0 else f"below {LOW_FRICTION:g}"
     return [
-        f"friction_coefficient = {coefficient:.3g} is seldom {usual}: check normal_preload, the "
-        f"units, and friction_faces = {fitted.friction_faces}"
+        f"friction_coefficient = {coefficient:.3g} is seldom {usual}: check normal_preload, "
+        f"units and signs, and friction_faces = {fitted.friction_faces}"
     ]
 
 
-def unit_notes(measurements: Measurements, predicted: Array) -> list[str]:
-    """Return a note for each quantity without a unit in its heading that no fit comes near.
+def missed_quantities(measurements: Measurements, predicted: Array) -> dict[str, float]:
+    """Return the quantities that a fit does not come near: the share that it misses, by name.
 
-    `predicted` has shape (n,).
+    It is the root mean square of the residuals over that of the quantity; `predicted` has shape
+    (n,), NaN where there is no motion.
     """
     missed = ((predicted - measurements.measured) / measurements.sizes) ** 2
     quantities = np.where(np.isfinite(missed), measurements.quantities, "")
+    shares = {
+        name: float(np.mean(missed[quantities == name])) ** 0.5
+        for name in sorted({*quantities.tolist()} - {""})
+    }
+    return {name: share for name, share in shares.items() if share >= MISSED}
+
+
+def miss_notes(
+    measurements: Measurements, missed: Mapping[str, float], supposed: Mapping[str, Array]
+) -> list[str]:
+    """Return a note for each of the `missed` quantities, with what would bring the device near it.
+
+    `supposed` are predictions of the device before the fit: as the data were read by the name "",
+    (n,), and of the points alone by those of `SUPPOSITIONS`.
+    """
     notes = []
-    for name in sorted({*quantities.tolist()} - {*measurements.units, ""}):
-        share = float(np.mean(missed[quantities == name])) ** 0.5
-        if share >= MISSED:
-            notes.append(
-                f"the fit misses {share:.0%} of {name} (rms), which was read in "
-                f"{VARIABLES[name].unit}: check its unit, which data can say, and what is held"
-            )
+    for name, share in missed.items():
+        least, meant = MISSED, ""
+        for what, predicted in supposed.items():
+            own = np.array(measurements.quantities[: len(predicted)]) == name
+            own &= np.isfinite(predicted)
+            factor, rest = _proportion(measurements.measured[: len(own)][own], predicted[own])
+            power = 3 * round(log10(abs(factor) or 1.0) / 3.0)
+            parts = [what] if what else []
+            if power:
+                parts.append(_other_unit(measurements, name, power))
+            if factor < 0.0:
+                parts.append(f"the other sign of {name}")
+            if rest < least:  # another meaning must halve what the data miss as they were read
+                least, meant = rest if parts else 0.5 * rest, " and ".join(parts)
+        unit, _ = measurements.unit(name)
+        nearer = f"with {meant} the device before the fit is far nearer"
+        notes.append(
+            f"the fit misses {share:.0%} of {name} (rms), which was read in {unit}: "
+            + (nearer if meant else "check units and signs, and what is held")
+        )
     return notes
+
+
+def _proportion(measured: Array, predicted: Array) -> tuple[float, float]:
+    """Return the factor from predicted to measured values by least squares, and what it misses."""
+    factor = float(measured @ predicted) / max(float(predicted @ predicted), 1e-300)
+    rest = measured - factor * predicted
+    return factor, float(rest @ rest / max(measured @ measured, 1e-300)) ** 0.5
+
+
+def _other_unit(measurements: Measurements, name: str, power: int) -> str:
+    """Return in which unit numbers are that come out a power of ten of what is predicted."""
+    _, factor = measurements.unit(name)
+    prefix = _PREFIXES.get(round(log10(factor)) - power)
+    unit = "another unit" if prefix is None else prefix + VARIABLES[name].unit
+    return f"{name} in {unit} (measured is 1e{power} of what the device predicts)"
 
 
 def misfit_notes(measurements: Measurements, predicted: Array, jacobian: Array) -> list[str]:

@@ -21,16 +21,19 @@ FILES = ("device.toml", "fit.png", "residuals.csv", "fit.html")
 
 def parameter_table(fit: Fit) -> Table:
     """Return estimates and intervals; what the data leave open gets no digits."""
-    rows = [(one.name, *_numbers(one), one.unit, f"{one.start:.6g}") for one in fit.parameters]
+    rows = [
+        (one.name, *_numbers(one, fit.scale is None), one.unit, f"{one.start:.6g}")
+        for one in fit.parameters
+    ]
     columns = (*texts("parameter"), *numbers("estimate", "95 % from", "to"), *texts("unit"))
     return Table((*columns, *numbers("start")), rows)
 
 
-def _numbers(one: FittedParameter) -> tuple[str, str, str]:
+def _numbers(one: FittedParameter, is_solved: bool) -> tuple[str, str, str]:
     if one.is_open:
         return OPEN, "", ""
     if one.deviation is None:
-        return f"{one.value:.8g}", "", ""
+        return f"{one.value:.{8 if is_solved else 3}g}", "", ""
     if one.low is None or one.high is None:
         return f"{one.value:.3g}", *one.interval(2)
     digits = max(2, 2 - round(np.log10(max((one.high - one.low) / abs(one.value or 1.0), 1e-9))))

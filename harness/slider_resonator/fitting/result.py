@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+AS_STATED = 2.0
+"""Residual, in stated standard deviations, up to which model and deviations count as fitting."""
+
+
 @dataclass(frozen=True)
 class FittedParameter:
     """An estimate in SI units with its standard deviation and 95 % profile interval.
@@ -117,7 +121,11 @@ class Fit(Shown, Tabular, Drawable):
         elif self.measurements.knows_deviations:
             lines.append(
                 f"residuals have {self.scale:.3g} times the stated standard deviation"
-                + (": the model or the stated deviations do not fit" if self.scale > 2.0 else "")
+                + (
+                    ": the model or the stated deviations do not fit"
+                    if self.scale > AS_STATED
+                    else ""
+                )
             )
         shown = self.measurements.shown
         for index in self.unmet:

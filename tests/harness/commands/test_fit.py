@@ -67,7 +67,7 @@ def test_what_is_left_open_is_exit_code_1(data: Path, native_fmu: Path) -> None:
         (
             ("--blocking", "2 N"),
             0,
-            "is seldom above 1.5: check normal_preload, the units, and friction_faces = 2",
+            "is seldom above 1.5: check normal_preload, units and signs, and friction_faces = 2",
         ),
     ],
 )

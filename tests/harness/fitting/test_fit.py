@@ -12,7 +12,7 @@ from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import HarnessError
 from slider_resonator.fitting.estimation import Problem, minimise, predict
-from slider_resonator.fitting.fit import fit, free_parameters
+from slider_resonator.fitting.fit import NO_INTERVALS, fit, free_parameters
 from slider_resonator.fitting.measurements import Measurements, Point, Run, datasheet
 from slider_resonator.fitting.notes import OUTLIER_LEVEL, data_notes, outlying
 from slider_resonator.fitting.reading import measurements_from
@@ -240,9 +240,13 @@ def test_systematic_residuals_are_noted(instance: Instance) -> None:
     """Friction cannot stand for damping: the residuals follow the phase."""
     points = [Point({"phase": 0.1 * i}, "steady_velocity", 0.0, row=f"line {i}") for i in range(30)]
     data = measured(instance, {"damping_ratio": 0.3}, points, 0.002)
-    implausible, missed, note = fitted(instance, data, ["friction_coefficient"], starts=1).notes
+    implausible, missed, no_intervals, note = fitted(
+        instance, data, ["friction_coefficient"], starts=1
+    ).notes
     assert "seldom above 1.5" in implausible
     assert "of steady_velocity (rms)" in missed
+    assert missed.endswith("check units and signs, and what is held")
+    assert no_intervals == NO_INTERVALS
     assert "residuals of steady_velocity are systematic" in note
     assert "the longest from line " in note
 
@@ -288,14 +292,39 @@ def test_a_phase_that_is_not_given_is_noted() -> None:
     assert "no phase is given, and 0 rad assumed" in note
 
 
-@pytest.mark.parametrize(("heading", "count"), [("velocity", 1), ("velocity [mm/s]", 0)])
-def test_velocities_in_another_unit_are_noted(instance: Instance, heading: str, count: int) -> None:
-    points = [Point({"phase": phase}, "steady_velocity", 0.0) for phase in (0.2, 0.7, 1.2)]
-    in_si = measured(instance, {"friction_coefficient": 0.12}, points).measured
-    data = measurements_from({"phase": [0.2, 0.7, 1.2], heading: 1e3 * in_si})
-    found = fitted(instance, data, ["friction_coefficient"], starts=1)
-    missed = [one for one in found.notes if "steady_velocity (rms), which was read in m/s" in one]
-    assert len(missed) == count
+@pytest.mark.parametrize(
+    ("phase", "velocity", "said"),
+    [
+        (("phase", 1.0), ("velocity", 1e3), "read in m/s: with steady_velocity in mm/s"),
+        (("phase", 1.0), ("velocity [mm/s]", 1.0), "read in mm/s: with steady_velocity in m/s"),
+        (("phase [deg]", 1.0), ("velocity", 1.0), "with phase in rad"),
+        (("phase", -1.0), ("velocity", 1.0), "with the other sign of phase"),
+    ],
+)
+def test_data_that_were_meant_otherwise_are_noted(
+    instance: Instance, phase: tuple[str, float], velocity: tuple[str, float], said: str
+) -> None:
+    phases = np.array([-1.5, -0.8, -0.1, 0.6, 1.3])
+    points = [Point({"phase": phase}, "steady_velocity", 0.0) for phase in phases]
+    velocities = measured(instance, {**AVERAGES, **TRUE}, points).measured
+    columns = {phase[0]: phase[1] * phases, velocity[0]: velocity[1] * velocities}
+    free, start = ["friction_coefficient"], {**AVERAGES, **TRUE, "friction_coefficient": 0.15}
+    found = fitted(instance, measurements_from(columns), free, parameters=start, starts=1)
+    assert found.parameters[0].deviation is None
+    assert NO_INTERVALS in found.notes
+    (missed,) = [one for one in found.notes if one.startswith("the fit misses")]
+    assert said in missed
+    assert missed.endswith("the device before the fit is far nearer")
+
+
+def test_noise_that_is_stated_is_no_miss(instance: Instance) -> None:
+    device = {**AVERAGES, **TRUE}
+    data = measured(instance, device, POINTS * 20, 0.8, seed=2)
+    size = 0.8 * float(np.sqrt(np.mean(predict(instance, device, data) ** 2)))
+    stated = Measurements(tuple(replace(point, deviation=size) for point in data.points))
+    found = fitted(instance, stated, ["damping_ratio"], parameters=device, starts=1)
+    assert found.parameters[0].deviation is not None
+    assert not found.notes
 
 
 def test_a_column_that_is_free_is_refused(instance: Instance) -> None:
