@@ -38,7 +38,7 @@ LOW_FRICTION, HIGH_FRICTION = 0.01, 1.5
 
 
 def data_notes(measurements: Measurements, parameters: Mapping[str, float]) -> list[str]:
-    """Return what was done in reading, numbers that may be meant in Hz or degrees, and no phase.
+    """Return what was done in reading, numbers that may be meant in Hz or degrees, and assumptions.
 
     `parameters` are those of the device.
     """
@@ -47,11 +47,14 @@ def data_notes(measurements: Measurements, parameters: Mapping[str, float]) -> l
         where = f'"{name} [{"deg" if name == "phase" else "Hz"}]" as heading'
         for slip in possible_slips({name: value}, parameters, where):
             slips.setdefault((source, name), f"{source}: {slip}")
-    silent = {one.source for one in measurements.points if "phase" not in one.values}
-    unsaid = [
-        f"{source}: no phase is given, and 0 rad assumed: a column or a set value can say it"
-        for source in sorted(silent)
-    ]
+    unsaid = []
+    for name, zero in (("phase", "0 rad"), ("load", "0 N")):
+        points = [one for one in measurements.points if name not in one.values]
+        asked = {one.source for one in points if (name, one.quantity) != ("load", "blocking_force")}
+        unsaid += [
+            f"{source}: no {name} is given, and {zero} assumed: a column or a set value can say it"
+            for source in sorted(asked)
+        ]
     return [*measurements.notes, *slips.values(), *unsaid]
 
 
@@ -115,10 +118,13 @@ def miss_notes(
 
 
 def _proportion(measured: Array, predicted: Array) -> tuple[float, float]:
-    """Return the factor from predicted to measured values by least squares, and what it misses."""
+    """Return the factor from predicted to measured values by least squares, and what it misses.
+
+    The latter is a share of the measured, 1 without values.
+    """
     factor = float(measured @ predicted) / max(float(predicted @ predicted), 1e-300)
-    rest = measured - factor * predicted
-    return factor, float(rest @ rest / max(measured @ measured, 1e-300)) ** 0.5
+    size, rest = float(np.linalg.norm(measured)), measured - factor * predicted
+    return factor, float(np.linalg.norm(rest)) / size if size else 1.0
 
 
 def _other_unit(measurements: Measurements, name: str, power: int) -> str:

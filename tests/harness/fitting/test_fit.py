@@ -210,7 +210,13 @@ def test_an_outlier_is_named_and_honest_noise_is_not(
     instance: Instance, count: int, factor: float
 ) -> None:
     points = [
-        Point({"phase": 0.1 * i}, "steady_velocity", 0.0, source="a.csv", row=f"line {i + 2}")
+        Point(
+            {"phase": 0.1 * i, "load": 0.0},
+            "steady_velocity",
+            0.0,
+            source="a.csv",
+            row=f"line {i + 2}",
+        )
         for i in range(count)
     ]
     data = measured(instance, TRUE, points, 0.01, seed=3)
@@ -238,7 +244,10 @@ def test_normal_noise_has_outliers_in_fewer_than_1_of_100_fits() -> None:
 
 def test_systematic_residuals_are_noted(instance: Instance) -> None:
     """Friction cannot stand for damping: the residuals follow the phase."""
-    points = [Point({"phase": 0.1 * i}, "steady_velocity", 0.0, row=f"line {i}") for i in range(30)]
+    points = [
+        Point({"phase": 0.1 * i, "load": 0.0}, "steady_velocity", 0.0, row=f"line {i}")
+        for i in range(30)
+    ]
     data = measured(instance, {"damping_ratio": 0.3}, points, 0.002)
     implausible, missed, no_intervals, note = fitted(
         instance, data, ["friction_coefficient"], starts=1
@@ -254,7 +263,12 @@ def test_systematic_residuals_are_noted(instance: Instance) -> None:
 def test_a_frequency_in_hertz_is_noted(instance: Instance) -> None:
     start = VARIABLES["drive_frequency"].start or 0.0
     heading, hertz = "drive_frequency", round(start / (2.0 * np.pi))
-    columns = {"phase": [0.2, 0.4, 0.6], "frequency": [hertz] * 3, "velocity": [0.1, 0.11, 0.1]}
+    columns = {
+        "phase": [0.2, 0.4],
+        "load": [0, 0],
+        "frequency": [hertz] * 2,
+        "velocity": [0.1, 0.11],
+    }
     data = measurements_from(columns)
     (note,) = data_notes(data, {})
     assert note.startswith(f"data: {heading} = {hertz:g} is in rad/s")
@@ -277,7 +291,7 @@ def test_all_solutions_are_named_and_the_nearest_to_the_start_is_taken(instance:
         "friction_coefficient": 0.25,
         "friction_faces": 1.0,
     }
-    data = measurements_from({"phase [deg]": [30.0], "velocity [mm/s]": [55.0]})
+    data = measurements_from({"phase [deg]": [30.0], "load": [0.0], "velocity [mm/s]": [55.0]})
     found = fitted(instance, data, ["damping_ratio"], parameters=device)
     (damping,) = found.parameters
     assert damping.value == pytest.approx(0.0166, abs=1e-4)
@@ -287,9 +301,14 @@ def test_all_solutions_are_named_and_the_nearest_to_the_start_is_taken(instance:
     assert other.parameters[0].value == pytest.approx(0.0318838, rel=1e-5)
 
 
-def test_a_phase_that_is_not_given_is_noted() -> None:
-    (note,) = data_notes(measurements_from({"velocity": [0.1, 0.2]}), {})
-    assert "no phase is given, and 0 rad assumed" in note
+def test_a_phase_and_a_load_that_are_not_given_are_noted() -> None:
+    columns = {"velocity": [0.1, np.nan], "force": [np.nan, 0.2]}
+    phase, load = data_notes(measurements_from(columns), {})
+    assert "no phase is given, and 0 rad assumed" in phase
+    assert "no load is given, and 0 N assumed" in load
+    held = {"phase": 0.3, "load": 0.1}
+    assert not data_notes(measurements_from(columns).under(held), {})
+    assert not data_notes(measurements_from({"force": [0.2]}).under({"phase": 0.3}), {})
 
 
 @pytest.mark.parametrize(
