@@ -27,6 +27,8 @@ _STEADY_ALIASES = {
 }
 """Other names of what a table measures; those of a run are the outputs themselves."""
 _HEADING = re.compile(r"\s*(\w[\w ]*?)([_ ]std)?\s*(?:[\[(]([^\])]*)[\])])?\s*", re.I)
+_ROW_NUMBERS = ("", "#", "index", "no", "nr", "point")
+"""Headings of columns that only number the rows, without a dot and in small letters."""
 MAX_ROWS = 100_000
 
 
@@ -102,13 +104,11 @@ def _columns(path: Path) -> _Columns:
             if is_known or any(is_number(cell) for cell in cells):
                 columns.append((heading, _numbers(heading, rows, cells)))
             elif heading:
-                ignored.append(repr(heading))
-        found = _named(str(path), rows, columns)
+                ignored.append(heading)
+        return _named(str(path), rows, columns, ignored)
     except ValueError as error:
         said = str(error)
         raise HarnessError(said if str(path) in said else f"{path}: {said}") from error
-    note = f"{path}: ignored {', '.join(ignored)}: no numbers"
-    return replace(found, notes=(note,) if ignored else ())
 
 
 @dataclass(frozen=True)
@@ -135,17 +135,31 @@ class _Allowed:
         return self.aliases.get(name, name), std, unit
 
 
-def _named(source: str, rows: Sequence[str], columns: Sequence[tuple[str, Array]]) -> _Columns:
-    """Return columns by name in SI units from those by heading; ValueError for a wrong heading."""
+def _named(
+    source: str,
+    rows: Sequence[str],
+    columns: Sequence[tuple[str, Array]],
+    ignored: Sequence[str] = (),
+) -> _Columns:
+    """Return columns by name in SI units from those by heading; ValueError for a wrong heading.
+
+    Columns that number the rows are ignored, and noted beside others that are `ignored`.
+    """
     allowed = _Allowed.by(heading for heading, _ in columns)
     named: dict[str, Array] = {}
     units: dict[str, tuple[str, float]] = {}
     for heading, values in columns:
+        if heading.lower().rstrip(".") in _ROW_NUMBERS:
+            ignored = [*ignored, heading]
+            continue
         name, std, unit = allowed.parts(heading)
         if name not in allowed.names or (std and name not in allowed.outputs):
-            raise ValueError(unknown_name("column", name + std, allowed.names))
+            meant = _with_brackets(heading, allowed)
+            hint = f"unknown column {heading!r}; write {meant!r}" if meant else ""
+            names = {*allowed.names, *allowed.aliases}
+            raise ValueError(hint or unknown_name("column", name + std, names))
         try:
-            factor = si_value(TIME if name == "time" else name, f"1 {unit}") if unit else 1.0
+            factor = _factor(name, unit)
         except ValueError as error:
             raise ValueError(f"heading {heading!r}: {error}") from error
         name += "_std" if std else ""
@@ -154,7 +168,28 @@ def _named(source: str, rows: Sequence[str], columns: Sequence[tuple[str, Array]
         named[name] = factor * values
         if unit:
             units[name] = (unit, factor)
-    return _Columns(source, rows, named, units)
+    note = f"{source}: ignored {', '.join(map(repr, ignored))}: no numbers, or those of the rows"
+    return _Columns(source, rows, named, units, (note,) if ignored else ())
+
+
+def _factor(name: str, unit: str) -> float:
+    """Return the factor from a unit, or none, to the SI unit; ValueError for a wrong one."""
+    return si_value(TIME if name == "time" else name, f"1 {unit}") if unit else 1.0
+
+
+def _with_brackets(heading: str, allowed: _Allowed) -> str | None:
+    """Return `velocity [mm/s]` for the heading velocity_mm_s and the like, None for others."""
+    words = heading.split("_")
+    for count in range(1, len(words)):
+        name, unit = "_".join(words[:count]), "/".join(words[count:])
+        known = allowed.parts(name)[0]
+        if known in allowed.names:
+            try:
+                _factor(known, unit)
+            except ValueError:
+                continue
+            return f"{name} [{unit}]"
+    return None
 
 
 def _numbers(heading: str, rows: Sequence[str], cells: Sequence[str]) -> Array:

@@ -69,11 +69,18 @@ PLAIN = "phase [deg],frequency [kHz],steady_velocity [mm/s]\n30,20,47\n60,20,50\
         (b"sep=;\r\n" + PLAIN.replace(",", ";").encode(), ()),
         (b"sep=|\n" + PLAIN.replace(",", "|").encode(), ()),
         (PLAIN.replace("\n", ",\n").encode(), ()),
+        (
+            ("Nr.," + PLAIN).replace("\n3", "\n1,3").replace("\n6", "\n2,6").encode(),
+            ("ignored 'Nr.': no numbers, or those of the rows",),
+        ),
         (b"Phase [deg],FREQUENCY [kHz],Steady Velocity (mm/s)\n30,20,47\n60,20,50\n", ()),
         (
             "phase [°],frequency [kHz],velocity [mm/s],Prüfer,when\n30,20,47,Jürg,10:02\n"
             "45,20,NaN,,10:03\n,,,,\n50,20,,warm,\n60,20,50,,\n".encode("cp1252"),
-            ("ignored 'Prüfer', 'when': no numbers", "2 of 4 rows skipped: nothing measured"),
+            (
+                "ignored 'Prüfer', 'when': no numbers, or those of the rows",
+                "2 of 4 rows skipped: nothing measured",
+            ),
         ),
     ],
 )
@@ -105,6 +112,9 @@ def test_a_run_has_the_names_of_a_table_for_the_drive(tmp_path: Path) -> None:
         ("phase,velocity\n0.1,x\n", "line 2: velocity = 'x': must be a finite number, or empty"),
         ("phase\n0.1\n", "measures nothing; must have a column"),
         ("phse,velocity\n0,1\n", "unknown column 'phse'; did you mean 'phase'?"),
+        ("phase,velocty\n0,1\n", "steady_velocity, tangential_force, time, tolerance, velocity)"),
+        ("phase,velocity_mm_s\n0,1\n", "'velocity_mm_s'; write 'velocity [mm/s]'"),
+        ("phase_deg,load_mN\n0,1\n", "unknown column 'phase_deg'; write 'phase [deg]'"),
         ("phase [N],velocity\n0,1\n", "heading 'phase [N]': phase = '1 N': not in rad"),
         ("phase,velocity\n,1\n", "line 2: phase is empty; must be a number"),
         ("phase,velocity,velocity_std\n1,1,0\n", "steady_velocity_std = 0: must be above 0"),
