@@ -27,7 +27,7 @@ from itertools import takewhile
 from numbers import Integral, Real
 from pathlib import Path
 from traceback import walk_stack
-from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, ParamSpec, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
@@ -292,9 +292,17 @@ def sweep(
     )
 
 
+@runtime_checkable
+class Frame(Protocol):
+    """A DataFrame of pandas."""
+
+    def to_dict(self, orient: Literal["list"]) -> Mapping[str, Any]:
+        """Return the columns as lists by heading."""
+
+
 @_plain_errors
 def fit(
-    data: str | Path | Mapping[str, Any] | Measurements | Sequence[str | Path],
+    data: str | Path | Mapping[str, Any] | Frame | Measurements | Sequence[str | Path],
     free: str | Sequence[str],
     fmu: str | Path | None = None,
     *,
@@ -308,10 +316,12 @@ def fit(
     """Estimate the parameters `free` of a device from measurements, with 95 % intervals.
 
     `data` is a CSV file, as `slider-resonator fit --help` describes, several of these, or columns
-    of numbers by heading, such as `{"phase [deg]": ..., "velocity [mm/s]": ...}`. `values` are
-    parameters and inputs that are not in the data. The result has `parameters`, and the `device` to
-    go on with.
+    of numbers by heading, such as `{"phase [deg]": ..., "velocity [mm/s]": ...}` or a DataFrame.
+    `values` are parameters and inputs that are not in the data. The result has `parameters`, and
+    the `device` to go on with.
     """
+    if isinstance(data, Frame):
+        data = data.to_dict("list")
     if isinstance(data, Mapping):
         data = measurements_from(_plain(data))
     elif not isinstance(data, Measurements):

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, cast
+from typing import Any, Literal, cast
 
 import numpy as np
 import pytest
@@ -104,6 +104,18 @@ def test_finished_fmus_are_found_or_the_remedy_is_named(
         sr.fmu_path("fmi2")  # type: ignore[arg-type]
 
 
+class Frame:
+    """What a fit knows of a DataFrame."""
+
+    def __init__(self, columns: dict[str, Any]) -> None:
+        self._columns = columns
+
+    def to_dict(self, orient: Literal["list"]) -> dict[str, list[Any]]:
+        """Return the columns as lists."""
+        assert orient == "list"
+        return {heading: list(values) for heading, values in self._columns.items()}
+
+
 def test_results_say_what_was_found_on_a_screen(native_fmu: Path, tmp_path: Path) -> None:
     with sr.open_fmu(native_fmu, device={"slider_mass": "2 kg"}) as fmu:
         record, motion = fmu.run("table_1"), fmu.steady(phase=0.4)
@@ -114,7 +126,7 @@ def test_results_say_what_was_found_on_a_screen(native_fmu: Path, tmp_path: Path
     (validation,) = sr.validate(native_fmu, scenes=["blocking_force_table_1"])
     choice = sr.choose({**SHORT, "need": {"mean_velocity": {"rel": 0.01}}}, native_fmu)
     measured = {"phase [deg]": np.array([0.0]), "velocity [mm/s]": [120.0]}
-    fit = sr.fit(measured, "friction_coefficient", native_fmu)
+    fit = sr.fit(Frame(measured), "friction_coefficient", native_fmu)
     scene = sr.read_scene("table_1")
     for result, words in (
         (record, f"mean_velocity           {record.final('mean_velocity'):.9g} m/s"),
