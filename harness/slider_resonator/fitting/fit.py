@@ -13,7 +13,7 @@ from scipy.special import ndtri, stdtrit
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.interface import INTEGERS, PARAMETERS, VARIABLES
+from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS, VARIABLES
 from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fitting.estimation import (
@@ -36,7 +36,7 @@ from slider_resonator.fitting.notes import (
     missed_quantities,
 )
 from slider_resonator.fitting.result import AS_STATED, Fit, FittedParameter
-from slider_resonator.fmu.isolation.process import Task
+from slider_resonator.fmu.isolation.process import FmuDied, Task
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks
 from slider_resonator.output.progress import Progress, counted, no_progress
 
@@ -73,9 +73,14 @@ def free_parameters(
 
     Raises HarnessError with name, value and requirement.
     """
+    possible = sorted({*PARAMETERS} - {*INTEGERS})
     for name in [*names, *bounds]:
+        if name in INPUTS:
+            raise HarnessError(
+                f"{name} is an input; must be a parameter, one of {', '.join(possible)}"
+            )
         if name not in PARAMETERS:
-            raise HarnessError(unknown_name("parameter", name, {*PARAMETERS} - {*INTEGERS}))
+            raise HarnessError(unknown_name("parameter", name, possible))
         if name not in names:
             raise HarnessError(f"bounds of {name}: it is not free; must be one of the free ones")
         if name in INTEGERS:
@@ -327,12 +332,17 @@ def isolated(
     fmu: Path, jobs: int, time_limit: float, progress: Progress = no_progress
 ) -> Iterator[Runner]:
     """Yield what runs tasks in processes of an FMU, each for up to `time_limit` (s)."""
+    limit = "; the limit is for each start and each end of an interval (--time-limit)"
     with LocalProcesses(fmu, time_limit, jobs) as processes:
 
         def run(label: str, tasks: Sequence[Task]) -> list[Any]:
             results = []
             progress(counted(label, 0, len(tasks)), 0.0)
-            for _, outcome in run_all_tasks(processes, list(enumerate(tasks)), outcomes=()):
+            for _, outcome in run_all_tasks(processes, list(enumerate(tasks)), outcomes=(FmuDied,)):
+                if isinstance(outcome.error, FmuDied):
+                    raise FmuError(
+                        f"{label}: {outcome.error}{limit if outcome.error.over_limit else ''}"
+                    )
                 results.append(outcome.value)
                 progress(counted(label, len(results), len(tasks)), len(results) / len(tasks))
             return results

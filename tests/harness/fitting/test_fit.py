@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,16 +12,16 @@ import pytest
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import constant
-from slider_resonator.errors import HarnessError
+from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.fitting.estimation import Problem, minimise, predict
-from slider_resonator.fitting.fit import NO_INTERVALS, fit, free_parameters
+from slider_resonator.fitting.fit import NO_INTERVALS, fit, free_parameters, isolated
 from slider_resonator.fitting.measurements import Measurements, Point, Run, datasheet
 from slider_resonator.fitting.notes import OUTLIER_LEVEL, data_notes, outlying
 from slider_resonator.fitting.reading import measurements_from
 from slider_resonator.fitting.report import parameter_table
 from slider_resonator.fitting.result import Fit
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.isolation.process import Task
+from slider_resonator.fmu.isolation.process import FmuDied, Task
 
 TRUE = {"friction_coefficient": 0.13, "damping_ratio": 0.08, "normal_amplitude": 0.7}
 AVERAGES = {"fidelity": 0, "averaging_order": 1}
@@ -127,6 +129,21 @@ def test_a_noisy_source_does_not_outweigh_an_exact_one(
     assert found.residuals[len(table.points) :].std() == pytest.approx(1.0, rel=0.3)
 
 
+def die(_: Instance, over_limit: bool) -> None:
+    """End as a process of its own would."""
+    raise FmuDied("no answer", over_limit=over_limit)
+
+
+@pytest.mark.parametrize(("over_limit", "end"), [(True, "(--time-limit)"), (False, "no answer")])
+def test_a_process_that_ends_says_stage_and_option(
+    native_fmu: Path, over_limit: bool, end: str
+) -> None:
+    with isolated(native_fmu, 1, 60.0) as run, pytest.raises(FmuError) as error:
+        run("searching", [partial(die, over_limit=over_limit)])
+    assert str(error.value).startswith("searching: no answer")
+    assert str(error.value).endswith(end)
+
+
 def test_what_the_data_leave_open_is_named(instance: Instance) -> None:
     """Friction is coefficient times normal load: all three cannot be told from velocities."""
     data = measured(instance, {**AVERAGES, **TRUE}, POINTS, 0.01)
@@ -174,6 +191,7 @@ def test_slopes_at_a_bound_are_those_inside(instance: Instance) -> None:
     ("free", "bounds", "said"),
     [
         (["friction_coeff"], {}, "did you mean 'friction_coefficient'?"),
+        (["load"], {}, "load is an input; must be a parameter, one of base_amplitude, bristle_"),
         (["friction_faces"], {}, "friction_faces is an integer"),
         (["slider_mass", "slider_mass"], {}, "must be different parameters"),
         ([], {}, "must be one parameter or more"),
