@@ -164,7 +164,8 @@ def fit_command(
     title = f"Fit to {', '.join(one.name for one in data) or 'a datasheet'}"
     written = [] if out is None else write_report(found, out, title, provenance)
     if as_json:
-        keys = {key: value for key, value in vars(found).items() if key != "measurements"}
+        hidden = ("measurements", "between")
+        keys = {key: value for key, value in vars(found).items() if key not in hidden}
         print_json({**keys, "written": written}, provenance)
     else:
         print_table(parameter_table(found))

@@ -4,8 +4,8 @@ Positive parameters are estimated by their logarithm, so that steps and scales a
 terms are those of nonlinear regression: Seber and Wild, Nonlinear Regression (1989), 5.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cache, partial
 
 import numpy as np
@@ -40,14 +40,32 @@ def predict(
     return np.concatenate([numbers, *columns])
 
 
-def _steady(instance: Instance, parameters: Mapping[str, float], point: Point) -> float:
-    values = {**parameters, **point.values}
+def predict_between(
+    instance: Instance, parameters: Mapping[str, float], points: Sequence[Point]
+) -> list[Point]:
+    """Return the points with the FMU's output as measured, without those where it is not valid."""
+    outputs = [_output(instance, {**parameters, **point.values}, point) for point in points]
+    return [
+        replace(point, measured=found)
+        for point, found in zip(points, outputs, strict=True)
+        if found is not None
+    ]
+
+
+def _output(instance: Instance, values: Mapping[str, float], point: Point) -> float | None:
+    """Return the output of the FMU for a steady quantity, None where it is not valid."""
     has_validity = "prediction_valid" in instance.fmu.outputs
     instance.start(values)
     with instance.explained():
         read = instance.read([point.quantity, *(["prediction_valid"] if has_validity else [])])
-    if read.get("prediction_valid") == 1.0:
-        return read[point.quantity]
+    return read[point.quantity] if read.get("prediction_valid") == 1.0 else None
+
+
+def _steady(instance: Instance, parameters: Mapping[str, float], point: Point) -> float:
+    values = {**parameters, **point.values}
+    output = _output(instance, values, point)
+    if output is not None:
+        return output
     if point.quantity == "steady_velocity":
         found = find_steady(instance, values).steady_velocity
     else:

@@ -16,6 +16,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS, VARIABLES
 from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
+from slider_resonator.fitting.curves import points_between
 from slider_resonator.fitting.estimation import (
     Free,
     Minimum,
@@ -24,9 +25,10 @@ from slider_resonator.fitting.estimation import (
     noise_of_series,
     open_directions,
     predict,
+    predict_between,
     profile_end,
 )
-from slider_resonator.fitting.measurements import Measurements
+from slider_resonator.fitting.measurements import Measurements, Point
 from slider_resonator.fitting.notes import (
     SUPPOSITIONS,
     data_notes,
@@ -202,6 +204,7 @@ def fit(
         measurements=measurements,
         unmet=tuple(unmet),
         notes=tuple(notes),
+        between=_between(measurements.points, found, run),
     )
 
 
@@ -237,6 +240,18 @@ def _supposed(problem: Problem, run: Runner) -> dict[str, Array]:
         meant[what] = problem.measurements.multiplied(name, factor)
     tasks = [partial(predict, parameters=start, measurements=one) for one in meant.values()]
     return dict(zip(meant, run("supposing", tasks), strict=True))
+
+
+def _between(
+    points: Sequence[Point], parameters: Mapping[str, float], run: Runner
+) -> tuple[Point, ...]:
+    """Return what is predicted between the measured points, nothing where the FMU fails."""
+    task = partial(predict_between, parameters=parameters, points=points_between(points))
+    try:
+        (found,) = run("drawing", [task])
+    except FmuError:
+        return ()
+    return tuple(found)
 
 
 def _weighted(problem: Problem, best: Minimum, run: Runner) -> tuple[Problem, Minimum, int]:

@@ -11,21 +11,18 @@ from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.device.values import with_unit
+from slider_resonator.fitting.curves import abscissa_and_curves, set_value
 from slider_resonator.fitting.measurements import Measurements, Point
 from slider_resonator.output.plot_style import COLOURS, Picture, style
 from slider_resonator.output.plot_units import Drawn, drawn, plot_unit
 
-MAX_CURVES = 8
-"""Number of settings of a second variable up to which each has a colour."""
-
 
 @dataclass(frozen=True)
 class Panel:
-    """A measured output: measured and predicted values and residuals over `x`, (n,) each.
+    """A measured output: measured values and residuals, (n,), over the first n values of `x`.
 
-    `curves` are the indices of the points of each curve, by its name: one, without a name, or those
-    of the settings of what varies beside the abscissa.
+    `predicted` has the other values of `x` as well, which are between the measured points. `curves`
+    are the indices of the points of each curve, by its name, as `abscissa_and_curves` has them.
     """
 
     x: Drawn
@@ -36,12 +33,13 @@ class Panel:
     curves: Mapping[str, Sequence[int]]
 
 
-def fit_figure(measurements: Measurements, numbers: Array) -> Figure:
+def fit_figure(measurements: Measurements, numbers: Array, between: Sequence[Point]) -> Figure:
     """Draw data and fit above, residuals below: points over what varies most, runs over time.
 
-    `numbers` are measured and predicted values and residuals, (3, n).
+    `numbers` are measured and predicted values and residuals, (3, n); `between` are predictions
+    between the measured points.
     """
-    panels = list(_panels(measurements, numbers))
+    panels = list(_panels(measurements, numbers, between))
     with style():
         figure = Picture((3.6 + 3.2 * len(panels), 5.2), layout="constrained")
         axes = figure.subplots(
@@ -55,7 +53,7 @@ def fit_figure(measurements: Measurements, numbers: Array) -> Figure:
             above.set_title(panel.title)
             above.legend(title="points measured, lines fit" if len(panel.curves) > 1 else None)
             below.set_xlabel(panel.x.label)
-            below.set_ylabel("residual / deviation")
+            below.set_ylabel("(fit - measured)\n/ standard deviation")
     return figure
 
 
@@ -64,20 +62,33 @@ def _draw_curve(
 ) -> None:
     """Draw the points with these indices; a curve without a name shows what is measured and fit."""
     indices = indices[np.argsort(panel.x.values[indices], kind="stable")]
-    x = panel.x.values[indices]
-    mark = "-" if len(np.unique(x)) == len(x) else "+"
+    x = panel.x.values
+    own = indices[indices < len(panel.measured)]
+    is_line = len(own) < len(indices) or len(np.unique(x[own])) == len(own)
     data, fit = (colour, colour) if name else (COLOURS["theory"], COLOURS["slow"])
-    above.plot(x, panel.measured[indices], "o", ms=4, color=data, label=name or "measured")
-    above.plot(x, panel.predicted[indices], mark, color=fit, label="" if name else "fit")
-    below.plot(x, panel.residuals[indices], "o", ms=3, color=fit)
+    above.plot(x[own], panel.measured[own], "o", ms=4, color=data, label=name or "measured")
+    mark = "-" if is_line else "+"
+    above.plot(x[indices], panel.predicted[indices], mark, color=fit, label="" if name else "fit")
+    below.plot(x[own], panel.residuals[own], "o", ms=3, color=fit)
 
 
-def _panels(measurements: Measurements, numbers: Array) -> Iterator[Panel]:
+def _panels(
+    measurements: Measurements, numbers: Array, between: Sequence[Point]
+) -> Iterator[Panel]:
     points = measurements.points
     for quantity in dict.fromkeys(point.quantity for point in points):
         rows = [i for i, point in enumerate(points) if point.quantity == quantity]
-        x, curves = _abscissa_and_curves([points[i] for i in rows])
-        yield _panel(x, quantity, "", numbers[:, rows], curves)
+        more = [point for point in between if point.quantity == quantity]
+        shown = [*(points[i] for i in rows), *more]
+        first, curves = abscissa_and_curves(shown)
+        if first:
+            values = np.array([set_value(point, first) for point in shown])
+            x = drawn(first, VARIABLES[first].unit, values)
+        else:
+            numbered = np.array(range(1, len(shown) + 1), np.float64)
+            x = Drawn("number of the measurement", "1", numbered)
+        beyond = np.array([point.measured for point in more])
+        yield _panel(x, quantity, "", numbers[:, rows], beyond, curves)
     begin = len(points)
     for run in measurements.runs:
         for name, column in run.outputs.items():
@@ -86,38 +97,24 @@ def _panels(measurements: Measurements, numbers: Array) -> Iterator[Panel]:
             begin = own.stop
             x = drawn("time", "s", run.schedule.times[there])
             source = f" ({Path(run.source).name})"
-            yield _panel(x, name, source, numbers[:, own], {"": range(len(x.values))})
+            curves = {"": list(range(len(x.values)))}
+            yield _panel(x, name, source, numbers[:, own], np.empty(0), curves)
 
 
 def _panel(
-    x: Drawn, name: str, source: str, numbers: Array, curves: Mapping[str, Sequence[int]]
+    x: Drawn,
+    name: str,
+    source: str,
+    numbers: Array,
+    between: Array,
+    curves: Mapping[str, Sequence[int]],
 ) -> Panel:
-    """Return the panel of a measured output; `numbers` (3, n) are those of `fit_figure`."""
-    measured, predicted, residuals = numbers
-    factor, unit = plot_unit(VARIABLES[name].unit, measured, predicted)
-    title = f"{name.replace('_', ' ')} [{unit}]{source}"
-    return Panel(x, title, factor * measured, factor * predicted, residuals, curves)
+    """Return the panel of a measured output.
 
-
-def _abscissa_and_curves(points: Sequence[Point]) -> tuple[Drawn, dict[str, list[int]]]:
-    """Return the variable with most values among the points, or their numbers, and the curves.
-
-    Points with the same values of all that varies beside it are a curve.
+    `numbers` (3, n) are those of `fit_figure`, `between` what is predicted between them.
     """
-    names = dict.fromkeys(name for point in points for name in point.values)
-    values = {
-        name: [point.values.get(name, VARIABLES[name].start or 0.0) for point in points]
-        for name in names
-    }
-    counts = {name: len(set(column)) for name, column in values.items()}
-    varying = sorted((name for name in names if counts[name] > 1), key=lambda name: -counts[name])
-    in_order = list(range(len(points)))
-    if not varying:
-        return Drawn("number of the measurement", "1", np.array(in_order) + 1.0), {"": in_order}
-    first, *others = varying
-    curves: dict[str, list[int]] = {}
-    for i in range(len(points)):
-        name = ", ".join(f"{other} {with_unit(other, values[other][i])}" for other in others)
-        curves.setdefault(name, []).append(i)
-    x = drawn(first, VARIABLES[first].unit, np.array(values[first]))
-    return x, curves if len(curves) <= MAX_CURVES else {"": in_order}
+    measured, predicted, residuals = numbers
+    factor, unit = plot_unit(VARIABLES[name].unit, measured, predicted, between)
+    title = f"{name.replace('_', ' ')} [{unit}]{source}"
+    predicted = factor * np.concatenate([predicted, between])
+    return Panel(x, title, factor * measured, predicted, residuals, curves)

@@ -168,7 +168,7 @@ def _named(
         named[name] = factor * values
         if unit:
             units[name] = (unit, factor)
-    note = f"{source}: ignored {', '.join(map(repr, ignored))}: no numbers, or those of the rows"
+    note = f"{source}: ignored {', '.join(map(repr, ignored))}: no numbers, or row numbers"
     return _Columns(source, rows, named, units, (note,) if ignored else ())
 
 

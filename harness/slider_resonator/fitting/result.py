@@ -9,7 +9,7 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.fitting.estimation import OpenDirection
-from slider_resonator.fitting.measurements import Measurements
+from slider_resonator.fitting.measurements import Measurements, Point
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Drawable, Shown, Tabular
 
@@ -60,7 +60,8 @@ class Fit(Shown, Tabular, Drawable):
     deviation of these as the fit shows it, 1 if all is as stated, None with as many parameters as
     numbers. `correlation` is that of the estimates, (p, p). `starts_agreeing` of `starts` led to
     the same minimum. `unmet` are the indices of numbers that as many parameters do not reach,
-    `notes` what is odd about the data and their residuals.
+    `notes` what is odd about the data and their residuals. `between` are points between those
+    measured, with what the fit predicts.
     """
 
     parameters: tuple[FittedParameter, ...]
@@ -77,6 +78,7 @@ class Fit(Shown, Tabular, Drawable):
     measurements: Measurements
     unmet: tuple[int, ...] = ()
     notes: tuple[str, ...] = ()
+    between: tuple[Point, ...] = ()
 
     def table(self) -> dict[str, list[Any]]:
         """Return the estimates in columns, those that the data leave open as None."""
@@ -93,7 +95,7 @@ class Fit(Shown, Tabular, Drawable):
         from slider_resonator.fitting.picture import fit_figure
 
         numbers = np.array([self.measured, self.predicted, self.residuals])
-        return fit_figure(self.measurements, numbers)
+        return fit_figure(self.measurements, numbers, self.between)
 
     def describe(self) -> list[str]:
         """Return the estimates with their intervals, and what there is to say of them."""

@@ -13,6 +13,7 @@ from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import FmuError, HarnessError
+from slider_resonator.fitting.curves import points_between
 from slider_resonator.fitting.estimation import Problem, minimise, predict
 from slider_resonator.fitting.fit import NO_INTERVALS, fit, free_parameters, isolated
 from slider_resonator.fitting.measurements import Measurements, Point, Run, datasheet
@@ -67,6 +68,40 @@ def test_exact_data_give_the_parameters_back(instance: Instance) -> None:
         assert one.value == pytest.approx(TRUE[one.name], rel=1e-7)
     assert found.starts_agreeing >= 2
     assert not found.open_directions
+
+
+def test_the_curve_of_the_fit_is_drawn_between_the_points(instance: Instance) -> None:
+    """For each load; a curve that the FMU cannot predict joins the measured points."""
+    device = {**AVERAGES, **TRUE}
+    data = measured(instance, device, POINTS)
+    found = fitted(instance, data, ["damping_ratio"], parameters=device, starts=1)
+    assert len(found.between) == 3 * (200 // 3)
+    lines = [line for line in found.figure().axes[0].lines if line.get_linestyle() == "-"]
+    assert [len(line.get_xdata()) for line in lines] == [66 + 4, 66 + 3, 66 + 3]  # type: ignore[arg-type]
+    numbers = [point.measured for point in found.between]
+    assert numbers == pytest.approx(
+        predict(instance, found.device.__dict__, Measurements(found.between)).tolist()
+    )
+
+    def run(label: str, tasks: Sequence[Task]) -> list[Any]:
+        if label == "drawing":
+            raise FmuError("crashed")
+        return [task(instance) for task in tasks]
+
+    assert not fit(data, ["damping_ratio"], device, run, starts=1).between
+
+
+def test_points_between_others_need_few_curves_over_a_continuous_variable() -> None:
+    def points(**settings: Sequence[float]) -> list[Point]:
+        rows = zip(*settings.values(), strict=True)
+        return [
+            Point(dict(zip(settings, row, strict=True)), "steady_velocity", 0.0) for row in rows
+        ]
+
+    assert len(points_between(points(phase=[0.1, 0.2, 0.2]))) == 200
+    assert not points_between(points(phase=[0.1, 0.1]))
+    assert not points_between(points(friction_faces=[1, 2]))
+    assert not points_between(points(phase=np.arange(20.0), load=np.arange(20.0)))
 
 
 def test_a_datasheet_is_solved_without_intervals(instance: Instance) -> None:

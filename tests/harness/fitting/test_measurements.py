@@ -71,14 +71,14 @@ PLAIN = "phase [deg],frequency [kHz],steady_velocity [mm/s]\n30,20,47\n60,20,50\
         (PLAIN.replace("\n", ",\n").encode(), ()),
         (
             ("Nr.," + PLAIN).replace("\n3", "\n1,3").replace("\n6", "\n2,6").encode(),
-            ("ignored 'Nr.': no numbers, or those of the rows",),
+            ("ignored 'Nr.': no numbers, or row numbers",),
         ),
         (b"Phase [deg],FREQUENCY [kHz],Steady Velocity (mm/s)\n30,20,47\n60,20,50\n", ()),
         (
             "phase [°],frequency [kHz],velocity [mm/s],Prüfer,when\n30,20,47,Jürg,10:02\n"
             "45,20,NaN,,10:03\n,,,,\n50,20,,warm,\n60,20,50,,\n".encode("cp1252"),
             (
-                "ignored 'Prüfer', 'when': no numbers, or those of the rows",
+                "ignored 'Prüfer', 'when': no numbers, or row numbers",
                 "2 of 4 rows skipped: nothing measured",
             ),
         ),
