@@ -101,7 +101,7 @@ def test_points_between_others_need_few_curves_over_a_continuous_variable() -> N
     assert len(points_between(points(phase=[0.1, 0.2, 0.2]))) == 200
     assert not points_between(points(phase=[0.1, 0.1]))
     assert not points_between(points(friction_faces=[1, 2]))
-    assert not points_between(points(phase=np.arange(20.0), load=np.arange(20.0)))
+    assert not points_between(points(phase=range(20), load=range(20)))
 
 
 def test_a_datasheet_is_solved_without_intervals(instance: Instance) -> None:
