@@ -418,7 +418,8 @@ def _stated(device: DeviceLike | None) -> dict[str, float]:
 
 def _warn(slips: Sequence[str]) -> None:
     """Warn of numbers that may be meant in another unit, where this package was called."""
-    modules = (frame.f_globals["__name__"] for frame, _ in walk_stack(inspect.currentframe()))
+    frames = (frame for frame, _ in walk_stack(inspect.currentframe()))
+    modules = (frame.f_globals.get("__name__", "") for frame in frames)
     inside = list(takewhile(lambda name: name.startswith("slider_resonator."), modules))
     for slip in slips:
         warnings.warn(slip, stacklevel=1 + len(inside))

@@ -12,7 +12,7 @@ harmonics, and counts with its phase near fractions too.
 The bristle follows the motion periodically; it has no state here.
 """
 
-from math import ceil, copysign, hypot, inf, isfinite, pi, sin, tau
+from math import ceil, copysign, hypot, inf, isfinite, sin, tau
 
 from .budget import too_much_work
 from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
