@@ -37,10 +37,13 @@ _LIMIT_MISSED = "Timeout ("
 
 
 def missed_limit(trace: str, ending: Ending) -> bool:
-    """Whether a process ended itself at its time limit, or had to be ended."""
+    """Whether a process ended itself at its time limit, or had to be ended.
+
+    While it writes the traceback of a thread that goes on it may crash.
+    """
     if ending.over_limit or ending.escaped:
         return False
-    return ending.code is None or (ending.code > 0 and _LIMIT_MISSED in trace)
+    return ending.code is None or (ending.code != 0 and _LIMIT_MISSED in trace)
 
 
 def crash_report(printed: str, trace: str, ending: Ending, limit: float) -> str:

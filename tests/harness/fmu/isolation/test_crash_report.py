@@ -24,6 +24,7 @@ def test_a_missed_time_limit_is_reported_however_the_process_ended() -> None:
     assert crash_report("", trace, Ending(1), 60.0) == expected
     assert crash_report("", "", Ending(None), 60.0) == expected.replace(" in fmi2DoStep", "")
     assert missed_limit(trace, Ending(1))
+    assert missed_limit(trace, Ending(-11)), "it crashed while it wrote the trace"
     assert missed_limit("", Ending(None))
 
 
