@@ -233,13 +233,16 @@ def _problem(
 
 
 def _supposed(problem: Problem, run: Runner) -> dict[str, Array]:
-    """Return what the device before the fit predicts, as `miss_notes` has it."""
+    """Return what the device before the fit predicts, as `miss_notes` has it; {} if it fails."""
     start = problem.values(np.array([one.internal(one.start) for one in problem.free]))
     meant = {"": problem.measurements}
     for what, (name, factor) in SUPPOSITIONS.items():
         meant[what] = problem.measurements.multiplied(name, factor)
     tasks = [partial(predict, parameters=start, measurements=one) for one in meant.values()]
-    return dict(zip(meant, run("supposing", tasks), strict=True))
+    try:
+        return dict(zip(meant, run("supposing", tasks), strict=True))
+    except FmuError:
+        return {}
 
 
 def _between(
