@@ -19,10 +19,13 @@ static inline bool is_elastic(const Bristle *bristle) {
 
 /* What a bristle damps over mu, under a vibration of velocity amplitude `fast` [m/s] and `frequency` [rad/s]. It bends over a path
  * of 2 mu / sigma_0 after each of two reversals in a turn, and damps by the impulse of 2 mu sigma_1 / sigma_0 per normal load; but
- * by no more than sigma_1 v_q all the time. */
+ * by no more than sigma_1 v_q all the time. 0 of a rigid one. */
 static inline double damping_share(const Bristle *bristle, double fast, double frequency) {
-    return fmin(bristle->damping * fast / bristle->coefficient,
-                2.0 / PI * bristle->damping / bristle->stiffness * frequency);
+    if (!is_elastic(bristle)) {
+        return 0.0;
+    }
+    double held = fmax(bristle->coefficient, 0.5 * PI * bristle->stiffness * fast / frequency);
+    return bristle->damping * fast / held;
 }
 
 /* sigma_0 z of a bristle bent by `deflection` [m]; 0 of a rigid one. */

@@ -8,7 +8,7 @@ from math import inf
 from pathlib import Path
 
 from slider_resonator.choosing.candidate import START_TOLERANCE, Candidate, tolerances
-from slider_resonator.choosing.choice import Choice, Evaluation, RuledOut, cheapest
+from slider_resonator.choosing.choice import SAME_COST, Choice, Evaluation, RuledOut, cheapest
 from slider_resonator.choosing.errors import Estimates
 from slider_resonator.choosing.ladder import coarsest
 from slider_resonator.choosing.probe import Probe
@@ -109,7 +109,8 @@ class Choosing:
         good = self._timed_again(good)
         best = cheapest(good)
         least = min(one.cost for one in good)
-        why = CHEAPEST if best.cost == least else f"{CHEAPEST}, {least:.3g} s, or within 5 % of it"
+        tie = f"{CHEAPEST}, {least:.3g} s, or within {SAME_COST - 1.0:.0%} of it"
+        why = CHEAPEST if best.cost == least else tie
         for one in sorted(good, key=lambda one: -one.cost):
             other = f"meets the needs too, at {one.cost:.3g} s instead of {best.cost:.3g} s"
             ruled_out[one.candidate.model] = other

@@ -125,9 +125,10 @@ def trade_command(
         for trade in measure_trades(problems, instances, progress, repeats=repeats, budget=budget):
             trades.append(trade)
             # After each scene, so that a later failure does not lose minutes of measurement.
-            write_rows(out / "trade.csv", trades)
-            write_omissions(out / "omissions.csv", trades)
-            write_trades(out / "index.html", trades, provenance)
+            index, rows, omissions = tables.values()
+            write_rows(rows, trades)
+            write_omissions(omissions, trades)
+            write_trades(index, trades, provenance)
     if picture is not None:
         draw_picture(trades[0], picture)
     for page in pages:

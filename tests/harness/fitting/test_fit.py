@@ -77,7 +77,7 @@ def test_the_curve_of_the_fit_is_drawn_between_the_points(instance: Instance) ->
     found = fitted(instance, data, ["damping_ratio"], parameters=device, starts=1)
     assert len(found.between) == 3 * (200 // 3)
     lines = [line for line in found.figure().axes[0].lines if line.get_linestyle() == "-"]
-    assert [len(line.get_xdata()) for line in lines] == [66 + 4, 66 + 3, 66 + 3]  # type: ignore[arg-type]
+    assert [np.size(line.get_xdata()) for line in lines] == [66 + 4, 66 + 3, 66 + 3]
     numbers = [point.measured for point in found.between]
     assert numbers == pytest.approx(
         predict(instance, found.device.__dict__, Measurements(found.between)).tolist()
