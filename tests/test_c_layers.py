@@ -43,13 +43,13 @@ def test_sources_keep_their_layers(root: Path) -> None:
         ),
         (
             "friction/bristle.h",
-            '#include "law.h"',
-            "friction/bristle includes friction/law includes friction/bristle: a circle",
+            '#include "system.h"',
+            "friction/bristle includes friction/system includes friction/bristle: a circle",
         ),
         (
-            "friction/law.c",
+            "friction/system.c",
             '#include "bending_panel.h"',
-            "friction/bending_panel includes friction/law includes friction/bending_panel",
+            "friction/bending_panel includes friction/system includes friction/bending_panel",
         ),
         (
             "device/plant.c",

@@ -40,8 +40,8 @@ enum { GROWING = 4 };
 /* Pieces of a beat, with constant friction in each, in motion without vibration. */
 #define PIECES 256.0
 
-/* Largest number of legs of a block under a load that grows: it stops, sticks and sets out twice at most. */
-enum { MAX_BLOCK_LEGS = 8 };
+/* Largest number of segments of a block under a load that grows: it stops, sticks and sets out twice at most. */
+enum { MAX_BLOCK_SEGMENTS = 8 };
 
 /* Time [s] until a velocity u >= 0 with acceleration a + j t is 0 again; infinite if it never is. */
 static double time_to_stop(double u, double a, double j) {
@@ -68,7 +68,7 @@ static int block_sets_out(double friction, double load, double rate) {
 static void block_pass(SlowPoint *now, double friction, double load, double rate, double mass,
                        double duration) {
     double left = duration;
-    for (int leg = 0; leg < MAX_BLOCK_LEGS && left > 0.0; leg++) {
+    for (int segment = 0; segment < MAX_BLOCK_SEGMENTS && left > 0.0; segment++) {
         int direction = direction_of(now->velocity);
         if (direction == STICK) {
             direction = block_sets_out(friction, load, rate);
@@ -93,7 +93,7 @@ static void block_pass(SlowPoint *now, double friction, double load, double rate
 /* Motion without vibration, with constant friction in each piece of time. */
 static bool pass_unshaken(const SlowFriction *friction, double duration, Budget *budget,
                           SlowPoint *now, Refusal *refusal) {
-    const Plant *plant = &friction->law->plant;
+    const Plant *plant = &friction->system->plant;
     double longest = friction->stands ? fmin(duration, friction->beat / PIECES) : duration;
     double pieces = ceil(duration / longest), piece = duration / pieces;
     int allowed = budget_left(budget, MAX_SLOW_STEPS);
@@ -111,7 +111,7 @@ static bool pass_unshaken(const SlowFriction *friction, double duration, Budget 
 
 static bool rate_at(void *motion, double t, double velocity, SlowRate *rate) {
     const SlowFriction *friction = motion;
-    const Plant *plant = &friction->law->plant;
+    const Plant *plant = &friction->system->plant;
     double load = plant->load + plant->load_rate * t;
     double force = slow_friction_at(friction, t, velocity) + load;
     *rate = (SlowRate){-force / plant->total_mass, velocity};
@@ -122,21 +122,21 @@ static bool rate_at(void *motion, double t, double velocity, SlowRate *rate) {
 static int max_steps(const SlowFriction *friction) {
     bool costs_quadratures = is_elastic(&friction->bristle) && friction->table == NULL;
     if (!costs_quadratures) {
-        bool grows = friction->law->plant.load_rate != 0.0;
+        bool grows = friction->system->plant.load_rate != 0.0;
         return grows ? MAX_SLOW_STEPS / GROWING : MAX_SLOW_STEPS;
     }
-    double waves = fmin(fabs(friction->law->inputs.frequency_ratio), MAX_WAVES);
+    double waves = fmin(fabs(friction->system->inputs.frequency_ratio), MAX_WAVES);
     return (int)fmax(MIN_STEPS, MAX_QUADRATURE_STEPS / (1.0 + waves / WAVES));
 }
 
 /* The step [s] to try first; without force all the `duration`. */
 static double first_step(const SlowFriction *friction, double duration) {
-    const Law *law = friction->law;
-    const Plant *plant = &law->plant;
+    const System *system = friction->system;
+    const Plant *plant = &system->plant;
     double last_load = plant->load + plant->load_rate * duration;
     double strongest = plant->friction_preload + plant->friction_amplitude +
                        fmax(fabs(plant->load), fabs(last_load));
-    double change = law->fast.velocity * plant->total_mass;
+    double change = system->fast.velocity * plant->total_mass;
     return strongest > 0.0 ? FIRST_STEP * change / strongest : duration;
 }
 
@@ -177,7 +177,7 @@ bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoi
         return pass_unshaken(friction, end, budget, now, refusal);
     }
     SlowFriction own = *friction;
-    bool varies = own.fastest != 0.0 || own.chirp != 0.0 || own.law->plant.load_rate != 0.0;
+    bool varies = own.fastest != 0.0 || own.chirp != 0.0 || own.system->plant.load_rate != 0.0;
     double longest = BEAT_SHARE * own.beat, h = first_step(&own, end);
     int tried = 0, max_count = max_steps(&own), allowed = budget_left(budget, max_count);
     /* No step is longer than a share of a beat: too many of them are refused before the first. */

@@ -35,23 +35,23 @@ static const FrictionTable *table_of(const SlowFriction *slow) {
         return NULL;
     }
     double waves = load->is_constant ? 1.0 : load->ratio;
-    return friction_table_of(slow->law->tables, &slow->bristle, &slow->fast, waves);
+    return friction_table_of(slow->system->tables, &slow->bristle, &slow->fast, waves);
 }
 
 /* The ratio may grow: the phase is near that of its middle. */
-SlowFriction slow_friction_of(const Law *law, double theta, double psi) {
-    const Device *device = &law->device;
-    double w = device->drive_frequency, first = law->inputs.frequency_ratio, middle = law->middle_ratio;
+SlowFriction slow_friction_of(const System *system, double theta, double psi) {
+    const Device *device = &system->device;
+    double w = device->drive_frequency, first = system->inputs.frequency_ratio, middle = system->middle_ratio;
     int turns = turns_to_repeat(device, middle, NEAR);
     double waves = turns > 0 ? nearbyint(turns * middle) / turns : first;
-    double phase = law->inputs.phase + psi - waves * theta + waves * law->fast.lag;
-    SlowFriction slow = {.law = law, .bristle = law->bristle, .fast = {law->fast.velocity, w}};
-    if (law->fast.velocity == 0.0) {
-        slow.bristle = (Bristle){law->bristle.coefficient, INFINITY, 0.0};
+    double phase = system->inputs.phase + psi - waves * theta + waves * system->fast.lag;
+    SlowFriction slow = {.system = system, .bristle = system->bristle, .fast = {system->fast.velocity, w}};
+    if (system->fast.velocity == 0.0) {
+        slow.bristle = (Bristle){system->bristle.coefficient, INFINITY, 0.0};
     }
     slow.stands = waves == 0.0;
     slow.load = vibrating_load_of(device, waves, phase);
-    slow.chirp = law->plant.normal_rate;
+    slow.chirp = system->plant.normal_rate;
     if (slow.chirp != 0.0 && ((turns == 0 && !slow.stands) || device->normal_amplitude == 0.0)) {
         /* The frequency ratio may begin at an integer, where the load would count with its phase. */
         slow.load = slow.stands ? slow.load : vibrating_load_flattened(&slow.load);
@@ -80,7 +80,7 @@ double slow_friction_to_kink(const SlowFriction *slow, double t) {
         return INFINITY;
     }
     VibratingLoad turned;
-    const Plant *plant = &slow->law->plant;
+    const Plant *plant = &slow->system->plant;
     double chi = load_at(slow, t, &turned)->delta, drift = slow->drift + slow->chirp * t;
     double going = drift != 0.0 ? drift : slow->chirp;
     return time_to_switch(plant, chi, drift, slow->chirp, is_lifted(plant, chi, going));
@@ -98,10 +98,10 @@ double slow_friction_at(const SlowFriction *slow, double t, double velocity) {
         face = load->is_constant ? load->constant * means[PLAIN]
                                  : load->preload * means[PLAIN] + load->amplitude * swung;
     }
-    return slow->law->device.friction_faces * face;
+    return slow->system->device.friction_faces * face;
 }
 
 double slow_friction_power(const SlowFriction *slow, double velocity) {
     double turning = turning_at(velocity, slow->fast.velocity);
-    return slow->law->device.friction_faces * mean_power(&slow->bristle, &slow->fast, &slow->load, turning, velocity);
+    return slow->system->device.friction_faces * mean_power(&slow->bristle, &slow->fast, &slow->load, turning, velocity);
 }

@@ -7,12 +7,12 @@
 
 #include <stddef.h>
 
-#include "../friction/law.h"
+#include "../friction/system.h"
 #include "friction_table.h"
 
 /* The mean friction of all faces from a moment on. */
 typedef struct {
-    const Law *law;
+    const System *system;
     Bristle bristle;            /* rigid where there is no vibration: a bristle is then always fully bent */
     FastMotion fast;            /* the vibration */
     const FrictionTable *table; /* means of a bristle; NULL where a mean is computed whenever it is asked for */
@@ -24,7 +24,7 @@ typedef struct {
 } SlowFriction;
 
 /* The mean friction of all faces from drive phase `theta` and normal phase `psi` [rad] on. */
-SlowFriction slow_friction_of(const Law *law, double theta, double psi);
+SlowFriction slow_friction_of(const System *system, double theta, double psi);
 
 /* Time [s] from `t` [s] on until the contact lifts or touches down, where the load itself is slow; infinite
  * elsewhere. */

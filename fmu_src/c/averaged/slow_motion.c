@@ -15,40 +15,40 @@
 #define FIRST_ORDER 2.0
 
 /* The initial values determine the momentum of the pair, not its vibration: the first step takes care of that. */
-static Moment start(const Law *law) {
-    Moment first = first_moment(&law->device);
-    first.mode = mode_by_velocity(law, &first);
+static Moment start(const System *system) {
+    Moment first = first_moment(&system->device);
+    first.mode = mode_by_velocity(system, &first);
     first.means.complete = true;
-    first.means.mean_velocity = slow_velocity(law, &first.state, first.theta);
+    first.means.mean_velocity = slow_velocity(system, &first.state, first.theta);
     return first;
 }
 
 /* In this order: take the slow velocity and the centre of the pair from the state; pass the slow motion; turn the phases;
  * add the steady vibration again. */
-static bool averaged_advance(const Law *law, const Moment *moment, double duration,
+static bool averaged_advance(const System *system, const Moment *moment, double duration,
                              EventSearch *search, Budget *budget, Moment *after,
                              Refusal *refusal) {
     (void)search;
-    const Plant *plant = &law->plant;
-    double w = plant->drive_frequency, drive = law->fast.pair_velocity;
-    double share = device_mass_fraction(&law->device);
+    const Plant *plant = &system->plant;
+    double w = plant->drive_frequency, drive = system->fast.pair_velocity;
+    double share = device_mass_fraction(&system->device);
     double theta = moment->theta, psi = moment->psi;
     State state = moment->state;
-    SlowPoint reached = {.velocity = slow_velocity(law, &state, theta)};
+    SlowPoint reached = {.velocity = slow_velocity(system, &state, theta)};
     double centre = moment->position + share * state.displacement + drive / w * sin(theta);
-    SlowFriction friction = slow_friction_of(law, theta, psi);
+    SlowFriction friction = slow_friction_of(system, theta, psi);
     if (!slow_pass(&friction, duration, budget, &reached, refusal)) {
         return false;
     }
     theta = within_turn(theta + w * duration);
     psi = within_turn(psi + turned_by(plant, duration));
-    Response swing = steady_swing(law->fast.resonator, theta, w);
+    Response swing = steady_swing(system->fast.resonator, theta, w);
     state.velocity = reached.velocity - drive * cos(theta) - share * swing.rate;
     state.displacement = swing.displacement;
     state.rate = swing.rate;
     Moment next = {.state = state, .theta = theta, .psi = psi, .counts = moment->counts};
     next.position = centre + reached.travel - drive / w * sin(theta) - share * swing.displacement;
-    next.mode = mode_by_velocity(law, &next);
+    next.mode = mode_by_velocity(system, &next);
     next.event_age = INFINITY;
     next.means.complete = true;
     next.means.mean_velocity = reached.velocity;
@@ -57,43 +57,43 @@ static bool averaged_advance(const Law *law, const Moment *moment, double durati
 }
 
 /* Mean friction force [N] over a drive period, positive against +X. */
-static double force(const Law *law, const Moment *moment, int contact_mode) {
+static double force(const System *system, const Moment *moment, int contact_mode) {
     (void)contact_mode;
     double velocity = period_mean_velocity(&moment->means, moment->state.velocity);
-    SlowFriction friction = slow_friction_of(law, moment->theta, moment->psi);
-    if (law->fast.velocity == 0.0 && velocity == 0.0) {
+    SlowFriction friction = slow_friction_of(system, moment->theta, moment->psi);
+    if (system->fast.velocity == 0.0 && velocity == 0.0) {
         double full = slow_friction_at(&friction, 0.0, INFINITY);
-        return fmax(-full, fmin(full, -law->inputs.load));
+        return fmax(-full, fmin(full, -system->inputs.load));
     }
     return slow_friction_at(&friction, 0.0, velocity);
 }
 
 /* Mean power of friction [W] over a drive period, of slow motion and vibration. */
-static double power(const Law *law, const Moment *moment) {
+static double power(const System *system, const Moment *moment) {
     double velocity = period_mean_velocity(&moment->means, moment->state.velocity);
-    if (law->fast.velocity == 0.0) {
-        return force(law, moment, STICK) * velocity;
+    if (system->fast.velocity == 0.0) {
+        return force(system, moment, STICK) * velocity;
     }
-    SlowFriction friction = slow_friction_of(law, moment->theta, moment->psi);
+    SlowFriction friction = slow_friction_of(system, moment->theta, moment->psi);
     return slow_friction_power(&friction, velocity);
 }
 
 /* The slow acceleration and the steady vibration. */
-static Rates rates(const Law *law, const Moment *moment) {
-    double w = law->plant.drive_frequency, share = device_mass_fraction(&law->device);
-    double slow = -(force(law, moment, STICK) + law->inputs.load) / law->plant.total_mass;
-    Response swing = steady_swing(law->fast.resonator, moment->theta, w);
+static Rates rates(const System *system, const Moment *moment) {
+    double w = system->plant.drive_frequency, share = device_mass_fraction(&system->device);
+    double slow = -(force(system, moment, STICK) + system->inputs.load) / system->plant.total_mass;
+    Response swing = steady_swing(system->fast.resonator, moment->theta, w);
     State state = {.displacement = swing.rate, .rate = -w * w * swing.displacement};
-    state.velocity = slow + law->fast.pair_velocity * w * sin(moment->theta) - share * state.rate;
+    state.velocity = slow + system->fast.pair_velocity * w * sin(moment->theta) - share * state.rate;
     return (Rates){state, slow};
 }
 
 /* Share of mean friction in the inertia of the vibration, faces mu N0 / (Mt w v_q): the small number by which averages
  * expand. What bristles damp counts, too. */
-static double friction_share(const Law *law) {
-    const Device *device = &law->device;
-    const Bristle *bristle = &law->bristle;
-    double w = device->drive_frequency, fast = law->fast.velocity;
+static double friction_share(const System *system) {
+    const Device *device = &system->device;
+    const Bristle *bristle = &system->bristle;
+    double w = device->drive_frequency, fast = system->fast.velocity;
     double normal = fmax(device->normal_preload, device->normal_amplitude / PI);
     double resisting = bristle->coefficient * hypot(1.0, damping_share(bristle, fast, w));
     double friction = device->friction_faces * resisting * normal;
@@ -102,25 +102,25 @@ static double friction_share(const Law *law) {
 
 /* Decay in a turn of the drive, as an exponent, of the resonator's own vibration or of a bend of the bristle, the slower
  * one; infinite without both. The path of a turn is four times the amplitude. */
-static double decay_in_turn(const Law *law) {
-    const Device *device = &law->device;
-    double w = device->drive_frequency, path = 4.0 * law->fast.velocity / w;
-    double bend_decay = law->bristle.stiffness * path / law->bristle.coefficient;
+static double decay_in_turn(const System *system) {
+    const Device *device = &system->device;
+    double w = device->drive_frequency, path = 4.0 * system->fast.velocity / w;
+    double bend_decay = system->bristle.stiffness * path / system->bristle.coefficient;
     if (device->resonator_mass == 0.0) {
         return bend_decay;
     }
-    return fmin(slower_decay(&law->plant.slip) * TAU / w, bend_decay);
+    return fmin(slower_decay(&system->plant.slip) * TAU / w, bend_decay);
 }
 
 /* In proportion to the share of friction in the inertia of the vibration. */
-static double error(const Law *law, const Moment *moment) {
+static double error(const System *system, const Moment *moment) {
     (void)moment;
-    double share = law->fast.velocity > 0.0 ? friction_share(law) : 0.0;
+    double share = system->fast.velocity > 0.0 ? friction_share(system) : 0.0;
     if (!(share > 0.0)) {
         return 0.0;
     }
-    double decay = decay_in_turn(law), swing = decay > 0.0 ? 1.0 + 1.0 / decay : INFINITY;
-    return fmin(FIRST_ORDER * share * swing, 1.0) * law->fast.velocity;
+    double decay = decay_in_turn(system), swing = decay > 0.0 ? 1.0 + 1.0 / decay : INFINITY;
+    return fmin(FIRST_ORDER * share * swing, 1.0) * system->fast.velocity;
 }
 
 /* The time in which the normal load has one slow phase. */

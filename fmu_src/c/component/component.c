@@ -15,13 +15,13 @@ void component_end(Component *component) {
     memory->release(memory->host, component->tables.bending);
 }
 
-/* Prepare the law of `values`; it replaces the present law unless it is refused. */
+/* Prepare the system of `values`; it replaces the present system unless it is refused. */
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
-    Law law;
-    if (!prepare_law(values, &component->tables, &law, refusal)) {
+    System system;
+    if (!prepare_law(values, &component->tables, &system, refusal)) {
         return false;
     }
-    component->law = law;
+    component->system = system;
     component->prepared = true;
     component->theory.known = false;
     return true;
@@ -58,7 +58,7 @@ bool component_exit_initialization(Component *component, Refusal *refusal) {
         || !prepare_present(component, refusal)) {
         return false;
     }
-    component->now.moment = component->law.motion->start(&component->law);
+    component->now.moment = component->system.motion->start(&component->system);
     component->now.moving = true;
     component->now.lifecycle = STEP_COMPLETE;
     return true;
@@ -70,7 +70,7 @@ bool component_terminate(Component *component, Refusal *refusal) {
     return lifecycle_change(lifecycle, "terminate", from, TERMINATED, refusal);
 }
 
-/* Take over `values`; in a running component their law, too, unless it is refused. */
+/* Take over `values`; in a running component their system, too, unless it is refused. */
 static bool take_values(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
     Snapshot *now = &component->now;
     bool same = true, in_place = true, running = is_running(now->lifecycle);
@@ -84,7 +84,7 @@ static bool take_values(Component *component, const double values[SETTABLE_COUNT
     }
     if (running && in_place) {
         Inputs inputs = reduced_inputs(values);
-        law_change(&component->law, inputs.phase, inputs.load);
+        system_change(&component->system, inputs.phase, inputs.load);
         component->theory.known = false;
     } else if (running && !prepare(component, values, refusal)) {
         return false;
@@ -122,7 +122,7 @@ static bool moment_to_read(Component *component, unsigned reference, Moment *fir
     }
     *moment = &component->now.moment;
     if (!component->now.moving) {
-        *first = component->law.motion->start(&component->law);
+        *first = component->system.motion->start(&component->system);
         *moment = first;
     }
     return true;
@@ -144,10 +144,10 @@ static bool read(Component *component, bool derivatives, const unsigned *referen
         if (!moment && !moment_to_read(component, reference, &first, &moment, refusal)) {
             return false;
         }
-        const Law *law = &component->law;
+        const System *system = &component->system;
         if (!derivatives) {
-            found[i] = output_value(reference, law, moment, now->last_event_time, &component->theory);
-        } else if (!output_derivative(reference, law, moment, now->derivatives[VR_PHASE].value,
+            found[i] = output_value(reference, system, moment, now->last_event_time, &component->theory);
+        } else if (!output_derivative(reference, system, moment, now->derivatives[VR_PHASE].value,
                                       &found[i], refusal)) {
             return false;
         }
@@ -183,7 +183,7 @@ typedef struct {
 static bool find_end(Component *component, double time, double step_size, double duration,
                      EventSearch *search, StepEnd *end, Refusal *refusal) {
     const Snapshot *now = &component->now;
-    const Law *law = &component->law;
+    const System *system = &component->system;
     Moment *after = &end->moment;
     Budget budget = budget_of(step_size);
     if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)
@@ -191,9 +191,9 @@ static bool find_end(Component *component, double time, double step_size, double
         return false;
     }
     bool done = inputs_vary(now->derivatives)
-                    ? ramped_step(law, &component->tables, now, duration, &budget, after, end->values,
+                    ? ramped_step(system, &component->tables, now, duration, &budget, after, end->values,
                                   refusal)
-                    : law->motion->advance(law, &now->moment, duration, search, &budget, after, refusal);
+                    : system->motion->advance(system, &now->moment, duration, search, &budget, after, refusal);
     if (!done) {
         return false;
     }

@@ -1,18 +1,18 @@
 /* The component between numerics and FMI: values by reference, lifecycle, steps. */
 #pragma once
 
-#include "component_law.h"
+#include "component_system.h"
 #include "experiment.h"
 #include "outputs.h"
 #include "snapshot.h"
 
 /* A slider-resonator: its complete state, and caches of what follows from it. */
 typedef struct {
-    Snapshot now;  /* the complete state */
-    bool prepared; /* whether a law of the present values is prepared */
-    Law law;       /* that law */
-    Tables tables; /* of friction, to which laws point */
-    Theory theory; /* the last prediction */
+    Snapshot now;   /* the complete state */
+    bool prepared;  /* whether a system of the present values is prepared */
+    System system;  /* that system */
+    Tables tables;  /* of friction, to which systems point */
+    Theory theory;  /* the last prediction */
 } Component;
 
 #include "component_functions.h"

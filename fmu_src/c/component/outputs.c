@@ -6,17 +6,17 @@
 #include "variables.h"
 
 /* Displacement [m] and velocity [m/s] of the resonator. */
-static Response resonator_swing(const Law *law, const Moment *moment) {
-    const Plant *plant = &law->plant;
+static Response resonator_swing(const System *system, const Moment *moment) {
+    const Plant *plant = &system->plant;
     if (plant->resolves_resonator) {
         return (Response){moment->state.displacement, moment->state.rate};
     }
     return steady_swing(plant->resonator_amplitude, moment->theta, plant->drive_frequency);
 }
 
-static double normal_force(const Law *law, const Moment *moment) {
-    double chi = moment->psi + law->inputs.phase;
-    double force = law->device.normal_preload + law->device.normal_amplitude * sin(chi);
+static double normal_force(const System *system, const Moment *moment) {
+    double chi = moment->psi + system->inputs.phase;
+    double force = system->device.normal_preload + system->device.normal_amplitude * sin(chi);
     return force > 0.0 ? force : 0.0;
 }
 
@@ -25,26 +25,26 @@ static double normal_force(const Law *law, const Moment *moment) {
 #define LEAD_PARTS 1e12
 
 /* psi - n theta [rad], the same in all turns of the load; 0 where it never repeats. */
-static double normal_lead(const Law *law, const Moment *moment) {
-    int turns = turns_of_load(law);
+static double normal_lead(const System *system, const Moment *moment) {
+    int turns = turns_of_load(system);
     if (turns == 0) {
         return 0.0;
     }
-    double lead = moment->psi - law->inputs.frequency_ratio * moment->theta;
+    double lead = moment->psi - system->inputs.frequency_ratio * moment->theta;
     return nearbyint(remainder(lead, TAU / turns) * LEAD_PARTS) / LEAD_PARTS;
 }
 
-static const Averaged *theory_of(const Law *law, const Moment *moment, Theory *theory) {
-    double lead = normal_lead(law, moment);
+static const Prediction *theory_of(const System *system, const Moment *moment, Theory *theory) {
+    double lead = normal_lead(system, moment);
     if (!theory->known || theory->normal_lead != lead) {
-        theory->averaged = prediction_of(law, lead);
+        theory->prediction = prediction_of(system, lead);
         theory->normal_lead = lead;
         theory->known = true;
     }
-    return &theory->averaged;
+    return &theory->prediction;
 }
 
-double output_value(unsigned reference, const Law *law, const Moment *moment,
+double output_value(unsigned reference, const System *system, const Moment *moment,
                     double last_event_time, Theory *theory) {
     switch (reference) {
     case VR_POSITION:
@@ -54,45 +54,45 @@ double output_value(unsigned reference, const Law *law, const Moment *moment,
     case VR_MEAN_VELOCITY:
         return period_mean_velocity(&moment->means, moment->state.velocity);
     case VR_RESONATOR_DISPLACEMENT:
-        return resonator_swing(law, moment).displacement;
+        return resonator_swing(system, moment).displacement;
     case VR_RESONATOR_VELOCITY:
-        return resonator_swing(law, moment).rate;
+        return resonator_swing(system, moment).rate;
     case VR_NORMAL_FORCE:
-        return normal_force(law, moment);
+        return normal_force(system, moment);
     case VR_FRICTION_FORCE:
-        return law->motion->force(law, moment, law->motion->mode(law, moment));
+        return system->motion->force(system, moment, system->motion->mode(system, moment));
     case VR_CONTACT_MODE:
-        return law->motion->mode(law, moment);
+        return system->motion->mode(system, moment);
     case VR_REVERSALS:
         return moment->counts.reversals;
     case VR_STICK_FRACTION:
-        return period_stick_fraction(&moment->means, law->motion->mode(law, moment) == STICK);
+        return period_stick_fraction(&moment->means, system->motion->mode(system, moment) == STICK);
     case VR_LAST_EVENT_TIME:
         return last_event_time;
     case VR_STEADY_VELOCITY:
-        return theory_of(law, moment, theory)->steady_velocity;
+        return theory_of(system, moment, theory)->steady_velocity;
     case VR_BLOCKING_FORCE:
-        return theory_of(law, moment, theory)->blocking_force;
+        return theory_of(system, moment, theory)->blocking_force;
     case VR_PREDICTION_VALID:
-        return theory_of(law, moment, theory)->valid ? 1.0 : 0.0;
+        return theory_of(system, moment, theory)->valid ? 1.0 : 0.0;
     case VR_FRICTION_POWER:
-        return law->motion->power(law, moment);
+        return system->motion->power(system, moment);
     case VR_SLOW_MOTION_ERROR:
-        return law->motion->error(law, moment);
+        return system->motion->error(system, moment);
     }
     return NAN; /* no output has this reference */
 }
 
-static double normal_force_rate(const Law *law, const Moment *moment, double phase_rate) {
-    double chi = moment->psi + law->inputs.phase, amplitude = law->device.normal_amplitude;
-    double frequency = law->plant.normal_frequency + phase_rate;
-    bool touches = law->device.normal_preload + amplitude * sin(chi) > 0.0;
+static double normal_force_rate(const System *system, const Moment *moment, double phase_rate) {
+    double chi = moment->psi + system->inputs.phase, amplitude = system->device.normal_amplitude;
+    double frequency = system->plant.normal_frequency + phase_rate;
+    bool touches = system->device.normal_preload + amplitude * sin(chi) > 0.0;
     return touches ? amplitude * cos(chi) * frequency : 0.0;
 }
 
-bool output_derivative(unsigned reference, const Law *law, const Moment *moment, double phase_rate,
+bool output_derivative(unsigned reference, const System *system, const Moment *moment, double phase_rate,
                        double *derivative, Refusal *refusal) {
-    Rates rates = law->motion->rates(law, moment);
+    Rates rates = system->motion->rates(system, moment);
     switch (reference) {
     case VR_POSITION:
         *derivative = moment->state.velocity;
@@ -107,7 +107,7 @@ bool output_derivative(unsigned reference, const Law *law, const Moment *moment,
         *derivative = rates.state.rate;
         return true;
     case VR_NORMAL_FORCE:
-        *derivative = normal_force_rate(law, moment, phase_rate);
+        *derivative = normal_force_rate(system, moment, phase_rate);
         return true;
     case VR_MEAN_VELOCITY:
         *derivative = rates.mean_velocity;

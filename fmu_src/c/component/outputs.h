@@ -1,21 +1,21 @@
 /* The outputs of the interface, each from the present moment and the present inputs. */
 #pragma once
 
-#include "../averaged/averaged.h"
+#include "../averaged/first_order.h"
 
-/* A cache of the prediction of a law at `normal_lead` [rad]; its owner clears `known` when the law changes. */
+/* A cache of the prediction of a system at `normal_lead` [rad]; its owner clears `known` when the system changes. */
 typedef struct {
     bool known;
     double normal_lead;
-    Averaged averaged;
+    Prediction prediction;
 } Theory;
 
-/* The output `reference` of the law at this moment; `last_event_time` [s]. */
-double output_value(unsigned reference, const Law *law, const Moment *moment,
+/* The output `reference` of the system at this moment; `last_event_time` [s]. */
+double output_value(unsigned reference, const System *system, const Moment *moment,
                     double last_event_time, Theory *theory);
 
 /* The right-hand derivative of the output `reference` at the present moment and inputs, per s: 0 for outputs that
  * change only at events and at the ends of periods. `phase_rate` [rad/s] is the derivative of the input `phase`. Refuses variables
  * without derivative. */
-bool output_derivative(unsigned reference, const Law *law, const Moment *moment, double phase_rate,
+bool output_derivative(unsigned reference, const System *system, const Moment *moment, double phase_rate,
                        double *derivative, Refusal *refusal);

@@ -42,16 +42,16 @@ static Ramp ramp_from(const double values[SETTABLE_COUNT], double drive_frequenc
                   derivatives[VR_FREQUENCY_RATIO].value};
 }
 
-/* Prepare the law of a part of the step. */
-static bool prepare_part(Law *law, Tables *tables, const double values[SETTABLE_COUNT],
+/* Prepare the system of a part of the step. */
+static bool prepare_part(System *system, Tables *tables, const double values[SETTABLE_COUNT],
                          const Ramp *ramp, double duration, Refusal *refusal) {
     double middle[SETTABLE_COUNT];
     memcpy(middle, values, sizeof middle);
     middle[VR_FREQUENCY_RATIO] = ramp->ratio + 0.5 * ramp->ratio_rate * duration;
-    if (!prepare_law(middle, tables, law, refusal)) {
+    if (!prepare_law(middle, tables, system, refusal)) {
         return false;
     }
-    law_ramp(law, ramp, duration);
+    system_ramp(system, ramp, duration);
     return true;
 }
 
@@ -62,7 +62,7 @@ static void hold_phase(double ratio, double w, const Ramp *ramp, double duration
     after->psi = within_turn(after->psi - remainder(added * duration, TAU));
 }
 
-bool ramped_step(const Law *present, Tables *tables, const Snapshot *now, double duration, Budget *budget,
+bool ramped_step(const System *present, Tables *tables, const Snapshot *now, double duration, Budget *budget,
                  Moment *after, double reached[SETTABLE_COUNT], Refusal *refusal) {
     double values[SETTABLE_COUNT], left = duration, w = present->device.drive_frequency;
     const Motion *motion = present->motion;
@@ -74,7 +74,7 @@ bool ramped_step(const Law *present, Tables *tables, const Snapshot *now, double
         return false;
     }
     while (left > 0.0) {
-        Law law;
+        System system;
         Moment before = *after;
         Ramp ramp = ramp_from(values, w, now->derivatives);
         double part = motion->part == NULL ? left : motion->part(&present->device, &ramp, left);
@@ -83,8 +83,8 @@ bool ramped_step(const Law *present, Tables *tables, const Snapshot *now, double
             return budget_refuse(budget, 0.0, MAX_SLOW_PHASES, "slow phases of the normal load",
                                  refusal);
         }
-        if (!prepare_part(&law, tables, values, &ramp, part, refusal)
-            || !motion->advance(&law, &before, part, NULL, budget, after, refusal)) {
+        if (!prepare_part(&system, tables, values, &ramp, part, refusal)
+            || !motion->advance(&system, &before, part, NULL, budget, after, refusal)) {
             return false;
         }
         left = part == left ? 0.0 : clock_advance(&clock, part);

@@ -12,7 +12,7 @@
  * would be far larger than the response between two reversals, and lose as many digits. */
 #define SLOW 0.02
 
-/* The longest leg, as an angle [rad] of the fastest oscillation: avoids the rounding errors of large
+/* The longest segment, as an angle [rad] of the fastest oscillation: avoids the rounding errors of large
  * arguments of sine and cosine. */
 #define LONGEST_ARC 60.0
 

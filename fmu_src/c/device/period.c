@@ -2,48 +2,48 @@
 
 #include "device.h"
 
-/* The passage at time `t` [s]. Close to the end of the segment, where steps of whole periods ask for it, the
+/* The passage at time `t` [s]. Close to the end of the interval, where steps of whole periods ask for it, the
  * displacement follows from that at the end. */
-static Passage passage_until(const Segment *segment, double t, double frequency) {
-    double rest = segment->duration - t;
-    Passage passage = rest == 0.0 ? segment->passed : segment->passage_at(segment->motion, t);
+static Passage passage_until(const Interval *interval, double t, double frequency) {
+    double rest = interval->duration - t;
+    Passage passage = rest == 0.0 ? interval->passed : interval->passage_at(interval->motion, t);
     if (fabs(rest) * frequency <= MARK_TOLERANCE) {
-        passage.travel = segment->passed.travel - segment->velocity * rest;
+        passage.travel = interval->passed.travel - interval->velocity * rest;
     }
     return passage;
 }
 
-double period_advance(PeriodMeans *means, const Segment *segment, double theta, double frequency) {
-    double duration = segment->duration, end = theta + frequency * duration;
+double period_advance(PeriodMeans *means, const Interval *interval, double theta, double frequency) {
+    double duration = interval->duration, end = theta + frequency * duration;
     double ended = end + MARK_TOLERANCE < TAU ? 0.0 : floor((end + MARK_TOLERANCE) / TAU);
     if (!(ended > 0.0)) {
-        means->travel += segment->passed.travel;
-        means->work += segment->passed.work;
+        means->travel += interval->passed.travel;
+        means->work += interval->passed.work;
         means->elapsed += duration;
-        means->sticking += segment->sticks ? duration : 0.0;
+        means->sticking += interval->sticks ? duration : 0.0;
         return end;
     }
     double last = (TAU * ended - theta) / frequency;
-    Passage until = passage_until(segment, last, frequency);
+    Passage until = passage_until(interval, last, frequency);
     double fraction;
     if (ended == 1.0) {
         double length = means->elapsed + last;
         means->mean_velocity = (means->travel + until.travel) / length;
         means->friction_power = (means->work + until.work) / length;
-        fraction = (means->sticking + (segment->sticks ? last : 0.0)) / length;
+        fraction = (means->sticking + (interval->sticks ? last : 0.0)) / length;
     } else {
         double length = TAU / frequency;
-        Passage before = passage_until(segment, last - length, frequency);
+        Passage before = passage_until(interval, last - length, frequency);
         means->mean_velocity = (until.travel - before.travel) / length;
         means->friction_power = (until.work - before.work) / length;
-        fraction = segment->sticks ? 1.0 : 0.0;
+        fraction = interval->sticks ? 1.0 : 0.0;
     }
     means->complete = true;
     means->stick_fraction = fmin(fmax(fraction, 0.0), 1.0);
-    means->travel = segment->passed.travel - until.travel;
-    means->work = segment->passed.work - until.work;
+    means->travel = interval->passed.travel - until.travel;
+    means->work = interval->passed.work - until.work;
     means->elapsed = duration - last;
-    means->sticking = segment->sticks ? means->elapsed : 0.0;
+    means->sticking = interval->sticks ? means->elapsed : 0.0;
     return end - TAU * ended;
 }
 

@@ -25,7 +25,7 @@ typedef struct {
 /* The passage of a motion after `t` [s]. */
 typedef Passage (*PassageFunction)(const void *motion, double t);
 
-/* A segment of motion of `duration` [s]: `passage_at(motion, t)` is its passage; `passed` and `velocity` [m/s] are those
+/* An interval of motion of `duration` [s]: `passage_at(motion, t)` is its passage; `passed` and `velocity` [m/s] are those
  * at its end. */
 typedef struct {
     double duration, velocity;
@@ -33,11 +33,11 @@ typedef struct {
     bool sticks;
     PassageFunction passage_at;
     const void *motion;
-} Segment;
+} Interval;
 
-/* Add a segment that began at drive phase `theta` [rad]. Return the drive phase at its end, modulo
+/* Add an interval that began at drive phase `theta` [rad]. Return the drive phase at its end, modulo
  * 2 pi. */
-double period_advance(PeriodMeans *means, const Segment *segment, double theta, double frequency);
+double period_advance(PeriodMeans *means, const Interval *interval, double theta, double frequency);
 
 /* Mean velocity [m/s] of the last whole period; before one has ended the mean since the start, and at the
  * start `velocity`. */

@@ -30,7 +30,7 @@ typedef struct {
     Complex drive, normal;
 } Phasors;
 
-/* Phasors at the end of a slide, for the next leg of the same step, if the slide has computed them. They are
+/* Phasors at the end of a slide, for the next segment of the same step, if the slide has computed them. They are
  * no part of the state: each step computes them anew. */
 typedef struct {
     bool known;

@@ -40,15 +40,15 @@ typedef struct {
 } Outlook;
 
 /* Chooses by the time in which the bristle bends. */
-static BendingMotion look_out(Outlook *outlook, const Law *law, int direction, const Moment *now,
+static BendingMotion look_out(Outlook *outlook, const System *system, int direction, const Moment *now,
                               const Phasors *phasors, double longest, double tolerance) {
-    const Plant *plant = &law->plant;
-    const Bristle *bristle = &law->bristle;
+    const Plant *plant = &system->plant;
+    const Bristle *bristle = &system->bristle;
     double mu = bristle->coefficient, speed = fabs(now->state.velocity);
     double resisting = direction * friction_limit_by(plant, phasors);
     double force = direction * (force_by(plant, &now->state, phasors) - resisting);
     double limit = plant->friction_preload + plant->friction_amplitude;
-    double reach = fmin(MAX_ARC / law->split.fastest, longest);
+    double reach = fmin(MAX_ARC / system->split.fastest, longest);
     outlook->rate = bristle->stiffness / mu;
     outlook->speed = speed;
     outlook->acceleration = force / plant->slider_mass;
@@ -72,7 +72,7 @@ static BendingMotion look_out(Outlook *outlook, const Law *law, int direction, c
     double last = sqrt(speed * speed + 2.0 * outlook->acceleration * path);
     double length = LONGER * 2.0 * path / (speed + last);
     outlook->length = fmin(length, longest / MAX_KERNELS_STEP);
-    return MAX_KERNELS_STEP * length * law->split.fastest < MAX_ARC ? BY_PANEL : BY_SERIES;
+    return MAX_KERNELS_STEP * length * system->split.fastest < MAX_ARC ? BY_PANEL : BY_SERIES;
 }
 
 /* Bound on G' over 1 / M within `length` [s]; NAN where G' may be negative. */
@@ -285,24 +285,24 @@ static void end_panel(BendingPanel *panel) {
     panel->work = 0.0;
 }
 
-BendingMotion bending_panel_begin(BendingPanel *panel, const Law *law, int direction, const Moment *now,
+BendingMotion bending_panel_begin(BendingPanel *panel, const System *system, int direction, const Moment *now,
                                   const Phasors *start, double longest, double tolerance) {
-    const Plant *plant = &law->plant;
-    bool swings = law->splits && plant->slip.oscillatory && !is_ramped(plant);
-    if (law->bending == NULL || !swings || !(law->bristle.stiffness > 0.0)) {
+    const Plant *plant = &system->plant;
+    bool swings = system->splits && plant->slip.oscillatory && !is_ramped(plant);
+    if (system->bending == NULL || !swings || !(system->bristle.stiffness > 0.0)) {
         return BY_SERIES;
     }
     Outlook outlook;
-    BendingMotion motion = look_out(&outlook, law, direction, now, start, longest, tolerance);
+    BendingMotion motion = look_out(&outlook, system, direction, now, start, longest, tolerance);
     if (motion != BY_PANEL) {
         return motion;
     }
     SplitSlide *slide = &panel->slide;
-    split_slide_begin(slide, &law->split, plant, now, start, direction);
+    split_slide_begin(slide, &system->split, plant, now, start, direction);
     if (!goes_on(&outlook, slide, MAX_KERNELS_STEP * outlook.length)) {
         return BY_SERIES;
     }
-    panel->kernels = bending_kernels_of(law->bending, plant, outlook.length);
+    panel->kernels = bending_kernels_of(system->bending, plant, outlook.length);
     panel->length = panel->kernels->length;
     panel->rate = outlook.rate;
     panel->scale = direction * outlook.bend;

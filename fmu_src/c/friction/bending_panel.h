@@ -16,7 +16,7 @@
 #pragma once
 
 #include "bending_kernels.h"
-#include "law.h"
+#include "system.h"
 
 /* How to follow a bending bristle: in one panel; as sliding under full friction, where f changes the
  * velocity by less than the tolerance; or by series otherwise. */
@@ -36,9 +36,9 @@ typedef struct {
 
 /* Begin motion in contact from `now` on in `direction`, that of its velocity or, from rest, of its
  * acceleration, for up to `longest` [s]. Return how to follow it; the panel is set up for BY_PANEL only.
- * The error of the velocity is about `tolerance` [m/s]. The tables of the law must outlive the panel, and serve
+ * The error of the velocity is about `tolerance` [m/s]. The tables of the system must outlive the panel, and serve
  * one panel at a time; without any, series alone are used. */
-BendingMotion bending_panel_begin(BendingPanel *panel, const Law *law, int direction, const Moment *now,
+BendingMotion bending_panel_begin(BendingPanel *panel, const System *system, int direction, const Moment *now,
                                   const Phasors *start, double longest, double tolerance);
 
 /* Find the work of friction in the panel; until then it is 0. */

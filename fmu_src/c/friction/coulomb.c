@@ -3,7 +3,7 @@
  * Events are a stop of the slider (then it sticks if friction can hold it, and reverses otherwise),
  * a release, and the lift-off and touchdown of the contact. There is no step size, no tolerance. */
 #include "../base/elementary.h"
-#include "leg.h"
+#include "segment.h"
 
 /* Relative difference of the forces on a slider up to which they count as balanced. */
 #define BALANCED 1e-12
@@ -53,22 +53,22 @@ static bool just_released(const Plant *plant, const Moment *moment) {
     return fabs(excess) <= BALANCED * (limit + plant->friction_preload + fabs(plant->load));
 }
 
-static int mode(const Law *law, const Moment *moment) {
-    const Plant *plant = &law->plant;
+static int mode(const System *system, const Moment *moment) {
+    const Plant *plant = &system->plant;
     if (is_lifted(plant, moment->psi + plant->phase, plant->normal_frequency)) {
         return LIFTED;
     }
     return just_released(plant, moment) ? moment->mode : mode_in_contact(plant, moment);
 }
 
-static double force(const Law *law, const Moment *moment, int mode) {
+static double force(const System *system, const Moment *moment, int mode) {
     if (mode == LIFTED) {
         return 0.0;
     }
     if (mode == STICK) {
-        return needed_force(&law->plant, moment);
+        return needed_force(&system->plant, moment);
     }
-    return mode * friction_limit(&law->plant, moment->psi);
+    return mode * friction_limit(&system->plant, moment->psi);
 }
 
 /* A time [s] up to which a slider released in direction `sign` is guaranteed to move on; 0 if there is no
@@ -110,28 +110,28 @@ static double departure_time(const Plant *plant, int sign, const Moment *now) {
     return 3.0 * jerk >= force_bound * horizon ? horizon : 3.0 * jerk / force_bound;
 }
 
-static void begin(Leg *leg, const Law *law, const Moment *now, double longest) {
+static void begin(Segment *segment, const System *system, const Moment *now, double longest) {
     (void)longest;
-    const Plant *plant = &law->plant;
+    const Plant *plant = &system->plant;
     if (now->mode == STICK) {
-        leg_begin_rest(leg, plant, now);
+        segment_begin_rest(segment, plant, now);
         return;
     }
     int direction = now->mode == LIFTED ? 0 : now->mode;
-    leg_begin_slide(leg, law, now, direction);
-    if (direction != 0 && leg->departs) {
-        leg->watched_from = departure_time(plant, direction, now);
+    segment_begin_slide(segment, system, now, direction);
+    if (direction != 0 && segment->departs) {
+        segment->watched_from = departure_time(plant, direction, now);
     }
 }
 
-static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) {
-    const Plant *plant = &law->plant;
-    int mode = leg->mode;
-    if (leg_released(leg)) {
-        mode = leg->zero_of == 0 ? FORWARD : BACKWARD;
-    } else if (leg_stopped(leg) || (switches && mode == LIFTED)) {
-        mode = leg->known.known && now->state.velocity == 0.0
-                   ? mode_at_rest(friction_limit_by(plant, &leg->known.phasors), plant, now)
+static void enter_next_mode(const Segment *segment, const System *system, Moment *now, bool switches) {
+    const Plant *plant = &system->plant;
+    int mode = segment->mode;
+    if (segment_released(segment)) {
+        mode = segment->zero_of == 0 ? FORWARD : BACKWARD;
+    } else if (segment_stopped(segment) || (switches && mode == LIFTED)) {
+        mode = segment->known.known && now->state.velocity == 0.0
+                   ? mode_at_rest(friction_limit_by(plant, &segment->known.phasors), plant, now)
                    : mode_in_contact(plant, now);
     } else if (switches) {
         mode = LIFTED;
@@ -144,5 +144,5 @@ const FrictionLaw COULOMB = {
     .mode = mode,
     .force = force,
     .begin = begin,
-    .succeed = succeed,
+    .enter_next_mode = enter_next_mode,
 };

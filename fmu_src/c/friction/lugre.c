@@ -5,9 +5,9 @@
  * the bristle stiffness, so the cost does not grow with that. There is no sticking: presliding is resolved
  * as an oscillation on the bristles. */
 #include "../base/refusal_texts.h"
-#include "leg.h"
+#include "segment.h"
 
-/* Share of the tolerance for the error of one leg, and for the bend that a bristle still lacks when closed
+/* Share of the tolerance for the error of one segment, and for the bend that a bristle still lacks when closed
  * forms take over. */
 #define TOLERANCE_SHARE 0.01
 
@@ -18,50 +18,50 @@ static bool prepare(const Device *device, Bristle *bristle, Refusal *refusal) {
            refuse_lugre_without_friction(refusal, device->friction_coefficient);
 }
 
-static double force(const Law *law, const Moment *moment, int mode) {
+static double force(const System *system, const Moment *moment, int mode) {
     if (mode == LIFTED) {
         return 0.0;
     }
-    const Bristle *bristle = &law->bristle;
+    const Bristle *bristle = &system->bristle;
     double velocity = moment->state.velocity, bent = moment->bristle;
     double drag = velocity - fabs(velocity) * bent / bristle->coefficient;
     double share = (bent + bristle->damping * drag) / bristle->coefficient;
-    return friction_limit(&law->plant, moment->psi) * share;
+    return friction_limit(&system->plant, moment->psi) * share;
 }
 
-static void begin_in(int direction, Leg *leg, const Law *law, const Moment *now, double longest) {
-    const Bristle *bristle = &law->bristle;
-    double tolerance = TOLERANCE_SHARE * law->device.tolerance;
+static void begin_in(int direction, Segment *segment, const System *system, const Moment *now, double longest) {
+    const Bristle *bristle = &system->bristle;
+    double tolerance = TOLERANCE_SHARE * system->device.tolerance;
     double unbent = bristle->coefficient - direction * now->bristle;
     if (now->mode == LIFTED || fabs(unbent) <= tolerance * bristle->coefficient) {
-        leg_begin_slide(leg, law, now, direction);
+        segment_begin_slide(segment, system, now, direction);
     } else {
-        leg_begin_bending(leg, law, now, direction, longest, tolerance);
+        segment_begin_bending(segment, system, now, direction, longest, tolerance);
     }
 }
 
 /* The direction of the velocity or, at rest, of the force on the slider. */
-static int likely_direction(Leg *leg, const Law *law, const Moment *now) {
-    const Plant *plant = &law->plant;
+static int likely_direction(Segment *segment, const System *system, const Moment *now) {
+    const Plant *plant = &system->plant;
     if (now->state.velocity != 0.0 || now->mode == LIFTED) {
         return now->state.velocity < 0.0 ? BACKWARD : FORWARD;
     }
-    leg_know_phasors(leg, plant, now);
-    double limit = friction_limit_by(plant, &leg->known.phasors);
-    double resisting = limit * now->bristle / law->bristle.coefficient;
-    return force_by(plant, &now->state, &leg->known.phasors) < resisting ? BACKWARD : FORWARD;
+    segment_know_phasors(segment, plant, now);
+    double limit = friction_limit_by(plant, &segment->known.phasors);
+    double resisting = limit * now->bristle / system->bristle.coefficient;
+    return force_by(plant, &now->state, &segment->known.phasors) < resisting ? BACKWARD : FORWARD;
 }
 
-static void begin(Leg *leg, const Law *law, const Moment *now, double longest) {
-    begin_in(likely_direction(leg, law, now), leg, law, now, longest);
-    if (now->state.velocity == 0.0 && !leg_departs(leg)) {
-        begin_in(-leg->direction, leg, law, now, longest);
+static void begin(Segment *segment, const System *system, const Moment *now, double longest) {
+    begin_in(likely_direction(segment, system, now), segment, system, now, longest);
+    if (now->state.velocity == 0.0 && !segment_departs(segment)) {
+        begin_in(-segment->direction, segment, system, now, longest);
     }
 }
 
-static void succeed(const Leg *leg, const Law *law, Moment *now, bool switches) {
-    bool lifted = (leg->mode == LIFTED) != switches;
-    now->bristle = bristle_after(&law->bristle, now->bristle, leg->travelled);
+static void enter_next_mode(const Segment *segment, const System *system, Moment *now, bool switches) {
+    bool lifted = (segment->mode == LIFTED) != switches;
+    now->bristle = bristle_after(&system->bristle, now->bristle, segment->travelled);
     now->mode = lifted ? LIFTED : direction_of(now->state.velocity);
     if (switches) {
         now->event_age = 0.0;
@@ -73,5 +73,5 @@ const FrictionLaw LUGRE = {
     .mode = mode_by_velocity,
     .force = force,
     .begin = begin,
-    .succeed = succeed,
+    .enter_next_mode = enter_next_mode,
 };

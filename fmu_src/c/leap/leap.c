@@ -86,8 +86,8 @@ Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *bu
     SlowPath path = {
         .manifold = {map, budget, 1, max_transient(map), 0},
         .psi = moment->psi,
-        .varies = fabs(map->drift) * longest > NO_DRIFT || is_ramped(&map->law.plant),
-        .here = {.velocity = slow_velocity(&map->law, &moment->state, moment->theta), .moment = *moment},
+        .varies = fabs(map->drift) * longest > NO_DRIFT || is_ramped(&map->system.plant),
+        .here = {.velocity = slow_velocity(&map->system, &moment->state, moment->theta), .moment = *moment},
     };
     Manifold *manifold = &path.manifold;
     PathPoint *here = &path.here;

@@ -31,7 +31,7 @@ enum { MAX_WAITS = 2 };
 
 /* How far a step is: the present moment, and the time left [s]. It began `passed` [s] after the step. */
 typedef struct {
-    const Law *law;
+    const System *system;
     Budget *budget;
     double passed;
     Clock clock;
@@ -42,10 +42,10 @@ typedef struct {
 /* Resolve the motion for `duration` [s]; `tight` where a leap is to follow. */
 static bool resolve(Progress *progress, double duration, bool tight, Refusal *refusal) {
     Moment before = progress->now;
-    Law law = law_after(progress->law, progress->clock.elapsed);
-    law.device.tolerance *= tight ? TIGHT : 1.0;
+    System system = system_after(progress->system, progress->clock.elapsed);
+    system.device.tolerance *= tight ? TIGHT : 1.0;
     progress->budget->passed = progress->passed + progress->clock.elapsed;
-    if (!events_advance(&law, &before, duration, NULL, NULL, progress->budget, &progress->now, refusal)) {
+    if (!events_advance(&system, &before, duration, NULL, NULL, progress->budget, &progress->now, refusal)) {
         return false;
     }
     progress->left = duration == progress->left ? 0.0 : clock_advance(&progress->clock, duration);
@@ -55,7 +55,7 @@ static bool resolve(Progress *progress, double duration, bool tight, Refusal *re
 /* Resolve the motion for `periods`, and on to the next section. */
 static bool resolve_to_section(Progress *progress, const PeriodMap *map, double periods, bool tight,
                                Refusal *refusal) {
-    double w = progress->law->plant.drive_frequency;
+    double w = progress->system->plant.drive_frequency;
     double to_section = within_turn(map->section - progress->now.theta) / w;
     double duration = periods * map->period + to_section;
     if (duration > 0.0 && !resolve(progress, duration, tight, refusal)) {
@@ -74,8 +74,8 @@ static double pause_after(const Leap *leap, int attempts) {
 
 /* The period map under the inputs of now. */
 static bool prepare_map(const Progress *progress, PeriodMap *map) {
-    Law law = law_after(progress->law, progress->clock.elapsed);
-    return period_map_prepare(map, &law, MAX_TURNS_OF_PERIOD);
+    System system = system_after(progress->system, progress->clock.elapsed);
+    return period_map_prepare(map, &system, MAX_TURNS_OF_PERIOD);
 }
 
 /* Advance the motion:
@@ -84,11 +84,11 @@ static bool prepare_map(const Progress *progress, PeriodMap *map) {
  * 2. leap over as many periods as are left, or as far as that gains;
  * 3. repeat while enough periods are left;
  * 4. resolve the rest. */
-static bool leaping_advance(const Law *law, const Moment *moment, double duration,
+static bool leaping_advance(const System *system, const Moment *moment, double duration,
                             EventSearch *search, Budget *budget, Moment *after, Refusal *refusal) {
     (void)search;
-    Progress progress = {law, budget, budget->passed, clock_of(duration), duration, *moment};
-    double turn = TAU / law->plant.drive_frequency, pause = 0.0;
+    Progress progress = {system, budget, budget->passed, clock_of(duration), duration, *moment};
+    double turn = TAU / system->plant.drive_frequency, pause = 0.0;
     int attempts = 0;
     PeriodMap map;
     bool gains = true;
@@ -97,7 +97,7 @@ static bool leaping_advance(const Law *law, const Moment *moment, double duratio
         if (!resolve_to_section(&progress, &map, pause, gains, refusal)) {
             return false;
         }
-        if (is_ramped(&law->plant) && !prepare_map(&progress, &map)) {
+        if (is_ramped(&system->plant) && !prepare_map(&progress, &map)) {
             break;
         }
         Moment before = progress.now;

@@ -10,11 +10,11 @@
 
 /* Smallest number of turns, up to `max_turns`, after which the load repeats best: one more turn must halve its drift [rad]
  * at least. */
-static int repeating_turns(const Law *law, int max_turns, double *drift) {
-    double ratio = law->inputs.frequency_ratio;
+static int repeating_turns(const System *system, int max_turns, double *drift) {
+    double ratio = system->inputs.frequency_ratio;
     int best = 1;
     *drift = 0.0;
-    if (law->device.normal_amplitude == 0.0) {
+    if (system->device.normal_amplitude == 0.0) {
         return best;
     }
     for (int turns = 1; turns <= max_turns; turns++) {
@@ -41,10 +41,10 @@ static bool prepare_resolvent(PeriodMap *map, const Oscillator *slip) {
 }
 
 static void prepare_fast_states(PeriodMap *map) {
-    const Law *law = &map->law;
-    const Plant *plant = &law->plant;
+    const System *system = &map->system;
+    const Plant *plant = &system->plant;
     double w = plant->drive_frequency;
-    double swing = complex_abs(map->law.fast.resonator);
+    double swing = complex_abs(map->system.fast.resonator);
     double moved = map->speed / w, felt = moved / fmax(plant->mass_fraction, EPSILON);
     map->scale[0] = fmin(swing > 0.0 ? swing : moved, felt);
     map->scale[1] = map->scale[0] * w;
@@ -52,28 +52,28 @@ static void prepare_fast_states(PeriodMap *map) {
     map->fast_count = 2;
     map->kept = 0.0;
     map->decay = exp(-slower_decay(&plant->slip) * map->period);
-    if (is_elastic(&law->bristle)) {
+    if (is_elastic(&system->bristle)) {
         double path = 4.0 * map->turns * map->speed / w;
-        map->scale[2] = law->bristle.coefficient;
+        map->scale[2] = system->bristle.coefficient;
         map->fast_count = 3;
-        map->kept = exp(-law->bristle.stiffness * path / law->bristle.coefficient);
+        map->kept = exp(-system->bristle.stiffness * path / system->bristle.coefficient);
         map->decay = fmax(map->decay, map->kept);
     }
 }
 
-bool period_map_prepare(PeriodMap *map, const Law *law, int max_turns) {
-    if (!(law->fast.velocity > 0.0) || !law->plant.resolves_resonator) {
+bool period_map_prepare(PeriodMap *map, const System *system, int max_turns) {
+    if (!(system->fast.velocity > 0.0) || !system->plant.resolves_resonator) {
         return false;
     }
-    map->law = *law;
-    map->tolerance = law->device.tolerance;
-    map->law.device.tolerance = fmin(law->device.tolerance, MAP_TOLERANCE);
-    const Device *device = &map->law.device;
-    const Plant *plant = &map->law.plant;
-    map->turns = repeating_turns(law, max_turns, &map->drift);
+    map->system = *system;
+    map->tolerance = system->device.tolerance;
+    map->system.device.tolerance = fmin(system->device.tolerance, MAP_TOLERANCE);
+    const Device *device = &map->system.device;
+    const Plant *plant = &map->system.plant;
+    map->turns = repeating_turns(system, max_turns, &map->drift);
     map->period = TAU * map->turns / plant->drive_frequency;
-    map->section = within_turn(map->law.fast.lag + PI);
-    map->speed = map->law.fast.velocity;
+    map->section = within_turn(map->system.fast.lag + PI);
+    map->speed = map->system.fast.velocity;
     double normal = fmax(device->normal_preload, device->normal_amplitude / PI);
     double full = device->friction_faces * device->friction_coefficient * normal;
     map->share = full * map->period / (plant->total_mass * map->speed);
@@ -82,33 +82,33 @@ bool period_map_prepare(PeriodMap *map, const Law *law, int max_turns) {
 }
 
 double psi_after(const PeriodMap *map, double psi, double periods) {
-    const Plant *plant = &map->law.plant;
+    const Plant *plant = &map->system.plant;
     double t = periods * map->period;
     double chirp = 0.5 * plant->normal_rate * t * t;
     return within_turn(psi + remainder(map->drift * periods + chirp, TAU));
 }
 
 double drift_after(const PeriodMap *map, double periods) {
-    double chirp = map->law.plant.normal_rate * map->period * map->period;
+    double chirp = map->system.plant.normal_rate * map->period * map->period;
     return map->drift + chirp * periods;
 }
 
 void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_FAST], double psi,
                   Moment *moment) {
-    const Law *law = &map->law;
+    const System *system = &map->system;
     moment->theta = map->section;
     moment->psi = psi;
     moment->state.displacement = fast[0];
     moment->state.rate = fast[1];
     moment->bristle = fast[2];
-    moment->state.velocity = velocity - map->law.fast.pair_velocity * cos(map->section) -
-                             law->plant.mass_fraction * fast[1];
-    moment->mode = law->friction->mode(law, moment);
+    moment->state.velocity = velocity - map->system.fast.pair_velocity * cos(map->section) -
+                             system->plant.mass_fraction * fast[1];
+    moment->mode = system->friction->mode(system, moment);
     moment->counts.sliding = moment->mode == LIFTED ? STICK : moment->mode;
 }
 
 static SectionState section_state(const PeriodMap *map, const Moment *moment) {
-    return (SectionState){{slow_velocity(&map->law, &moment->state, moment->theta),
+    return (SectionState){{slow_velocity(&map->system, &moment->state, moment->theta),
                            moment->state.displacement, moment->state.rate, moment->bristle,
                            moment->position, moment->counts.reversals, moment->counts.sticks}};
 }
@@ -116,7 +116,7 @@ static SectionState section_state(const PeriodMap *map, const Moment *moment) {
 bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, Budget *budget,
                  SectionState *sections, uint64_t *itinerary) {
     Refusal refusal;
-    Law later = law_after(&map->law, begin * map->period);
+    System later = system_after(&map->system, begin * map->period);
     Itinerary passed = {0, NO_MODE, false};
     sections[0] = section_state(map, moment);
     for (int k = 1; k <= count; k++) {
@@ -128,8 +128,8 @@ bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, 
         }
         moment->theta = map->section;
         sections[k] = section_state(map, moment);
-        if (is_ramped(&map->law.plant)) {
-            later = law_after(&map->law, (begin + k) * map->period);
+        if (is_ramped(&map->system.plant)) {
+            later = system_after(&map->system, (begin + k) * map->period);
         }
     }
     *itinerary = passed.hash;

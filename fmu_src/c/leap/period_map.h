@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 #include "../device/budget.h"
-#include "../friction/law.h"
+#include "../friction/system.h"
 
 /* Largest number of fast states: Y [m], Y' [m/s], and the bristle's friction per unit load. */
 enum { MAX_FAST = 3 };
@@ -21,10 +21,10 @@ typedef struct {
     double at[NUMBERS];
 } SectionState;
 
-/* The period map under the inputs of `law`, which may grow. An error by `scale` in a fast state is as large as the
+/* The period map under the inputs of `system`, which may grow. An error by `scale` in a fast state is as large as the
  * vibration, or changes V by v_q times `share`. */
 typedef struct {
-    Law law;                 /* the full device under its inputs, with the tolerance of maps */
+    System system;           /* the full device under its inputs, with the tolerance of maps */
     int turns;               /* turns of the drive in a period, after which the normal load repeats */
     double period;           /* the time of these [s] */
     double drift;            /* by which the phase of the load does not repeat [rad] */
@@ -39,11 +39,11 @@ typedef struct {
     double decay;            /* largest factor by which a transient decays in a period */
 } PeriodMap;
 
-/* Prepare the map of a law of the full device, for a load that repeats after up to `max_turns` turns. Return false where
+/* Prepare the map of a system of the full device, for a load that repeats after up to `max_turns` turns. Return false where
  * there is none: without vibration, or where transients do not decay. */
-bool period_map_prepare(PeriodMap *map, const Law *law, int max_turns);
+bool period_map_prepare(PeriodMap *map, const System *system, int max_turns);
 
-/* Phase of the normal load [rad] at the section `periods` after it was `psi` [rad], as the inputs of the law began to grow;
+/* Phase of the normal load [rad] at the section `periods` after it was `psi` [rad], as the inputs of the system began to grow;
  * between whole periods, that of a section which the drift would bring there. */
 double psi_after(const PeriodMap *map, double psi, double periods);
 
@@ -54,7 +54,7 @@ double drift_after(const PeriodMap *map, double periods);
 void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_FAST], double psi,
                   Moment *moment);
 
-/* Advance a moment at the section, `begin` periods after the inputs of the law began to grow, by `count` periods.
+/* Advance a moment at the section, `begin` periods after the inputs of the system began to grow, by `count` periods.
  * `sections` are the motion at the count + 1 sections, from the first on, `itinerary` the hash of the contact modes. Return
  * false if the motion is refused or leaves the range of floating point. */
 bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, Budget *budget,

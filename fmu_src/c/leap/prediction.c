@@ -9,11 +9,11 @@
 /* Largest number of turns after which the normal load may repeat. */
 enum { MAX_TURNS_OF_LOAD = 32 };
 
-int turns_of_load(const Law *law) {
-    if (law->device.normal_amplitude == 0.0) {
+int turns_of_load(const System *system) {
+    if (system->device.normal_amplitude == 0.0) {
         return 1;
     }
-    double ratio = law->inputs.frequency_ratio;
+    double ratio = system->inputs.frequency_ratio;
     for (int turns = 1; turns <= MAX_TURNS_OF_LOAD; turns++) {
         if (fabs(turns * ratio - nearbyint(turns * ratio)) <= EXACT) {
             return turns;
@@ -71,7 +71,7 @@ static bool change_in_period(Search *search, const double unknown[UNKNOWNS],
         at[i] = unknown[i] * search->scale[i];
     }
     if (search->blocked) {
-        law_change(&map->law, map->law.inputs.phase, at[states]);
+        system_change(&map->system, map->system.inputs.phase, at[states]);
     }
     memcpy(fast, at + 1, (size_t)map->fast_count * sizeof fast[0]);
     Moment moment = {.mode = STICK};
@@ -211,12 +211,12 @@ static bool is_stable(const Search *search) {
  * without friction. The scale of loads is the force that stops v_q in a period. */
 static Search search_of(const PeriodMap *map, double psi, bool blocked, double velocity,
                         double load) {
-    const Plant *plant = &map->law.plant;
+    const Plant *plant = &map->system.plant;
     int states = 1 + map->fast_count;
     Search search = {.map = *map, .psi = psi, .blocked = blocked, .count = states + blocked};
     search.budget = budget_of(map->period);
     search.budget.spent = 1.0 - SHARE_OF_STEP;
-    Response swing = steady_swing(map->law.fast.resonator, map->section, plant->drive_frequency);
+    Response swing = steady_swing(map->system.fast.resonator, map->section, plant->drive_frequency);
     const double fast[MAX_FAST] = {swing.displacement, swing.rate, map->scale[2]};
     search.scale[0] = map->speed;
     search.unknown[0] = velocity / map->speed;
@@ -253,48 +253,48 @@ static bool find_blocked(const PeriodMap *map, double psi, double *load) {
     return search.reversals > 0.0;
 }
 
-/* The law of the full device under the same inputs. A resonator without mass moves nothing: one that settles within a period
- * takes its place, so that the search need not wait for it. */
-static bool full_law(const Law *law, Law *full) {
-    Device device = law->device;
+/* The system of the full device under the same inputs. A resonator without mass moves nothing: critical damping at the drive
+ * frequency lets its own motion decay within a period, so that the search need not wait for it. */
+static bool full_system(const System *system, System *full) {
+    Device device = system->device;
     Refusal refusal;
     device.fidelity = 2;
     if (device.resonator_mass == 0.0) {
         device.resonator_frequency = device.drive_frequency;
         device.damping_ratio = 1.0;
     }
-    if (!law_prepare(full, &device, &law->inputs, &refusal)) {
+    if (!system_prepare(full, &device, &system->inputs, &refusal)) {
         return false;
     }
-    full->bending = law->bending;
+    full->bending = system->bending;
     return true;
 }
 
 /* Find both periodic motions from averages of first order on, which must hold the load. */
-static bool find_both(const PeriodMap *map, double psi, const Averaged *start, Averaged *exact) {
-    *exact = (Averaged){start->steady_velocity, start->blocking_force, true, true};
+static bool find_both(const PeriodMap *map, double psi, const Prediction *start, Prediction *exact) {
+    *exact = (Prediction){start->steady_velocity, start->blocking_force, true, true};
     return start->holds && find_steady(map, psi, &exact->steady_velocity) &&
            find_blocked(map, psi, &exact->blocking_force);
 }
 
-/* By second order both belong to periodic motions of the full device. They are looked for from averages on. Where bristles
- * damp less than they hold, so that one velocity alone balances a load, those of Coulomb friction are near, and cost least. */
-static Averaged second_order(const Law *law, double normal_lead) {
-    Law full, coulomb = *law;
+/* By second order both belong to periodic motions of the full device. The search begins at averages of first order. Where bristles
+ * damp less than they hold, one velocity alone balances a load: the balance of Coulomb friction is then a good and cheap guess. */
+static Prediction second_order(const System *system, double normal_lead) {
+    System full, coulomb = *system;
     PeriodMap map;
-    Averaged start, exact;
-    int turns = turns_of_load(law);
-    bool repeats = turns > 0 && full_law(law, &full) && period_map_prepare(&map, &full, turns);
-    double psi = repeats ? within_turn(normal_lead + law->inputs.frequency_ratio * map.section) : 0.0;
-    double damping = damping_share(&law->bristle, law->fast.velocity, law->device.drive_frequency);
-    if (repeats && is_elastic(&law->bristle) && damping <= 1.0) {
-        coulomb.bristle = (Bristle){law->bristle.coefficient, INFINITY, 0.0};
-        start = averaged(&coulomb, normal_lead);
+    Prediction start, exact;
+    int turns = turns_of_load(system);
+    bool repeats = turns > 0 && full_system(system, &full) && period_map_prepare(&map, &full, turns);
+    double psi = repeats ? within_turn(normal_lead + system->inputs.frequency_ratio * map.section) : 0.0;
+    double damping = damping_share(&system->bristle, system->fast.velocity, system->device.drive_frequency);
+    if (repeats && is_elastic(&system->bristle) && damping <= 1.0) {
+        coulomb.bristle = (Bristle){system->bristle.coefficient, INFINITY, 0.0};
+        start = first_order_prediction(&coulomb, normal_lead);
         if (find_both(&map, psi, &start, &exact)) {
             return exact;
         }
     }
-    start = averaged(law, normal_lead);
+    start = first_order_prediction(system, normal_lead);
     if (repeats && find_both(&map, psi, &start, &exact)) {
         return exact;
     }
@@ -302,6 +302,7 @@ static Averaged second_order(const Law *law, double normal_lead) {
     return start;
 }
 
-Averaged prediction_of(const Law *law, double normal_lead) {
-    return law->device.averaging_order == 1 ? averaged(law, normal_lead) : second_order(law, normal_lead);
+Prediction prediction_of(const System *system, double normal_lead) {
+    return system->device.averaging_order == 1 ? first_order_prediction(system, normal_lead)
+                                               : second_order(system, normal_lead);
 }

@@ -70,7 +70,7 @@ static SlowRates rates_of(const SectionState *differences, double ratio, const d
 
 bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after, SlowRates *rates) {
     const PeriodMap *map = manifold->map;
-    double velocity = slow_velocity(&map->law, &moment->state, moment->theta), offset = 0.0, before = INFINITY;
+    double velocity = slow_velocity(&map->system, &moment->state, moment->theta), offset = 0.0, before = INFINITY;
     for (int i = 0; i < manifold->max_sequences; i++) {
         SectionState sections[DIFFERENCES + 1];
         double missing, step[MAX_FAST];

@@ -34,7 +34,7 @@ typedef struct {
 } SlowRates;
 
 /* The rates at the slow velocity V [m/s] and normal phase of a moment at the section, `begin` periods after the inputs of
- * the law began to grow. The fast states of the moment are a first guess; they are put on the manifold. `after` is the
+ * the system began to grow. The fast states of the moment are a first guess; they are put on the manifold. `after` is the
  * moment a sequence later. Return false where the manifold is not found; the offset is infinite where there is no motion
  * to be mapped, and `after` then undefined. */
 bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after, SlowRates *rates);

@@ -4,40 +4,40 @@
 
 #include "../base/clock.h"
 #include "../base/constants.h"
-#include "../friction/leg.h"
+#include "../friction/segment.h"
 
-/* Largest number of legs accepted in a turn of the fastest oscillation: several times as many as
+/* Largest number of segments accepted in a turn of the fastest oscillation: several times as many as
  * presliding on the hardest bristles takes. */
-enum { MAX_LEGS = 20000 };
+enum { MAX_TURN_SEGMENTS = 20000 };
 
 /* Drive periods before the end of a motion from which the work of friction counts: its mean is that of the last
  * whole one, and the first that ends is counted in part. */
 #define COUNTED 3.0
 
-/* Legs since a turn of the fastest oscillation began at `began` [s], and `all` legs, of which there may be
+/* Segments since a turn of the fastest oscillation began at `began` [s], and `all` segments, of which there may be
  * `max_all`; a turn takes `turn` [s]. */
 typedef struct {
-    int legs, all, max_all;
+    int segments, all, max_all;
     double began, turn;
 } Work;
 
-/* Counts a leg that begins at `time` [s]. Refuses too many legs. */
+/* Counts a segment that begins at `time` [s]. Refuses too many segments. */
 static bool work_count(Work *work, double time, const Budget *budget, Refusal *refusal) {
     if (time - work->began > work->turn) {
         work->began = time;
-        work->legs = 0;
+        work->segments = 0;
     }
-    work->legs++;
+    work->segments++;
     work->all++;
-    if (work->legs > MAX_LEGS) {
-        return budget_refuse(budget, time, MAX_LEGS, "segments in a turn of the fastest oscillation",
+    if (work->segments > MAX_TURN_SEGMENTS) {
+        return budget_refuse(budget, time, MAX_TURN_SEGMENTS, "segments in a turn of the fastest oscillation",
                              refusal);
     }
     return work->all <= work->max_all
            || budget_refuse(budget, time, MAX_STEP_SEGMENTS, "segments of motion", refusal);
 }
 
-/* Refuses a motion that takes too many legs even if each has the maximum length `longest` [s]. A search for an
+/* Refuses a motion that takes too many segments even if each has the maximum length `longest` [s]. A search for an
  * event may end it earlier: it is not refused. */
 static bool work_fits(const Work *work, double duration, double longest, const EventSearch *search,
                       const Budget *budget, Refusal *refusal) {
@@ -57,13 +57,13 @@ static bool found_at(EventSearch *search, const Clock *clock) {
     return true;
 }
 
-/* Whether the slider reversed at the moment `begin`, where the finished leg began; `now` then goes back to
- * that moment. Only the leg after a stop shows whether the stop was a reversal. A slider that sets out
+/* Whether the slider reversed at the moment `begin`, where the finished segment began; `now` then goes back to
+ * that moment. Only the segment after a stop shows whether the stop was a reversal. A slider that sets out
  * from rest at the start of the search does not reverse. */
-static bool found_reversal(EventSearch *search, const Clock *clock, const Leg *leg,
+static bool found_reversal(EventSearch *search, const Clock *clock, const Segment *segment,
                            const Moment *begin, Moment *now) {
-    bool turns = leg->turns && begin->state.velocity == 0.0 && begin->event_age != 0.0;
-    bool moved = clock->elapsed > 0.0 || begin->counts.sliding == -leg->direction;
+    bool turns = segment->turns && begin->state.velocity == 0.0 && begin->event_age != 0.0;
+    bool moved = clock->elapsed > 0.0 || begin->counts.sliding == -segment->direction;
     if (!turns || !moved || !found_at(search, clock)) {
         return false;
     }
@@ -72,14 +72,14 @@ static bool found_reversal(EventSearch *search, const Clock *clock, const Leg *l
     return true;
 }
 
-/* Makes the end of a motion an event if it is one within rounding, or if it is a stop: no further leg
+/* Makes the end of a motion an event if it is one within rounding, or if it is a stop: no further segment
  * follows that would show whether the stop is a reversal. */
-static void end_at_event(const Leg *leg, const Law *law, Moment *now) {
-    if (leg->direction * now->state.velocity < 0.0) {
+static void end_at_event(const Segment *segment, const System *system, Moment *now) {
+    if (segment->direction * now->state.velocity < 0.0) {
         now->state.velocity = 0.0;
     }
-    moment_enter(now, law->friction->mode(law, now));
-    if (leg_stopped(leg) && now->mode != leg->mode) {
+    moment_enter(now, system->friction->mode(system, now));
+    if (segment_stopped(segment) && now->mode != segment->mode) {
         now->event_age = 0.0;
     }
 }
@@ -101,34 +101,34 @@ static void pass_mode(Itinerary *itinerary, int mode) {
     }
 }
 
-/* In this order: refuse a motion of too much work, and enter the contact mode of the start. Then leg by leg: find how
- * long the leg may last, until the contact lifts or touches down, the arc ends or the normal frequency changes sign;
+/* In this order: refuse a motion of too much work, and enter the contact mode of the start. Then segment by segment: find how
+ * long the segment may last, until the contact lifts or touches down, the arc ends or the normal frequency changes sign;
  * let the friction law begin it; follow it, up to a stop or a release; move to its end; let the inputs grow; change to the next
  * contact mode. A search ends the motion at the first event. */
-bool events_advance(const Law *start, const Moment *moment, double duration, EventSearch *search,
+bool events_advance(const System *start, const Moment *moment, double duration, EventSearch *search,
                     Itinerary *itinerary, Budget *budget, Moment *now, Refusal *refusal) {
     bool inputs_grow = is_ramped(&start->plant);
-    Law grown;
-    const Law *law = start;
+    System grown;
+    const System *system = start;
     if (inputs_grow) {
         grown = *start;
-        law = &grown;
+        system = &grown;
     }
-    const FrictionLaw *friction = law->friction;
-    const Plant *plant = &law->plant;
+    const FrictionLaw *friction = system->friction;
+    const Plant *plant = &system->plant;
     double remaining = duration;
     double counted = COUNTED * TAU / plant->drive_frequency;
     Clock clock = clock_of(duration);
-    Work work = {.turn = TAU / LONGEST_ARC * law->arc, .max_all = budget_left(budget, MAX_STEP_SEGMENTS)};
-    Leg leg;
+    Work work = {.turn = TAU / LONGEST_ARC * system->arc, .max_all = budget_left(budget, MAX_STEP_SEGMENTS)};
+    Segment segment;
     Moment begin;
-    if (!work_fits(&work, duration, law->arc, search, budget, refusal)) {
+    if (!work_fits(&work, duration, system->arc, search, budget, refusal)) {
         return false;
     }
     *now = *moment;
-    leg.known.known = false;
-    leg.departs = now->state.velocity == 0.0;
-    moment_enter(now, friction->mode(law, now));
+    segment.known.known = false;
+    segment.departs = now->state.velocity == 0.0;
+    moment_enter(now, friction->mode(system, now));
     while (remaining > 0.0 && isfinite(now->state.velocity)) {
         if (!work_count(&work, clock.elapsed, budget, refusal)) {
             return false;
@@ -137,33 +137,33 @@ bool events_advance(const Law *start, const Moment *moment, double duration, Eve
             time_to_switch(plant, now->psi + plant->phase, plant->normal_frequency,
                            plant->normal_rate, now->mode == LIFTED);
         double turning = time_to_turn(plant);
-        double longest = fmin(fmin(fmin(remaining, switching), law->arc), turning);
+        double longest = fmin(fmin(fmin(remaining, switching), system->arc), turning);
         if (search != NULL) {
             begin = *now;
         }
-        leg.counts_work = (search != NULL || remaining - fmin(remaining, law->arc) <= counted) &&
+        segment.counts_work = (search != NULL || remaining - fmin(remaining, system->arc) <= counted) &&
                           (itinerary == NULL || itinerary->works);
-        friction->begin(&leg, law, now, longest);
-        leg_follow(&leg, plant, now, longest);
+        friction->begin(&segment, system, now, longest);
+        segment_follow(&segment, plant, now, longest);
         if (itinerary != NULL) {
-            pass_mode(itinerary, leg.mode == LIFTED ? LIFTED : leg.direction);
+            pass_mode(itinerary, segment.mode == LIFTED ? LIFTED : segment.direction);
         }
-        leg_finish(&leg, plant, now);
+        segment_finish(&segment, plant, now);
         if (inputs_grow) {
-            grown = law_after(start, clock.elapsed + leg.t);
-            if (leg.t == turning) {
+            grown = system_after(start, clock.elapsed + segment.t);
+            if (segment.t == turning) {
                 grown.plant.normal_frequency = 0.0;
             }
         }
-        if (search != NULL && found_reversal(search, &clock, &leg, &begin, now)) {
+        if (search != NULL && found_reversal(search, &clock, &segment, &begin, now)) {
             break;
         }
-        friction->succeed(&leg, law, now, leg.zero_of < 0 && leg.t == switching);
-        leg.departs = now->state.velocity == 0.0 && now->mode != -leg.mode;
-        remaining = leg.t == remaining ? 0.0 : clock_advance(&clock, leg.t);
+        friction->enter_next_mode(&segment, system, now, segment.zero_of < 0 && segment.t == switching);
+        segment.departs = now->state.velocity == 0.0 && now->mode != -segment.mode;
+        remaining = segment.t == remaining ? 0.0 : clock_advance(&clock, segment.t);
         if (search != NULL && !(remaining > 0.0)) {
             clock = (Clock){duration, duration, 0.0};
-            end_at_event(&leg, law, now);
+            end_at_event(&segment, system, now);
         }
         if (now->event_age == 0.0 && found_at(search, &clock)) {
             break;

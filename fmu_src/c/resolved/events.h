@@ -1,10 +1,10 @@
-/* The loop over events: resolved motion under any friction law, leg by leg. */
+/* The loop over events: resolved motion under any friction law, segment by segment. */
 #pragma once
 
 #include <stdint.h>
 
 #include "../device/budget.h"
-#include "../friction/law.h"
+#include "../friction/system.h"
 
 /* The search for the first event of a motion: a reversal, stick, release, lift-off or touchdown.
  *
@@ -28,9 +28,9 @@ typedef struct {
 /* The last mode of an itinerary that has none yet. */
 enum { NO_MODE = -2 };
 
-/* Advance by `duration` > 0 [s] from `moment` to `now`, another moment, under the inputs of the law, or to
+/* Advance by `duration` > 0 [s] from `moment` to `now`, another moment, under the inputs of the system, or to
  * the event that a `search` finds before; NULL searches for none. Contact modes are added to an `itinerary`, unless that is NULL.
- * Refuses, with `now` undefined, where the motion takes more legs than the budget has. Where numbers leave the range of floating
- * point, entries of `now` are not finite. */
-bool events_advance(const Law *law, const Moment *moment, double duration, EventSearch *search,
+ * Refuses, with `now` undefined, where the motion takes more segments than the budget has. Where numbers leave the range of
+ * floating point, entries of `now` are not finite. */
+bool events_advance(const System *system, const Moment *moment, double duration, EventSearch *search,
                     Itinerary *itinerary, Budget *budget, Moment *now, Refusal *refusal);

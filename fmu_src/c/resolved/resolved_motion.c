@@ -7,52 +7,52 @@
 
 /* A resonator that is not resolved vibrates steadily at once; the velocity is chosen so that the momentum of the pair is
  * that of the initial values. */
-Moment resolved_start(const Law *law) {
-    const Device *device = &law->device;
-    const Plant *plant = &law->plant;
+Moment resolved_start(const System *system) {
+    const Device *device = &system->device;
+    const Plant *plant = &system->plant;
     Moment first = first_moment(device);
     if (!plant->resolves_resonator) {
         double rate = steady_swing(plant->resonator_amplitude, 0.0, plant->drive_frequency).rate;
         first.state.velocity += device_mass_fraction(device) * (first.state.rate - rate);
     }
-    first.mode = law->friction->mode(law, &first);
-    first.bristle = bristle_bent(&law->bristle, device->initial_bristle_deflection);
+    first.mode = system->friction->mode(system, &first);
+    first.bristle = bristle_bent(&system->bristle, device->initial_bristle_deflection);
     return first;
 }
 
 /* Refuses a motion that spans too many turns of the fastest oscillation. */
-static bool resolved_advance(const Law *law, const Moment *moment, double duration,
+static bool resolved_advance(const System *system, const Moment *moment, double duration,
                              EventSearch *search, Budget *budget, Moment *after,
                              Refusal *refusal) {
-    double frequency = LONGEST_ARC / law->arc;
+    double frequency = LONGEST_ARC / system->arc;
     if (duration * frequency > TAU * MAX_TURNS) {
         return refuse_too_many_turns(refusal, budget->step_size, frequency, MAX_TURNS);
     }
-    return events_advance(law, moment, duration, search, NULL, budget, after, refusal);
+    return events_advance(system, moment, duration, search, NULL, budget, after, refusal);
 }
 
-int resolved_mode(const Law *law, const Moment *moment) {
-    return law->friction->mode(law, moment);
+int resolved_mode(const System *system, const Moment *moment) {
+    return system->friction->mode(system, moment);
 }
 
-double resolved_force(const Law *law, const Moment *moment, int mode) {
-    return law->friction->force(law, moment, mode);
+double resolved_force(const System *system, const Moment *moment, int mode) {
+    return system->friction->force(system, moment, mode);
 }
 
-double resolved_power(const Law *law, const Moment *moment) {
-    double force = resolved_force(law, moment, resolved_mode(law, moment));
+double resolved_power(const System *system, const Moment *moment) {
+    double force = resolved_force(system, moment, resolved_mode(system, moment));
     return period_friction_power(&moment->means, force * moment->state.velocity);
 }
 
 /* The equations of motion (26)-(27). */
-Rates resolved_rates(const Law *law, const Moment *moment) {
-    const Plant *plant = &law->plant;
+Rates resolved_rates(const System *system, const Moment *moment) {
+    const Plant *plant = &system->plant;
     double w = plant->drive_frequency, sine = sin(moment->theta), cosine = cos(moment->theta);
     State rates = {.displacement = moment->state.rate};
-    int mode = law->friction->mode(law, moment);
-    if (mode != STICK || is_elastic(&law->bristle)) {
+    int mode = system->friction->mode(system, moment);
+    if (mode != STICK || is_elastic(&system->bristle)) {
         double force = plant->holding_drive.re * sine + plant->holding_drive.im * cosine -
-                       plant->load - law->friction->force(law, moment, mode);
+                       plant->load - system->friction->force(system, moment, mode);
         force += plant->spring * moment->state.displacement + plant->damper * moment->state.rate;
         rates.velocity = force / plant->slider_mass;
     }
@@ -68,8 +68,8 @@ Rates resolved_rates(const Law *law, const Moment *moment) {
     return (Rates){rates, 0.0};
 }
 
-double resolved_error(const Law *law, const Moment *moment) {
-    (void)law;
+double resolved_error(const System *system, const Moment *moment) {
+    (void)system;
     return moment->leap_error;
 }
 

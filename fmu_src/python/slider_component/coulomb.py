@@ -40,7 +40,7 @@ class Coulomb:
             return (Exponentials if split else Series)(system, now, 0, rests=True)
         return slide(system, now, 0 if now.mode == LIFTED else now.mode)
 
-    def succeed(
+    def enter_next_mode(
         self, system: System, now: Moment, travelled: float, zero_of: int | None, switches: bool
     ) -> None:
         """Change from the end of a segment to the next contact mode.

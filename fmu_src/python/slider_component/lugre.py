@@ -53,7 +53,7 @@ class LuGre:
                 segment = _segment(system, now, -direction)
         return segment
 
-    def succeed(
+    def enter_next_mode(
         self, system: System, now: Moment, travelled: float, zero_of: int | None, switches: bool
     ) -> None:
         """As of `Coulomb`."""

@@ -150,7 +150,7 @@ class Resolved:
         now.psi = (now.psi + system.normal_frequency * t) % tau
         now.position += travelled
         now.event_age += t
-        self.law.succeed(system, now, travelled, zero_of, zero_of is None and t == switching)
+        self.law.enter_next_mode(system, now, travelled, zero_of, zero_of is None and t == switching)
         return t
 
 

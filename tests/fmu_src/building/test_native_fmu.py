@@ -195,8 +195,8 @@ def test_compiler_messages_are_passed_on(tmp_path: Path, code: dict[str, str]) -
 
 
 def test_a_function_that_is_missing_is_noticed(tmp_path: Path, code: dict[str, str]) -> None:
-    code["friction/law.c"] = "int nothing;\n"
-    with pytest.raises(BuildError, match="law_after"):
+    code["friction/system.c"] = "int nothing;\n"
+    with pytest.raises(BuildError, match="system_after"):
         build_native(tmp_path / "dist", platforms=[HOST], code=code)
 
 
@@ -233,4 +233,4 @@ def test_fmi_functions_are_shared_and_the_model_is_not(controller_fmu: Path) -> 
     assert own == generated | {
         str(path.relative_to(CONTROLLER_SOURCES)) for path in CONTROLLER_SOURCES.rglob("*.[ch]")
     }
-    assert not {"friction/coulomb.c", "friction/law.c", "device/device.h"} & set(inside)
+    assert not {"friction/coulomb.c", "friction/system.c", "device/device.h"} & set(inside)

@@ -9,11 +9,11 @@
 #include "resolved/motion.h"
 #include "component/parameter_values.h"
 
-static bool law_of(Law *law, const double *values, double tolerance, Refusal *refusal) {
+static bool system_of(System *system, const double *values, double tolerance, Refusal *refusal) {
     Device device = device_of(values);
     Inputs inputs = inputs_of(values);
     device.tolerance = tolerance;
-    return law_prepare(law, &device, &inputs, refusal);
+    return system_prepare(system, &device, &inputs, refusal);
 }
 
 void decays(const double *x, int count, double *found) {
@@ -37,7 +37,7 @@ void gauss(double *node, double *weight, double *integral) {
 
 /* Differences of the velocity [m/s] and the travel [m] of the panel and of series of tolerance 1e-14, `t` [s] after
  * `now`; within the panel of the travel alone. */
-static bool compare(const Law *series, const BendingPanel *panel, const Moment *now, double t,
+static bool compare(const System *series, const BendingPanel *panel, const Moment *now, double t,
                     double *velocity, double *travelled) {
     Moment after;
     Refusal refusal;
@@ -63,25 +63,25 @@ int panel_errors(const double *values, double start, double tolerance, double sh
                  double *errors) {
     static BendingTables tables;
     static BendingPanel panel;
-    Law law;
+    System system;
     Moment now, later, reversal;
     Refusal refusal;
-    if (!law_of(&law, values, 1e-14, &refusal)) {
+    if (!system_of(&system, values, 1e-14, &refusal)) {
         return 0;
     }
-    const Plant *plant = &law.plant;
-    now = resolved_start(&law);
+    const Plant *plant = &system.plant;
+    now = resolved_start(&system);
     EventSearch search = {.after = 0.0};
     Budget budget = budget_of(start);
-    if (!events_advance(&law, &now, start, NULL, NULL, &budget, &later, &refusal) ||
-        !events_advance(&law, &later, TAU / plant->drive_frequency, &search, NULL, &budget, &reversal,
+    if (!events_advance(&system, &now, start, NULL, NULL, &budget, &later, &refusal) ||
+        !events_advance(&system, &later, TAU / plant->drive_frequency, &search, NULL, &budget, &reversal,
                      &refusal) ||
         !search.found || reversal.mode == LIFTED || reversal.state.velocity != 0.0) {
         return 0;
     }
     double chi = reversal.psi + plant->phase, unused;
     double switching = time_to_switch(plant, chi, plant->normal_frequency, 0.0, false);
-    Law by_panels = law;
+    System by_panels = system;
     by_panels.bending = &tables;
     Phasors phasors = phasors_of(plant, &reversal);
     for (int direction = BACKWARD; direction <= FORWARD; direction += 2) {
@@ -90,9 +90,9 @@ int panel_errors(const double *values, double start, double tolerance, double sh
             panel.reach < INFINITY || !(1.2 * panel.length < switching)) {
             continue;
         }
-        return compare(&law, &panel, &reversal, panel.length, &errors[0], &errors[1]) &&
-               compare(&law, &panel, &reversal, 1.2 * panel.length, &errors[2], &unused) &&
-               compare(&law, &panel, &reversal, share * panel.length, &unused, &errors[3]);
+        return compare(&system, &panel, &reversal, panel.length, &errors[0], &errors[1]) &&
+               compare(&system, &panel, &reversal, 1.2 * panel.length, &errors[2], &unused) &&
+               compare(&system, &panel, &reversal, share * panel.length, &unused, &errors[3]);
     }
     return 0;
 }

@@ -1,4 +1,4 @@
-#include "averaged.h"
+#include "first_order.h"
 
 #include "../base/elementary.h"
 #include "mean_friction.h"
@@ -15,7 +15,7 @@ enum { SORTING = 4 };
 /* Friction and load as functions of the angle Theta at which sliding turns forward; `noise` is the
  * rounding error of their sum [N]. Several angles may balance where friction rises with the angle. */
 typedef struct {
-    const Law *law;
+    const System *system;
     double noise;
     FastMotion fast;
     VibratingLoad load;
@@ -26,16 +26,16 @@ typedef struct {
     double turning, excess;
 } Point;
 
-static Balance balance_of(const Law *law, double normal_lead) {
-    const Device *device = &law->device;
-    const FastVibration *fast = &law->fast;
-    Balance balance = {.law = law};
-    double ratio = law->inputs.frequency_ratio, faces = device->friction_faces;
-    double delta = law->inputs.phase + normal_lead + ratio * fast->lag;
+static Balance balance_of(const System *system, double normal_lead) {
+    const Device *device = &system->device;
+    const FastVibration *fast = &system->fast;
+    Balance balance = {.system = system};
+    double ratio = system->inputs.frequency_ratio, faces = device->friction_faces;
+    double delta = system->inputs.phase + normal_lead + ratio * fast->lag;
     balance.fast = (FastMotion){fast->velocity, device->drive_frequency};
     balance.load = vibrating_load_of(device, ratio, delta);
-    double mu = law->bristle.coefficient;
-    double drag = law->bristle.damping * balance.fast.velocity;
+    double mu = system->bristle.coefficient;
+    double drag = system->bristle.damping * balance.fast.velocity;
     balance.noise = ROUNDING * EPSILON * faces * (mu + drag) *
                     (device->normal_preload + device->normal_amplitude);
     return balance;
@@ -43,9 +43,9 @@ static Balance balance_of(const Law *law, double normal_lead) {
 
 /* Mean friction [N] when sliding turns forward at tau = `turning` [rad]. */
 static double friction_at(const Balance *balance, double turning) {
-    const Law *law = balance->law;
-    return law->device.friction_faces *
-           mean_friction(&law->bristle, &balance->fast, &balance->load, turning);
+    const System *system = balance->system;
+    return system->device.friction_faces *
+           mean_friction(&system->bristle, &balance->fast, &balance->load, turning);
 }
 
 /* Share of the way from the newest point `a` to the opposite one `b`, by inverse quadratic interpolation through
@@ -69,7 +69,7 @@ static double balanced_turning(const Balance *balance, Point low, Point high) {
     for (int i = 0; high.turning - low.turning > CLOSE; i++) {
         double width = high.turning - low.turning, min_share = CLOSE / (2.0 * width);
         double turning = low.turning + share * width;
-        double sum = friction_at(balance, turning) + balance->law->inputs.load;
+        double sum = friction_at(balance, turning) + balance->system->inputs.load;
         Point next = {turning, sum - balance->noise};
         bool above = next.excess > 0.0;
         Point before = above ? low : high;
@@ -86,8 +86,8 @@ static double balanced_turning(const Balance *balance, Point low, Point high) {
 /* Whether the vibration alone overcomes the mean `friction` [N] of sliding: the amplitude of its force on the pair must, and
  * so must that of its force on a held slider. */
 static bool breaks_loose(const Balance *balance, double friction) {
-    const Device *device = &balance->law->device;
-    const Bristle *bristle = &balance->law->bristle;
+    const Device *device = &balance->system->device;
+    const Bristle *bristle = &balance->system->bristle;
     double w = balance->fast.frequency, amplitude = balance->fast.velocity / w;
     double force = device_total_mass(device) * w * balance->fast.velocity;
     /* A vibration far shorter than mu / sigma_0 only bends the bristle. */
@@ -95,21 +95,21 @@ static bool breaks_loose(const Balance *balance, double friction) {
     return fmin(force, held_amplitude(device)) > friction * (grip / bristle->coefficient);
 }
 
-Averaged averaged(const Law *law, double normal_lead) {
-    if (law->fast.velocity == 0.0) {
-        return (Averaged){0.0, 0.0, false, false};
+Prediction first_order_prediction(const System *system, double normal_lead) {
+    if (system->fast.velocity == 0.0) {
+        return (Prediction){0.0, 0.0, false, false};
     }
-    Balance balance = balance_of(law, normal_lead);
+    Balance balance = balance_of(system, normal_lead);
     double first = friction_at(&balance, 0.0), last = friction_at(&balance, PI);
-    double load = law->inputs.load;
+    double load = system->inputs.load;
     if (first == last) {
         /* No friction: every velocity is steady without a load, and none with one. */
         double fastest = load != 0.0 ? -copysign(balance.fast.velocity, load) : 0.0;
-        return (Averaged){fastest, 0.0, false, false};
+        return (Prediction){fastest, 0.0, false, false};
     }
     Point low = {0.0, first + load - balance.noise}, high = {PI, last + load - balance.noise};
     double turning = balanced_turning(&balance, low, high);
     bool holds = fabs(load) < first;
-    return (Averaged){balance.fast.velocity * cos(turning), -friction_at(&balance, 0.5 * PI), holds,
+    return (Prediction){balance.fast.velocity * cos(turning), -friction_at(&balance, 0.5 * PI), holds,
                       holds && breaks_loose(&balance, first)};
 }

@@ -1,4 +1,4 @@
-/* A leg: motion without an event, at rest, sliding or in flight, up to the first zero of what it
+/* A segment: motion without an event, at rest, sliding or in flight, up to the first zero of what it
  * watches. */
 #pragma once
 
@@ -9,11 +9,11 @@
 /* What the motion is: rest, sliding or flight in closed form, or either by series: on bending bristles,
  * under a normal load whose frequency changes, and where the closed form would lose digits; or sliding on
  * bending bristles by a panel, and on after it. */
-typedef enum { RESTS, SLIDES, FOLLOWS_SERIES, BENDS_AND_SLIDES } LegKind;
+typedef enum { RESTS, SLIDES, FOLLOWS_SERIES, BENDS_AND_SLIDES } SegmentKind;
 
 /* Begun by a friction law, then followed, up to the first zero of what it watches. */
-typedef struct Leg {
-    LegKind kind;        /* what the motion is */
+typedef struct Segment {
+    SegmentKind kind;    /* what the motion is */
     int mode;            /* contact mode */
     int direction;       /* of sliding, in which the velocity is watched; 0 for none */
     double watched_from; /* from when on it is watched [s] */
@@ -30,36 +30,36 @@ typedef struct Leg {
     bool departs;        /* set before: whether it starts from rest and not at a reversal */
     bool counts_work;    /* set before: whether the work of friction is wanted; it is 0 otherwise */
     KnownPhasors known;  /* set before: the phasors of the start, if they are known; once finished, of the end */
-} Leg;
+} Segment;
 
-/* Computes the phasors at `now`, where the leg begins, unless they are known. */
-void leg_know_phasors(Leg *leg, const Plant *plant, const Moment *now);
+/* Computes the phasors at `now`, where the segment begins, unless they are known. */
+void segment_know_phasors(Segment *segment, const Plant *plant, const Moment *now);
 
 /* Rest. */
-void leg_begin_rest(Leg *leg, const Plant *plant, const Moment *now);
+void segment_begin_rest(Segment *segment, const Plant *plant, const Moment *now);
 
 /* Sliding in `direction` under full friction, or flight in contact mode LIFTED: in closed form, or by
  * series where there is none. */
-void leg_begin_slide(Leg *leg, const Law *law, const Moment *now, int direction);
+void segment_begin_slide(Segment *segment, const System *system, const Moment *now, int direction);
 
 /* Sliding in `direction` while a bristle bends, to a relative `tolerance`, for up to `longest` [s]. */
-void leg_begin_bending(Leg *leg, const Law *law, const Moment *now, int direction, double longest,
-                       double tolerance);
+void segment_begin_bending(Segment *segment, const System *system, const Moment *now, int direction, double longest,
+                           double tolerance);
 
-/* Whether a slider at rest begins to move in the direction of the leg, or not at all. */
-bool leg_departs(Leg *leg);
+/* Whether a slider at rest begins to move in the direction of the segment, or not at all. */
+bool segment_departs(Segment *segment);
 
-/* Follows the leg until it ends, for up to `longest` [s]. */
-void leg_follow(Leg *leg, const Plant *plant, Moment *now, double longest);
+/* Follows the segment until it ends, for up to `longest` [s]. */
+void segment_follow(Segment *segment, const Plant *plant, Moment *now, double longest);
 
-/* Whether the leg ended at a stop of the slider, and whether at a release of it. */
-static inline bool leg_stopped(const Leg *leg) {
-    return leg->zero_of >= 0 && leg->kind != RESTS;
+/* Whether the segment ended at a stop of the slider, and whether at a release of it. */
+static inline bool segment_stopped(const Segment *segment) {
+    return segment->zero_of >= 0 && segment->kind != RESTS;
 }
 
-static inline bool leg_released(const Leg *leg) {
-    return leg->zero_of >= 0 && leg->kind == RESTS;
+static inline bool segment_released(const Segment *segment) {
+    return segment->zero_of >= 0 && segment->kind == RESTS;
 }
 
-/* Moves on to the end of the leg, in its mode. */
-void leg_finish(Leg *leg, const Plant *plant, Moment *now);
+/* Moves on to the end of the segment, in its mode. */
+void segment_finish(Segment *segment, const Plant *plant, Moment *now);

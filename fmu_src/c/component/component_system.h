@@ -1,11 +1,11 @@
-/* The law of the values of a component. */
+/* The system of the values of a component. */
 #pragma once
 
 #include "../base/memory.h"
 #include "../resolved/motion.h"
 #include "variables.h"
 
-/* Tables of friction, to which laws point. They take far more memory than the rest: each is NULL until a law needs it, and
+/* Tables of friction, to which systems point. They take far more memory than the rest: each is NULL until a system needs it, and
  * stays. */
 typedef struct {
     Memory memory;                 /* of the host, where they come from */
@@ -18,6 +18,6 @@ bool all_finite(const double *numbers, size_t count);
 /* The inputs among `values`, with the phase reduced to [-pi, pi]. */
 Inputs reduced_inputs(const double values[SETTABLE_COUNT]);
 
-/* Prepare the law of `values`, and the tables that it needs. Refuse values that do not fit together; `law` is then
+/* Prepare the system of `values`, and the tables that it needs. Refuse values that do not fit together; `system` is then
  * undefined. */
-bool prepare_law(const double values[SETTABLE_COUNT], Tables *tables, Law *law, Refusal *refusal);
+bool prepare_law(const double values[SETTABLE_COUNT], Tables *tables, System *system, Refusal *refusal);

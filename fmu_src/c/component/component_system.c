@@ -1,4 +1,4 @@
-#include "component_law.h"
+#include "component_system.h"
 
 #include "../averaged/friction_table.h"
 #include "../friction/bending_kernels.h"
@@ -17,14 +17,14 @@ bool all_finite(const double *numbers, size_t count) {
 /* Whether all coefficients are finite numbers, and so are bounds of what motion and averages compute: the square of the fast
  * velocity [m^2/s^2], the drag over mu, and the integrals of load and friction [N]. The slider's mass must count beside the
  * resonator's. */
-static bool law_is_finite(const Law *law) {
-    const Plant *plant = &law->plant;
-    const Device *device = &law->device;
-    double fast = law->fast.velocity;
-    double mu = law->bristle.coefficient;
-    double drag = law->bristle.damping * fmax(fast, fabs(device->initial_velocity));
+static bool system_is_finite(const System *system) {
+    const Plant *plant = &system->plant;
+    const Device *device = &system->device;
+    double fast = system->fast.velocity;
+    double mu = system->bristle.coefficient;
+    double drag = system->bristle.damping * fmax(fast, fabs(device->initial_velocity));
     double drag_over_mu = drag / (mu > 0.0 ? mu : 1.0); /* without friction there is no drag */
-    double bent = fabs(bristle_bent(&law->bristle, device->initial_bristle_deflection));
+    double bent = fabs(bristle_bent(&system->bristle, device->initial_bristle_deflection));
     double friction = device->friction_faces * (mu + drag + bent * (1.0 + drag_over_mu));
     double strongest = TAU * (device->normal_preload + device->normal_amplitude) * (1.0 + friction);
     const double numbers[] = {
@@ -90,23 +90,23 @@ static void *table_of(const Memory *memory, void *kept, size_t size) {
     return kept != NULL ? kept : memory->allocate(memory->host, size);
 }
 
-/* Make the table that a law needs, and let it point to that. */
-static bool provide_table(Tables *tables, Law *law, Refusal *refusal) {
-    if (!is_elastic(&law->bristle)) {
+/* Make the table that a system needs, and let it point to that. */
+static bool provide_table(Tables *tables, System *system, Refusal *refusal) {
+    if (!is_elastic(&system->bristle)) {
         return true;
     }
-    if (law->motion->averages) {
+    if (system->motion->averages) {
         tables->means = table_of(&tables->memory, tables->means, sizeof *tables->means);
-        law->tables = tables->means;
+        system->tables = tables->means;
     } else {
         tables->bending = table_of(&tables->memory, tables->bending, sizeof *tables->bending);
-        law->bending = tables->bending;
+        system->bending = tables->bending;
     }
-    return law->tables != NULL || law->bending != NULL
+    return system->tables != NULL || system->bending != NULL
            || refuse(refusal, "out of memory: the host gives none for tables of friction");
 }
 
-bool prepare_law(const double values[SETTABLE_COUNT], Tables *tables, Law *law, Refusal *refusal) {
+bool prepare_law(const double values[SETTABLE_COUNT], Tables *tables, System *system, Refusal *refusal) {
     Device device = driven_device(values);
     Inputs inputs = reduced_inputs(values);
     const Variable *frequency = &VARIABLES[VR_DRIVE_FREQUENCY];
@@ -115,9 +115,9 @@ bool prepare_law(const double values[SETTABLE_COUNT], Tables *tables, Law *law, 
                                      frequency->requirement);
     }
     const Motion *motion = motion_of(&device);
-    if (!law_prepare(law, &device, &inputs, refusal)) {
+    if (!system_prepare(system, &device, &inputs, refusal)) {
         return false;
     }
-    law->motion = motion;
-    return (law_is_finite(law) || refuse_extreme(values, refusal)) && provide_table(tables, law, refusal);
+    system->motion = motion;
+    return (system_is_finite(system) || refuse_extreme(values, refusal)) && provide_table(tables, system, refusal);
 }
