@@ -10,7 +10,7 @@ SETTABLE = [v for v in VARIABLES if v.causality != "output"]
 FIELDS = (
     *("lifecycle", "time", "time_carry", "stop_time", "last_event_time"),
     *("phase_derivative", "phase_is_new", "load_derivative", "load_is_new"),
-    *("ratio_derivative", "ratio_is_new", "moving"),
+    *("ratio_derivative", "ratio_is_new"),
     *("velocity", "displacement", "rate", "position", "theta", "psi", "mode"),
     *("sliding", "reversals", "sticks", "event_age"),
     *("travel", "work", "elapsed", "sticking", "complete"),

@@ -58,7 +58,6 @@ def test_the_layout_is_that_of_any_platform(instance: Instance, unpacked: Unpack
         ({"sliding": math.nan}, "sliding = nan; must be an integer from -1 to 1"),
         ({"lifecycle": 4.0}, "lifecycle = 4.0; must be an integer from 0 to 3"),
         ({"complete": -1.0}, "complete = -1.0; must be an integer from 0 to 1"),
-        ({"moving": 0.0}, "it holds no motion"),
         ({"load": math.nan}, "load = nan refused: must be a finite number"),
         ({"slider_mass": 0.0}, "slider_mass = 0.0 refused: must be a finite number of at least"),
         ({"friction_faces": 1.5}, "friction_faces = 1.5 refused: must be an integer"),

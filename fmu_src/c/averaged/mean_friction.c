@@ -20,11 +20,7 @@ static const double EDGE[EDGES] = {0.0, 0.05, 0.15, 0.35, 0.65, 1.0};
 /* Narrowest part [rad] that is kept apart: what is narrower adds no more than rounding. */
 #define NARROW 1e-12
 
-/* Waves of the normal load over a turn of the drive beyond which only its mean counts: what they
- * add to the mean friction falls with their number, to less than 1e-3 of full friction. */
-#define MAX_WAVES 1000.0
-
-/* The same for the mean power: friction times velocity has no jump, so that what waves add falls with the
+/* MAX_WAVES for the mean power: friction times velocity has no jump, so that what waves add falls with the
  * square of their number, to less than 1e-8 of full power. */
 #define MAX_POWER_WAVES 10000.0
 
@@ -109,10 +105,8 @@ static void gather(Quadrature *over, double angle, double friction) {
         return;
     }
     over->sum[PLAIN] += friction;
-    if (over->waves != 0.0) {
-        over->sum[SINE] += friction * sin(over->waves * angle);
-        over->sum[COSINE] += friction * cos(over->waves * angle);
-    }
+    over->sum[SINE] += friction * sin(over->waves * angle);
+    over->sum[COSINE] += friction * cos(over->waves * angle);
 }
 
 static void integrate_panel(Quadrature *over, const Arc *arc, double low, double high) {
@@ -219,10 +213,10 @@ double mean_friction(const Bristle *bristle, const FastMotion *fast, const Vibra
 
 void friction_means(const Bristle *bristle, const FastMotion *fast, double n, double turning,
                     double means[MEANS]) {
-    double mu = bristle->coefficient, waves = fabs(n) <= MAX_WAVES ? n : 0.0;
-    Quadrature over = {.bristle = bristle, .fast = fast, .waves = waves};
+    double mu = bristle->coefficient;
+    Quadrature over = {.bristle = bristle, .fast = fast, .waves = n};
     over.sum[PLAIN] = mu * (TAU - 4.0 * turning);
-    over.sum[COSINE] = waves != 0.0 ? -4.0 * mu * sin(n * turning) / n : 0.0;
+    over.sum[COSINE] = -4.0 * mu * sin(n * turning) / n;
     integrate_turn(&over, turning);
     for (int i = 0; i < MEANS; i++) {
         means[i] = over.sum[i] / TAU;

@@ -14,6 +14,10 @@ typedef struct {
     double velocity, frequency;
 } FastMotion;
 
+/* Waves of the normal load over a turn of the drive beyond which only its mean counts: what they add to the mean friction falls
+ * with their number, to less than 1e-3 of full friction. */
+#define MAX_WAVES 1000.0
+
 /* Means over a turn of tau of the friction per unit load, times 1, sin(n tau) and cos(n tau). */
 enum { PLAIN, SINE, COSINE, MEANS };
 

@@ -26,10 +26,8 @@ static const char *const STEPS = "steps of averaged motion";
 /* Decay over a step below which a velocity is constant. */
 #define NO_DECAY 1e-6
 
-/* Number of waves of the normal load over a turn that doubles the cost of a quadrature, and number beyond
- * which the load counts with its mean. */
+/* Number of waves of the normal load over a turn that doubles the cost of a quadrature. */
 #define WAVES 10.0
-#define MAX_WAVES 1000.0
 
 /* Lower limit of the number of steps that is accepted. */
 enum { MIN_STEPS = 16 };

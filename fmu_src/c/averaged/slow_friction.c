@@ -42,7 +42,7 @@ static const FrictionTable *table_of(const SlowFriction *slow) {
 SlowFriction slow_friction_of(const System *system, double theta, double psi) {
     const Device *device = &system->device;
     double w = device->drive_frequency, first = system->inputs.frequency_ratio, middle = system->middle_ratio;
-    int turns = turns_to_repeat(device, middle, NEAR);
+    int turns = turns_to_repeat(middle, max_turns_to_repeat(device), NEAR);
     double waves = turns > 0 ? nearbyint(turns * middle) / turns : first;
     double phase = system->inputs.phase + psi - waves * theta + waves * system->fast.lag;
     SlowFriction slow = {.system = system, .bristle = system->bristle, .fast = {system->fast.velocity, w}};

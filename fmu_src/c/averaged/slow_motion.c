@@ -91,13 +91,9 @@ static Rates rates(const System *system, const Moment *moment) {
 /* Share of mean friction in the inertia of the vibration, faces mu N0 / (Mt w v_q): the small number by which averages
  * expand. What bristles damp counts, too. */
 static double friction_share(const System *system) {
-    const Device *device = &system->device;
-    const Bristle *bristle = &system->bristle;
-    double w = device->drive_frequency, fast = system->fast.velocity;
-    double normal = fmax(device->normal_preload, device->normal_amplitude / PI);
-    double resisting = bristle->coefficient * hypot(1.0, damping_share(bristle, fast, w));
-    double friction = device->friction_faces * resisting * normal;
-    return friction / (device_total_mass(device) * w * fast);
+    double w = system->device.drive_frequency, fast = system->fast.velocity;
+    double friction = full_friction(&system->device) * hypot(1.0, damping_share(&system->bristle, fast, w));
+    return friction / (system->plant.total_mass * w * fast);
 }
 
 /* Decay in a turn of the drive, as an exponent, of the resonator's own vibration or of a bend of the bristle, the slower

@@ -10,12 +10,15 @@ static inline Clock clock_of(double duration) {
     return (Clock){duration, 0.0, 0.0};
 }
 
-/* Advances by `t` [s] and returns the time left [s]; two-sum keeps the rounding errors. */
+/* The rounding error of `a` + `b` (two-sum). */
+static inline double lost_in_sum(double a, double b) {
+    double sum = a + b, added = sum - a;
+    return (a - (sum - added)) + (b - added);
+}
+
+/* Advances by `t` [s] and returns the time left [s]. */
 static inline double clock_advance(Clock *clock, double t) {
-    double before = clock->elapsed;
-    double total = before + t;
-    double carried = total - before;
-    clock->carry += (before - (total - carried)) + (t - carried);
-    clock->elapsed = total;
-    return (clock->duration - total) - clock->carry;
+    clock->carry += lost_in_sum(clock->elapsed, t);
+    clock->elapsed += t;
+    return (clock->duration - clock->elapsed) - clock->carry;
 }

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "../base/clock.h"
 #include "ramped_step.h"
 #include "values.h"
 
@@ -18,7 +19,7 @@ void component_end(Component *component) {
 /* Prepare the system of `values`; it replaces the present system unless it is refused. */
 static bool prepare(Component *component, const double values[SETTABLE_COUNT], Refusal *refusal) {
     System system;
-    if (!prepare_law(values, &component->tables, &system, refusal)) {
+    if (!prepare_system(values, &component->tables, &system, refusal)) {
         return false;
     }
     component->system = system;
@@ -59,7 +60,6 @@ bool component_exit_initialization(Component *component, Refusal *refusal) {
         return false;
     }
     component->now.moment = component->system.motion->start(&component->system);
-    component->now.moving = true;
     component->now.lifecycle = STEP_COMPLETE;
     return true;
 }
@@ -121,7 +121,7 @@ static bool moment_to_read(Component *component, unsigned reference, Moment *fir
         return false;
     }
     *moment = &component->now.moment;
-    if (!component->now.moving) {
+    if (!has_begun(component->now.lifecycle)) {
         *first = component->system.motion->start(&component->system);
         *moment = first;
     }
@@ -204,8 +204,8 @@ static bool find_end(Component *component, double time, double step_size, double
            || refuse_infinite_motion(refusal, step_size);
 }
 
-/* Go on to the end of a step, `elapsed` [s] after `time` [s]. */
-static bool go_on(Component *component, const StepEnd *end, double time, double elapsed,
+/* Accept a step: go on to its end, `elapsed` [s] after `time` [s]. */
+static bool accept_step(Component *component, const StepEnd *end, double time, double elapsed,
                   Refusal *refusal) {
     Snapshot *now = &component->now;
     double age = end->moment.event_age;
@@ -225,18 +225,12 @@ static bool go_on(Component *component, const StepEnd *end, double time, double 
 bool component_step(Component *component, double time, double step_size, Refusal *refusal) {
     StepEnd end;
     return find_end(component, time, step_size, step_size, NULL, &end, refusal)
-           && go_on(component, &end, time, step_size, refusal);
+           && accept_step(component, &end, time, step_size, refusal);
 }
 
 /* Smallest time [s] by which a later time must differ from `time` [s] to be another number. */
 static double time_resolution(double time) {
     return 2.0 * (nextafter(fabs(time), INFINITY) - fabs(time));
-}
-
-/* The rounding error of `time` + `elapsed` [s]. */
-static double lost_in_sum(double time, double elapsed) {
-    double end = time + elapsed, added = end - time;
-    return (time - (end - added)) + (elapsed - added);
 }
 
 /* The part of the carry [s] that a step makes up for: at most half its size. */
@@ -260,7 +254,7 @@ bool component_step_to_event(Component *component, double time, double step_size
     }
     bool early = search.found && search.elapsed < duration;
     double elapsed = early ? search.elapsed + owed : step_size;
-    if (!go_on(component, &end, time, elapsed, refusal)) {
+    if (!accept_step(component, &end, time, elapsed, refusal)) {
         return false;
     }
     now->time_carry = now->time_carry - owed + (lost_in_sum(time, elapsed) + search.carry);
@@ -279,10 +273,11 @@ bool component_enter_step_mode(Component *component, Refusal *refusal) {
 }
 
 bool component_restore(Component *component, const Snapshot *snapshot, Refusal *refusal) {
-    if (snapshot->moving && !prepare(component, snapshot->values, refusal)) {
+    bool begun = has_begun(snapshot->lifecycle);
+    if (begun && !prepare(component, snapshot->values, refusal)) {
         return false;
     }
-    component->prepared = snapshot->moving;
+    component->prepared = begun;
     component->now = *snapshot;
     return true;
 }

@@ -106,7 +106,7 @@ static bool provide_table(Tables *tables, System *system, Refusal *refusal) {
            || refuse(refusal, "out of memory: the host gives none for tables of friction");
 }
 
-bool prepare_law(const double values[SETTABLE_COUNT], Tables *tables, System *system, Refusal *refusal) {
+bool prepare_system(const double values[SETTABLE_COUNT], Tables *tables, System *system, Refusal *refusal) {
     Device device = driven_device(values);
     Inputs inputs = reduced_inputs(values);
     const Variable *frequency = &VARIABLES[VR_DRIVE_FREQUENCY];

@@ -20,4 +20,4 @@ Inputs reduced_inputs(const double values[SETTABLE_COUNT]);
 
 /* Prepare the system of `values`, and the tables that it needs. Refuse values that do not fit together; `system` is then
  * undefined. */
-bool prepare_law(const double values[SETTABLE_COUNT], Tables *tables, System *system, Refusal *refusal);
+bool prepare_system(const double values[SETTABLE_COUNT], Tables *tables, System *system, Refusal *refusal);

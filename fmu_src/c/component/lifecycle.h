@@ -46,6 +46,11 @@ typedef struct {
 /* The version that this FMU is for. */
 extern const FmiVersion FMI;
 
+/* Whether initialization has ended. */
+static inline bool has_begun(Lifecycle state) {
+    return state >= STEP_COMPLETE;
+}
+
 /* Whether initialization has ended and the simulation has not. */
 static inline bool is_running(Lifecycle state) {
     return state == STEP_COMPLETE || state == EVENT_MODE;

@@ -11,7 +11,7 @@ static Response resonator_swing(const System *system, const Moment *moment) {
     if (plant->resolves_resonator) {
         return (Response){moment->state.displacement, moment->state.rate};
     }
-    return steady_swing(plant->resonator_amplitude, moment->theta, plant->drive_frequency);
+    return steady_swing(system->fast.resonator, moment->theta, plant->drive_frequency);
 }
 
 static double normal_force(const System *system, const Moment *moment) {

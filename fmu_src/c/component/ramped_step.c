@@ -48,7 +48,7 @@ static bool prepare_part(System *system, Tables *tables, const double values[SET
     double middle[SETTABLE_COUNT];
     memcpy(middle, values, sizeof middle);
     middle[VR_FREQUENCY_RATIO] = ramp->ratio + 0.5 * ramp->ratio_rate * duration;
-    if (!prepare_law(middle, tables, system, refusal)) {
+    if (!prepare_system(middle, tables, system, refusal)) {
         return false;
     }
     system_ramp(system, ramp, duration);

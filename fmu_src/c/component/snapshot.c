@@ -34,7 +34,6 @@ static const Field FIELDS[] = {
     FIELD(derivatives[1].is_new, FLAG, 0, 1),
     FIELD(derivatives[2].value, FINITE, 0, 0),
     FIELD(derivatives[2].is_new, FLAG, 0, 1),
-    FIELD(moving, FLAG, 0, 1),
     FIELD(moment.state.velocity, FINITE, 0, 0),
     FIELD(moment.state.displacement, FINITE, 0, 0),
     FIELD(moment.state.rate, FINITE, 0, 0),
@@ -153,6 +152,5 @@ bool snapshot_read(Snapshot *snapshot, const unsigned char *bytes, size_t size, 
         }
         snapshot->values[i] = number;
     }
-    bool needs_motion = is_running(snapshot->lifecycle) || snapshot->lifecycle == TERMINATED;
-    return snapshot->moving || !needs_motion || refuse_state_without_motion(refusal);
+    return true;
 }

@@ -13,8 +13,7 @@ typedef struct {
     double last_event_time;                   /* time of the last event [s] */
     double values[SETTABLE_COUNT];            /* of the variables that can be set, by reference */
     InputDerivative derivatives[VARYING_COUNT]; /* of the inputs, per s */
-    bool moving;                              /* whether initialization has ended */
-    Moment moment;                            /* defined while `moving` */
+    Moment moment;                            /* defined once initialization has ended */
 } Snapshot;
 
 /* Number of bytes of any snapshot. */

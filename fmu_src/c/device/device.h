@@ -14,6 +14,12 @@ static inline double device_mass_fraction(const Device *device) {
     return device->resonator_mass / device_total_mass(device);
 }
 
+/* Mean friction [N] of sliding in one direction, but for the shape of a clipped load. */
+static inline double full_friction(const Device *device) {
+    double normal = fmax(device->normal_preload, device->normal_amplitude / PI);
+    return device->friction_faces * device->friction_coefficient * normal;
+}
+
 /* Slider velocity [m/s], resonator displacement [m] and velocity [m/s]. */
 typedef struct {
     double velocity, displacement, rate;

@@ -7,6 +7,12 @@
  * has no correct digit there. */
 #define AT_RESONANCE (8.0 * EPSILON)
 
+/* Whether undamped resonance leaves no steady vibration. */
+static bool is_unbounded(const Device *device, const Oscillator *oscillator) {
+    double square = device->drive_frequency * device->drive_frequency;
+    return device->damping_ratio == 0.0 && fabs(oscillator->stiffness - square) <= AT_RESONANCE * square;
+}
+
 /* The resonator against a free slider (eq. 31 divided by 1 - r_m). */
 static Oscillator slip_oscillator(const Device *device) {
     double free_share = device->slider_mass / device_total_mass(device);
@@ -19,7 +25,7 @@ static Oscillator slip_oscillator(const Device *device) {
 static bool steady_vibration(const Device *device, Complex *resonator, Complex *force, Refusal *refusal) {
     double w = device->drive_frequency;
     Oscillator oscillator = slip_oscillator(device);
-    if (device->damping_ratio == 0.0 && fabs(oscillator.stiffness - w * w) <= AT_RESONANCE * w * w) {
+    if (is_unbounded(device, &oscillator)) {
         return refuse_unbounded_resonance(refusal, device->damping_ratio, w);
     }
     double push = device->base_amplitude * w * w - device->tangential_force / device->slider_mass;
@@ -33,7 +39,7 @@ static bool steady_vibration(const Device *device, Complex *resonator, Complex *
 double held_amplitude(const Device *device) {
     double w = device->drive_frequency, wn = device->resonator_frequency;
     Oscillator oscillator = oscillator_of(device->damping_ratio * wn, wn * wn);
-    if (device->damping_ratio == 0.0 && fabs(oscillator.stiffness - w * w) <= AT_RESONANCE * w * w) {
+    if (is_unbounded(device, &oscillator)) {
         return INFINITY;
     }
     Complex swing = complex_scale(w * w, transfer(&oscillator, w));
@@ -77,8 +83,8 @@ bool plant_prepare(Plant *plant, const Device *device, const Inputs *inputs, Ref
     bool full = device->fidelity == 2;
     double base_acceleration = device->base_amplitude * w * w;
     Complex force = complex_of(m * base_acceleration + device->tangential_force, 0.0);
-    Complex resonator_amplitude = complex_of(0.0, 0.0);
-    if (!full && !steady_vibration(device, &resonator_amplitude, &force, refusal)) {
+    Complex resonator;
+    if (!full && !steady_vibration(device, &resonator, &force, refusal)) {
         return false;
     }
     plant->slider_mass = full ? device->slider_mass : total;
@@ -101,6 +107,5 @@ bool plant_prepare(Plant *plant, const Device *device, const Inputs *inputs, Ref
     plant->spring = full ? m * wn * wn : 0.0;
     plant->damper = full ? 2.0 * device->damping_ratio * m * wn : 0.0;
     plant->resolves_resonator = full;
-    plant->resonator_amplitude = resonator_amplitude;
     return true;
 }

@@ -24,8 +24,7 @@ typedef struct {
 /* Coefficients under held inputs (SI units; complex numbers are amplitudes of e).
  *
  * At fidelity 1 (and 0) the resonator acts by its steady force only: `slider_mass` is the total mass,
- * `mass_fraction`, `spring` and `damper` are 0, `resonator_amplitude` is the steady displacement of the
- * resonator [m], and `resolves_resonator` is false. `holding_drive` is the part of the force on a held slider
+ * `mass_fraction`, `spring` and `damper` are 0, and `resolves_resonator` is false. `holding_drive` is the part of the force on a held slider
  * that follows the drive directly [N].
  *
  * While inputs vary, the load grows by `load_rate` [N/s] and the normal frequency by `normal_rate`
@@ -44,7 +43,6 @@ typedef struct {
     Complex holding_drive;                       /* direct force on a held slider [N] */
     double spring, damper;                       /* k [N/m] and c [N s/m] */
     bool resolves_resonator;                     /* whether the resonator moves by its own equation */
-    Complex resonator_amplitude;                 /* its steady displacement [m] where it does not */
 } Plant;
 
 /* Angle [rad] that the normal load turns by in `t` [s]. */

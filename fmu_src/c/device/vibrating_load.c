@@ -23,10 +23,9 @@ int max_turns_to_repeat(const Device *device) {
     return device->normal_amplitude > device->normal_preload ? MAX_TURNS_TO_REPEAT : 1;
 }
 
-int turns_to_repeat(const Device *device, double ratio, double tolerance) {
-    int max_turns = max_turns_to_repeat(device);
+int turns_to_repeat(double ratio, int max_turns, double near) {
     for (int turns = 1; turns <= max_turns; turns++) {
-        if (fabs(turns * ratio - nearbyint(turns * ratio)) <= tolerance / turns) {
+        if (fabs(turns * ratio - nearbyint(turns * ratio)) <= fmax(near / turns, EXACT)) {
             return turns;
         }
     }
@@ -53,7 +52,7 @@ VibratingLoad vibrating_load_of(const Device *device, double ratio, double delta
     load.dip = vibrating_load_lifts(&load) ? asin(load.preload / load.amplitude) : 0.5 * PI;
     load.cos_dip = cos(load.dip);
     load.per_turn = in_turn(&load, PI + 2.0 * load.dip);
-    load.turns = turns_to_repeat(device, ratio, EXACT);
+    load.turns = turns_to_repeat(ratio, max_turns_to_repeat(device), 0.0);
     load.is_constant = stands(&load) || load.turns == 0;
     load.constant = stands(&load) ? in_contact(&load, delta) : load.per_turn / TAU;
     return load;

@@ -12,13 +12,12 @@ enum { MAX_TURNS_TO_REPEAT = 4 };
 /* Distance of a ratio from a fraction up to which it is due to rounding. */
 #define EXACT 1e-12
 
-/* Number of turns q of the drive after which the load repeats, at a ratio n / q; 0 if it does not repeat.
- *
- * `tolerance` is the largest distance of q ratio from an integer, times q. Without flight the load is a sine
- * and q is 1: over several turns it would average out. */
-int turns_to_repeat(const Device *device, double ratio, double tolerance);
+/* Smallest number of turns q of the drive after which a load repeats; 0 above `max_turns`. Then q `ratio` is an integer, but
+ * for rounding or a distance of at most `near` / q. */
+int turns_to_repeat(double ratio, int max_turns, double near);
 
-/* Largest number of turns that turns_to_repeat may return. */
+/* Largest number of turns after which the phase of a load counts in averages. Without flight the load is a sine: over
+ * several turns it would average out. */
 int max_turns_to_repeat(const Device *device);
 
 /* N(n tau + delta) with lift-off, in N, averaged over the `turns` of the drive after which it

@@ -68,15 +68,12 @@ bool period_map_prepare(PeriodMap *map, const System *system, int max_turns) {
     map->system = *system;
     map->tolerance = system->device.tolerance;
     map->system.device.tolerance = fmin(system->device.tolerance, MAP_TOLERANCE);
-    const Device *device = &map->system.device;
     const Plant *plant = &map->system.plant;
     map->turns = repeating_turns(system, max_turns, &map->drift);
     map->period = TAU * map->turns / plant->drive_frequency;
     map->section = within_turn(map->system.fast.lag + PI);
     map->speed = map->system.fast.velocity;
-    double normal = fmax(device->normal_preload, device->normal_amplitude / PI);
-    double full = device->friction_faces * device->friction_coefficient * normal;
-    map->share = full * map->period / (plant->total_mass * map->speed);
+    map->share = full_friction(&system->device) * map->period / (plant->total_mass * map->speed);
     prepare_fast_states(map);
     return map->decay < 1.0 && prepare_resolvent(map, &plant->slip);
 }
@@ -86,11 +83,6 @@ double psi_after(const PeriodMap *map, double psi, double periods) {
     double t = periods * map->period;
     double chirp = 0.5 * plant->normal_rate * t * t;
     return within_turn(psi + remainder(map->drift * periods + chirp, TAU));
-}
-
-double drift_after(const PeriodMap *map, double periods) {
-    double chirp = map->system.plant.normal_rate * map->period * map->period;
-    return map->drift + chirp * periods;
 }
 
 void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_FAST], double psi,

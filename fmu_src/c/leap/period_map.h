@@ -47,9 +47,6 @@ bool period_map_prepare(PeriodMap *map, const System *system, int max_turns);
  * between whole periods, that of a section which the drift would bring there. */
 double psi_after(const PeriodMap *map, double psi, double periods);
 
-/* Drift of that phase in a period [rad], `periods` after the inputs began to grow. */
-double drift_after(const PeriodMap *map, double periods);
-
 /* Put a moment to the slow velocity V [m/s] and the fast states of a section at normal phase `psi` [rad]. */
 void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_FAST], double psi,
                   Moment *moment);

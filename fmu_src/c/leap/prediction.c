@@ -10,16 +10,8 @@
 enum { MAX_TURNS_OF_LOAD = 32 };
 
 int turns_of_load(const System *system) {
-    if (system->device.normal_amplitude == 0.0) {
-        return 1;
-    }
-    double ratio = system->inputs.frequency_ratio;
-    for (int turns = 1; turns <= MAX_TURNS_OF_LOAD; turns++) {
-        if (fabs(turns * ratio - nearbyint(turns * ratio)) <= EXACT) {
-            return turns;
-        }
-    }
-    return 0;
+    double ratio = system->device.normal_amplitude > 0.0 ? system->inputs.frequency_ratio : 0.0;
+    return turns_to_repeat(ratio, MAX_TURNS_OF_LOAD, 0.0);
 }
 
 /* Change of an unknown by which derivatives are taken. */

@@ -185,7 +185,8 @@ static bool rate_at(void *data, double n, double velocity, SlowRate *rate) {
 }
 
 double periods_in_beat(const PeriodMap *map, double n) {
-    return PI / 4.0 / fabs(drift_after(map, n));
+    double chirp = map->system.plant.normal_rate * map->period * map->period;
+    return PI / 4.0 / fabs(map->drift + chirp * n);
 }
 
 double expected_step(const SlowPath *path) {

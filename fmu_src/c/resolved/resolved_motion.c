@@ -12,7 +12,7 @@ Moment resolved_start(const System *system) {
     const Plant *plant = &system->plant;
     Moment first = first_moment(device);
     if (!plant->resolves_resonator) {
-        double rate = steady_swing(plant->resonator_amplitude, 0.0, plant->drive_frequency).rate;
+        double rate = steady_swing(system->fast.resonator, 0.0, plant->drive_frequency).rate;
         first.state.velocity += device_mass_fraction(device) * (first.state.rate - rate);
     }
     first.mode = system->friction->mode(system, &first);
@@ -61,7 +61,7 @@ Rates resolved_rates(const System *system, const Moment *moment) {
                      2.0 * plant->stick.decay * moment->state.rate -
                      plant->stick.stiffness * moment->state.displacement - rates.velocity;
     } else {
-        Response swing = steady_swing(plant->resonator_amplitude, moment->theta, w);
+        Response swing = steady_swing(system->fast.resonator, moment->theta, w);
         rates.displacement = swing.rate;
         rates.rate = -w * w * swing.displacement;
     }

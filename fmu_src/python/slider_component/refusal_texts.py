@@ -89,5 +89,3 @@ OUT_OF_RANGE_IN_STATE = (
 )
 
 PHASE_IN_STATE = "FMU state refused: {name} = {value}; must be a phase from 0 to 2 pi"
-
-STATE_WITHOUT_MOTION = "FMU state refused: it holds no motion; must be one after initialization"

@@ -93,7 +93,7 @@ def _state(plain: object) -> State:
         numbers = _entries("moment", stored["moment"], [f.name for f in fields(Moment)])
         moment = Moment(*(_number(f.name, numbers[f.name], f.type) for f in fields(Moment)))
     elif lifecycle in (Lifecycle.STEP_COMPLETE, Lifecycle.TERMINATED):
-        raise Refusal(refusal_texts.STATE_WITHOUT_MOTION)
+        raise Refusal("FMU state refused: it holds no motion; must be one after initialization")
     return State(lifecycle, **times, values=values, moment=moment)
 
 
