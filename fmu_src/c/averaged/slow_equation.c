@@ -139,8 +139,8 @@ static double first_step(const SlowFriction *friction, double duration) {
 }
 
 /* One step of `h` [s] near a steady velocity, under rates that do not depend on time: the acceleration is linear in the
- * velocity, with a derivative `gain`; a positive one, which is rounding, counts as 0. The error is what the acceleration at
- * the end tells. Return false where the velocity would change by more than a share LINEAR of the fast one. */
+ * velocity, with a derivative `gain`; a positive one, which is rounding, counts as 0. The error is by the residual of the
+ * acceleration at the end. Return false where the velocity would change by more than a share LINEAR of the fast one. */
 static bool linear_step(SlowFriction *friction, const SlowPoint *from, double gain, double h, SlowStep *step) {
     double acceleration = from->rate.acceleration, z = h * fmin(0.0, gain), decayed = exp(z);
     double mean = z < -NO_DECAY ? expm1(z) / z : 1.0, change = h * acceleration * mean;

@@ -59,7 +59,7 @@ static bool averaged_advance(const System *system, const Moment *moment, double 
 /* Mean friction force [N] over a drive period, positive against +X. */
 static double force(const System *system, const Moment *moment, int contact_mode) {
     (void)contact_mode;
-    double velocity = period_mean_velocity(&moment->means, moment->state.velocity);
+    double velocity = slow_velocity(system, &moment->state, moment->theta);
     SlowFriction friction = slow_friction_of(system, moment->theta, moment->psi);
     if (system->fast.velocity == 0.0 && velocity == 0.0) {
         double full = slow_friction_at(&friction, 0.0, INFINITY);
@@ -70,7 +70,7 @@ static double force(const System *system, const Moment *moment, int contact_mode
 
 /* Mean power of friction [W] over a drive period, of slow motion and vibration. */
 static double power(const System *system, const Moment *moment) {
-    double velocity = period_mean_velocity(&moment->means, moment->state.velocity);
+    double velocity = slow_velocity(system, &moment->state, moment->theta);
     if (system->fast.velocity == 0.0) {
         return force(system, moment, STICK) * velocity;
     }
@@ -88,12 +88,12 @@ static Rates rates(const System *system, const Moment *moment) {
     return (Rates){state, slow};
 }
 
-/* Share of mean friction in the inertia of the vibration, faces mu N0 / (Mt w v_q): the small number by which averages
- * expand. What bristles damp counts, too. */
-static double friction_share(const System *system) {
-    double w = system->device.drive_frequency, fast = system->fast.velocity;
-    double friction = full_friction(&system->device) * hypot(1.0, damping_share(&system->bristle, fast, w));
-    return friction / (system->plant.total_mass * w * fast);
+/* Velocity [m/s] that mean friction changes in a radian of the drive, faces mu N0 / (Mt w), what bristles damp included: over v_q
+ * it is the small number by which averages expand. */
+static double friction_in_radian(const System *system) {
+    double w = system->device.drive_frequency;
+    double damping = damping_share(&system->bristle, system->fast.velocity, w);
+    return full_friction(&system->device) * hypot(1.0, damping) / (system->plant.total_mass * w);
 }
 
 /* Decay in a turn of the drive, as an exponent, of the resonator's own vibration or of a bend of the bristle, the slower
@@ -101,22 +101,25 @@ static double friction_share(const System *system) {
 static double decay_in_turn(const System *system) {
     const Device *device = &system->device;
     double w = device->drive_frequency, path = 4.0 * system->fast.velocity / w;
-    double bend_decay = system->bristle.stiffness * path / system->bristle.coefficient;
+    const Bristle *bristle = &system->bristle;
+    double bend_decay = is_elastic(bristle) ? bristle->stiffness * path / bristle->coefficient : INFINITY;
     if (device->resonator_mass == 0.0) {
         return bend_decay;
     }
     return fmin(slower_decay(&system->plant.slip) * TAU / w, bend_decay);
 }
 
-/* In proportion to the share of friction in the inertia of the vibration. */
+/* In proportion to the velocity that friction changes in a radian. Where nothing vibrates, friction is constant and averages are
+ * exact. */
 static double error(const System *system, const Moment *moment) {
     (void)moment;
-    double share = system->fast.velocity > 0.0 ? friction_share(system) : 0.0;
-    if (!(share > 0.0)) {
+    double fast = system->fast.velocity, changed = friction_in_radian(system);
+    bool vibrates = fast > 0.0 || (system->device.normal_amplitude > 0.0 && system->plant.normal_frequency != 0.0);
+    if (!vibrates || !(changed > 0.0)) {
         return 0.0;
     }
     double decay = decay_in_turn(system), swing = decay > 0.0 ? 1.0 + 1.0 / decay : INFINITY;
-    return fmin(FIRST_ORDER * share * swing, 1.0) * system->fast.velocity;
+    return fmin(FIRST_ORDER * changed * swing, fmax(fast, changed));
 }
 
 /* The time in which the normal load has one slow phase. */

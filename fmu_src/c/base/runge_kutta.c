@@ -47,7 +47,8 @@ bool runge_kutta_step(SlowRateFunction rate, void *motion, const SlowPoint *from
     }
     to.rate = rates[STAGES - 1];
     double risen = to.rate.acceleration - rates[STAGES - 2].acceleration;
-    *step = (SlowStep){to, h * gained, fabs(error), risen / (to.velocity - before), risen};
+    double moved = to.velocity - before, gain = moved != 0.0 ? risen / moved : 0.0;
+    *step = (SlowStep){to, h * gained, fabs(error), gain, risen};
     return true;
 }
 

@@ -112,7 +112,7 @@ static bool field_check(const Field *field, double number, Refusal *refusal) {
     }
     if (field->kind == PHASE) {
         /* A turn where rounding takes a phase below 0 up to it, and a period that counts as ended before its end. */
-        return (number >= -MARK_TOLERANCE && number <= TAU)
+        return (number >= -PERIOD_END_TOLERANCE && number <= TAU)
                || refuse_phase_in_state(refusal, field->name, number_text(number, text));
     }
     int maximum = field->kind == LIFECYCLE ? FMI.states - 1 : field->maximum;

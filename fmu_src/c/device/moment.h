@@ -45,7 +45,7 @@ typedef struct {
 /* `stops` determine where the search for a stop begins, and so the last digit of the time that it finds: as part of the
  * state they make a replay equal to the last bit. */
 typedef struct {
-    State state;       /* velocities [m/s] of slider and resonator, displacement [m] of the resonator */
+    State state;       /* velocity [m/s] of the slider; those of the resonator where it is resolved */
     double position;   /* of the slider [m] */
     double theta, psi; /* phases of the drive and of the normal load [rad], without the input `phase` */
     int mode;          /* contact mode */

@@ -7,7 +7,7 @@
 static Passage passage_until(const Interval *interval, double t, double frequency) {
     double rest = interval->duration - t;
     Passage passage = rest == 0.0 ? interval->passed : interval->passage_at(interval->motion, t);
-    if (fabs(rest) * frequency <= MARK_TOLERANCE) {
+    if (fabs(rest) * frequency <= PERIOD_END_TOLERANCE) {
         passage.travel = interval->passed.travel - interval->velocity * rest;
     }
     return passage;
@@ -15,7 +15,7 @@ static Passage passage_until(const Interval *interval, double t, double frequenc
 
 double period_advance(PeriodMeans *means, const Interval *interval, double theta, double frequency) {
     double duration = interval->duration, end = theta + frequency * duration;
-    double ended = end + MARK_TOLERANCE < TAU ? 0.0 : floor((end + MARK_TOLERANCE) / TAU);
+    double ended = end + PERIOD_END_TOLERANCE < TAU ? 0.0 : floor((end + PERIOD_END_TOLERANCE) / TAU);
     if (!(ended > 0.0)) {
         means->travel += interval->passed.travel;
         means->work += interval->passed.work;

@@ -5,7 +5,7 @@
 
 /* Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps of whole
  * periods complete their last period in spite of rounding. */
-#define MARK_TOLERANCE 1e-7
+#define PERIOD_END_TOLERANCE 1e-7
 
 /* Sums since the last period ended, and the means of the last whole period.
  *

@@ -24,8 +24,8 @@ typedef struct {
 /* Coefficients under held inputs (SI units; complex numbers are amplitudes of e).
  *
  * At fidelity 1 (and 0) the resonator acts by its steady force only: `slider_mass` is the total mass,
- * `mass_fraction`, `spring` and `damper` are 0, and `resolves_resonator` is false. `holding_drive` is the part of the force on a held slider
- * that follows the drive directly [N].
+ * `mass_fraction`, `spring` and `damper` are 0, and `resolves_resonator` is false. `holding_drive` is the part of
+ * the force on a held slider that follows the drive directly [N].
  *
  * While inputs vary, the load grows by `load_rate` [N/s] and the normal frequency by `normal_rate`
  * [rad/s^2]; both are 0 under held inputs. */

@@ -41,9 +41,6 @@ static double value(const double *coefficients, double t) {
 #define NEGLIGIBLE_MOTION 1e-200
 enum { FIRST_TERMS = 5, MAX_SHRINKS = 10 };
 
-/* Smallest coefficient that limits how far a series holds: compilers divide before they choose, and hosts may trap x / 0. */
-#define SMALLEST 1e-300
-
 /* How far a series holds [s]: up to where one of its last two terms reaches the tolerance; at rest, where nothing moves, at
  * any time. */
 static double series_reach(const double *coefficients, double tolerance) {

@@ -1,4 +1,5 @@
-/* Sliding while a bristle bends: LuGre friction as a Taylor series in time.
+/* Sliding or flight as a Taylor series in time: on bending bristles, under a normal frequency that grows, and where the closed
+ * form would lose digits.
  *
  * With s the direction of sliding, g = sigma_0 z the friction of the bristle and g_r its value
  * where this series starts, the bristle is a function of the path d = |x - x_r| alone (eq. 8):

@@ -3,9 +3,10 @@
 #include "../base/elementary.h"
 #include "slow_step.h"
 
-/* Share of the tolerance for errors of the fast states: on the manifold, and where a transient is left out. Such a transient
- * is so small, over the scales of the fast states, that outputs of the resonator do not show it. */
+/* Share of the tolerance for errors of the fast states: on the manifold, and where a transient is left out. */
 #define FAST_SHARE 0.3
+
+/* Largest transient that a leap may leave out, over the scales of the fast states: outputs of the resonator do not show it. */
 #define MAX_TRANSIENT 1e-6
 
 /* Drift of the load's phase [rad] over a leap up to which its rates depend on the slow velocity alone. */
@@ -21,8 +22,8 @@ static double max_transient(const PeriodMap *map) {
     return fmin(MAX_TRANSIENT, FAST_SHARE * map->tolerance / effect);
 }
 
-/* Put the start of a leap on the manifold. Return false where there are no rates; at once, where they would not be exact
- * enough on the manifold either. */
+/* Put the start of a leap on the manifold. Return false where there are no rates, and without a search where they would not be
+ * exact enough on the manifold either. */
 static bool begin_on_manifold(SlowPath *path) {
     Manifold *manifold = &path->manifold;
     const PeriodMap *map = manifold->map;

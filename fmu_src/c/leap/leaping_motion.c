@@ -15,15 +15,17 @@ enum { MAX_TURNS_OF_PERIOD = 4 };
 /* Fewest periods that may be left for a leap. */
 #define SHORTEST_LEAP 64.0
 
-/* Periods that are resolved after an attempt, by period mapped in vain: attempts cost an eighth of resolved motion at most.
- * `MIN_WAIT` and `MIN_PAUSE` follow an attempt that told that fast states are off the manifold, or that nothing is to be
- * gained: to map a period takes half as long again as to resolve it. Fast states that are still off the manifold once their
- * transient should have decayed do not follow the slow motion: nothing is to be gained, either. Attempts become rarer from
- * one to the next, until one leaps. */
+/* Periods that are resolved after an attempt to leap that mapped one period in vain: attempts cost an eighth of resolved motion
+ * at most. */
 #define PAUSE 8.0
+
+/* Fewest periods that are resolved while a transient decays, and number of attempts for which it is waited so. Fast states that
+ * are still off the manifold then do not follow the slow motion. */
 #define MIN_WAIT 8.0
-#define MIN_PAUSE 32.0
 enum { MAX_WAITS = 2 };
+
+/* Fewest periods that are resolved after the first attempt in vain; twice as many after the second, and so on. */
+#define MIN_PAUSE 32.0
 
 /* Factor of the tolerance of LuGre friction where a leap is to follow: what resolved motion errs by stays in the slow
  * velocity, and adds up over many periods to several tolerances. */

@@ -21,7 +21,7 @@ typedef struct {
     double at[NUMBERS];
 } SectionState;
 
-/* The period map under the inputs of `system`, which may grow. An error by `scale` in a fast state is as large as the
+/* The period map under the inputs of `system`, which may grow. `scale` is the error of a fast state that is as large as the
  * vibration, or changes V by v_q times `share`. */
 typedef struct {
     System system;           /* the full device under its inputs, with the tolerance of maps */

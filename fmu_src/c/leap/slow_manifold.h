@@ -22,9 +22,9 @@ typedef struct {
     int maps;
 } Manifold;
 
-/* Change of the slow velocity [m/s] and of the position [m] by period, and that of `acceleration`; the fast states and
- * their change by period; reversals and sticks by period. `error` is the estimated error of `acceleration`,
- * `offset` the size of the first correction of the fast states, over their scales. */
+/* Per period: the change of the slow velocity [m/s] (`acceleration`), of the position [m] (`travel`), of `acceleration` (`jerk`)
+ * and of the `fast` states, and the number of reversals and sticks. `error` is the estimated error of `acceleration`, `offset`
+ * the size of the first correction of the fast states, over their scales. */
 typedef struct {
     double acceleration, travel, jerk;
     double fast[MAX_FAST], fast_rate[MAX_FAST];

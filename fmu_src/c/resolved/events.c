@@ -19,29 +19,29 @@ enum { MAX_TURN_SEGMENTS = 20000 };
 typedef struct {
     int segments, all, max_all;
     double began, turn;
-} Work;
+} SegmentCount;
 
 /* Counts a segment that begins at `time` [s]. Refuses too many segments. */
-static bool work_count(Work *work, double time, const Budget *budget, Refusal *refusal) {
-    if (time - work->began > work->turn) {
-        work->began = time;
-        work->segments = 0;
+static bool count_segment(SegmentCount *count, double time, const Budget *budget, Refusal *refusal) {
+    if (time - count->began > count->turn) {
+        count->began = time;
+        count->segments = 0;
     }
-    work->segments++;
-    work->all++;
-    if (work->segments > MAX_TURN_SEGMENTS) {
+    count->segments++;
+    count->all++;
+    if (count->segments > MAX_TURN_SEGMENTS) {
         return budget_refuse(budget, time, MAX_TURN_SEGMENTS, "segments in a turn of the fastest oscillation",
                              refusal);
     }
-    return work->all <= work->max_all
+    return count->all <= count->max_all
            || budget_refuse(budget, time, MAX_STEP_SEGMENTS, "segments of motion", refusal);
 }
 
 /* Refuses a motion that takes too many segments even if each has the maximum length `longest` [s]. A search for an
  * event may end it earlier: it is not refused. */
-static bool work_fits(const Work *work, double duration, double longest, const EventSearch *search,
+static bool is_within_budget(const SegmentCount *count, double duration, double longest, const EventSearch *search,
                       const Budget *budget, Refusal *refusal) {
-    double reach = work->max_all * longest;
+    double reach = count->max_all * longest;
     return search != NULL || duration <= reach
            || budget_refuse(budget, reach, MAX_STEP_SEGMENTS, "segments of motion", refusal);
 }
@@ -119,10 +119,10 @@ bool events_advance(const System *start, const Moment *moment, double duration, 
     double remaining = duration;
     double counted = COUNTED * TAU / plant->drive_frequency;
     Clock clock = clock_of(duration);
-    Work work = {.turn = TAU / LONGEST_ARC * system->arc, .max_all = budget_left(budget, MAX_STEP_SEGMENTS)};
+    SegmentCount count = {.turn = TAU / LONGEST_ARC * system->arc, .max_all = budget_left(budget, MAX_STEP_SEGMENTS)};
     Segment segment;
     Moment begin;
-    if (!work_fits(&work, duration, system->arc, search, budget, refusal)) {
+    if (!is_within_budget(&count, duration, system->arc, search, budget, refusal)) {
         return false;
     }
     *now = *moment;
@@ -130,7 +130,7 @@ bool events_advance(const System *start, const Moment *moment, double duration, 
     segment.departs = now->state.velocity == 0.0;
     moment_enter(now, friction->mode(system, now));
     while (remaining > 0.0 && isfinite(now->state.velocity)) {
-        if (!work_count(&work, clock.elapsed, budget, refusal)) {
+        if (!count_segment(&count, clock.elapsed, budget, refusal)) {
             return false;
         }
         double switching =
@@ -169,6 +169,6 @@ bool events_advance(const System *start, const Moment *moment, double duration, 
             break;
         }
     }
-    budget_spend(budget, work.all, MAX_STEP_SEGMENTS);
+    budget_spend(budget, count.all, MAX_STEP_SEGMENTS);
     return true;
 }

@@ -41,7 +41,7 @@ typedef struct Motion {
     /* Estimate of the error of the slow velocity [m/s]. */
     double (*error)(const System *system, const Moment *moment);
 
-    /* The part [s] of the time `left` for which one system holds, prepared for its middle, where inputs grow by `ramp`; NULL for
+    /* Where inputs grow by `ramp`: the time [s], at most `left`, for which one system holds that is prepared for its middle. NULL:
      * all of it. */
     double (*part)(const Device *device, const Ramp *ramp, double left);
 } Motion;

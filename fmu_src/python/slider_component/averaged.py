@@ -123,7 +123,7 @@ class Averaged:
 
     def friction_force(self, now: Moment) -> float:
         """Mean friction force [N] over a drive period, positive against +X."""
-        velocity, phase = now.mean_velocity, self._load_phase(now)
+        velocity, phase = self._slow_velocity(now), self._load_phase(now)
         if self.fast.velocity == 0.0 and velocity == 0.0:
             full = self._mean_friction(phase, inf)
             return max(-full, min(full, -self.system.load))
@@ -132,9 +132,9 @@ class Averaged:
     def friction_power(self, now: Moment) -> float:
         """Mean power of friction [W] over a drive period, of slow motion and vibration."""
         if self.fast.velocity == 0.0:
-            return self.friction_force(now) * now.mean_velocity
+            return self.friction_force(now) * self._slow_velocity(now)
         load = VibratingLoad(self.system.device, self.waves, self._load_phase(now))
-        return self.system.device.friction_faces * self.law.power(load, now.mean_velocity)
+        return self.system.device.friction_faces * self.law.power(load, self._slow_velocity(now))
 
     def resonator(self, now: Moment) -> tuple[float, float]:
         """Displacement [m] and velocity [m/s] of the steady vibration."""
@@ -143,13 +143,15 @@ class Averaged:
     def slow_motion_error(self, now: Moment) -> float:
         """The estimate of the error of the slow velocity [m/s].
 
-        Averages expand by the share of friction in the inertia of the vibration, faces mu N0 /
-        (Mt w v_q); what bristles damp counts, too. What averages leave out lasts as long as the
-        slowest transient of resonator and bristle.
+        Averages expand by the velocity that friction changes in a radian of the drive, faces mu
+        N0 / (Mt w), over v_q; what bristles damp counts, too. What averages leave out lasts as long
+        as the slowest transient of resonator and bristle. Where nothing vibrates, friction is
+        constant and averages are exact.
         """
         device, w, fast = self.system.device, self.system.drive_frequency, self.fast.velocity
         friction, decay = full_friction(device), inf
-        if not (fast > 0.0 and friction > 0.0):
+        vibrates = fast > 0.0 or (device.normal_amplitude > 0.0 and self.system.normal_frequency)
+        if not (vibrates and friction > 0.0):
             return 0.0
         if device.resonator_mass > 0.0:
             decay = -self.system.slip.eigenvalues[0].real * tau / w
@@ -157,9 +159,9 @@ class Averaged:
             friction *= hypot(1.0, self.law.damping_share)
             bend_rate = device.bristle_stiffness / device.friction_coefficient
             decay = min(decay, bend_rate * 4.0 * fast / w)
-        share = friction / (device.total_mass * w * fast)
+        changed = friction / (device.total_mass * w)
         swing = 1.0 + (1.0 / decay if decay > 0.0 else inf)
-        return min(FIRST_ORDER * share * swing, 1.0) * fast
+        return min(FIRST_ORDER * changed * swing, max(fast, changed))
 
     def _slow_velocity(self, now: Moment) -> float:
         return now.velocity + self.fast.ahead(now.theta, now.rate)

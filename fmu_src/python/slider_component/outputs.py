@@ -10,7 +10,7 @@ from .moment import Moment
 from .prediction import Prediction, prediction, turns_of_load
 from .resolved import Resolved
 
-LEAD_DIGITS = 9
+LEAD_DIGITS = 12
 """Decimals to which leads of the normal load [rad] are rounded: without the rounding errors of
 phases, predictions are the same from one period to the next."""
 

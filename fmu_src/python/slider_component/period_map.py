@@ -1,10 +1,10 @@
 """The period map: resolved motion of the full device, seen once in each period of the normal load.
 
 It is seen at a section: the phase of the drive at which the vibration is fastest forward, where no
-reversal comes unless sliding is about to end reversing at all. There the slow state is V = W and
-the position X, with W = X' + r_m Y' + D / (Mt w) cos(theta) and exactly Mt W' = -F - load. The fast
-state is the resonator's Y and Y' and, with LuGre friction, the bristle. From period to period both
-change slowly and smoothly (stroboscopic averaging: Calvo, Chartier, Murua, Sanz-Serna 2011).
+reversal comes unless sliding is about to end reversing at all. The slow state is the position X and
+the slow velocity V = X' + r_m Y' + D / (Mt w) cos(theta), which friction and load alone change. The
+fast state is the resonator's Y and Y' and, with LuGre friction, the bristle. From period to period
+both change slowly and smoothly (stroboscopic averaging: Calvo, Chartier, Murua, Sanz-Serna 2011).
 """
 
 from collections.abc import Sequence
@@ -87,7 +87,7 @@ class PeriodMap:
         return other
 
     def numbers(self, now: Moment) -> Numbers:
-        """The numbers at the section; V is the slow velocity but for its change within a period."""
+        """V, X and the fast states at the section."""
         velocity = now.velocity + self.vibration.ahead(now.theta, now.rate)
         return velocity, now.position, now.displacement, now.rate, now.bristle
 

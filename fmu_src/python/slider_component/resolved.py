@@ -28,7 +28,7 @@ COUNTED = 3.0
 """Drive periods before the end of a motion from which outputs count: means are those of the last
 whole one, and the first that ends is counted in part."""
 
-MARK_TOLERANCE = 1e-7
+PERIOD_END_TOLERANCE = 1e-7
 """Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps
 of whole periods complete their last period in spite of rounding."""
 
@@ -150,7 +150,9 @@ class Resolved:
         now.psi = (now.psi + system.normal_frequency * t) % tau
         now.position += travelled
         now.event_age += t
-        self.law.enter_next_mode(system, now, travelled, zero_of, zero_of is None and t == switching)
+        self.law.enter_next_mode(
+            system, now, travelled, zero_of, zero_of is None and t == switching
+        )
         return t
 
 
@@ -161,7 +163,7 @@ def _count(now: Moment, segment: Segment, t: float, travelled: float, frequency:
     """
     end, rests = now.theta + frequency * t, segment.rests
     work = segment.work(t, travelled)
-    if end + MARK_TOLERANCE >= tau:
+    if end + PERIOD_END_TOLERANCE >= tau:
         last = (tau - now.theta) / frequency
         passed, stuck = segment.at(last)[3], last if rests else 0.0
         worked, length = segment.work(last, passed), now.elapsed + last

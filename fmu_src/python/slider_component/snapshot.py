@@ -12,14 +12,14 @@ from typing import Any
 from . import refusal_texts
 from .contact import BACKWARD, FORWARD, LIFTED
 from .moment import Moment
-from .resolved import MARK_TOLERANCE
+from .resolved import PERIOD_END_TOLERANCE
 from .values import BY_NAME, SETTABLE, Refusal, checked
 
 FORMAT = f"{__name__.rpartition('.')[0]} state"
 """The package inside an FMU is named after its content, so this names the build: a state of one
 build does not fit another."""
 
-PHASE = (-MARK_TOLERANCE, tau)
+PHASE = (-PERIOD_END_TOLERANCE, tau)
 """A phase [rad]: a period may count as ended before its end, and rounding may take one up to it."""
 
 LIMITS: dict[str, tuple[float, float]] = {
