@@ -1,31 +1,23 @@
 """The layers of the C sources: they hold, and an include against them is found."""
 
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+from fmu_src.c_layers import faults_of, main
 from fmu_src.sources import C_SOURCES, CONTROLLER_SOURCES
-from tests.processes import ROOT, run_command
 
 
-def check(root: Path) -> subprocess.CompletedProcess[str]:
-    """Check the layers as `make lint` does."""
-    return run_command(sys.executable, "-m", "fmu_src.c_layers", root, cwd=ROOT)
-
-
-@pytest.fixture
-def copy(tmp_path: Path) -> Path:
-    """A copy of the sources that the layers are about."""
-    return shutil.copytree(C_SOURCES, tmp_path / "c")
+def sources_in(root: Path) -> dict[str, str]:
+    files = root.rglob("*.[ch]")
+    return {path.relative_to(root).as_posix(): path.read_text("utf-8") for path in files}
 
 
 @pytest.mark.parametrize("root", [C_SOURCES, CONTROLLER_SOURCES], ids=["slider", "controller"])
 def test_sources_keep_their_layers(root: Path) -> None:
-    result = check(root)
-    assert result.returncode == 0, result.stdout
+    assert sources_in(root)
+    assert faults_of(sources_in(root)) == []
 
 
 @pytest.mark.parametrize(
@@ -58,12 +50,10 @@ def test_sources_keep_their_layers(root: Path) -> None:
         ),
     ],
 )
-def test_planted_include_is_found(copy: Path, including: str, line: str, broken: str) -> None:
-    path = copy / including
-    path.write_text(f"{line}\n{path.read_text(encoding='utf-8')}", encoding="utf-8")
-    result = check(copy)
-    assert result.returncode == 1, result.stdout
-    assert broken in result.stdout
+def test_planted_include_is_found(including: str, line: str, broken: str) -> None:
+    sources = sources_in(C_SOURCES)
+    sources[including] = f"{line}\n{sources[including]}"
+    assert broken in "\n".join(faults_of(sources))
 
 
 @pytest.mark.parametrize(
@@ -74,10 +64,21 @@ def test_planted_include_is_found(copy: Path, including: str, line: str, broken:
         ("leap/plant.c", "leap/plant.c: device/plant.c has the same name; must be unique"),
     ],
 )
-def test_misplaced_file_is_found(copy: Path, name: str, broken: str) -> None:
-    path = copy / name
-    path.parent.mkdir(exist_ok=True)
-    path.touch()
-    result = check(copy)
-    assert result.returncode == 1, result.stdout
-    assert broken in result.stdout
+def test_misplaced_file_is_found(name: str, broken: str) -> None:
+    assert broken in "\n".join(faults_of(sources_in(C_SOURCES) | {name: ""}))
+
+
+def test_command_fails_with_faults_and_without_sources(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """As `make lint` runs it."""
+    monkeypatch.setattr(sys, "argv", ["c_layers", str(tmp_path)])
+    with pytest.raises(SystemExit, match="1"):
+        main()
+    (tmp_path / "stray.h").touch()
+    with pytest.raises(SystemExit, match="1"):
+        main()
+    assert "stray.h: must be in one of the folders" in capsys.readouterr().out
+    monkeypatch.setattr(sys, "argv", ["c_layers"])
+    with pytest.raises(SystemExit, match="0"):
+        main()

@@ -23,9 +23,11 @@ def wheel(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
         shutil.copytree(ROOT / name, source / name, ignore=ignored)
     for name in ("pyproject.toml", "README.md", "LICENSE", "MANIFEST.in", "build_fmu.py"):
         shutil.copy(ROOT / name, source)
-    command = [sys.executable, "-m", "pip", "wheel", "-qq", "--no-deps", "--no-build-isolation"]
-    finished = f"--config-settings=fmus={native_fmu.parent}"
-    subprocess.run([*command, finished, "--wheel-dir", str(folder), str(source)], check=True)
+    # As pip calls it, without what pip does besides.
+    call = "wheel_backend.build_wheel(sys.argv[1], {'fmus': sys.argv[2]})"
+    code = f"import sys; from fmu_src.building import wheel_backend; {call}"
+    command = [sys.executable, "-c", code, str(folder), str(native_fmu.parent)]
+    subprocess.run(command, cwd=source, check=True, capture_output=True)
     (built,) = folder.glob("*.whl")
     return built
 
