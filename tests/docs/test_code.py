@@ -15,89 +15,84 @@ from tests.processes import ROOT, run_command
 DOCS = ROOT / "docs"
 
 
-def printed(code: str, file: Path, folder: Path) -> list[str]:
-    """The lines that code prints in a folder whose folder `dist` has a file."""
-    (folder / "dist").mkdir()
-    shutil.copy(file, folder / "dist")
-    own = {"PYTHONPATH": str(ROOT / "harness"), "LD_LIBRARY_PATH": f"{sys.prefix}/lib"}  # of tbb
-    done = run_command(sys.executable, "-c", code, cwd=folder, env={**os.environ, **own})
-    assert done.returncode == 0, done.stderr
-    return done.stdout.splitlines()
+def blocks_of(page: str, language: str = "python") -> list[str]:
+    """The blocks of code on a page."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    return re.findall(rf"^```{language}\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
 
 
-def documented(code: str) -> str:
-    """What code prints by its only comment."""
-    (output,) = re.findall(r"^ *# (.*)$", code, re.MULTILINE)
-    return str(output)
+def documented(code: str) -> list[str]:
+    """What code prints by its comments at the ends of lines or, if there are none, alone in one."""
+    after_code = re.findall(r"^print\(.*\)  # (.*)$", code, re.MULTILINE)
+    return after_code or re.findall(r"^ *# (.*)$", code, re.MULTILINE)
 
 
-(API_EXAMPLE,) = re.findall(r"```python\n(.*?)```", (DOCS / "api.md").read_text("utf-8"), re.DOTALL)
-
-
-def test_the_example_of_the_page_runs(
-    native_fmu: Path,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+@pytest.fixture(autouse=True)
+def working_folder(
+    closed_loop_package: Path, native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """A folder whose folder `dist` has the native FMU and the closed loop."""
+    (tmp_path / "dist").mkdir()
+    for file in (closed_loop_package, native_fmu):
+        shutil.copy(file, tmp_path / "dist")
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("slider_resonator.fmu.finished.FOLDERS", (native_fmu.parent,))
-    exec(compile(API_EXAMPLE, "docs/api.md", "exec"), {})
+    monkeypatch.setattr("slider_resonator.fmu.finished.FOLDERS", (tmp_path / "dist",))
+
+
+def printed(code: str, capsys: pytest.CaptureFixture[str]) -> list[str]:
+    """The lines that code prints."""
+    exec(compile(code, "documentation", "exec"), {})
+    return capsys.readouterr().out.splitlines()
+
+
+def test_the_example_of_the_api_runs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (code,) = blocks_of("docs/api.md")
+    assert "points     73" in "\n".join(printed(code, capsys))
     assert (tmp_path / "start.png").is_file()
     assert (tmp_path / "curve.csv").read_text().count("\n") == 74
-    assert "points     73" in capsys.readouterr().out
 
 
-CODE = re.findall(r"```python\n(.*?)```", (DOCS / "closed_loop.md").read_text("utf-8"), re.DOTALL)
-FMPY, VARIED, OWN, LIBCOSIMPY, ECOS = CODE
+FMPY, VARIED, OWN, LIBCOSIMPY, ECOS = blocks_of("docs/closed_loop.md")
+FIRST, API = blocks_of("README.md")
 
 
 @pytest.mark.parametrize(
-    "code",
-    [
-        pytest.param(FMPY, id="fmpy"),
-        pytest.param(VARIED, id="inputs-that-vary"),
-        pytest.param(LIBCOSIMPY, id="libcosimpy", marks=pytest.mark.interop),
-        pytest.param(ECOS, id="ecos", marks=pytest.mark.interop),
-    ],
+    "code", [FMPY, VARIED, OWN, FIRST], ids=["fmpy", "inputs that vary", "own device", "README"]
 )
 def test_documented_code_prints_the_documented_output(
-    code: str, closed_loop_package: Path, tmp_path: Path
+    code: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert printed(code, closed_loop_package, tmp_path)[-1] == documented(code)
+    said = documented(code)
+    lines = printed(code, capsys)
+    assert said
+    for line, end in zip(lines[-len(said) :], said, strict=True):
+        assert line == end or line.endswith(f" {end}")
 
 
-def test_the_loop_of_another_device_holds_half_its_velocity(
-    closed_loop_package: Path, native_fmu: Path, tmp_path: Path
-) -> None:
-    code = OWN.replace("open_fmu(", f"open_fmu({str(native_fmu)!r}, ")
-    code = code.replace("sr.fmu_path()", f"Path({str(closed_loop_package)!r})")
-    code = f"from pathlib import Path\n{code}"
-    assert printed(code, closed_loop_package, tmp_path)[-1] == documented(code)
-
-
-TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
-
-
-def script(number: int) -> str:
-    return str(re.findall(r"^```python\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)[number])
-
-
-def test_the_first_script_prints_what_it_says(native_fmu: Path, tmp_path: Path) -> None:
-    code = script(0)
-    said = re.findall(r"^print\(.*\)  # (.*)$", code, re.MULTILINE)
-    assert len(said) == 2
-    for line, end in zip(printed(code, native_fmu, tmp_path), said, strict=True):
-        assert line.endswith(f" {end}")
-
-
-def test_the_script_of_the_api_is_ten_lines_that_run(native_fmu: Path, tmp_path: Path) -> None:
-    code = script(1).replace("sr.open_fmu()", f"sr.open_fmu({str(native_fmu)!r})")
-    code = code.replace("sr.fmu_path()", repr(str(native_fmu)))
-    assert len(code.splitlines()) <= 10
-    _, run, steady = printed(code, native_fmu, tmp_path)
+def test_the_script_of_the_api_is_ten_lines_that_run(capsys: pytest.CaptureFixture[str]) -> None:
+    assert len(API.splitlines()) <= 10
+    _, run, steady = printed(API, capsys)
     assert run == "0.094666 m/s after 4 s"
     assert steady == "0.0986951 m/s in steady motion"
+
+
+@pytest.mark.interop
+@pytest.mark.parametrize(
+    "code",
+    [
+        pytest.param(LIBCOSIMPY, id="libcosimpy, closed loop"),
+        pytest.param(ECOS, id="ecos, closed loop"),
+        *(pytest.param(*blocks_of(f"docs/recipes/{n}.md"), id=n) for n in ("ecos", "libcosim")),
+    ],
+)
+def test_documented_code_of_other_hosts_prints_the_documented_output(code: str) -> None:
+    done = run_command(
+        *(sys.executable, "-c", code),
+        env=os.environ | {"LD_LIBRARY_PATH": f"{sys.prefix}/lib"},  # of tbb
+    )
+    assert done.returncode == 0, done.stderr
+    (said,) = documented(code)
+    assert said in done.stdout.splitlines()
 
 
 def test_the_map_has_40_000_points_that_all_repeat() -> None:
@@ -109,9 +104,8 @@ def test_the_map_has_40_000_points_that_all_repeat() -> None:
 
 
 def test_the_grids_of_the_page_are_read(tmp_path: Path) -> None:
-    page = (DOCS / "sweeps.md").read_text(encoding="utf-8")
     counts = []
-    for text in re.findall(r"```toml\n(.*?)```", page, re.DOTALL):
+    for text in blocks_of("docs/sweeps.md", "toml"):
         (tmp_path / "grid.toml").write_text(text, encoding="utf-8")
         counts.append(len(read_grid(tmp_path / "grid.toml").points))
     assert counts == [63 * 3 * 10, 3 * 41]
