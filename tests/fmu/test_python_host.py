@@ -1,7 +1,9 @@
 """What the Python FMU owes a process that goes on without it: its streams, modules and memory."""
 
 import gc
+import math
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -51,7 +53,7 @@ def test_each_binary_is_released_once_before_exit(python_fmu: Path, tmp_path: Pa
 def test_many_instances_leave_the_search_path_as_it_was(unpacked: Unpacked) -> None:
     Instance(unpacked).initialize().free()
     before = list(sys.path)
-    for _ in range(60):
+    for _ in range(20):
         instance = Instance(unpacked).initialize()
         instance.step(STEP)
         instance.free()
@@ -70,3 +72,51 @@ def test_freed_instances_are_gone(unpacked: Unpacked) -> None:
             instance.set(load=float("nan"))
         instance.free()
     assert alive() == before, "references that refusals keep must not keep instances"
+
+
+MALTREATMENT: tuple[Callable[[Instance], object], ...] = (
+    lambda i: i.set(load=math.nan),
+    lambda i: i.set(normal_preload=-1.0),
+    lambda i: i.set(slider_mass=2.0),
+    lambda i: i.set(friction_faces=1),
+    lambda i: i.set(position=0.0),
+    lambda i: i.slave.doStep(i.time, 0.0),
+    lambda i: i.slave.doStep(i.time, math.nan),
+    lambda i: i.slave.doStep(i.time + 1.0, STEP),
+    lambda i: i.slave.setupExperiment(startTime=0.0),
+    lambda i: i.slave.exitInitializationMode(),
+    lambda i: i.slave.getReal([999]),
+    lambda i: i.slave.getInteger([0]),
+    lambda i: i.restore(b"not a state"),
+)
+
+
+def maltreat(instance: Instance) -> None:
+    for call in MALTREATMENT:
+        with pytest.raises(FMICallException):
+            call(instance)
+
+
+STORM = """
+import sys, tempfile
+from pathlib import Path
+from tests.fmu.host import Instance, unpack
+from tests.fmu.test_python_host import maltreat
+unpacked = unpack(Path(sys.argv[1]), Path(sys.argv[2]))
+for _ in range(5):
+    instance = Instance(unpacked).initialize()
+    for _ in range(40):
+        maltreat(instance)
+    instance.step(1e-3)
+    instance.slave.reset()
+    instance.initialize().step(1e-3)
+    maltreat(instance)
+    instance.free()
+print("alive", instance.time)
+"""
+
+
+def test_the_host_outlives_thousands_of_refusals(python_fmu: Path, tmp_path: Path) -> None:
+    """Refusals keep references, which are counted. Calls of the native FMU are fuzzed."""
+    printed = run_python(STORM, python_fmu, tmp_path)
+    assert printed.startswith("alive"), "no crash, also when the process ends"

@@ -1,27 +1,19 @@
 """Refused calls: the text names what is wrong; values that together have no meaning."""
 
-import ctypes
 import math
 from collections.abc import Callable
-from pathlib import Path
 
-import numpy as np
 import pytest
-from fmpy import simulate_fmu
-from fmpy.fmi1 import FMICallException
 
 from fmu_src.python.slider_component.variable import Variable
 from fmu_src.python.slider_component.variables import VARIABLES
-from tests.fmu.host import Instance, Instantiate, Unpacked
+from tests.fmu.host import Instance, Instantiate
 from tests.fmus import both_fmus
-from tests.processes import run_python
 
 pytestmark = both_fmus
 
 NAN = math.nan
 STEP = 1.7e-3
-
-FIXED = [v for v in VARIABLES if v.variability == "fixed"]
 
 
 def bad_value(variable: Variable) -> float:
@@ -41,12 +33,6 @@ def test_text_says_what_the_value_of_a_variable_must_be(instantiate: Instantiate
             instance.set(**{variable.name: value})
 
 
-def test_text_says_that_a_parameter_is_fixed(instance: Instance) -> None:
-    for variable in FIXED:
-        with instance.refuses(f"{variable.name} = ", " refused", "it is fixed"):
-            instance.set(**{variable.name: 1.0})
-
-
 CALLS: dict[str, tuple[Callable[[Instance], object], tuple[str, ...]]] = {
     "step size": (
         lambda i: i.slave.doStep(i.time, -1e-3),
@@ -62,6 +48,7 @@ CALLS: dict[str, tuple[Callable[[Instance], object], tuple[str, ...]]] = {
     ),
     "stop": (lambda i: i.slave.doStep(i.time, 5.0), ("doStep", "5.0", "stopTime = 1.0")),
     "output": (lambda i: i.set(position=0.5), ("position = 0.5 refused: it is an output",)),
+    "fixed": (lambda i: i.set(slider_mass=2.0), ("slider_mass = 2.0 refused", "it is fixed")),
     "reference": (
         lambda i: i.slave.getReal([len(VARIABLES)]),
         (f"valueReference = {len(VARIABLES)} refused: must be from 0 to {len(VARIABLES) - 1}",),
@@ -142,7 +129,7 @@ def test_values_that_leave_the_range_of_numbers(
         instance.slave.exitInitializationMode()
 
 
-def test_output_that_leaves_the_range_of_numbers(instantiate: Callable[[], Instance]) -> None:
+def test_output_that_leaves_the_range_of_numbers(instantiate: Instantiate) -> None:
     instance = instantiate().initialize(
         friction_law=1,
         friction_coefficient=1e-300,
@@ -152,89 +139,3 @@ def test_output_that_leaves_the_range_of_numbers(instantiate: Callable[[], Insta
     with instance.refuses("friction_force = ", "the output leaves the range of floating point"):
         instance.get("position", "friction_force")
     assert instance.get("position", "normal_force") == (0.0, 1.0)
-
-
-def test_status_inquiries_do_not_speak_of_an_end(instance: Instance) -> None:
-    with instance.refuses("doStep"):
-        instance.slave.doStep(0.0, NAN)
-    terminated = ctypes.c_int()
-    instance.slave.fmi2GetBooleanStatus(instance.slave.component, 3, ctypes.byref(terminated))
-    assert terminated.value == 0, "a refused step is not a wish to end the run"
-
-
-MALTREATMENT: tuple[Callable[[Instance], object], ...] = (
-    lambda i: i.set(load=math.nan),
-    lambda i: i.set(normal_preload=-1.0),
-    lambda i: i.set(slider_mass=2.0),
-    lambda i: i.set(friction_faces=1),
-    lambda i: i.set(position=0.0),
-    lambda i: i.slave.doStep(i.time, 0.0),
-    lambda i: i.slave.doStep(i.time, math.nan),
-    lambda i: i.slave.doStep(i.time + 1.0, STEP),
-    lambda i: i.slave.setupExperiment(startTime=0.0),
-    lambda i: i.slave.exitInitializationMode(),
-    lambda i: i.slave.getReal([999]),
-    lambda i: i.slave.getInteger([0]),
-    lambda i: i.restore(b"not a state"),
-)
-
-
-def maltreat(instance: Instance) -> None:
-    for call in MALTREATMENT:
-        with pytest.raises(FMICallException):
-            call(instance)
-
-
-STORM = """
-import sys, tempfile
-from pathlib import Path
-from tests.fmu.host import Instance, unpack
-from tests.fmu.test_refusals import maltreat
-unpacked = unpack(Path(sys.argv[1]), Path(sys.argv[2]))
-for _ in range(5):
-    instance = Instance(unpacked).initialize()
-    for _ in range(40):
-        maltreat(instance)
-    instance.step(1e-3)
-    instance.slave.reset()
-    instance.initialize().step(1e-3)
-    maltreat(instance)
-    instance.free()
-print("alive", instance.time)
-"""
-
-
-def test_the_host_outlives_thousands_of_refusals(fmu: Path, tmp_path: Path) -> None:
-    printed = run_python(STORM, fmu, tmp_path)
-    assert printed.startswith("alive"), "no crash, also when the process ends"
-
-
-def changing(name: str, before: float, after: float) -> dict[str, object]:
-    """A run in which a variable changes after 0.05 s."""
-    rows = [(0.0, before), (0.05, before), (0.05, after), (0.1, after)]
-    return {"input": np.array(rows, dtype=[("time", float), (name, float)])}
-
-
-REFUSED_RUNS: dict[str, dict[str, object]] = {
-    "values that do not fit": {"start_values": {"friction_law": 1, "friction_coefficient": 0.0}},
-    "input turns into nan": changing("load", 0.0, math.nan),
-    "tunable leaves its bounds": changing("normal_preload", 1.0, -1.0),
-    "step of zero": {"output_interval": 0.0, "stop_time": 0.1},
-}
-
-
-@pytest.mark.parametrize("run", REFUSED_RUNS.values(), ids=REFUSED_RUNS)
-def test_simulate_fmu_raises(fmu: Path, unpacked: Unpacked, run: dict[str, object]) -> None:
-    reached: list[float] = []
-
-    def note(time: float, _: object) -> bool:
-        reached.append(time)
-        return True
-
-    with pytest.raises(FMICallException) as caught:
-        simulate_fmu(str(fmu), **({"stop_time": 0.1, "step_finished": note} | run))
-    assert caught.value.status == unpacked.status_of_refusals, (
-        "fmi2Discard would end the run short without a word"
-    )
-    if "input" in run:
-        assert 0.04 < reached[-1] < 0.06, "the first half is fine, the refusal comes in the middle"

@@ -2,7 +2,6 @@
 
 import json
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -40,24 +39,6 @@ def test_replay_in_a_new_process(fmu: Path, instance: Instance, tmp_path: Path) 
     replayed = json.loads(run_python(REPLAY, fmu, tmp_path, STEP, instance.time.hex()))
     expected = [[x.hex() for x in row] for row in instance.run(30, STEP)]
     assert replayed == expected, "a new process replays the same bits"
-
-
-REACH: dict[str, Callable[[Instance], object]] = {
-    "instantiated": lambda i: None,
-    "experiment set up": lambda i: i.slave.setupExperiment(startTime=0.0, stopTime=1.0),
-    "initializing": lambda i: i.enter_initialization(slider_mass=2.0, phase=0.3),
-    "stepping": lambda i: i.initialize().step(1e-3),
-    "terminated": lambda i: i.initialize().slave.terminate(),
-}
-"""How an instance gets into each state of its life."""
-
-
-@pytest.mark.parametrize("reached", REACH)
-def test_every_state_of_life_comes_back(instantiate: Instantiate, reached: str) -> None:
-    instance, other = instantiate(), instantiate().initialize(load=0.2)
-    REACH[reached](instance)
-    other.restore(instance.state())
-    assert other.state() == instance.state()
 
 
 STEP_BESIDE = 1.3e-3
@@ -124,26 +105,3 @@ def test_a_state_of_another_build_is_refused(
     candidate.free()
     with instance.refuses("state", "refused"):
         instance.restore(foreign)
-
-
-STEADY_VELOCITIES = {
-    (1, 0.0): 0.6966,
-    (1, 1.5): 0.7719,
-    (3, 0.0): -0.2780,
-    (3, 1.5): 0.2036,
-    (5, 0.0): -0.1169,
-    (5, 1.5): -0.1795,
-    (7, 0.0): 0.1297,
-    (7, 1.5): -0.0600,
-}
-"""Of resolved table 1 by frequency ratio and phase [rad], by another program, in units of x0 w0."""
-
-
-@pytest.mark.parametrize(("ratio", "phase"), STEADY_VELOCITIES)
-def test_steady_velocity_is_that_of_another_program(
-    instantiate: Instantiate, ratio: int, phase: float
-) -> None:
-    scale = 2.0 / 11.0  # x0 w0 of table 1, m/s
-    instance = instantiate().initialize(frequency_ratio=ratio, phase=phase)
-    expected = STEADY_VELOCITIES[ratio, phase] * scale
-    assert instance.get("steady_velocity") == pytest.approx((expected,), abs=2e-4 * scale)

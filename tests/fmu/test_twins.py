@@ -19,7 +19,8 @@ from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.record import Record
 from slider_resonator.fmu.run import run
-from slider_resonator.scenes.scene_files import find_scenes, is_core
+from slider_resonator.scenes.scene import Scene, read_scenes
+from slider_resonator.scenes.scene_files import built_in_scenes
 
 COUNTS = ("reversals", "contact_mode")
 ROUNDING = 1e-11
@@ -59,16 +60,19 @@ def twins(native_fmu: Path, python_fmu: Path) -> Iterator[Twins]:
         yield native, python
 
 
-def assert_equal(native: Record, python: Record, allowed: float) -> None:
-    """Equal counts; other signals within `allowed` of their peaks."""
+def differences(native: Record, python: Record, allowed: float) -> list[str]:
+    """Counts that are not equal, and other signals that differ by more than `allowed` of a peak."""
+    found = []
     for name in OUTPUTS:
         ours, other = native[name], python[name]
         if name in COUNTS:
-            np.testing.assert_array_equal(ours, other, f"{name}: the twins see other events")
+            found += [] if np.array_equal(ours, other) else [f"{name}: the twins see other events"]
         elif allowed <= ROUNDING or name != "last_event_time":
             gap = np.abs(ours - other).max()
             bound = max(allowed, PREDICTIONS) if name in PREDICTED else allowed
-            assert gap <= bound * scale(name, python), f"{name}: the twins differ by {gap:.3g}"
+            if not gap <= bound * scale(name, python):
+                found.append(f"{name}: the twins differ by {gap:.3g}")
+    return found
 
 
 def scale(name: str, record: Record) -> float:
@@ -98,22 +102,24 @@ def both(twins: Twins, values: Mapping[str, float], course: Schedule) -> tuple[R
     return native, python
 
 
-SCENES = {scene.name: scene for scene in find_scenes([])}
-SLOW = pytest.mark.slow
-IN_BOTH = [
-    pytest.param(name, marks=() if is_core(scene) and not scene.device.friction_law else SLOW)
-    for name, scene in SCENES.items()
-    if scene.stop_time and not scene.interpolates
-]
-"""Scenes with a run that both can do: the Python FMU takes no derivatives of inputs.
+@pytest.mark.parametrize("law", [0, pytest.param(1, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("folder", ["core", pytest.param("thorough", marks=pytest.mark.slow)])
+def test_scenes(twins: Twins, folder: str, law: int) -> None:
+    """Those with a run that both can do: the Python FMU takes no derivatives of inputs.
 
-On bristles the builds agree to the tolerance only, to which scenes judge each of them as well.
-"""
+    On bristles the builds agree to the tolerance only, to which scenes judge each of them as well.
+    """
+    files = sorted({file for file in built_in_scenes().values() if file.parent.name == folder})
+    found = {
+        scene.name: differences_in_run(twins, scene)
+        for scene in (scene for file in files for scene in read_scenes(file))
+        if scene.stop_time and not scene.interpolates and scene.device.friction_law == law
+    }
+    assert found
+    assert {name: texts for name, texts in found.items() if texts} == {}
 
 
-@pytest.mark.parametrize("name", IN_BOTH)
-def test_scenes(twins: Twins, name: str) -> None:
-    scene = SCENES[name]
+def differences_in_run(twins: Twins, scene: Scene) -> list[str]:
     course = scene.schedule()
     device, times = scene.device, course.times[:500]
     if device.fidelity > 0:
@@ -122,7 +128,7 @@ def test_scenes(twins: Twins, name: str) -> None:
     allowed = device.tolerance if device.friction_law == 1 else ROUNDING
     if device.fidelity == 0 and device.averaging_order == 2:
         allowed = LEAPS * device.tolerance
-    assert_equal(native, python, max(allowed, ROUNDING))
+    return differences(native, python, max(allowed, ROUNDING))
 
 
 ratios = st.one_of(st.sampled_from([1.0, 3.0, 0.0, -1.0, 0.5, 1e-5, 1.01]), st.floats(-3.0, 3.0))
@@ -172,7 +178,7 @@ def test_coulomb_devices(
         native, python = both(twins, values, course_of(values, inputs))
     except Refusal:
         assume(False)  # `test_refusals` compares those
-    assert_equal(native, python, RANDOM)
+    assert differences(native, python, RANDOM) == []
 
 
 @pytest.mark.parametrize(
@@ -206,7 +212,7 @@ def test_short_steps_of_order_2(
     held |= {"phase": steps([(0.0, values["phase"])])} if "phase" in values else {}
     given = {k: v for k, v in values.items() if k not in ("frequency_ratio", "phase")}
     native, python = both(twins, {"fidelity": 0, **given}, schedule(0.5, 0.01, **held))
-    assert_equal(native, python, allowed)
+    assert differences(native, python, allowed) == []
 
 
 def refused(instance: Instance, values: Mapping[str, float]) -> str:

@@ -1,5 +1,6 @@
 """Parts of a build: archive, cache, content, dates, platforms."""
 
+import itertools
 import platform
 import struct
 import sys
@@ -36,20 +37,11 @@ def test_an_older_file_is_replaced_or_stays(tmp_path: Path) -> None:
     assert [p.name for p in tmp_path.iterdir()] == ["Model.fmu"], "no left-overs"
 
 
-class Maker:
-    """Makes another content each time, and counts."""
-
-    def __init__(self) -> None:
-        self.made = 0
-
-    def __call__(self) -> bytes:
-        self.made += 1
-        return b"binary %d" % self.made
-
-
 @pytest.fixture
-def make() -> Maker:
-    return Maker()
+def make() -> Callable[[], bytes]:
+    """Makes another content each time, which counts."""
+    numbers = itertools.count(1)
+    return lambda: b"binary %d" % next(numbers)
 
 
 @pytest.fixture
@@ -61,7 +53,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.usefixtures("folder")
-def test_equal_origins_are_made_once(make: Maker) -> None:
+def test_equal_origins_are_made_once(make: Callable[[], bytes]) -> None:
     assert cached("library.so", b"sources", make) == b"binary 1"
     assert cached("library.so", b"sources", make) == b"binary 1"
     assert cached("library.dll", b"sources", make) == b"binary 2"
@@ -73,7 +65,7 @@ def test_equal_origins_are_made_once(make: Maker) -> None:
     "damage", [lambda kept: kept[:-1], lambda kept: kept[:-1] + b"x", lambda kept: b""]
 )
 def test_what_is_damaged_is_made_again(
-    folder: Path, make: Maker, damage: Callable[[bytes], bytes]
+    folder: Path, make: Callable[[], bytes], damage: Callable[[bytes], bytes]
 ) -> None:
     cached("library.so", b"sources", make)
     (path,) = folder.glob("library.so.*.made")
@@ -82,7 +74,7 @@ def test_what_is_damaged_is_made_again(
 
 
 def test_without_a_home_all_is_made_again(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, make: Maker
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, make: Callable[[], bytes]
 ) -> None:
     (tmp_path / "file").touch()
     monkeypatch.setenv("HOME", str(tmp_path / "file"))

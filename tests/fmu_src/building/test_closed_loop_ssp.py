@@ -5,7 +5,8 @@ import pytest
 from fmpy.ssp.ssd import read_ssd, read_ssv
 
 from fmu_src.building.build_error import BuildError
-from fmu_src.building.closed_loop_ssp import FIDELITIES, build_closed_loop
+from fmu_src.building.closed_loop_ssp import FIDELITIES, SYSTEM, build_closed_loop
+from fmu_src.system_structure import ParameterValues, parameter_set
 from studies.hosts.ssp_package import write_with_connectors
 
 
@@ -31,6 +32,9 @@ def test_the_first_structure_has_components_only(closed_loop_package: Path) -> N
     """libcosim and ecos refuse a connection without an element."""
     system = read_ssd(closed_loop_package).system
     assert system.connectors == []
+    listed = {c.name: [each.name for each in c.connectors] for c in system.elements}
+    assert "load" not in listed["slider"], "fmpy sets listed inputs to 0"
+    assert "mean_velocity" in listed["slider"]
     assert [(c.startElement, c.endElement) for c in system.connections] == [
         ("controller", "slider"),
         ("slider", "controller"),
@@ -40,13 +44,21 @@ def test_the_first_structure_has_components_only(closed_loop_package: Path) -> N
 def test_components_have_the_parameters_of_the_bound_set(closed_loop_package: Path) -> None:
     """libcosim and ecos read these, and not the set of the system."""
     bound = read_ssv(closed_loop_package, resource="resources/proof.ssv").parameters
+    assert {(p.name, p.type, p.value, p.unit) for p in bound} >= {
+        ("controller.proportional_gain", "Real", "100.0", "s/m"),
+        ("controller.effort_limit", "Real", "1.0", "1"),
+        ("slider.fidelity", "Integer", "2", None),
+    }
     found = {}
     for component in read_ssd(closed_loop_package).system.elements:
         (binding,) = component.parameterBindings
         (values,) = binding.parameterValues
         for parameter in values.parameters:
-            found[f"{component.name}.{parameter.name}"] = (parameter.type, parameter.value)
-    assert found == {p.name: (p.type, p.value) for p in bound}
+            found[f"{component.name}.{parameter.name}"] = parameter
+    for p in bound:
+        component = found.pop(p.name)
+        assert (component.type, component.value, component.unit) == (p.type, p.value, p.unit)
+    assert found == {}
 
 
 @pytest.mark.parametrize(("name", "fidelity"), FIDELITIES.items())
@@ -81,3 +93,8 @@ def test_a_missing_fmu_is_named(native_fmu: Path, tmp_path: Path) -> None:
     with pytest.raises(BuildError, match=r"none\.fmu: no such file; ClosedLoop\.ssp needs it"):
         build_closed_loop(tmp_path, native_fmu, tmp_path / "none.fmu")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_parameter_of_nothing_is_an_error() -> None:
+    with pytest.raises(KeyError, match="torque"):
+        parameter_set(SYSTEM, ParameterValues("fast", {"slider.torque": 1.0}))

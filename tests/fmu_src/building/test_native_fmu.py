@@ -41,6 +41,12 @@ def contents(fmu: Path) -> dict[str, bytes]:
         return {name: archive.read(name) for name in archive.namelist()}
 
 
+def sources_in(fmu: Path) -> dict[str, bytes]:
+    """The files in the folder `sources`, by their paths there."""
+    inside = contents(fmu).items()
+    return {n.removeprefix("sources/"): data for n, data in inside if n.startswith("sources/")}
+
+
 def guid(fmu: Path) -> str:
     return ET.fromstring(contents(fmu)["modelDescription.xml"]).attrib["guid"]
 
@@ -82,8 +88,7 @@ def test_every_source_is_inside_and_listed(
     other_shell = "fmi3" if version == "2.0" else "fmi2"
     paths = [p.relative_to(C_SOURCES) for p in C_SOURCES.rglob("*.[ch]")]
     assert {str(p) for p in paths if not p.name.startswith(other_shell)} < code.keys()
-    inside = {n.removeprefix("sources/") for n in archive if n.startswith("sources/")}
-    assert inside - {"buildDescription.xml"} == code.keys()
+    assert sources_in(fmu).keys() - {"buildDescription.xml"} == code.keys()
     listed = [e.get("name") for e in ET.fromstring(archive[document]).iterfind(tag)]
     assert listed == sorted(name for name in code if name.endswith(".c"))
 
@@ -125,13 +130,9 @@ def written_sources(tmp_path: Path) -> Path:
 def test_options_that_remove_the_checks_for_nan_do_not_compile(
     flag: str, written_sources: Path
 ) -> None:
-    source, object_file = (
-        str(written_sources / "component/values.c"),
-        str(written_sources / "values.o"),
-    )
-    command = [*default_compiler().command, "-std=c99", "-c", source, "-o", object_file]
-    assert subprocess.run(command, check=False).returncode == 0
-    done = subprocess.run([*command, flag], capture_output=True, text=True, check=False)
+    command = [*default_compiler().command, "-std=c99", "-c", "component/values.c"]
+    assert run_command(*command, cwd=written_sources).returncode == 0
+    done = run_command(*command, flag, cwd=written_sources)
     assert done.returncode != 0
     assert "compile without -ffast-math" in done.stderr
 
@@ -158,9 +159,7 @@ def test_a_contact_without_load_stays_lifted_in_extended_precision(written_sourc
     files = ("run.c", "device/contact.c", "base/elementary.c")
     command = ["gcc", *flags, *files, "-o", "run", "-lm"]
     subprocess.run(command, cwd=written_sources, check=True)
-    run = [str(written_sources / "run")]
-    done = subprocess.run(run, capture_output=True, text=True, check=True)
-    assert done.stdout == "1 inf"
+    assert run_command(written_sources / "run").stdout == "1 inf"
 
 
 def test_static_initializers_are_constants_for_every_compiler() -> None:
@@ -204,8 +203,7 @@ def test_the_description_is_that_of_the_table(controller_fmu: Path) -> None:
     description = read_model_description(str(controller_fmu))
     found = [(v.name, v.causality, v.unit) for v in description.modelVariables]
     assert found == [(v.name, v.causality, v.unit) for v in VARIABLES]
-    with zipfile.ZipFile(controller_fmu) as archive:
-        page = archive.read("documentation/index.html").decode()
+    page = contents(controller_fmu)["documentation/index.html"].decode()
     for variable in VARIABLES:
         assert page.count(f"<td><code>{variable.name}</code></td>") == 1, variable.name
 
@@ -221,12 +219,7 @@ def test_only_the_velocity_error_depends_on_the_inputs(controller_fmu: Path) -> 
 
 
 def test_fmi_functions_are_shared_and_the_model_is_not(controller_fmu: Path) -> None:
-    with zipfile.ZipFile(controller_fmu) as archive:
-        inside = {
-            name.removeprefix("sources/"): archive.read(name)
-            for name in archive.namelist()
-            if name.startswith("sources/")
-        }
+    inside = sources_in(controller_fmu)
     slider = slider_sources()
     own = {name for name, data in inside.items() if data.decode() != slider.get(name)}
     generated = {"component/model_guid.h", "component/variables.c", "component/variables.h"}
