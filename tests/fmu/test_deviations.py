@@ -74,12 +74,8 @@ def test_ramped_inputs_of_a_drive_that_deviates(instantiate: Instantiate) -> Non
 
 
 @both_fmus
-def test_deviations_out_of_bounds_are_refused(instantiate: Instantiate) -> None:
+def test_a_deviation_to_a_frequency_that_is_too_low_is_refused(instantiate: Instantiate) -> None:
     instance = instantiate().initialize(drive_frequency=2e-6)
-    with instance.refuses("amplitude_deviation = -1.5 refused", "at least -1"):
-        instance.set(amplitude_deviation=-1.5)
-    with instance.refuses("frequency_deviation = -1.0 refused", "at least -0.99"):
-        instance.set(frequency_deviation=-1.0)
     with instance.refuses(
         "frequency_deviation = -0.75 refused: it makes drive_frequency 5e-07", "at least 1e-06"
     ):

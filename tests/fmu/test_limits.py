@@ -1,19 +1,19 @@
-"""Motion at its limits: events next to others, no preload, and work that is bounded."""
+"""Motion at its limits: events next to others, no preload, long steps, work that is bounded."""
 
 import math
 import time
-from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from tests.fmu.host import OUTPUTS, Instance, Instantiate
+from tests.fmu.host import OUTPUTS, Instantiate
 from tests.fmus import both_fmus
 
 pytestmark = both_fmus
 
 
-def test_a_release_by_an_input_is_the_last_event(instantiate: Callable[[], Instance]) -> None:
+def test_a_release_by_an_input_is_the_last_event(instantiate: Instantiate) -> None:
     """Where the parts of the step sum up to more than it by rounding, too."""
     instance = instantiate().initialize(base_amplitude=0.0, resonator_mass=0.0)
     instance.step(1e-3)
@@ -43,7 +43,7 @@ def test_a_release_by_an_input_is_the_last_event(instantiate: Callable[[], Insta
 )
 @pytest.mark.parametrize("force", [-1.0, -0.3, 0.3, 1.0])
 def test_a_start_from_rest_in_flight_is_no_reversal(
-    instantiate: Callable[[], Instance], device: dict[str, float], force: float
+    instantiate: Instantiate, device: dict[str, float], force: float
 ) -> None:
     """The acceleration begins at zero, and rounding may give it either sign."""
     flight = {"friction_law": 1, "normal_amplitude": 2.0, "phase": -math.pi / 2} | device
@@ -56,7 +56,7 @@ def test_a_start_from_rest_in_flight_is_no_reversal(
 
 @pytest.mark.parametrize("before", [1e-9, 1e-11, 1e-12, 1e-13, 1e-14])
 def test_a_slide_just_before_the_contact_lifts_is_a_reversal(
-    instantiate: Callable[[], Instance], before: float
+    instantiate: Instantiate, before: float
 ) -> None:
     """However short it is, and though its travel may be lost in rounding."""
     instance = instantiate().initialize(
@@ -72,7 +72,7 @@ def test_a_slide_just_before_the_contact_lifts_is_a_reversal(
 
 @pytest.mark.parametrize("law", [0, 1])
 def test_a_first_slide_is_no_reversal_whatever_the_load_was_before(
-    instantiate: Callable[[], Instance], law: int
+    instantiate: Instantiate, law: int
 ) -> None:
     """Some hosts set inputs only after initialization, which may end under one that pushes."""
     still = {"base_amplitude": 0.0, "resonator_mass": 0.0, "friction_law": law}
@@ -85,7 +85,7 @@ def test_a_first_slide_is_no_reversal_whatever_the_load_was_before(
 @pytest.mark.parametrize("preload", [0.0, 5e-324, 1e-17])
 @pytest.mark.parametrize("ratio", [1.0, -1.0, 0.75, 100.0])
 def test_friction_of_bristles_with_next_to_no_preload(
-    instantiate: Callable[[], Instance], preload: float, ratio: float
+    instantiate: Instantiate, preload: float, ratio: float
 ) -> None:
     """The kinks of the load are then an exact half turn apart, and meet where sliding turns."""
     values = {
@@ -115,6 +115,25 @@ def test_without_any_force_the_slider_rests(
     instance = instantiate().initialize(**free, **device)
     instance.step(1.0)
     assert instance.get("position", "velocity") == (0.0, 0.0)
+
+
+def test_long_steps_pass_kinks_of_a_slow_load_as_short_ones_do(instantiate: Instantiate) -> None:
+    """The contact lifts and touches down between communication points of averaged motion.
+
+    The scene `averaged_kinks` judges the kinks that friction has in a beat.
+    """
+    values = {
+        **{"fidelity": 0, "averaging_order": 1, "friction_faces": 1, "normal_amplitude": 1.7},
+        **{"phase": 0.4, "frequency_ratio": 0.004, "initial_velocity": 0.2},
+    }
+    fast_velocity = 0.144  # m/s
+    velocities = []
+    for parts in (1, 4):
+        instance = instantiate().initialize(**values)
+        rows = instance.run(40 * parts, 0.04 / parts)[parts - 1 :: parts]
+        velocities.append([row[OUTPUTS.index("mean_velocity")] for row in rows])
+    gap = np.abs(np.diff(velocities, axis=0)).max()
+    assert gap < 2e-8 * fast_velocity, "2e-10 v_q is allowed in each of some steps"
 
 
 W = 3500.0

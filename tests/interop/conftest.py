@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,6 +19,23 @@ collect_ignore = (
     [] if find_spec("selenium") else ["test_docs_site.py", "test_reports.py", "test_web_page.py"]
 )
 """Tests in a browser, which `make test` must not need: `make interop` installs what drives it."""
+
+
+PHONE = (390, 844, True)
+"""Width and height [px], and whether it is a phone."""
+
+
+@contextmanager
+def screen(
+    browser: Chrome, width: int, height: int, mobile: bool, scale: int = 1
+) -> Iterator[None]:
+    """Show pages as on a screen of this size in a `with` block."""
+    size = {"width": width, "height": height, "mobile": mobile, "deviceScaleFactor": scale}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    try:
+        yield
+    finally:
+        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
 @pytest.fixture(scope="session")

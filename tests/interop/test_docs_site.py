@@ -7,28 +7,29 @@ from pathlib import Path
 import pytest
 from selenium.webdriver import Chrome
 
+from tests.interop.conftest import PHONE, screen
 from tests.processes import ROOT
 
 pytestmark = pytest.mark.interop
 
-PHONE = {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True}
+PAGES = ("index", "numbers", "commands", "validation", "hosts")
 
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("site")
-    build = [sys.executable, "-m", "sphinx", "-q"]
-    subprocess.run([*build, str(ROOT / "docs"), str(folder)], check=True, cwd=ROOT)
+    pages = [f"docs/{name}.md" for name in PAGES]
+    build = [sys.executable, "-m", "sphinx", "-q", "docs", str(folder), *pages]
+    subprocess.run(build, check=True, cwd=ROOT)
     return folder
 
 
 def test_pages_fit_and_wide_tables_keep_their_first_column(browser: Chrome, site: Path) -> None:
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", PHONE)
-    try:
-        for name in ("index", "numbers", "commands", "validation", "hosts"):
+    with screen(browser, *PHONE):
+        for name in PAGES:
             browser.get((site / f"{name}.html").as_uri())
             width = browser.execute_script("return document.documentElement.scrollWidth")
-            assert width <= PHONE["width"], f"{name}: the page itself must not scroll sideways"
+            assert width <= PHONE[0], f"{name}: the page itself must not scroll sideways"
             moved, stays = browser.execute_script(
                 "const wide = [...document.querySelectorAll('.table-wrapper')]"
                 ".filter((one) => one.scrollWidth > one.clientWidth + 1);"
@@ -39,5 +40,3 @@ def test_pages_fit_and_wide_tables_keep_their_first_column(browser: Chrome, site
             )
             assert stays == moved, f"{name}: the first column must stay"
             assert moved == (1 if name == "hosts" else 0), name
-    finally:
-        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})

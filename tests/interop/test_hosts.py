@@ -1,27 +1,36 @@
 """Table 1 in every host: each fidelity with each friction law, compared with fmpy."""
 
+import sys
+import zipfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from slider_resonator.device.interface import OUTPUTS
 from slider_resonator.errors import HarnessError
 from studies.hosts.hosts import OWN_ENVIRONMENTS, Host, hosts
-from studies.hosts.runs import ALLOWED, FMI_3, run_host
+from studies.hosts.runs import ALLOWED, CASES, FMI_3, by_case, run_host, run_jobs, table_1_jobs
+from tests.processes import ROOT, run_command
 
 pytestmark = pytest.mark.interop
 
 ALLOWED_OF_FMI_3 = 1e-13
 """Share of the peak by which FMI 3.0, stopping at all events in fmpy, may differ from FMI 2.0."""
 
-HOSTS = hosts(Path(__file__).parents[2] / OWN_ENVIRONMENTS)
+FMPY, *OTHERS = hosts(ROOT / OWN_ENVIRONMENTS)
+(LINUX,) = (host for host in OTHERS if host.module == "driver_host")
+(WINDOWS,) = (host for host in OTHERS if host.module == "wine_host")
 
 
-@pytest.mark.parametrize("host", HOSTS, ids=lambda host: host.name)
+@pytest.mark.parametrize(
+    "host", [host for host in (FMPY, *OTHERS) if host != WINDOWS], ids=lambda host: host.name
+)
 def test_table_1_gives_the_numbers_of_fmpy(
-    host: Host, native_fmu_for_wine: Path, python_fmu: Path, native_3_fmu: Path
+    host: Host, native_fmu: Path, python_fmu: Path, native_3_fmu: Path
 ) -> None:
     try:
-        results = run_host(host, HOSTS[0], native_fmu_for_wine, python_fmu, native_3_fmu)
+        results = run_host(host, FMPY, native_fmu, python_fmu, native_3_fmu)
     except HarnessError as error:
         pytest.fail(str(error))
     assert [result.fmu for result in results] == expected_fmus(host.name)
@@ -39,3 +48,33 @@ def expected_fmus(host: str) -> list[str]:
     if host in ("libcosimpy", "pathsim-fmi", "cofmupy"):
         return ["native", "Python"]
     return ["native behind Python"] if host == "fmu_manipulation_toolbox" else ["native"]
+
+
+def test_windows_gives_the_bits_of_linux(native_fmu_for_wine: Path) -> None:
+    """By the Windows binary in Wine, from the C driver, which is compared with fmpy above."""
+    jobs = table_1_jobs(native_fmu_for_wine)
+    linux, windows = (run_jobs(host, jobs) for host in (LINUX, WINDOWS))
+    for case, ours, theirs in zip(CASES, linux, windows, strict=True):
+        assert ours.error is None, f"{case.title}: {ours.error}"
+        assert theirs.error is None, f"{case.title}: {theirs.error}"
+        differ = (np.asarray(ours.rows) != np.asarray(theirs.rows)).any(axis=0)
+        names = [name for name, other in zip(OUTPUTS, differ, strict=True) if other]
+        assert names == [], f"{case.title}: other bits in Wine"
+
+
+def test_sources_compiled_by_fmutool_give_the_same_numbers(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    """By a tool that knows only the description."""
+    stripped, compiled = tmp_path / "stripped.fmu", tmp_path / "compiled.fmu"
+    with zipfile.ZipFile(native_fmu) as archive, zipfile.ZipFile(stripped, "w") as target:
+        for name in archive.namelist():
+            if not name.startswith("binaries/"):
+                target.writestr(name, archive.read(name))
+    fmutool = Path(sys.executable).with_name("fmutool")
+    done = run_command(fmutool, "-input", stripped, "-compile-sources", "-output", compiled)
+    assert compiled.is_file(), done.stdout + done.stderr
+    ours = [answer.rows for answer in run_jobs(FMPY, table_1_jobs(native_fmu))]
+    compared = by_case(ours, run_jobs(FMPY, table_1_jobs(compiled)))
+    failed = {case.title: compared[case] for case in CASES if not compared[case].passed}
+    assert failed == {}, "another compiler must not make another motion"

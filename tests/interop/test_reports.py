@@ -28,6 +28,7 @@ from tests.harness.known_provenance import PROVENANCE
 from tests.harness.stressing.test_run import RESULT
 from tests.harness.trading.test_results import TRADE
 from tests.harness.verdicts import PASSED
+from tests.interop.conftest import PHONE, screen
 
 pytestmark = pytest.mark.interop
 
@@ -58,9 +59,7 @@ def opened(browser: Chrome, page: Path) -> int:
 
 def scrolled_on_a_phone(browser: Chrome) -> list[str]:
     """The tables of the page, and the page itself, that are wider than a phone."""
-    phone = {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True}
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", phone)
-    try:
+    with screen(browser, *PHONE):
         for _ in range(LOOKS):  # plots follow the width of the page a moment later
             found = browser.execute_script(
                 "return [document.documentElement, ...document.querySelectorAll('.wide')]"
@@ -70,8 +69,6 @@ def scrolled_on_a_phone(browser: Chrome) -> list[str]:
             if not found:
                 break
             time.sleep(0.1)
-    finally:
-        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     return list(found)
 
 

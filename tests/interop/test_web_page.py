@@ -19,6 +19,7 @@ from slider_resonator.commands.page import started_at
 from slider_resonator.device.device import Device
 from slider_resonator.scenes.device_file import example_devices, read_device_file
 from tests.fmu.host import OUTPUTS
+from tests.interop.conftest import PHONE, screen
 
 pytestmark = pytest.mark.interop
 
@@ -37,7 +38,7 @@ MODELS = {
     for law in (0, 1)
 }
 EXAMPLES = example_devices()
-SCREENS = {"desktop": (1280, 800, False), "phone": (390, 844, True)}
+SCREENS = {"desktop": (1280, 800, False), "phone": PHONE}
 
 TEXTS_OF_CANVASES = """
 const {fillText, clearRect} = CanvasRenderingContext2D.prototype;
@@ -88,6 +89,9 @@ return found;
 """The texts of the page, each with left, top, right and bottom [px]."""
 
 
+UNFOLD = "document.querySelectorAll('details').forEach((d) => d.open = true)"
+
+
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> str:
     return build_page(tmp_path_factory.mktemp("page")).as_uri()
@@ -118,6 +122,17 @@ def message(browser: Chrome) -> str:
 
 def field(browser: Chrome, name: str) -> WebElement:
     return browser.find_element(By.ID, f"field-{name}")
+
+
+def enter(browser: Chrome, name: str, text: str) -> None:
+    """Write a text into the field of a variable."""
+    field(browser, name).clear()
+    field(browser, name).send_keys(text, Keys.ENTER)
+
+
+def settings_of(browser: Chrome) -> str:
+    """Those in the address of the page."""
+    return str(browser.execute_script("return location.hash")).removeprefix("#")
 
 
 def address(values: dict[str, Any]) -> str:
@@ -175,18 +190,27 @@ def test_nothing_is_loaded_and_nothing_is_complained_of(browser: Chrome, page: s
     assert browser.get_log("browser") == []
 
 
-def test_a_refused_value_is_named_and_no_number_is_shown(browser: Chrome, page: str) -> None:
-    assert show(browser, page, "slider_mass=-1") == {}
-    assert (
-        message(browser)
-        == "slider_mass = -1.0 refused: must be a finite number of at least 1e-12 kg"
-    )
-    assert show(browser, page, "t=-1") == {}
-    assert message(browser) == "t = -1 refused: must be above 0 and at most 3600 s"
-    assert show(browser, page, "position=1") == {}
-    assert message(browser) == "position refused: must be device, t, an input or a parameter"
-    assert show(browser, page, "device=drill") == {}
-    assert message(browser) == f"device = drill refused: must be one of {', '.join(EXAMPLES)}"
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        (
+            "slider_mass=-1",
+            "slider_mass = -1.0 refused: must be a finite number of at least 1e-12 kg",
+        ),
+        ("t=-1", "t = -1 refused: must be above 0 and at most 3600 s"),
+        ("position=1", "position refused: must be device, t, an input or a parameter"),
+        ("device=drill", f"device = drill refused: must be one of {', '.join(EXAMPLES)}"),
+        ("phase=0.4&phase=0.5", "phase = 0.5 refused: must be given once"),
+        ("nonsense", "nonsense refused: must be device, t, an input or a parameter"),
+        ("%3Cimg%20src=x%20onerror=document.title=1%3E", "<img src refused: must be device, t, "),
+    ],
+)
+def test_a_refused_setting_is_named_as_text_and_no_number_is_shown(
+    browser: Chrome, page: str, settings: str, said: str
+) -> None:
+    assert show(browser, page, settings) == {}
+    assert message(browser).startswith(said)
+    assert browser.find_elements(By.CSS_SELECTOR, "main img") == []
 
 
 def test_a_refused_address_shows_what_it_would_run_and_can_be_mended(
@@ -198,21 +222,9 @@ def test_a_refused_address_shows_what_it_would_run_and_can_be_mended(
     )
     shown = [field(browser, name).get_attribute("value") for name in ("phase", "load", "t")]
     assert shown == ["0", "30", ""], "the numbers of the address in mN, and starts"
-    text = field(browser, "phase")
-    text.clear()
-    text.send_keys("0.4 rad", Keys.ENTER)
+    enter(browser, "phase", "0.4 rad")
     mended = results(browser)["mean_velocity"]
     assert mended == show(browser, page, "phase=0.4&load=0.03")["mean_velocity"]
-    assert show(browser, page, "phase=0.4&phase=0.5") == {}
-    assert message(browser) == "phase = 0.5 refused: must be given once"
-    show(browser, page, "nonsense")
-    assert message(browser) == "nonsense refused: must be device, t, an input or a parameter"
-
-
-def test_an_address_is_text_only(browser: Chrome, page: str) -> None:
-    show(browser, page, "%3Cimg%20src=x%20onerror=document.title=1%3E")
-    assert message(browser).startswith("<img src refused: ")
-    assert browser.find_elements(By.CSS_SELECTOR, "main img") == []
 
 
 def test_keys_move_a_slider_and_everything_follows(browser: Chrome, page: str) -> None:
@@ -220,7 +232,7 @@ def test_keys_move_a_slider_and_everything_follows(browser: Chrome, page: str) -
     slider = browser.find_element(By.CSS_SELECTOR, 'input[type=range][aria-label="phase"]')
     slider.send_keys(Keys.ARROW_RIGHT)
     after = results(browser)
-    assert "phase=" in browser.execute_script("return location.hash")
+    assert "phase=" in settings_of(browser)
     assert after["blocking_force"] != before["blocking_force"]
     browser.find_element(By.ID, "reset").send_keys(Keys.ENTER)
     assert results(browser)["mean_velocity"] == before["mean_velocity"]
@@ -228,23 +240,19 @@ def test_keys_move_a_slider_and_everything_follows(browser: Chrome, page: str) -
 
 def test_a_field_takes_what_its_slider_does_not_reach(browser: Chrome, page: str) -> None:
     show(browser, page)
-    text = field(browser, "friction_coefficient")
-    text.clear()
-    text.send_keys("5", Keys.ENTER)
+    enter(browser, "friction_coefficient", "5")
     results(browser)
-    assert browser.execute_script("return location.hash") == "#friction_coefficient=5"
-    text.clear()
-    text.send_keys("much", Keys.ENTER)
+    assert settings_of(browser) == "friction_coefficient=5"
+    enter(browser, "friction_coefficient", "much")
     assert message(browser) == (
         "friction_coefficient = much refused: must be a finite number, "
         'or a text with a unit such as "2 %"'
     )
-    frequency = field(browser, "drive_frequency")
-    frequency.clear()
-    frequency.send_keys("20 kHz", Keys.ENTER)
+    enter(browser, "drive_frequency", "20 kHz")
     results(browser)
-    assert frequency.get_attribute("value") == "20000", "in Hz, as is a number without a unit"
-    si_value = browser.execute_script("return location.hash").split("drive_frequency=")[1]
+    shown = field(browser, "drive_frequency").get_attribute("value")
+    assert shown == "20000", "in Hz, as is a number without a unit"
+    si_value = settings_of(browser).split("drive_frequency=")[1]
     assert float(si_value) == pytest.approx(20e3 * 2 * math.pi, rel=1e-15)
 
 
@@ -253,16 +261,11 @@ def test_what_differs_from_the_device_is_shown_and_in_the_address(
 ) -> None:
     before = show(browser, page, "device=stick_slip")
     assert browser.find_element(By.ID, "changes").text == "unchanged"
-    coefficient = field(browser, "friction_coefficient")
-    coefficient.clear()
-    coefficient.send_keys("0.3", Keys.ENTER)
-    phase = field(browser, "phase")
-    phase.clear()
-    phase.send_keys("30", Keys.ENTER)
+    enter(browser, "friction_coefficient", "0.3")
+    enter(browser, "phase", "30")
     changed = results(browser)
-    link = browser.execute_script("return location.hash")
     assert changed != before
-    assert show(browser, page, link.strip("#")) == changed
+    assert show(browser, page, settings_of(browser)) == changed
     marked = browser.find_elements(By.CSS_SELECTOR, ".control.changed label")
     assert [label.text for label in marked if label.text] == ["phase", "friction_coefficient"]
     chips = browser.find_elements(By.CSS_SELECTOR, "#changes button")
@@ -271,7 +274,7 @@ def test_what_differs_from_the_device_is_shown_and_in_the_address(
         chips[0].click()
         again = results(browser)
     assert again == before
-    assert browser.execute_script("return location.hash") == "#device=stick_slip"
+    assert settings_of(browser) == "device=stick_slip"
 
 
 def saved(browser: Chrome, folder: Path, button: WebElement) -> Path:
@@ -300,7 +303,7 @@ def test_a_saved_device_file_is_the_device_for_other_commands(
     show(browser, page)
     browser.find_element(By.ID, "file").send_keys(str(path))
     WebDriverWait(browser, SECONDS).until(
-        lambda _: "friction_coefficient=0.35" in browser.execute_script("return location.hash")
+        lambda _: "friction_coefficient=0.35" in settings_of(browser)
     )
     assert results(browser) == found
 
@@ -386,7 +389,7 @@ def test_curves_are_saved_where_the_prediction_is_valid(
     assert shown == set(), "this device has phases with and without a prediction"
 
 
-@pytest.mark.parametrize("screen", SCREENS)
+@pytest.mark.parametrize("name", SCREENS)
 @pytest.mark.parametrize(
     "settings",
     [
@@ -397,21 +400,17 @@ def test_curves_are_saved_where_the_prediction_is_valid(
     ids=address,
 )
 def test_no_text_is_over_another(
-    browser: Chrome, page: str, settings: dict[str, Any], screen: str
+    browser: Chrome, page: str, settings: dict[str, Any], name: str
 ) -> None:
-    width, height, is_phone = SCREENS[screen]
-    size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": is_phone}
-    script = browser.execute_cdp_cmd(
-        "Page.addScriptToEvaluateOnNewDocument", {"source": TEXTS_OF_CANVASES}
-    )
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    add, remove = (f"Page.{do}ScriptToEvaluateOnNewDocument" for do in ("add", "remove"))
+    script = browser.execute_cdp_cmd(add, {"source": TEXTS_OF_CANVASES})
     try:
-        show(browser, page, address(settings))
-        browser.execute_script("document.querySelectorAll('details').forEach((d) => d.open = true)")
-        texts = browser.execute_script(BOXES)
+        with screen(browser, *SCREENS[name]):
+            show(browser, page, address(settings))
+            browser.execute_script(UNFOLD)
+            texts = browser.execute_script(BOXES)
     finally:
-        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
-        browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
+        browser.execute_cdp_cmd(remove, script)
     assert {"phase [deg]", "steady velocity", "drive_frequency"} <= {text for text, *_ in texts}
     assert [text for text, *_ in texts if text.endswith(" is cut")] == []
     over = [
@@ -423,23 +422,21 @@ def test_no_text_is_over_another(
     assert over == []
 
 
-@pytest.mark.parametrize("screen", [*SCREENS.values(), (360, 740, True)])
+@pytest.mark.parametrize("size", [*SCREENS.values(), (360, 740, True)])
 def test_screens_scroll_only_downwards(
-    browser: Chrome, page: str, screen: tuple[int, int, bool]
+    browser: Chrome, page: str, size: tuple[int, int, bool]
 ) -> None:
-    size = dict(zip(("width", "height", "mobile"), screen, strict=True)) | {"deviceScaleFactor": 2}
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
-    show(browser, page)
-    browser.execute_script("document.querySelectorAll('details').forEach((d) => d.open = true)")
-    widths = browser.execute_script(
-        "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]"
-    )
-    labels = browser.execute_script(
-        "return [...document.querySelectorAll('.control label')]"
-        ".map((label) => [label.scrollWidth, label.clientWidth, label.clientHeight])"
-    )
-    browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
-    assert widths[0] <= widths[1]
+    with screen(browser, *size, scale=2):
+        show(browser, page)
+        browser.execute_script(UNFOLD)
+        needed, width = browser.execute_script(
+            "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]"
+        )
+        labels = browser.execute_script(
+            "return [...document.querySelectorAll('.control label')]"
+            ".map((label) => [label.scrollWidth, label.clientWidth, label.clientHeight])"
+        )
+    assert needed <= width
     assert len(labels) > 20
     for needed, width, height in labels:
         assert needed <= width, "no name runs into its field"

@@ -10,9 +10,16 @@ from pathlib import Path
 
 import pytest
 
-from fmu_src.building.c_sources import UNBUILT_GUID, FmiVersion, slider_sources, write_sources
+from fmu_src.building.c_sources import (
+    UNBUILT_GUID,
+    FmiVersion,
+    c_files,
+    slider_sources,
+    write_sources,
+)
+from fmu_src.building.cache import cached
 from fmu_src.python.slider_component.variables import VARIABLES
-from studies.hosts.compiler import compile_program, native_compiler
+from studies.hosts.compiler import compile_program, compiler_version, native_compiler
 from studies.hosts.driver_host import BINARY
 from studies.hosts.job import describe
 
@@ -52,12 +59,21 @@ def program(source: Path, folder: Path, flags: Sequence[str] = ()) -> Path:
 
 
 def sanitized_binary(folder: Path, flags: Sequence[str], version: FmiVersion = "2.0") -> Binary:
-    """The C sources as a library with a sanitizer's flags."""
-    write_sources(slider_sources(version), folder)
+    """The C sources as a library with a sanitizer's flags, that of the last run if it can be."""
+    sources = slider_sources(version)
     library = folder / "SliderResonator.so"
-    command = [*sanitizing_compiler(), "-std=c99", "-ffp-contract=off", *flags, "-fPIC", "-shared"]
-    command += [*(str(path) for path in sorted(folder.rglob("*.c"))), "-o", str(library), "-lm"]
-    subprocess.run(command, check=True)
+    compiler = sanitizing_compiler()
+    command = [*compiler, "-std=c99", "-ffp-contract=off", *flags, "-fPIC", "-shared"]
+    command += [*c_files(sources), "-o", library.name, "-lm"]
+
+    def compile_all() -> bytes:
+        write_sources(sources, folder)
+        subprocess.run(command, cwd=folder, check=True)
+        return library.read_bytes()
+
+    origin = repr((compiler_version(compiler), command, sorted(sources.items()))).encode()
+    folder.mkdir(parents=True, exist_ok=True)
+    library.write_bytes(cached(f"sanitized-{version}", origin, compile_all))
     return Binary(library, UNBUILT_GUID)
 
 

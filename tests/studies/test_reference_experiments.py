@@ -7,20 +7,26 @@ from studies.reference_experiments import FOLDER, files
 
 ROUNDING = {"table_1": 1e-10, "lugre": 1e-7, "changing_inputs": 1e-10}
 """Share of the peak within which references agree on two platforms."""
-FILES = files()
 
 
-def test_the_stored_files_are_those_of_the_script() -> None:
-    assert {path.name for path in FOLDER.iterdir()} == FILES.keys()
-    for name, content in FILES.items():
+@pytest.fixture(scope="module")
+def written() -> dict[str, bytes]:
+    return files()
+
+
+def test_the_stored_files_are_those_of_the_script(written: dict[str, bytes]) -> None:
+    assert {path.name for path in FOLDER.iterdir()} == written.keys()
+    for name, content in written.items():
         if not name.endswith("_ref.csv"):
             assert (FOLDER / name).read_bytes() == content, name
 
 
 @pytest.mark.parametrize("name", ROUNDING)
-def test_the_stored_results_are_those_of_the_references(name: str) -> None:
+def test_the_stored_results_are_those_of_the_references(
+    written: dict[str, bytes], name: str
+) -> None:
     stored = (FOLDER / f"{name}_ref.csv").read_text(encoding="utf-8").splitlines()
-    written = FILES[f"{name}_ref.csv"].decode().splitlines()
-    assert stored[0] == written[0]
-    old, new = (np.loadtxt(lines, delimiter=",", skiprows=1) for lines in (stored, written))
+    lines = written[f"{name}_ref.csv"].decode().splitlines()
+    assert stored[0] == lines[0]
+    old, new = (np.loadtxt(rows, delimiter=",", skiprows=1) for rows in (stored, lines))
     assert np.all(np.abs(old - new) <= ROUNDING[name] * np.abs(old).max(axis=0))

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -149,7 +150,7 @@ def run_host(
     version = host.version()
     if host.couples:
         jobs = table_1_jobs(native)
-        leaders = _run_in_reference(reference, table_1_jobs(python), time_limit)
+        leaders = _table_1_in_reference(reference, python, time_limit)
         ours = _run_in_reference(reference, coupled(jobs, leaders), time_limit)
         behind = [replace(job, partner=str(python.resolve())) for job in jobs]
         theirs = run_jobs(host, behind, time_limit)
@@ -159,10 +160,16 @@ def run_host(
     pairs += [(FMI_3, native_3, native)] if host.loads_fmi_3 else []
     results = []
     for name, fmu, in_reference in pairs:
-        ours = _run_in_reference(reference, table_1_jobs(in_reference), time_limit)
+        ours = _table_1_in_reference(reference, in_reference, time_limit)
         compared = by_case(ours, run_jobs(host, table_1_jobs(fmu), time_limit))
         results.append(HostResult(host.name, version, name, compared))
     return results
+
+
+@cache
+def _table_1_in_reference(reference: Host, fmu: Path, time_limit: float) -> list[Rows]:
+    """Return the rows that each host is compared with."""
+    return _run_in_reference(reference, table_1_jobs(fmu), time_limit)
 
 
 def by_case(ours: Sequence[Rows], theirs: Sequence[HostAnswer]) -> dict[Case, HostComparison]:

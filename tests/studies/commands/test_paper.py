@@ -1,4 +1,3 @@
-import json
 from contextlib import nullcontext
 from pathlib import Path
 from types import SimpleNamespace
@@ -7,16 +6,6 @@ import pytest
 
 from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
-
-
-@pytest.mark.slow
-def test_figures_are_written_and_listed_as_json(native_fmu: Path, tmp_path: Path) -> None:
-    arguments = ["--out", tmp_path, "--only", "figure_7", "--fmu", native_fmu, "--json"]
-    result = call("paper", *arguments)
-    assert result.exit_code == 0, result.output
-    assert json.loads(result.stdout)["run"] == ["figure_7"]
-    assert (tmp_path / "figure_7.svg").is_file()
-    assert "figure_7" in (tmp_path / "FIGURES.md").read_text(encoding="utf-8")
 
 
 def in_process(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,7 +9,6 @@ from rich.console import Console
 
 from fmu_src.building.c_sources import slider_sources
 from slider_resonator.errors import HarnessError
-from slider_resonator.scenes.scene_files import find_scene
 from studies.mutants import judging
 from studies.mutants.archive import DESCRIPTION, PythonFmu, read_python_fmu
 from studies.mutants.bench import Judging
@@ -18,7 +17,7 @@ from studies.mutants.enumerate_fmu import fmu_mutants, sample
 from studies.mutants.enumerate_source import source_mutants
 from studies.mutants.listing import print_run, summary
 from studies.mutants.mutant import KINDS, Mutant
-from studies.mutants.runs import run_changes, run_mutants
+from studies.mutants.runs import run_mutants
 from studies.mutants.verdict import EQUIVALENT, REJECTED, SURVIVED, MutationRun, Verdict
 from tests.harness import faulty_fmus
 from tests.harness.scene_text import read_scene
@@ -178,19 +177,6 @@ def test_mutants_are_judged_once_and_kept(
     assert run.rate == 1.0
     monkeypatch.delattr(judging, "trial")  # nothing is left to be judged
     assert run_kept().verdicts == run.verdicts
-
-
-@pytest.mark.isolated
-@pytest.mark.slow
-def test_faults_are_rejected_and_variants_accepted(native_fmu: Path) -> None:
-    names = ("mean_before_first_period", "first_bristle_sign", "split_merges_mirror", "longer_arcs")
-    changes = [c for c in (*hand_written_faults(), *harmless_variants()) if c.name in names]
-    scenes = ("less_than_a_period", "lugre_less_than_a_period", "averaged_short_run")
-    run = run_changes(native_fmu, changes, Judging([find_scene(scene) for scene in scenes]))
-    assert [verdict.variant.name for verdict in run.survivors] == ["split_merges_mirror"]
-    assert run.false_alarms == []
-    assert run.rate == pytest.approx(2.0 / 3.0)
-    assert all(verdict.quantity for verdict in run.verdicts if verdict.rejected)
 
 
 def test_the_rate_counts_only_what_changes_a_result(run: MutationRun[Mutant]) -> None:
