@@ -82,13 +82,6 @@ def test_every_component_input_is_connected(structure: str, request: pytest.Fixt
                 assert (component.name, connector.name) in ends, connector.name
 
 
-def test_equal_fmus_give_equal_bytes(
-    closed_loop_package: Path, native_fmu: Path, controller_fmu: Path, tmp_path: Path
-) -> None:
-    again = build_closed_loop(tmp_path, native_fmu, controller_fmu)
-    assert again.read_bytes() == closed_loop_package.read_bytes()
-
-
 def test_a_missing_fmu_is_named(native_fmu: Path, tmp_path: Path) -> None:
     with pytest.raises(BuildError, match=r"none\.fmu: no such file; ClosedLoop\.ssp needs it"):
         build_closed_loop(tmp_path, native_fmu, tmp_path / "none.fmu")

@@ -36,10 +36,16 @@ def edited_package(tmp_path: Path) -> Path:
     return copy
 
 
+def component_modules() -> set[str]:
+    return {name for name in sys.modules if "slider_component_" in name}
+
+
 def test_another_content_gets_another_name_and_guid(
     python_fmu: Path, tmp_path: Path, edited_package: Path
 ) -> None:
+    path, modules = list(sys.path), component_modules()
     other = build_python(tmp_path / "dist", edited_package)
+    assert (sys.path, component_modules()) == (path, modules), "the caller keeps its own"
     assert package_name(other) != package_name(python_fmu), "one process must tell builds apart"
     assert guid(other) != guid(python_fmu)
 
@@ -73,10 +79,3 @@ def test_a_component_that_does_not_run_is_not_packaged(
 def test_a_folder_that_is_no_package_is_refused(tmp_path: Path) -> None:
     with pytest.raises(BuildError, match=r"is not a Python package: it has no __init__\.py"):
         build_python(tmp_path / "dist", tmp_path)
-
-
-def test_the_caller_keeps_its_modules_and_search_path(tmp_path: Path) -> None:
-    path, modules = list(sys.path), {n for n in sys.modules if "slider_component_" in n}
-    build_python(tmp_path)
-    assert sys.path == path
-    assert {n for n in sys.modules if "slider_component_" in n} == modules
