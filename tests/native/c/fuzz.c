@@ -6,33 +6,72 @@
  *
  * Fails (1) when a call that is not carried out goes unlogged, is logged with another status, changes
  * the state, or answers a status that no host should see there; when an output that is read with fmi2OK
- * is not finite; when a call exceeds two seconds; when memory is left behind. A crash or a hang speaks for itself. Ends with a line of what
- * was done. */
-#include "fuzz_host.h"
-#include "variables.h"
+ * is not finite; when a call exceeds two seconds; when memory is left behind. A crash or a hang speaks for
+ * itself. Ends with a line of what was done, and for each function how often it was called and carried out. */
+#include <stdarg.h>
 
-enum { INSTANCES = 4, STATES = 6, MAX_BYTES = 8192, SECONDS = 2 };
+#include "fmu_library.h"
+
+typedef fmi2Component Instance;
+typedef fmi2FMUstate State;
+typedef fmi2Byte Byte;
+typedef fmi2Status Status;
+enum { FIRST = 0, MEMORY_MAY_RUN_OUT = 1, LONGEST_MESSAGE = 4096 };
 
 static FmuLibrary fmu;
+
+#include "fuzzing.h"
+
 static const char *guid;
-static unsigned settable = SETTABLE_COUNT;
-static fmi2Component instances[INSTANCES];
-static fmi2FMUstate states[STATES];
-static fmi2Byte stored[MAX_BYTES];
-static size_t stored_size = 0;
-static double longest_call = 0.0;
-static unsigned long by_call[64], carried_out[64];
+
+/* The last log message of the present call. */
+static struct {
+    fmi2Status status;
+    char text[LONGEST_MESSAGE];
+} said;
+
+static long blocks_in_use = 0;
+
+static void fail(const char *what) {
+    printf("call %lu, %s: %s (last said: %s)\n", calls, present_call, what, said.text);
+    fflush(stdout);
+    exit(FAILED);
+}
+
+static void *allocate(size_t count, size_t size) {
+    void *block = memory_is_scarce && one_in(4) ? NULL : malloc(count * size);
+    if (block) {
+        memset(block, 0, count * size);
+        blocks_in_use++;
+    }
+    return block;
+}
+
+static void release(void *block) {
+    if (block) blocks_in_use--;
+    free(block);
+}
+
+static void log_message(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status,
+                        fmi2String category, fmi2String format, ...) {
+    va_list arguments;
+    int length;
+    if (environment != &said) fail("the logger was called with another environment");
+    if (!instance || !category || !format) fail("the logger was called with a null pointer");
+    va_start(arguments, format);
+    length = vsnprintf(said.text, sizeof said.text, format, arguments);
+    va_end(arguments);
+    if (length <= 0 || length >= LONGEST_MESSAGE) fail("a message is empty, or longer than a page");
+    messages++;
+    said.status = status;
+}
+
+static const fmi2CallbackFunctions CALLBACKS = {log_message, allocate, release, NULL, &said};
 
 static fmi2ValueReference references[ROOM];
 static fmi2Real reals[ROOM];
 static fmi2Integer integers[ROOM];
 static fmi2String strings[ROOM];
-
-/* The Integers of the slider; the other references below `settable` are Reals that can be set. */
-static int is_choice(unsigned reference) {
-    return reference == VR_FRICTION_FACES || reference == VR_FRICTION_LAW || reference == VR_FIDELITY
-           || reference == VR_AVERAGING_ORDER;
-}
 
 /* Half of the calls get arguments that may well be carried out. */
 static void draw_arguments(int for_integers) {
@@ -46,70 +85,28 @@ static void draw_arguments(int for_integers) {
     }
 }
 
-static void *or_null(void *pointer) {
-    return one_in(40) ? NULL : pointer;
-}
-
 static fmi2String some_name(void) {
     static const char *const names[] = {"slider", "", "a name with %s and %n in it"};
     return one_in(10) ? NULL : names[one_in(4) ? below(3) : 0];
 }
 
-static fmi2Component some_instance(void) {
-    return instances[below(INSTANCES)];
-}
-
-/* The serialised state, to see whether a refused call has changed it; 0 bytes where there is none. */
-static size_t state_of(fmi2Component instance, fmi2Byte bytes[MAX_BYTES]) {
-    fmi2FMUstate state = NULL;
-    size_t size = 0;
-    int kept = memory_is_scarce;
-    if (!instance) return 0;
-    memory_is_scarce = 0;
-    if (fmu.GetFMUstate(instance, &state) != fmi2OK
-        || fmu.SerializedFMUstateSize(instance, state, &size) != fmi2OK || size > MAX_BYTES
-        || fmu.SerializeFMUstate(instance, state, bytes, size) != fmi2OK
-        || fmu.FreeFMUstate(instance, &state) != fmi2OK || state != NULL) {
-        fail("the state could not be read");
-    }
-    memory_is_scarce = kept;
-    return size;
-}
-
-static void instantiate(void) {
-    unsigned slot = below(INSTANCES);
+static void instantiate(unsigned slot) {
     fmi2Type type = one_in(10) ? (fmi2Type)random_integer() : fmi2CoSimulation;
     fmi2String given = one_in(10) ? some_name() : guid;
     const fmi2CallbackFunctions *callbacks = one_in(50) ? NULL : &CALLBACKS;
     fmi2Component made;
     if (instances[slot]) fmu.FreeInstance(instances[slot]);
     present_call = "fmi2Instantiate";
-    said.messages = 0;
+    messages = 0;
     made = fmu.Instantiate(some_name(), type, given, one_in(2) ? NULL : "file:///nowhere",
                            callbacks, fmi2False, one_in(20) ? fmi2False : fmi2True);
-    if (!made && callbacks && !said.messages) fail("no instance, and no word why");
+    if (!made && callbacks && !messages) fail("no instance, and no word why");
     instances[slot] = made;
     if (made) fmu.SetDebugLogging(made, fmi2True, 0, NULL);
 }
 
 static fmi2Status new_state(fmi2Component c) {
     return fmu.GetFMUstate(c, or_null(&states[below(STATES)]));
-}
-
-static fmi2Status write_state(fmi2Component c) {
-    size_t size = 0;
-    fmi2FMUstate state = states[below(STATES)];
-    fmi2Status status = fmu.SerializedFMUstateSize(c, state, or_null(&size));
-    if (status != fmi2OK || size == 0) return status;
-    if (size > MAX_BYTES) fail("a state does not fit");
-    stored_size = one_in(20) ? random_count() % MAX_BYTES : size;
-    return fmu.SerializeFMUstate(c, state, or_null(stored), stored_size);
-}
-
-static fmi2Status read_state(fmi2Component c) {
-    size_t flips = one_in(2) ? below(4) : 0, size = one_in(20) ? below(MAX_BYTES) : stored_size;
-    while (flips-- > 0 && stored_size > 0) stored[below((uint32_t)stored_size)] ^= (char)(1 << below(8));
-    return fmu.DeSerializeFMUstate(c, or_null(stored), size, or_null(&states[below(STATES)]));
 }
 
 static fmi2Status read_values(fmi2Component c) {
@@ -136,7 +133,7 @@ static fmi2Status set_logging(fmi2Component c) {
     fmi2Status back = fmu.SetDebugLogging(c, fmi2True, 0, NULL);
     if (c && back != fmi2OK) fail("logging cannot be switched on");
     /* With logging off there may be no message, and that is as it should be. */
-    return status == fmi2Error && !said.messages ? fmi2OK : status;
+    return status == fmi2Error && !messages ? fmi2OK : status;
 }
 
 enum { INPUTS = 3 };
@@ -214,63 +211,19 @@ static int may_discard(const char *name) {
     return strncmp(name, "fmi2Get", 7) == 0 && strstr(name, "Status") != NULL;
 }
 
-static void one_call(void) {
-    static fmi2Byte before[MAX_BYTES], after[MAX_BYTES];
-    unsigned function = some_function(FUNCTION, FUNCTION_COUNT);
-    fmi2Component instance = one_in(100) ? NULL : some_instance();
-    size_t size = one_in(4) ? state_of(instance, before) : 0;
-    fmi2Status status;
-    clock_t began;
-    double seconds;
-    present_call = FUNCTION[function].name;
-    draw_arguments(strstr(present_call, "Integer") != NULL);
-    by_call[function]++;
-    said.messages = 0;
-    said.text[0] = '\0';
-    began = clock();
-    status = call(function, instance);
-    seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
-    if (seconds > longest_call) longest_call = seconds;
-    if (seconds > SECONDS) fail("a call took more than two seconds");
-    if (status == fmi2OK) {
-        carried_out[function]++;
-        return;
-    }
-    refusals++;
+static void judge_refusal(fmi2Status status, fmi2Component instance) {
     if (status != fmi2Error && !(status == fmi2Discard && may_discard(present_call)))
         fail("a status that is neither fmi2OK nor fmi2Error");
-    if (instance && (!said.messages || said.status != status)) fail("refused, but not logged so");
-    if (size && (state_of(instance, after) != size || memcmp(before, after, size)))
-        fail("refused, but the state has changed");
-}
-
-static void put_in_order(void) {
-    int i;
-    memory_is_scarce = 0;
-    for (i = 0; i < STATES; i++)
-        if (states[i]) fmu.FreeFMUstate(instances[0], &states[i]);
-    for (i = 0; i < INSTANCES; i++)
-        if (instances[i]) fmu.FreeInstance(instances[i]);
-    present_call = "after all calls";
-    if (blocks_in_use) fail("memory is left behind");
+    if (instance && (!messages || said.status != status)) fail("refused, but not logged so");
 }
 
 int main(int count, char **arguments) {
-    unsigned long requested;
-    unsigned i;
     if ((count != 5 && count != 6) || !load_fmu_library(&fmu, arguments[1])) return COULD_NOT_RUN;
     guid = arguments[2];
     random_state = 2 * strtoull(arguments[3], NULL, 10) + 1;
-    requested = strtoul(arguments[4], NULL, 10);
     if (count == 6) settable = (unsigned)strtoul(arguments[5], NULL, 10);
-    for (calls = 0; calls < requested; calls++) {
-        memory_is_scarce = one_in(20);
-        if (one_in(500) || !instances[0]) instantiate();
-        else one_call();
-    }
-    while (!instances[0]) instantiate();
-    put_in_order();
-    printf("%lu calls, %lu refused, longest %.3g s\n", calls, refusals, longest_call);
-    for (i = 0; i < FUNCTION_COUNT; i++) printf("%s %lu %lu\n", FUNCTION[i].name, by_call[i], carried_out[i]);
+    fuzz(strtoul(arguments[4], NULL, 10), FUNCTION, FUNCTION_COUNT, "Integer");
+    present_call = "after all calls";
+    if (blocks_in_use) fail("memory is left behind");
     return 0;
 }
