@@ -2,7 +2,6 @@
 
 import math
 import re
-import subprocess
 import sys
 import zipfile
 from pathlib import Path
@@ -10,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import HarnessError
-from studies.hosts.compiler import SOURCES, compile_program, native_compiler
+from studies.hosts.driver_host import native_driver
 from studies.hosts.hosts import Host, hosts, package_version
 from studies.hosts.job import HostAnswer, Job, Rows, describe, read_answers, serve, write_jobs
 from studies.hosts.runs import ALLOWED, CASES, FMI_3, compare, run_jobs, table_1_jobs
@@ -23,6 +22,7 @@ from studies.hosts.step_cost import (
     short_step_ratio,
 )
 from studies.hosts.table import BEGIN, COLUMNS, END
+from tests.native.toolchain import run, unpacked_binary
 from tests.processes import has_ended
 
 
@@ -31,9 +31,27 @@ def test_a_package_that_is_missing_is_named_with_what_installs_it() -> None:
         package_version("no-such-host")
 
 
-def test_the_driver_compiles_without_warnings_and_prints_its_usage(tmp_path: Path) -> None:
-    driver = compile_program(native_compiler(), SOURCES / "driver.c", tmp_path / "driver")
-    done = subprocess.run([driver], capture_output=True, text=True, check=False)
+@pytest.mark.parametrize(
+    ("guid", "commands", "code", "message"),
+    [
+        (None, "initialize\nstep -1.0 1", 1, "communicationStepSize = -1.0 refused"),
+        (None, "real 999 1.0", 1, "999"),
+        (None, "leap", 2, "leap is no command"),
+        (None, "step 0.001 many", 2, "many is not a number"),
+        ("another", "", 1, "fmuGUID = 'another' refused"),
+    ],
+)
+def test_the_driver_reports_errors(
+    native_fmu: Path, tmp_path: Path, guid: str | None, commands: str, code: int, message: str
+) -> None:
+    binary = unpacked_binary(native_fmu, tmp_path)
+    done = run([native_driver(), binary.library, guid or binary.guid, "file:///"], f"{commands}\n")
+    assert done.returncode == code
+    assert message in done.stderr
+
+
+def test_the_driver_prints_its_usage() -> None:
+    done = run([native_driver()])
     assert done.returncode == 2
     assert "usage: driver LIBRARY GUID RESOURCES" in done.stderr
 
