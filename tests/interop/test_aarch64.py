@@ -2,19 +2,18 @@
 
 import platform
 import shutil
-import subprocess
-import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from fmu_src.building.native_fmu import MODEL_3, build_native_3
-from fmu_src.building.platforms import AARCH64_LINUX, HOST, Platform, host_platform
+from fmu_src.building.native_fmu import build_native_3
+from fmu_src.building.platforms import AARCH64_LINUX, HOST, host_platform
 from fmu_src.python.slider_component.variables import VARIABLES
 from studies.hosts.compiler import compile_program, native_compiler, zig_compiler
 from studies.hosts.job import describe
+from tests.native.toolchain import Binary, run, unpacked_binary
 
 pytestmark = [
     pytest.mark.interop,
@@ -46,19 +45,11 @@ def drivers(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     )
 
 
-def library(fmu: Path, system: Platform, folder: Path) -> Path:
-    (name,) = system.binaries_3(MODEL_3)
-    with zipfile.ZipFile(fmu) as archive:
-        return Path(archive.extract(name, folder))
-
-
-def run(command: Sequence[str | Path], fmu: Path, binary: Path, case: tuple[int, int]) -> list[str]:
+def rows_of(fmu: Path, binary: Binary, host: Sequence[object], case: tuple[int, int]) -> list[str]:
     description = describe(str(fmu))
     chosen = description.refer(["friction_law", "fidelity"])
-    arguments = [binary, description.guid, *case, *chosen, *description.refer(OUTPUTS)]
-    done = subprocess.run(
-        [*map(str, command), *map(str, arguments)], capture_output=True, text=True, check=False
-    )
+    asked = (binary.guid, *case, *chosen, *description.refer(OUTPUTS))
+    done = run([*host, binary.library, *asked])
     assert done.returncode == 0, done.stderr
     return done.stdout.splitlines()
 
@@ -69,8 +60,12 @@ def test_arm_gives_the_numbers_of_this_machine(
 ) -> None:
     assert shutil.which(QEMU[0]), f"{QEMU[0]}: not found; `make hosts` installs it"
     here, arm = drivers
-    *ours, our_events = run([here], fmu, library(fmu, host_platform("3.0"), tmp_path), case)
-    *theirs, their_events = run([*QEMU, arm], fmu, library(fmu, AARCH64_LINUX, tmp_path), case)
+    native, foreign = (
+        unpacked_binary(fmu, tmp_path, *platform.tuples)
+        for platform in (host_platform("3.0"), AARCH64_LINUX)
+    )
+    *ours, our_events = rows_of(fmu, native, [here], case)
+    *theirs, their_events = rows_of(fmu, foreign, [*QEMU, arm], case)
     assert our_events == their_events
     assert int(our_events) > 0 or case[1] == 0
     expected, found = (np.array([line.split() for line in r], float) for r in (ours, theirs))
