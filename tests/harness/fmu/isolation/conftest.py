@@ -1,9 +1,13 @@
+from collections.abc import Iterator
+
 import pytest
 
 from tests.processes import ROOT
 
 
-@pytest.fixture(autouse=True)
-def importable_tasks(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture(autouse=True, scope="module")
+def importable_tasks() -> Iterator[None]:
     """The process of an FMU finds the tasks of the tests."""
-    monkeypatch.setenv("PYTHONPATH", str(ROOT))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", str(ROOT))
+        yield

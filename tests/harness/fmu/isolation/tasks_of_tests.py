@@ -66,16 +66,12 @@ def disturb(instance: Instance) -> str:
     return os.read(0, 100).decode()
 
 
-def start_child(instance: Instance, pid_file: Path, then: str) -> None:
-    """Start a process that holds the pipes, and end as `then` says."""
+def start_child(instance: Instance, pid_file: Path) -> None:
+    """Start a process that holds the pipes, and crash."""
     code = "import time; time.sleep(600)"
     with subprocess.Popen([sys.executable, "-c", code], close_fds=False) as child:
         pid_file.write_text(str(child.pid))
-        if then == "leave":
-            os._exit(0)
-        if then == "abort":
-            os.abort()
-        child.returncode = 0  # else this waits for it
+        os.abort()
 
 
 def start_daemon(instance: Instance, pid_file: Path) -> None:

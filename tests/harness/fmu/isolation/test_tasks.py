@@ -7,22 +7,20 @@ from typing import Any
 
 import pytest
 
+from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.isolation.process import FmuDied
+from slider_resonator.fmu.isolation import tasks
+from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from slider_resonator.fmu.isolation.tasks import (
     LocalProcesses,
     Outcome,
     run_all_tasks,
     run_tasks,
 )
-from tests.harness.fmu.isolation import tasks_of_tests as tasks
+from tests.harness.fmu.isolation.tasks_of_tests import position_after, refused
 
-MOVE = partial(tasks.position_after, time=0.01)
-
-
+MOVE = partial(position_after, time=0.01)
 Named = tuple[str, Callable[[Instance], Any]]
-
-
 CLOCK = [0.0]
 """The time (s) of a test that does not wait."""
 
@@ -39,7 +37,7 @@ def ending(outcome: Outcome) -> str:
 
 
 def test_a_task_that_fails_leaves_the_others_alone(native_fmu: Path) -> None:
-    given: list[Named] = [("a", MOVE), ("b", tasks.refused), ("c", die), ("d", MOVE)]
+    given: list[Named] = [("a", MOVE), ("b", refused), ("c", die), ("d", MOVE)]
     items, outcomes = zip(*run_tasks(native_fmu, given, 60.0, name=str), strict=True)
     assert items == ("a", "b", "c", "d")
     assert [ending(one) for one in outcomes] == ["done", "error", "died", "done"]
@@ -77,7 +75,7 @@ def test_a_missed_time_limit_ends_the_run(native_fmu: Path) -> None:
 def test_crashes_that_took_the_time_limit_end_the_run(
     native_fmu: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(f"{run_tasks.__module__}.monotonic", lambda: CLOCK[0])
+    monkeypatch.setattr(tasks, "monotonic", lambda: CLOCK[0])
     slow: Named = ("a", partial(die, seconds=0.9))
     given = [slow, ("b", slow[1]), ("c", slow[1])]
     *died, (_, last) = run_tasks(native_fmu, given, 1.5, name=str)
@@ -90,3 +88,23 @@ def test_an_fmu_that_cannot_be_used_is_reported_once(tmp_path: Path) -> None:
     ((item, outcome),) = run_tasks(tmp_path / "none.fmu", given, 60.0, name=str)
     assert item is None
     assert "no such file" in str(outcome.error)
+
+
+@pytest.mark.parametrize(("alone", "starts_others"), [(60.0, False), (0.0, True)])
+def test_a_short_run_starts_no_other_process(
+    native_fmu: Path, monkeypatch: pytest.MonkeyPatch, alone: float, starts_others: bool
+) -> None:
+    """A longer one does; one process runs all tasks of an FMU that opens only once at a time."""
+    started: list[object] = []
+
+    def licensed(*arguments: Any) -> IsolatedFmu:
+        started.append(arguments)
+        if len(started) > 1:
+            raise FmuError("all licences are in use")
+        return IsolatedFmu(*arguments)
+
+    monkeypatch.setattr(tasks, "ALONE", alone)
+    monkeypatch.setattr(tasks, "IsolatedFmu", licensed)
+    finished = list(run_tasks(native_fmu, [("a", MOVE)] * 4, 60.0, name=str, jobs=2))
+    assert [ending(outcome) for _, outcome in finished] == ["done"] * 4
+    assert (len(started) > 1) is starts_others
