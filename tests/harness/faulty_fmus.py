@@ -4,8 +4,7 @@ import re
 import subprocess
 import sys
 import zipfile
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Callable
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -108,30 +107,6 @@ def other_friction(python_fmu: Path, out: Path) -> Path:
     return out
 
 
-def cut(fmu: Path, out: Path) -> Path:
-    """Copy the first half of an FMU: an archive whose end was lost on the way."""
-    content = fmu.read_bytes()
-    out.write_bytes(content[: len(content) // 2])
-    return out
-
-
-def flipped(fmu: Path, out: Path) -> Path:
-    """Copy an FMU with nothing but zeros in 4 kB of one of its files."""
-    content = bytearray(fmu.read_bytes())
-    content[40:4000] = bytes(3960)
-    out.write_bytes(content)
-    return out
-
-
-def without_binaries(fmu: Path, out: Path) -> Path:
-    """Copy an FMU without its binaries."""
-
-    def alter(name: str, content: bytes) -> bytes | None:
-        return None if name.startswith("binaries/") else content
-
-    return altered(fmu, out, alter)
-
-
 def shared_library(source: Path, fmu: Path, *arguments: str) -> bytes:
     """Compile a source for this platform, beside the FMU that it is for."""
     library = fmu.with_suffix(".library")
@@ -148,42 +123,3 @@ def compiled(fmu: Path, out: Path, *defines: str) -> Path:
         return library if name.startswith(f"binaries/{fmpy.platform}/") else content
 
     return altered(fmu, out, alter)
-
-
-DESCRIBED: Mapping[str, tuple[bytes, bytes, str]] = {
-    "wrong GUID": (b'guid="', b'guid="0', "GUID"),
-    "missing variable": (b'name="load"', b'name="lode"', "input load is missing"),
-    "another unit": (b'unit="N" displayUnit="mN"', b'unit="m"', "load has unit m, must be N"),
-    "unit of another size": (
-        b'<BaseUnit kg="1" m="1" s="-2" />',
-        b'<BaseUnit kg="1" m="1" s="-2" factor="1000.0" />',
-        "unit N is defined with factor 1000.0, must be 1",
-    ),
-    "Real for an Integer": (
-        b'<Integer min="1" max="2" start="2" />',
-        b'<Real unit="1" min="1" max="2" start="2" />',
-        "friction_faces is of type Real, must be Integer",
-    ),
-    "truncated structure": (b"</ModelStructure>", b"", "modelDescription.xml cannot be read"),
-    "truncated XML": (b"</fmiModelDescription>", b"", "modelDescription.xml cannot be read"),
-}
-"""What is wrong with a description: what to replace by what, and the cause to be named."""
-
-BROKEN: Mapping[str, tuple[Callable[[Path, Path], Path], str]] = {
-    "corrupt zip, cut": (cut, "no zip archive"),
-    "corrupt zip, flipped": (flipped, "cannot be "),
-    "missing binary": (without_binaries, "no binary for "),
-    **{
-        name: (partial(redescribed, old=old, new=new), cause)
-        for name, (old, new, cause) in DESCRIBED.items()
-    },
-    "crash in doStep": (
-        lambda fmu, out: compiled(fmu, out, "IN_STEP=CRASH"),
-        "crashed in fmi2DoStep",
-    ),
-    "endless loop in doStep": (
-        lambda fmu, out: compiled(fmu, out, "IN_STEP=LOOP"),
-        "no answer within the time limit of 2 s in fmi2DoStep",
-    ),
-}
-"""How an FMU is broken, what makes it so, and the cause that a message must name."""

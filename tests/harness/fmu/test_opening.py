@@ -71,14 +71,36 @@ def test_model_exchange_alone_is_refused(python_fmu: Path, tmp_path: Path) -> No
 
 
 def test_every_departure_from_the_interface_is_listed(native_fmu: Path, tmp_path: Path) -> None:
+    changes = {
+        b'name="phase"': b'name="phi"',
+        b'"N"': b'"kN"',
+        b'<Integer min="1" max="2" start="2" />': b'<Real unit="1" min="1" max="2" start="2" />',
+    }
+
     def alter(name: str, content: bytes) -> bytes:
-        other = content.replace(b'name="phase"', b'name="phi"').replace(b'"N"', b'"kN"')
-        return other if name == XML else content
+        for old, new in changes.items():
+            content = content.replace(old, new) if name == XML else content
+        return content
 
     message = refusal(faulty_fmus.altered(native_fmu, tmp_path / "other.fmu", alter))
     assert "input phase is missing" in message
     assert "load has unit kN, must be N" in message
     assert "blocking_force has unit kN" in message
+    assert "friction_faces is of type Real, must be Integer" in message
+
+
+def test_a_damaged_fmu_and_one_without_binaries_are_refused(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    damaged = bytearray(native_fmu.read_bytes())
+    damaged[40:4000] = bytes(3960)
+    path = tmp_path / "other.fmu"
+    path.write_bytes(damaged)
+    assert "cannot be " in refusal(path)
+    faulty_fmus.altered(
+        native_fmu, path, lambda name, content: None if name.startswith("binaries/") else content
+    )
+    assert "no binary for " in refusal(path)
 
 
 def test_a_limit_that_is_no_number_is_named(
