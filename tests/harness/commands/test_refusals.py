@@ -21,6 +21,7 @@ validate no.fmu
 validate no.fmu --scene tabel_1
 validate --scene /
 validate --fmu no.fmu --scene table_1
+validate no.fmu --own --scene table_1
 steady /
 steady --fmu no.fmu
 steady no.fmu --fmu no.fmu
@@ -33,6 +34,7 @@ steady --phase 0.4
 blocking no.fmu
 choose nope
 scenes --check mine.tml
+scenes --show tabel_1
 scenes --template --schema
 run no.fmu table_1
 run --fmu no.fmu table_1
@@ -77,6 +79,7 @@ sweep --out a.csv --over phase=1:1:5
 sweep --out a.csv --over 'phase=0 kg:1:3'
 sweep --out a.csv --over phase=0:1:3 --over phase=0:2:3
 sweep fase.toml --out a.csv
+sweep grid.toml --out a.csv --workers 0
 sweep grid.toml --out a.txt
 sweep grid.toml --out a.csv --fmu none.fmu
 sweep three.toml --out a.csv --plot a.png
@@ -95,7 +98,12 @@ device --ssv a.ssv
 steady no.fmu --device stick_slp
 trade tabel_1 --out out
 trade table_1 --out out --fmu missing.fmu
+trade --out . --page index.html
 stress missing.fmu --out out
+stress --seed 7
+stress --case 'random device: seed 1, case 10' --first 5 --seed 7
+stress --case 'random device: seed 1, case 10' --random 10
+stress --long --random 10
 stress --device conveyor --random 3
 fit --free slider_mass
 fit --free load --velocity-at 3

@@ -109,14 +109,6 @@ def test_measurements_before_an_error_or_an_interruption_are_kept(
     assert (tmp_path / "index.html").is_file()
 
 
-def test_each_file_is_written_once(tmp_path: Path) -> None:
-    page = tmp_path / "index.html"
-    result = call("trade", "--out", tmp_path, "--page", page)
-    assert result.exit_code == 2
-    assert f"--page 1 {page} is the file of index.html of --out" in result.stderr
-    assert not page.exists()
-
-
 def test_the_public_keys_stay(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
