@@ -287,5 +287,3 @@ def test_numbers_that_may_be_in_another_unit_are_warned_of(native_fmu: Path) -> 
     with opened as fmu, pytest.warns(UserWarning, match="phase = 30 is in rad, which is 1718.87"):
         fmu.steady(phase=30)
     assert caught[0].filename == __file__, "where the package was called"
-
-

@@ -50,7 +50,6 @@ ABORT, REFUSED = tasks_of_tests.abort, tasks_of_tests.refused
 @pytest.mark.parametrize(
     "faults",
     [
-
         {8: ABORT, 9: REFUSED},
         {0: REFUSED, 2: ABORT, 5: ABORT, 9: ABORT},
         {2: ABORT, 7: ABORT, 8: ABORT},
