@@ -50,4 +50,5 @@ def stated_costs(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
         monkeypatch.setattr(module, "timed_run", run, raising=False)
     for module in (choosing, request.module):
         monkeypatch.setattr(module, "find", steady, raising=False)
-    monkeypatch.setattr(choosing, "ROUNDS", 1)
+    for module, rounds in ((choosing, "ROUNDS"), (request.module, "REPEATS")):
+        monkeypatch.setattr(module, rounds, 1, raising=False)

@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from slider_resonator.device.interface import OUTPUTS
 from slider_resonator.device.model import Model
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.stressing.axes import axis_cases
@@ -36,7 +37,7 @@ def test_table_1_passes(seen: Observation) -> None:
 @pytest.mark.parametrize(
     ("name", "change", "check"),
     [
-        ("position", float("nan"), "finite"),
+        *((name, float("nan"), "finite") for name in OUTPUTS),
         ("steady_velocity", float("inf"), "finite"),
         ("normal_force", 1e-6, "phase of the normal load"),
         ("friction_force", 1.0, "friction bound"),

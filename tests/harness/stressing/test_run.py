@@ -137,9 +137,8 @@ def test_cases_cover_what_they_should() -> None:
     assert any(case.device.normal_amplitude > case.device.normal_preload for case in cases)
     assert any(case.start_time for case in cases)
     assert all((case.sizes > 0.0).all() for case in cases)
-    assert (
-        sum(len(one.sizes) > 1 and np.ptp(one.sizes) > 1e-3 * one.duration for one in cases) > 300
-    )
+    unequal = [case for case in cases if np.ptp(case.sizes) > 1e-3 * case.duration]
+    assert len(unequal) > 300
 
 
 @pytest.mark.parametrize("number", range(len(IN_TURN)))
@@ -152,9 +151,6 @@ def test_an_error_above_the_bound_fails(instance: Instance, number: int) -> None
     verdict = judge(case, replace(seen, outputs={**seen.outputs, "position": off}))
     assert verdict.verdict == FAILED
     assert "reference: " in verdict.reason
-    for name, signal in seen.outputs.items():
-        no_number = {**seen.outputs, name: np.full_like(signal, np.nan)}
-        assert judge(case, replace(seen, outputs=no_number)).verdict == FAILED
 
 
 def test_a_device_without_reference_is_not_judged() -> None:
