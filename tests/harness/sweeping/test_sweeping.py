@@ -8,7 +8,7 @@ import sqlite3
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import closing, suppress
 from pathlib import Path
 from types import SimpleNamespace
@@ -80,22 +80,28 @@ def test_one_and_two_workers_write_the_same_table(native_fmu: Path, tmp_path: Pa
     assert not journal_path(tmp_path / "one.parquet").exists()
 
 
-@pytest.mark.slow
-def test_finished_points_are_found_and_not_computed_again(native_fmu: Path, tmp_path: Path) -> None:
-    class Interrupted(Exception):
-        pass
+def interrupt(label: str, share: float) -> None:
+    if share >= 0.5:
+        raise KeyboardInterrupt
 
-    def interrupt(label: str, share: float) -> None:
-        if share > 0.3:
-            raise Interrupted
 
+def test_finished_points_but_damaged_ones_are_not_computed_again(
+    native_fmu: Path, tmp_path: Path
+) -> None:
     out = tmp_path / "a.csv"
-    with pytest.raises(Interrupted):
-        run_sweep(GRID, native_fmu, out, workers=2, progress=interrupt)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        run_sweep(GRID, native_fmu, out, workers=1, progress=interrupt)
+    (note,) = caught.value.__notes__
+    assert f"of {len(GRID.points)} points are kept in {journal_path(out)}" in note
     assert not out.exists()
     kept = kept_points(out)
-    assert kept >= 0.3 * len(GRID.points)
-    assert run_sweep(GRID, native_fmu, out, workers=2).found == kept
+    assert kept >= 0.5 * len(GRID.points)
+    with closing(sqlite3.connect(journal_path(out))) as file, file:
+        (rows,) = file.execute("SELECT entry FROM entries WHERE number = 2").fetchone()
+        file.execute("UPDATE entries SET entry = '[[0,[7.0],null]]' WHERE number = 2")
+    result = run_sweep(GRID, native_fmu, out, workers=1)
+    assert result.damaged == [2]
+    assert result.found == kept - len(json.loads(rows))
     run_sweep(GRID, native_fmu, tmp_path / "b.csv", workers=1)
     assert out.read_bytes() == (tmp_path / "b.csv").read_bytes()
 
@@ -116,14 +122,6 @@ def _start(grid: Path, fmu: Path, out: Path) -> subprocess.Popen[bytes]:
     return subprocess.Popen([*command, "--fmu", str(fmu), "--workers", "2"])
 
 
-def _wait_for_points(process: subprocess.Popen[bytes], out: Path, points: int) -> None:
-    until = time.monotonic() + DEADLINE
-    while process.poll() is None and time.monotonic() < until:
-        if kept_points(out) > points:
-            return
-        time.sleep(0.01)
-
-
 def _children(process: subprocess.Popen[bytes]) -> list[int]:
     """Return the processes of the FMU, which the threads of the sweep started."""
     found: list[int] = []
@@ -131,23 +129,6 @@ def _children(process: subprocess.Popen[bytes]) -> list[int]:
         with suppress(FileNotFoundError):  # those that send a task are short-lived
             found += map(int, (thread / "children").read_text().split())
     return found
-
-
-@pytest.fixture(scope="module")
-def long_grid(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("long") / "long.toml"
-    path.write_text(LONG, encoding="utf-8")
-    return path
-
-
-@pytest.fixture(scope="module")
-def undisturbed(
-    long_grid: Path, native_fmu: Path, tmp_path_factory: pytest.TempPathFactory
-) -> Path:
-    """The table of the long grid, from a sweep that nothing has happened to."""
-    table = tmp_path_factory.mktemp("undisturbed") / "undisturbed.parquet"
-    assert _start(long_grid, native_fmu, table).wait(DEADLINE) == 0
-    return table
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:
@@ -165,15 +146,20 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
     "kills", [pytest.param(3, marks=pytest.mark.slow), pytest.param(6, marks=pytest.mark.nightly)]
 )
 def test_a_sweep_killed_at_random_is_resumed_to_the_same_file(
-    long_grid: Path, undisturbed: Path, native_fmu: Path, tmp_path: Path, kills: int
+    native_fmu: Path, tmp_path: Path, kills: int
 ) -> None:
-    out = tmp_path / "killed.parquet"
+    long_grid = tmp_path / "long.toml"
+    long_grid.write_text(LONG, encoding="utf-8")
+    undisturbed, out = tmp_path / "undisturbed.parquet", tmp_path / "killed.parquet"
+    assert _start(long_grid, native_fmu, undisturbed).wait(DEADLINE) == 0
     kept = 0
     for seed in range(kills):
         process = _start(long_grid, native_fmu, out)
         chosen = kept + random.Random(seed).randrange(150)
-        _wait_for_points(process, out, chosen)
-        assert process.poll() is None, f"seed {seed}: the sweep has come to its end before the kill"
+        until = time.monotonic() + DEADLINE
+        while kept_points(out) <= chosen and time.monotonic() < until:
+            assert process.poll() is None, f"seed {seed}: the sweep has ended before the kill"
+            time.sleep(0.01)
         _kill(process)
         before, kept = kept, kept_points(out)
         print(f"seed {seed}: killed after {kept} points")
@@ -212,11 +198,6 @@ def test_points_kept_from_before_do_not_replace_other_results(
     cells[names.split(",").index("steady_velocity")] = "0.5"
     own = "\n".join([names, ",".join(cells), *rest, ""])
     out.write_text(own)
-
-    def interrupt(label: str, share: float) -> None:
-        if share >= 0.5:
-            raise KeyboardInterrupt
-
     with pytest.raises(KeyboardInterrupt):
         run_sweep(FEW, native_fmu, out, workers=1, overwrite=True, progress=interrupt)
     with pytest.raises(HarnessError, match=r"must be a new file, or --overwrite"):
@@ -225,60 +206,25 @@ def test_points_kept_from_before_do_not_replace_other_results(
 
 
 @pytest.mark.slow
-def test_a_damaged_entry_costs_its_points_only(native_fmu: Path, tmp_path: Path) -> None:
-    out = tmp_path / "a.csv"
-    run_sweep(GRID, native_fmu, out, workers=1)
-    table = out.read_bytes()
-
-    def interrupt(label: str, share: float) -> None:
-        if share >= 0.5:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt) as caught:
-        run_sweep(GRID, native_fmu, out, workers=1, progress=interrupt)
-    (note,) = caught.value.__notes__
-    assert f"of {len(GRID.points)} points are kept in {journal_path(out)}" in note
-    kept = kept_points(out)
-    with closing(sqlite3.connect(journal_path(out))) as file, file:
-        (rows,) = file.execute("SELECT entry FROM entries WHERE number = 2").fetchone()
-        file.execute("UPDATE entries SET entry = '[[0,[7.0],null]]' WHERE number = 2")
-    result = run_sweep(GRID, native_fmu, out, workers=1)
-    assert result.damaged == [2]
-    assert result.found == kept - len(json.loads(rows))
-    assert out.read_bytes() == table
-
-
-@pytest.fixture
-def two_workers() -> Iterator[LocalCluster]:
-    start: Callable[..., LocalCluster] = LocalCluster
-    with start(n_workers=2, threads_per_worker=1, dashboard_address=None) as made:
-        yield made
-
-
-@pytest.mark.slow
 def test_a_cluster_writes_the_same_table_as_this_machine_also_when_a_worker_is_killed(
-    two_workers: LocalCluster, native_fmu: Path, tmp_path: Path
+    native_fmu: Path, tmp_path: Path
 ) -> None:
-    address = two_workers.scheduler_address
-    victims = [two_workers.workers[0].pid]
+    start: Callable[..., LocalCluster] = LocalCluster
+    victims: list[int] = []
 
     def kill_once(label: str, share: float) -> None:
         if share > 0.3 and victims:
             os.kill(victims.pop(), signal.SIGKILL)
 
-    for number, (sweep, progress) in enumerate([(GRID, None), (WIDE, kill_once)]):
-        here, there = tmp_path / f"here{number}.parquet", tmp_path / f"there{number}.parquet"
-        run_sweep(sweep, native_fmu, here, workers=2)
-        run_sweep(
-            sweep,
-            native_fmu,
-            there,
-            workers=1,
-            dask=address,
-            progress=progress or (lambda *_: None),
-        )
-        assert there.read_bytes() == here.read_bytes()
-    assert not victims, "the worker was killed in mid-sweep"
+    with start(n_workers=2, threads_per_worker=1, dashboard_address=None) as workers:
+        address = workers.scheduler_address
+        for sweep, killed in ((GRID, []), (WIDE, [workers.workers[0].pid])):
+            victims += killed
+            here, there = (tmp_path / f"{place}{len(killed)}.parquet" for place in ("a", "b"))
+            run_sweep(sweep, native_fmu, here, workers=2)
+            run_sweep(sweep, native_fmu, there, workers=1, dask=address, progress=kill_once)
+            assert there.read_bytes() == here.read_bytes()
+            assert not victims, "the worker was killed in mid-sweep"
 
 
 def test_a_scheduler_that_is_not_there_is_named(
