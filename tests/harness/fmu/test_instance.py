@@ -111,7 +111,11 @@ def test_a_recreated_instance_is_as_new(fmu: Fmu) -> None:
 
 
 def test_a_run_records_every_output_at_every_point(instance: Instance) -> None:
-    record = run(instance, {}, schedule(10 * PERIOD, PERIOD))
+    shares: list[float] = []
+    periods = schedule(10 * PERIOD, PERIOD)
+    record = run(instance, {}, periods, progress=lambda _, share: shares.append(share))
+    assert shares[-1] == 1.0
+    assert shares == sorted(shares)
     assert record.times.shape == (11,)
     assert record["position"].shape == (11,)
     assert record["position"][0] == 0.0
@@ -121,8 +125,3 @@ def test_a_run_records_every_output_at_every_point(instance: Instance) -> None:
     assert record.step_cpu > 0.0
 
 
-def test_progress_is_reported(instance: Instance) -> None:
-    shares: list[float] = []
-    run(instance, {}, schedule(20 * PERIOD, PERIOD), progress=lambda _, share: shares.append(share))
-    assert shares[-1] == 1.0
-    assert shares == sorted(shares)

@@ -63,20 +63,7 @@ def test_no_word_is_cut_or_lost(text: str, width: int) -> None:
     assert all(len(line) <= width or longest + width // 2 >= width for line in fitted.splitlines())
 
 
-@pytest.mark.parametrize(
-    "value",
-    [
-        "0.602 s",
-        "-0.5 mm/s",
-        "1e-9 N",
-        "35 rad/s",
-        "12 %",
-        "5 1/m",
-        "915 MB",
-        "0 um",
-        "9 drive periods",
-    ],
-)
+@pytest.mark.parametrize("value", ["-0.5 mm/s", "1e-9 N", "12 %", "5 1/m", "9 drive periods"])
 def test_a_number_stays_with_its_unit(value: str) -> None:
     text = f"costs at least {value}, the other more; {value} or {value}"
     for width in range(8, 40):
