@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from slider_resonator.arrays import Array
 from slider_resonator.checks.curves import MAX_POINTS, Curves, curves_of, overview_of
 from slider_resonator.checks.measures import (
     Tube,
@@ -41,7 +40,7 @@ def test_a_frequency_between_the_lines_of_the_spectrum_is_found(frequency: float
 
 
 def sampled(points: int, periods: int) -> np.ndarray:
-    return np.arange(0, points * periods + 1) * PERIOD / points
+    return np.arange(points * periods + 1) * PERIOD / points
 
 
 @pytest.mark.parametrize(
@@ -78,14 +77,12 @@ def test_ripple_leaves_no_trace_and_a_drift_is_seen_half_a_period_late(amplitude
     assert np.abs(slow - expected).max() < 1e-12 * (1.0 + amplitude)
 
 
-MIDDLE = np.array([0.0, 1.0, 0.0])
-BELOW, ABOVE = np.array([0.0, 0.5, 0.1]), np.array([0.0, 0.0, 0.2])
-TUBE = Tube(MIDDLE, MIDDLE - BELOW, MIDDLE + ABOVE)
-
-
 def test_only_what_is_outside_counts() -> None:
-    assert TUBE.outside(MIDDLE).tolist() == [0.0, 0.0, 0.0]
-    assert np.allclose(TUBE.outside(np.array([0.1, 0.4, -0.05])), [0.1, 0.1, 0.0])
+    middle = np.array([0.0, 1.0, 0.0])
+    below, above = np.array([0.0, 0.5, 0.1]), np.array([0.0, 0.0, 0.2])
+    tube = Tube(middle, middle - below, middle + above)
+    assert tube.outside(middle).tolist() == [0.0, 0.0, 0.0]
+    assert np.allclose(tube.outside(np.array([0.1, 0.4, -0.05])), [0.1, 0.1, 0.0])
 
 
 def test_the_travel_of_the_last_step_alone_counts() -> None:
@@ -124,41 +121,33 @@ def test_without_vibration_friction_gives_the_scale() -> None:
     assert scale("position", still) == pytest.approx(change / 3500.0)
 
 
-def judged(quantity: str, count: int, *, tube: bool = False) -> Curves:
+def overview(count: int, *quantities: str, tube: bool = False) -> Curves:
+    """Return the overview of signals over 1 s whose reference is twice what is found."""
     times = np.linspace(0.0, 1.0, count)
-    reference: Array = 2.0 * times
-    expected = no_tube(reference) if tube else reference
-    check = replace(SIGNAL, quantity=quantity)
-    found = curves_of(check, Measurement(times, times=times), expected)
+    expected = no_tube(2.0 * times) if tube else 2.0 * times
+    checks = [replace(SIGNAL, quantity=quantity) for quantity in quantities]
+    curves = [curves_of(check, Measurement(times, times=times), expected) for check in checks]
+    found = overview_of([one for one in curves if one is not None])
     assert found is not None
     return found
 
 
 def test_the_slowest_signal_is_shown_whatever_the_order() -> None:
-    both = [judged("velocity", 9), judged("position", 9), judged("mean_velocity_in_run", 9)]
-    for order in (both, both[::-1]):
-        found = overview_of(order)
-        assert found is not None
+    quantities = ("velocity", "position", "mean_velocity_in_run")
+    for order in (quantities, quantities[::-1]):
+        found = overview(9, *order)
         assert found.check.quantity == "mean_velocity_in_run"
-        assert found.check.scene == SIGNAL.scene
         assert np.array_equal(found.reference, 2.0 * found.fmu)
 
 
-def test_a_long_slow_signal_is_thinned_over_the_whole_run() -> None:
-    found = overview_of([judged("position", 10 * MAX_POINTS, tube=True)])
-    assert found is not None
-    assert len(found.times) == MAX_POINTS
-    assert (found.times[0], found.times[-1]) == (0.0, 1.0)
-    assert np.array_equal(found.times, found.fmu)
-
-
-def test_of_a_long_fast_signal_the_end_is_shown_in_full() -> None:
-    found = overview_of([judged("velocity", 10 * MAX_POINTS)])
-    assert found is not None
-    assert len(found.times) == MAX_POINTS
-    assert found.times[-1] == 1.0
-    assert np.ptp(np.diff(found.times)) < 1e-12
-    assert found.times[0] > 0.89
+def test_a_long_slow_signal_is_thinned_and_of_a_fast_one_the_end_is_shown_in_full() -> None:
+    slow = overview(10 * MAX_POINTS, "position", tube=True)
+    fast = overview(10 * MAX_POINTS, "velocity")
+    assert len(slow.times) == len(fast.times) == MAX_POINTS
+    assert (slow.times[0], slow.times[-1], fast.times[-1]) == (0.0, 1.0, 1.0)
+    assert np.array_equal(slow.times, slow.fmu)
+    assert np.ptp(np.diff(fast.times)) < 1e-12
+    assert fast.times[0] > 0.89
 
 
 @pytest.mark.parametrize("name", ["averaged_velocity", "averaged_blocking_force"])

@@ -1,3 +1,4 @@
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -37,12 +38,11 @@ def test_a_failure_is_worse_than_any_pass() -> None:
 def test_a_refused_scene_does_not_keep_others_from_being_judged(
     native_fmu: Path, tmp_path: Path
 ) -> None:
-    scene = faulty_fmus.scene(tmp_path)
-    refused = faulty_fmus.scene(tmp_path, "refused")
-    refused.write_text(
-        refused.read_text() + "\n[device]\nfriction_law = 1\nfriction_coefficient = 0\n"
+    sound = read_scene(faulty_fmus.scene(tmp_path))
+    refused = replace(
+        sound.with_values({"friction_law": 1, "friction_coefficient": 0}), name="refused"
     )
-    (validation,) = validate([native_fmu], [read_scene(refused), read_scene(scene)])
+    (validation,) = validate([native_fmu], [refused, sound])
     assert validation.exit_code == 2
     (run_failure,) = validation.run_failures
     assert run_failure.scene == "refused"
@@ -122,26 +122,19 @@ def test_a_scene_that_needs_a_later_variable_does_not_apply(
 ) -> None:
     """An FMU of the first interface counts as one of order 1: it is judged on that."""
     old = faulty_fmus.without_later_variables(native_fmu, tmp_path / "old.fmu")
-    scenes = []
-    for order in (1, 2):
-        path = faulty_fmus.scene(tmp_path, f"order_{order}")
-        device = f"\n[device]\nfidelity = 1\naveraging_order = {order}\n"
-        path.write_text(path.read_text() + device)
-        scenes.append(read_scene(path))
+    scene = read_scene(faulty_fmus.scene(tmp_path))
+    scenes = [
+        replace(scene.with_values({"fidelity": 1, "averaging_order": order}), name=f"order_{order}")
+        for order in (1, 2)
+    ]
     (validation,) = validate([old], scenes)
     assert validation.exit_code == 0, validation.run_failures
     assert [check.scene for check in validation.checks] == ["order_1"]
     (missing,) = validation.not_applied
     assert (missing.scene, missing.quantity) == ("order_2", "position")
     assert missing.reason == "needs averaging_order = 2, which came with interface 0.2.0"
-    later = {
-        "averaging_order",
-        "prediction_valid",
-        "slow_motion_error",
-        "friction_power",
-        *DEVIATIONS,
-    }
-    assert set(validation.lacks) == later
+    later = {"averaging_order", "prediction_valid", "slow_motion_error", "friction_power"}
+    assert set(validation.lacks) == {*later, *DEVIATIONS}
 
 
 def test_the_blocking_force_does_not_depend_on_the_load_of_the_scene(instance: Instance) -> None:

@@ -123,5 +123,3 @@ def test_a_run_records_every_output_at_every_point(instance: Instance) -> None:
     assert record.wall_time > 0.0
     assert record.start_cpu > 0.0
     assert record.step_cpu > 0.0
-
-

@@ -67,43 +67,23 @@ TUNED = (
     {"normal_preload": 1.3, "base_amplitude": 1e-4, "drive_frequency": 3300.0},
     {"normal_preload": 1.3, "base_amplitude": 6e-5, "drive_frequency": 3600.0},
 )
-FRICTION = ({"friction_coefficient": 0.4},) * 3
-TUNED_FRICTION = tuple({"friction_coefficient": mu} for mu in (0.2, 0.5, 0.3))
+TUNED_FRICTION = (0.2, 0.5, 0.3)
 
 
 @pytest.mark.parametrize(
-    ("device", "friction", "allowed"),
-    [
-        (RIGID, FRICTION, 1e-9),
-        (DEVICE, FRICTION, 1e-9),
-        (replace(LUGRE, initial_bristle_deflection=1e-5), TUNED_FRICTION, 1e-7),
-    ],
+    ("device", "allowed"),
+    [(RIGID, 1e-9), (DEVICE, 1e-9), (replace(LUGRE, initial_bristle_deflection=1e-5), 1e-7)],
 )
-def test_scipy_agrees_on_tuned_parameters(
-    device: Device, friction: Sequence[dict[str, float]], allowed: float
-) -> None:
+def test_scipy_agrees_on_tuned_parameters(device: Device, allowed: float) -> None:
     held = [
-        HeldInputs(start, stop, phase=0.4, tuned=tuple({**own, **mu}.items()))
-        for (start, stop), own, mu in zip(pairwise(EDGES), TUNED, friction, strict=True)
+        HeldInputs(*times, phase=0.4, tuned=(*tuned.items(), ("friction_coefficient", mu)))
+        for times, tuned, mu in zip(pairwise(EDGES), TUNED, TUNED_FRICTION, strict=True)
     ]
     times = np.linspace(0.0, EDGES[-1], 50)
     expected, found = simulate(device, held, times), by_scipy(device, held, times)
     assert_agree(expected, found, allowed)
     if not device.friction_law:
         assert found.event_times == pytest.approx(expected.event_times, abs=1e-11)
-
-
-def test_a_block_slows_down_by_the_friction_of_the_moment() -> None:
-    """M v' = -2 mu N0: 0.2 m/s^2 for one second, 0.6 m/s^2 from then on."""
-    block = Device(resonator_mass=0.0, base_amplitude=0.0, normal_amplitude=0.0)
-    block = replace(block, drive_frequency=1.0, initial_velocity=0.5)
-    inputs = [
-        HeldInputs(0.0, 1.0, tuned=(("friction_coefficient", 0.1),)),
-        HeldInputs(1.0, 2.0, tuned=(("friction_coefficient", 0.3),)),
-    ]
-    motion = simulate(block, inputs, np.array([0.5, 1.0, 1.25, 2.0]))
-    assert motion.velocity == pytest.approx([0.4, 0.3, 0.15, 0.0], abs=1e-12)
-    assert motion.event_times == pytest.approx([1.5]), "0.3 m/s at 0.6 m/s^2"
 
 
 def test_another_drive_frequency_changes_a_rate_and_no_phase() -> None:

@@ -62,6 +62,7 @@ def test_equivalent_force_matches_the_frictionless_device(device: Device) -> Non
     ("changed", "load", "message"),
     [
         ({}, 0.25, r"load = 0\.25 .* 0\.2"),
+        ({"normal_amplitude": 3.0}, 0.32, r"load = 0\.32"),
         ({"base_amplitude": 0.0}, 0.0, r"base_amplitude = 0\.0 m and tangential_force"),
         ({"normal_preload": 0.0}, 0.0, r"normal_preload = 0\.0 N must be greater than 0"),
         (SLIPPING_RESONANCE, 0.0, r"damping_ratio = 0\.0 .* greater than 0"),

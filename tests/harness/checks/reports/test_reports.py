@@ -31,22 +31,12 @@ def page(folder: Path, *validations: Validation) -> tuple[str, Page]:
     return text, Page(text)
 
 
-def test_deviations_are_drawn_and_the_page_loads_nothing(tmp_path: Path) -> None:
-    text, tags = page(tmp_path, GOOD, BAD)
-    assert all(one == "data:," or one[1:] in tags.ids for one in tags.loaded), "within the page"
-    plots = [one for one in tags.plots if one["title"].startswith("position")]
+def test_deviations_are_drawn(tmp_path: Path) -> None:
+    _, read = page(tmp_path, BAD)
+    plots = [one for one in read.plots if one["title"].startswith("position")]
     points = [len(one["series"][0]["x"]) for one in plots]
     assert points == [len(TIMES), 25 + 64], "the whole run and the part at the first deviation"
     assert plots[1]["title"].endswith("from 0.0125 s on")
-    assert "from 0.0125 s on, most at 0.05 s" in text
-    assert "off by 0.0067 m/s" in text
-    assert "good.fmu" in text
-    assert "bad.fmu" in text
-    sections = [name for name in tags.ids if name.startswith("scene-")]
-    assert sections == ["scene-0-0", "scene-1-0", "scene-1-1"]
-    rows = tags.tags.count("tr")
-    rows -= 2 * text.count("<h3>steady velocity: ")
-    assert rows == 2 + 3 + 3 + 4 + 5, "indices, heads and checks of the scenes, provenance"
 
 
 def test_of_many_scenes_those_that_fail_are_unfolded(tmp_path: Path) -> None:
@@ -93,7 +83,7 @@ def test_the_page_leads_to_each_scene_and_escapes_what_is_foreign(
     """Scenes that pass, fail, do not apply, could not be run, or have a hostile name."""
     monkeypatch.setattr(html_report, "provenance_of_all", lambda _: PROVENANCE)
     hostile = replace(GOOD, checks=(replace(PASSED, scene="<script>"), SLOWER))
-    page(tmp_path, GOOD, hostile, LACKING, BROKEN)
+    page(tmp_path, GOOD, BAD, hostile, LACKING, BROKEN)
     assert_page_as_before("report.html", tmp_path / "report.html")
 
 

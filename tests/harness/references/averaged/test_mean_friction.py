@@ -122,10 +122,3 @@ def test_blocking_force_stops_the_motion(alpha: float, ratio: float) -> None:
     force = blocking_force(device, 0.7, ratio)
     velocity = steady_velocity(device, 0.7, force, ratio)
     assert velocity == pytest.approx(0.0, abs=1e-12), "the velocity under the blocking force is 0"
-
-
-def test_invalid_arguments_are_refused_by_name() -> None:
-    with pytest.raises(ValueError, match=r"load = 0\.201"):
-        steady_velocity(Device(), 0.0, 0.201, 3.0)
-    with pytest.raises(ValueError, match=r"load = 0\.32"):
-        steady_velocity(Device(normal_amplitude=3.0), 0.0, 0.32, 1.0)
