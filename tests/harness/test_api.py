@@ -86,9 +86,7 @@ def test_what_a_script_gets_wrong_is_named(native_fmu: Path) -> None:
             read("positon")
 
 
-def test_finished_fmus_are_found_or_the_remedy_is_named(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_finished_fmus_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(finished, "FOLDERS", (tmp_path,))
     with pytest.raises(sr.HarnessError, match="in a checkout `make build` builds it"):
         sr.fmu_path()
@@ -139,9 +137,7 @@ def test_results_say_what_was_found_on_a_screen(native_fmu: Path, tmp_path: Path
         assert len({len(column) for column in tabular.table().values()}) == 1
 
 
-def test_tables_go_to_pandas_where_it_is_installed(
-    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_tables_go_to_pandas(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with sr.open_fmu(native_fmu) as fmu:
         record = fmu.run(SHORT)
     monkeypatch.setitem(sys.modules, "pandas", None)
@@ -241,9 +237,7 @@ def test_what_a_device_file_states_replaces_the_scene(native_fmu: Path, tmp_path
     assert table.columns["steady_velocity"] == pytest.approx([expected], rel=1e-9)
 
 
-def test_a_device_takes_the_place_of_that_of_the_scene(
-    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_device_replaces_that_of_scene(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """In a choice, too, as with the commands: what it leaves out is that of table 1."""
     monkeypatch.setattr("slider_resonator.api.choose_model", lambda scene, fmu: scene)
     scene = {**SHORT, "device": {"damping_ratio": 0.3, "tolerance": 1e-6}}

@@ -63,9 +63,7 @@ ONE = "validate $fmu --scene blocking_force_table_1"
         ("harness steady $fmu --set load=0.25 >&-", "code 1\n"),
     ],
 )
-def test_output_that_cannot_be_written_is_no_verdict(
-    native_fmu: Path, line: str, errors: str
-) -> None:
+def test_output_that_cannot_be_written(native_fmu: Path, line: str, errors: str) -> None:
     assert in_a_shell(line, native_fmu).stderr == errors
 
 
@@ -153,8 +151,6 @@ def test_no_steady_motion_exits_with_1_and_a_status(native_fmu: Path) -> None:
         (OSError(), "error: standard output: OSError"),
     ],
 )
-def test_an_error_of_the_system_is_named(
-    error: OSError, words: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_system_errors(error: OSError, words: str, capsys: pytest.CaptureFixture[str]) -> None:
     cli._report(error)
     assert capsys.readouterr().err == f"{words}\n"

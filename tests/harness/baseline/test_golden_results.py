@@ -67,9 +67,7 @@ def judged(point: ScenePoint, name: str, golden: Any, now: Any, tolerance: float
         ("event_times", 557.0 * TIMES, 557.0 * TIMES + 2e-8, False),
     ],
 )
-def test_changes_above_the_tolerance_are_reported(
-    point: ScenePoint, name: str, golden: Any, now: Any, passed: bool
-) -> None:
+def test_judged_changes(point: ScenePoint, name: str, golden: Any, now: Any, passed: bool) -> None:
     verdict = judged(point, name, golden, now)
     assert verdict.passed is passed, sentence(verdict)
     assert verdict.against == "baseline"
@@ -143,9 +141,7 @@ def test_written_results_are_read_back(tmp_path: Path) -> None:
 @settings(max_examples=10)
 @example(numbers=[-0.0])
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=20))
-def test_numbers_keep_their_digits(
-    tmp_path_factory: pytest.TempPathFactory, numbers: list[float]
-) -> None:
+def test_digits_are_kept(tmp_path_factory: pytest.TempPathFactory, numbers: list[float]) -> None:
     folder = tmp_path_factory.mktemp("numbers") / "mine"
     points = {
         key({"phase": n}): {"steady_velocity": Measurement(one)} for n, one in enumerate(numbers)
@@ -184,9 +180,7 @@ def test_writing_again_replaces_everything_and_leaves_nothing_behind(tmp_path: P
         ("trajectory.csv", ",0,?" + ",0" * (len(SIGNALS) - 1), r"'\?': must be a number"),
     ],
 )
-def test_a_line_that_makes_no_sense_is_named(
-    tmp_path: Path, name: str, row: str, reason: str
-) -> None:
+def test_a_line_without_sense_is_named(tmp_path: Path, name: str, row: str, reason: str) -> None:
     write_recorded(tmp_path / "mine", RECORDED)
     file = tmp_path / "mine" / name
     file.write_text(f"{file.read_text()}{row}\n")

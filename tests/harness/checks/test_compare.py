@@ -95,9 +95,7 @@ def judge_position(
         (0.1, {"quantity": "steady_periods", "at_least": 38}, False),
     ],
 )
-def test_a_number_or_word_is_judged(
-    velocity: float | None, expect: dict[str, Any], passed: bool
-) -> None:
+def test_numbers_and_words(velocity: float | None, expect: dict[str, Any], passed: bool) -> None:
     verdict = judge(steady(velocity), **{"quantity": "steady_velocity", **expect})
     assert verdict.passed is passed
     if expect.get("relative") == 1e9:
@@ -162,9 +160,7 @@ def test_a_scene_that_does_not_allow_a_measure_could_not_run() -> None:
 
 
 @pytest.mark.parametrize(("share", "passed"), [(9e-7, True), (2e-6, False)])
-def test_a_reference_near_zero_counts_as_a_share_of_its_natural_scale(
-    share: float, passed: bool
-) -> None:
+def test_reference_near_zero_is_a_share_of_its_natural_scale(share: float, passed: bool) -> None:
     smallest = smallest_reference("steady_velocity", Device())
     velocity = share * smallest
     expect: dict[str, Any] = {"quantity": "steady_velocity", "value": 1e-17, "relative": 1e-6}

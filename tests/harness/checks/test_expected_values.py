@@ -35,9 +35,7 @@ def verdicts(validation: Validation) -> Validation:
 
 
 @pytest.mark.slow
-def test_verdicts_do_not_depend_on_the_number_of_processes(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_verdicts_do_not_depend_on_jobs(native_fmu: Path, tmp_path: Path) -> None:
     broken = tmp_path / "broken.fmu"
     broken.write_bytes(b"no zip")
     fmus = [native_fmu, broken, native_fmu]

@@ -78,9 +78,8 @@ def test_ripple_leaves_no_trace_and_a_drift_is_seen_half_a_period_late(amplitude
 
 
 def test_only_what_is_outside_counts() -> None:
-    middle = np.array([0.0, 1.0, 0.0])
-    below, above = np.array([0.0, 0.5, 0.1]), np.array([0.0, 0.0, 0.2])
-    tube = Tube(middle, middle - below, middle + above)
+    middle, lower = np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.5, -0.1])
+    tube = Tube(middle, lower, np.array([0.0, 1.0, 0.2]))
     assert tube.outside(middle).tolist() == [0.0, 0.0, 0.0]
     assert np.allclose(tube.outside(np.array([0.1, 0.4, -0.05])), [0.1, 0.1, 0.0])
 

@@ -168,9 +168,7 @@ def test_the_error_is_taken_over_the_estimate_at_the_same_point(instance: Instan
         assert error_over_estimate(side) == expected
 
 
-def test_an_fmu_without_estimate_has_no_share(
-    instance: Instance, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_fmu_without_error_estimate(instance: Instance, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delitem(instance.fmu.variables, "slow_motion_error")
     with pytest.raises(NotApplicable):
         error_over_estimate(FmuSide(instance, scene_of(AVERAGED)))

@@ -35,9 +35,7 @@ def test_a_failure_is_worse_than_any_pass() -> None:
     assert not worst.passed
 
 
-def test_a_refused_scene_does_not_keep_others_from_being_judged(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_other_scenes_are_judged_after_a_refused_one(native_fmu: Path, tmp_path: Path) -> None:
     sound = read_scene(faulty_fmus.scene(tmp_path))
     refused = replace(
         sound.with_values({"friction_law": 1, "friction_coefficient": 0}), name="refused"
@@ -117,9 +115,7 @@ def test_unequal_steps_are_refused_where_the_fmu_takes_equal_ones(
     assert "must be one size" in run_failure.reason
 
 
-def test_a_scene_that_needs_a_later_variable_does_not_apply(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_scene_that_needs_a_later_variable_does_not_apply(native_fmu: Path, tmp_path: Path) -> None:
     """An FMU of the first interface counts as one of order 1: it is judged on that."""
     old = faulty_fmus.without_later_variables(native_fmu, tmp_path / "old.fmu")
     scene = read_scene(faulty_fmus.scene(tmp_path))

@@ -48,9 +48,7 @@ def test_steady_needs_choose_between_theory_and_shooting(instance: Instance) -> 
         ("frequency_ratio = 1.001", "beat", "0.15 beats"),
     ],
 )
-def test_a_quantity_that_does_not_exist_is_met_by_no_model(
-    instance: Instance, inputs: str, need: str, message: str
-) -> None:
+def test_quantity_without_a_value(instance: Instance, inputs: str, need: str, message: str) -> None:
     run = "[run]\ndrive_periods = 300\nsteps_per_period = 1\n" if need == "beat" else ""
     scene = scene_of(f"[inputs]\n{inputs}\n{run}[need]\n{need} = {{ rel = 0.1 }}\n")
     choice = choose_with(instance, scene)

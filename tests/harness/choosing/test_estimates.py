@@ -71,9 +71,7 @@ def test_nothing_is_known_better_than_to_rounding() -> None:
 @pytest.mark.parametrize(
     ("found", "shown"), [(1.0, True), (1.15, True), (2.1, True), (0.1, False), (1.5, False)]
 )
-def test_the_strongest_oscillation_is_the_beat_or_a_multiple_of_it(
-    found: float, shown: bool
-) -> None:
+def test_strongest_oscillation_is_the_beat_or_a_multiple(found: float, shown: bool) -> None:
     beat = beat_frequency(scene_of("[inputs]\nfrequency_ratio = 1.02\n"))
     assert beat == pytest.approx(0.02 * 3500.0 / (2.0 * pi))
     reason = unseen_beat(ErrorEstimate(0.0, found * beat), beat)

@@ -34,9 +34,7 @@ def test_a_scene_that_cannot_be_resolved_as_a_whole_confirms_the_resolved_model_
 
 
 @pytest.mark.usefixtures("stated_costs")
-def test_steps_that_make_no_difference_are_put_together(
-    instance: Instance, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_steps_of_no_effect_are_joined(instance: Instance, monkeypatch: pytest.MonkeyPatch) -> None:
     text = RUN.format(4000, "position", 0.1).replace("0.01", "1")
     found = []
     for steps in (probes.MAX_STEPS, 100):

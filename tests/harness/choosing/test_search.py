@@ -68,9 +68,7 @@ def test_inputs_that_vary_leave_powers_of_two_of_the_step(instance: Instance) ->
     assert PERIOD / 64 <= number[-1] < PERIOD / 32
 
 
-def test_a_number_at_the_end_of_a_long_scene_is_tried_in_one_step_and_halves(
-    instance: Instance,
-) -> None:
+def test_numbers_at_the_end_of_a_long_scene_are_tried_in_halves(instance: Instance) -> None:
     """An FMU bounds the work of a step."""
     run = "[run]\ndrive_periods = 70000\nsteps_per_period = 1\n[need]\n"
     steps = ladder(instance, f"{run}mean_velocity = {{ rel = 0.1 }}\n")

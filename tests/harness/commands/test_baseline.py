@@ -110,9 +110,7 @@ def test_nothing_is_replaced_unasked(native_fmu: Path, baseline: Path, scene: Pa
 
 
 @pytest.mark.slow
-def test_an_edited_scene_must_be_recorded_anew(
-    native_fmu: Path, baseline: Path, scene: Path
-) -> None:
+def test_an_edited_scene_is_recorded_anew(native_fmu: Path, baseline: Path, scene: Path) -> None:
     text = scene.read_text()
     scene.write_text(text.replace("the motion itself must agree", "it is what it was"))
     assert run("check", native_fmu, baseline).exit_code == 0, "it still runs the same"
@@ -145,9 +143,7 @@ def test_what_is_not_recorded_is_named(native_fmu: Path, baseline: Path, tmp_pat
     assert "nothing is recorded" in json.loads((tmp_path / "report.json").read_text())["error"]
 
 
-def test_a_built_in_scene_that_is_gone_is_named_with_its_folder(
-    native_fmu: Path, baseline: Path
-) -> None:
+def test_a_built_in_scene_that_is_gone_is_named(native_fmu: Path, baseline: Path) -> None:
     provenance = baseline / "one" / "provenance.csv"
     provenance.write_text(
         re.sub("(?m)^scene_file,.*$", "scene_file,built in", provenance.read_text())
@@ -166,9 +162,7 @@ def test_changes_that_cannot_be_kept_are_shown(other_fmu: Path, baseline: Path) 
 
 
 @pytest.mark.slow
-def test_lines_that_an_fmu_cannot_take_do_not_apply(
-    native_fmu: Path, python_fmu: Path, tmp_path: Path
-) -> None:
+def test_ramps_apply_to_some_fmus_only(native_fmu: Path, python_fmu: Path, tmp_path: Path) -> None:
     scenes, folder = tmp_path / "scenes", tmp_path / "baseline"
     scenes.mkdir()
     faulty_fmus.scene(scenes, "one")

@@ -26,9 +26,7 @@ def written(folder: Path, need: str) -> Path:
     return path
 
 
-def test_the_choice_and_the_reasons_against_the_others_are_said(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_a_choice_has_reasons_against_the_others(native_fmu: Path, tmp_path: Path) -> None:
     scene = written(tmp_path, LOOSE)
     result = call("choose", scene, "--fmu", native_fmu, "--json")
     assert result.exit_code == 0
@@ -79,9 +77,7 @@ def test_a_run_uses_the_choice_and_reports_it(native_fmu: Path, tmp_path: Path) 
     assert abs(summary["mean_velocity"] - plain["mean_velocity"]) < allowed
 
 
-def test_nothing_that_suffices_is_a_failure_and_nothing_is_run(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_nothing_is_run_where_nothing_suffices(native_fmu: Path, tmp_path: Path) -> None:
     scene, out = written(tmp_path, IMPOSSIBLE), tmp_path / "run.csv"
     for command in (
         ("choose", scene, "--fmu", native_fmu),
@@ -102,9 +98,7 @@ def test_nothing_that_suffices_is_a_failure_and_nothing_is_run(
         ("tolerance=1e-6", "'--set': tolerance = 1e-06: it is chosen"),
     ],
 )
-def test_what_cannot_be_chosen_with_is_refused(
-    native_fmu: Path, tmp_path: Path, setting: str, reported: str
-) -> None:
+def test_refused_settings(native_fmu: Path, tmp_path: Path, setting: str, reported: str) -> None:
     scene = written(tmp_path, LOOSE)
     assert reported in refused("choose", scene, "--fmu", native_fmu, "--set", setting)
     assert reported in refused("run", native_fmu, scene, "--auto", "--set", setting)

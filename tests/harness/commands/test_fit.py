@@ -21,9 +21,7 @@ def data(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_a_fit_writes_the_device_to_go_on_with(
-    data: Path, native_fmu: Path, tmp_path: Path
-) -> None:
+def test_a_fit_writes_its_device(data: Path, native_fmu: Path, tmp_path: Path) -> None:
     device = ("--device", "ultrasonic_slider", "--fmu", native_fmu)
     ran = call("fit", data, *device, "--free", "damping_ratio", "--starts", 1, "--out", tmp_path)
     assert ran.exit_code == 0, ran.output

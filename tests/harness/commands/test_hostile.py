@@ -200,9 +200,7 @@ CASES = [
 
 
 @pytest.mark.parametrize(("command", "as_json"), CASES)
-def test_no_command_prints_hostile_text(
-    nasty_fmu: Path, tmp_path: Path, command: str, as_json: bool
-) -> None:
+def test_text_is_escaped(nasty_fmu: Path, tmp_path: Path, command: str, as_json: bool) -> None:
     summary = tmp_path / "summary.md"
     words = [*arguments(command, nasty_fmu, tmp_path), *(["--json"] if as_json else [])]
     result = call(*words, GITHUB_STEP_SUMMARY=str(summary))
@@ -235,18 +233,14 @@ def test_every_command_outlives_an_fmu(
     assert errors or command == "sweep"
 
 
-def test_a_hang_ends_at_the_time_limit(
-    hostile_fmu: Path, outlive: Callable[..., tuple[int, str]]
-) -> None:
+def test_a_hang_is_ended(hostile_fmu: Path, outlive: Callable[..., tuple[int, str]]) -> None:
     code, errors = outlive("sleep", "steady", hostile_fmu, "--time-limit", "1")
     assert code == 2
     assert "no answer within the time limit of 1 s in fmi2DoStep" in errors
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
-def test_an_ended_command_ends_the_fmu_and_leaves_nothing(
-    native_fmu: Path, tmp_path: Path, number: signal.Signals
-) -> None:
+def test_ended_command(native_fmu: Path, tmp_path: Path, number: signal.Signals) -> None:
     loop = 'fopen("looping", "w"); LOOP'
     fmu = faulty_fmus.compiled(native_fmu, tmp_path / "loop.fmu", f"IN_STEP={loop}")
     mark, temporary = f"none:{tmp_path}", tmp_path / "temporary"

@@ -76,9 +76,7 @@ def test_the_environment_may_say_what_the_axes_do_not_need(native_fmu: Path) -> 
     assert result.exit_code == 0, result.output
 
 
-def test_old_names_of_the_command_and_its_options_go_on_working(
-    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_old_names_go_on_working(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     text = text_of("extremes", native_fmu, "--limit=60", "--cell", GOOD.name)
     assert "note: extremes is now stress\n" in text
     assert "1 case: 1 passed" in text

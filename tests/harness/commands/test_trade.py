@@ -109,9 +109,7 @@ def test_measurements_before_an_error_or_an_interruption_are_kept(
     assert (tmp_path / "index.html").is_file()
 
 
-def test_the_public_keys_stay(
-    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_public_keys(native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     measured = replace(TRADE, omissions=(Omission("s", "CVODE", "all", "not installed"),))
     monkeypatch.setattr(measuring, "measure_trade", lambda *_, **__: measured)
     arguments = ["--out", tmp_path, "--fmu", native_fmu, "--json"]

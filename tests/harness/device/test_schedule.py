@@ -80,9 +80,7 @@ def test_vectorised_values_equal_single_values(
         ((0.0, 1.0), (1.0, float("nan")), "finite"),
     ],
 )
-def test_invalid_signal_is_refused(
-    times: tuple[float, ...], values: tuple[float, ...], message: str
-) -> None:
+def test_invalid_signals(times: tuple[float, ...], values: tuple[float, ...], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         Signal(times, values)
 
@@ -92,9 +90,7 @@ def test_invalid_signal_is_refused(
     step=st.floats(0.01, 3.0),
     jumps=st.lists(st.floats(0.0, 10.0), max_size=5),
 )
-def test_communication_points_contain_every_jump_inside(
-    stop: float, step: float, jumps: list[float]
-) -> None:
+def test_every_jump_is_a_communication_point(stop: float, step: float, jumps: list[float]) -> None:
     points = communication_points(stop, step, jumps)
     assert points[0] == 0.0
     assert points[-1] == stop

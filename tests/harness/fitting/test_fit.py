@@ -133,9 +133,7 @@ def test_a_run_is_fitted_over_time(instance: Instance, first: int) -> None:
 
 
 @pytest.mark.parametrize("run_noise", [0.002, 0.2])
-def test_a_noisy_source_does_not_outweigh_an_exact_one(
-    instance: Instance, run_noise: float
-) -> None:
+def test_noisy_source_does_not_outweigh_an_exact_one(instance: Instance, run_noise: float) -> None:
     """Each quantity of each source errs by what its own residuals say.
 
     Friction is what the table alone tells: with one noise for all, its interval would be that of
@@ -168,9 +166,7 @@ def die(_: Instance, over_limit: bool) -> None:
 
 
 @pytest.mark.parametrize(("over_limit", "end"), [(True, "(--time-limit)"), (False, "no answer")])
-def test_a_process_that_ends_says_stage_and_option(
-    native_fmu: Path, over_limit: bool, end: str
-) -> None:
+def test_a_lost_process_says_stage_and_option(native_fmu: Path, over_limit: bool, end: str) -> None:
     with isolated(native_fmu, 1, 60.0) as run, pytest.raises(FmuError) as error:
         run("searching", [partial(die, over_limit=over_limit)])
     assert str(error.value).startswith("searching: no answer")
@@ -250,9 +246,7 @@ def test_numbers_that_no_device_has_are_not_met(instance: Instance) -> None:
 
 
 @pytest.mark.parametrize(("count", "factor"), [(20, 1.5), (12, 0.1)])
-def test_an_outlier_is_named_and_honest_noise_is_not(
-    instance: Instance, count: int, factor: float
-) -> None:
+def test_outliers_are_named_and_noise_is_not(instance: Instance, count: int, factor: float) -> None:
     points = [
         replace(velocity_at(0.1 * i), source="a.csv", row=f"line {i + 2}") for i in range(count)
     ]

@@ -84,9 +84,7 @@ PLAIN = "phase [deg],frequency [kHz],steady_velocity [mm/s]\n30,20,47\n60,20,50\
         ),
     ],
 )
-def test_what_other_programs_write_is_read(
-    tmp_path: Path, content: bytes, notes: tuple[str, ...]
-) -> None:
+def test_tables_of_other_programs(tmp_path: Path, content: bytes, notes: tuple[str, ...]) -> None:
     path = tmp_path / "data.csv"
     path.write_bytes(content)
     data = read_measurements(path)

@@ -60,9 +60,7 @@ def test_a_call_that_fails_has_its_name_in_fmi_3(native_3_fmu: Path) -> None:
             instance.value("position")
 
 
-def test_an_instance_of_fmi_3_that_cannot_be_made_is_an_error_of_the_fmu(
-    native_3_fmu: Path, tmp_path: Path
-) -> None:
+def test_an_fmu_of_fmi_3_that_cannot_be_instantiated(native_3_fmu: Path, tmp_path: Path) -> None:
     with open_fmu(native_3_fmu) as fmu:
         token = str(fmu.description.guid).encode()
     other = b"00000000-0000-0000-0000-000000000000"

@@ -31,9 +31,7 @@ PERIOD = 2.0 * pi / 3500.0
         ("position", 1.0, "position"),
     ],
 )
-def test_what_cannot_be_set_is_named(
-    instance: Instance, name: str, value: float, said: str
-) -> None:
+def test_wrong_values_are_refused(instance: Instance, name: str, value: float, said: str) -> None:
     instance.start({"friction_faces": 1.0})
     assert instance.read(["friction_faces", "position"])["friction_faces"] == 1.0
     with pytest.raises(FmuError, match=said):

@@ -89,9 +89,7 @@ def test_every_departure_from_the_interface_is_listed(native_fmu: Path, tmp_path
     assert "friction_faces is of type Real, must be Integer" in message
 
 
-def test_a_damaged_fmu_and_one_without_binaries_are_refused(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_damage_and_missing_binaries_are_refused(native_fmu: Path, tmp_path: Path) -> None:
     damaged = bytearray(native_fmu.read_bytes())
     damaged[40:4000] = bytes(3960)
     path = tmp_path / "other.fmu"
@@ -103,9 +101,7 @@ def test_a_damaged_fmu_and_one_without_binaries_are_refused(
     assert "no binary for " in refusal(path)
 
 
-def test_a_limit_that_is_no_number_is_named(
-    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_limit_that_is_no_number(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(limits.MEMORY, "much")
     with pytest.raises(HarnessError, match="SLIDER_RESONATOR_MAX_MEMORY = 'much': must be a whole"):
         limits.max_bytes(limits.MEMORY)

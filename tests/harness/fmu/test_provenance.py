@@ -82,9 +82,7 @@ def test_every_fact_is_in_every_form_and_hostile_names_are_escaped() -> None:
     assert "fmu" not in provenance_properties(PROVENANCE, None)
 
 
-def test_messages_go_to_the_collector_of_their_instance(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_messages_go_to_the_log_of_their_instance(capsys: pytest.CaptureFixture[str]) -> None:
     one, callbacks = fmu_log.collect("one")
     two, _ = fmu_log.collect("two")
     callbacks.logger(None, b"one", 3, b"", b"mass refused")

@@ -41,9 +41,7 @@ def test_a_failure_keeps_the_old_file(tmp_path: Path) -> None:
         ("x", "/dev/full", "x: cannot be written: No space left"),
     ],
 )
-def test_a_write_that_fails_is_an_error_of_the_file(
-    tmp_path: Path, target: str, written: str, said: str
-) -> None:
+def test_a_write_that_fails_is_named(tmp_path: Path, target: str, written: str, said: str) -> None:
     (tmp_path / "file").touch()
     (tmp_path / "folder").mkdir()
     with pytest.raises(HarnessError, match=said), replacing(tmp_path / target) as temporary:
@@ -78,9 +76,7 @@ def test_what_cannot_be_written_is_refused(
     assert writable("p.PNG", (".png",)).name == "p.PNG"
 
 
-def test_a_folder_in_which_no_file_can_be_created_is_refused(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_read_only_folder_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert writable(str(tmp_path / "out.csv")).name == "out.csv"
     assert not list(tmp_path.iterdir()), "trying leaves nothing behind"
 
@@ -102,9 +98,7 @@ def test_a_folder_for_results_is_made_unless_a_file_is_there(tmp_path: Path) -> 
             make_folder(tmp_path / folder)
 
 
-def test_a_target_that_is_read_from_is_refused_under_any_name(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_target_that_is_read_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     fmu = tmp_path / "my.fmu"
     fmu.touch()
@@ -114,9 +108,7 @@ def test_a_target_that_is_read_from_is_refused_under_any_name(
             distinct({"--out": target}, {"the FMU": fmu})
 
 
-def test_two_targets_must_differ_even_before_they_exist(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_targets_must_differ(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     with pytest.raises(HarnessError, match=r"--plot .* is the file of --out"):
         distinct({"--out": Path("a.png"), "--plot": tmp_path / "a.png"}, {})

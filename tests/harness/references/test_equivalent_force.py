@@ -68,8 +68,6 @@ def test_equivalent_force_matches_the_frictionless_device(device: Device) -> Non
         (SLIPPING_RESONANCE, 0.0, r"damping_ratio = 0\.0 .* greater than 0"),
     ],
 )
-def test_device_without_an_average_is_refused(
-    changed: dict[str, float], load: float, message: str
-) -> None:
+def test_device_without_average(changed: dict[str, float], load: float, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         steady_velocity(Device.from_mapping(changed), 0.0, load, 1.0)

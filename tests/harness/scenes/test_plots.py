@@ -104,9 +104,7 @@ def test_the_envelope_follows_a_drive_whose_frequency_changes() -> None:
     assert np.count_nonzero(off) <= 20, "only periods in which the frequency changes are no sines"
 
 
-def test_each_signal_has_a_panel_with_its_unit_over_contact(
-    instance: Instance, tmp_path: Path, drawn: list[Figure]
-) -> None:
+def test_each_signal_has_a_panel(instance: Instance, tmp_path: Path, drawn: list[Figure]) -> None:
     scene = built_in()["changing_inputs"]
     record = run(instance, scene.parameters, schedule_for_window(scene, WINDOW))
     names = ("velocity", "load", "contact_mode")
@@ -127,9 +125,7 @@ def test_each_signal_has_a_panel_with_its_unit_over_contact(
     assert {text.get_text() for text in legend.get_texts()} == {"slips backward", "slips forward"}
 
 
-def test_differences_from_the_first_run_are_below(
-    instance: Instance, tmp_path: Path, drawn: list[Figure]
-) -> None:
+def test_differences_are_drawn(instance: Instance, tmp_path: Path, drawn: list[Figure]) -> None:
     scene = built_in()["table_1"]
     records = []
     for fidelity in (2, 1):

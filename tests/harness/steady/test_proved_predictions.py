@@ -63,9 +63,7 @@ def test_they_are_those_of_shooting(instance: Instance) -> None:
         {"friction_coefficient": -1.0},
     ],
 )
-def test_what_is_not_exact_stuck_or_refused_is_left_to_shooting(
-    instance: Instance, values: Mapping[str, float]
-) -> None:
+def test_other_predictions_are_not_proved(instance: Instance, values: Mapping[str, float]) -> None:
     refused, sound = proved_predictions(instance, "steady_velocity", [values, {}], 20)
     assert refused is None
     assert sound == pytest.approx(0.126666997, abs=1e-9), "design 2.7"

@@ -30,9 +30,7 @@ KAPPAS = [
 
 @pytest.mark.parametrize("amplitude_ratio", [0.8, 1.6])
 @pytest.mark.parametrize("kappa", KAPPAS)
-def test_uniform_average_errors_fall_with_the_frequency(
-    kappa: float, amplitude_ratio: float
-) -> None:
+def test_errors_of_averages_fall_with_the_frequency(kappa: float, amplitude_ratio: float) -> None:
     """Soft to hard bristles, closed and lifting: velocity and blocking force."""
     errors = []
     for frequency in (1000.0, 4000.0):

@@ -74,7 +74,7 @@ def test_missing_steady_motion_is_explained(
     "values",
     [{"phase": 0.4}, {"friction_faces": 1.0}, {"fidelity": 1.0}, {"bristle_stiffness": 50.0}],
 )
-def test_blocking_force_stops_the_device(
+def test_blocking_force_stops(
     instance: Instance, values: dict[str, float], law: dict[str, float]
 ) -> None:
     values = {**values, **law}
@@ -92,9 +92,7 @@ def test_blocking_force_stops_the_device(
         ({"frequency_ratio": 1.37}, "no_common_period"),
     ],
 )
-def test_missing_blocking_force_is_explained(
-    instance: Instance, values: dict[str, float], status: str
-) -> None:
+def test_no_blocking_force(instance: Instance, values: dict[str, float], status: str) -> None:
     blocking = find_blocking(instance, values)
     assert blocking.blocking_force is None
     assert blocking.status == status
@@ -105,9 +103,7 @@ LUGRE = {"friction_law": 1.0}
 
 
 @pytest.mark.parametrize(("fidelity", "stiffness"), [(1.0, 1e4), (2.0, 50.0), (2.0, 1e6)])
-def test_soft_and_hard_bristles_match_the_reference(
-    instance: Instance, fidelity: float, stiffness: float
-) -> None:
+def test_bristles_match_reference(instance: Instance, fidelity: float, stiffness: float) -> None:
     changed = {**LUGRE, "fidelity": fidelity, "bristle_stiffness": stiffness, "tolerance": 1e-11}
     device = Device.from_mapping(changed)
     motion, blocking = find_steady(instance, changed), find_blocking(instance, changed)

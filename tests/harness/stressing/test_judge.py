@@ -82,9 +82,7 @@ def test_a_replay_that_differs_fails(seen: Observation) -> None:
         ("a finer fidelity refused: must be 1 or 2", FAILED),
     ],
 )
-def test_a_refusal_names_thing_value_and_what_is_allowed(
-    seen: Observation, words: str, verdict: str
-) -> None:
+def test_refusal_names_value_and_requirement(seen: Observation, words: str, verdict: str) -> None:
     assert judge(TABLE_1, replace(seen, refusal=words)).verdict == verdict
 
 
@@ -152,9 +150,7 @@ def test_averaged_motion_agrees_with_its_reference(
         ),
     ],
 )
-def test_most_averaged_cases_have_a_reference(
-    models: set[Model], share: float, axes: set[str]
-) -> None:
+def test_most_averages_have_a_reference(models: set[Model], share: float, axes: set[str]) -> None:
     cases = [case for case in axis_cases() if case.model in models]
     assert sum(map(has_reference, cases)) > share * len(cases)
     assert not {case.axis for case in cases if not has_reference(case)} & axes

@@ -59,9 +59,7 @@ def test_an_fmu_that_crashes_in_every_case_fails_each(native_fmu: Path, tmp_path
     assert all("crashed in fmi2DoStep" in one.reason for one in result.verdicts)
 
 
-def test_cases_that_an_fmu_lacks_variables_for_are_skipped(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_cases_with_variables_that_it_lacks_are_skipped(native_fmu: Path, tmp_path: Path) -> None:
     older = without_later_variables(native_fmu, tmp_path / "older.fmu")
     result = run_cases(older, [QUICK, LEAPING], no_progress)
     assert result.passed
@@ -165,9 +163,7 @@ def test_a_device_without_reference_is_not_judged() -> None:
     assert judge(still, Observation()).verdict == NO_REFERENCE
 
 
-def test_a_motion_that_its_reference_leaves_as_fast_is_sensitive(
-    instance: Instance, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_sensitive_motion(instance: Instance, monkeypatch: pytest.MonkeyPatch) -> None:
     case = random_case(7, 0)
     seen = observe(instance, case)
     wrong = replace(seen, outputs={name: 1.001 * one for name, one in seen.outputs.items()})

@@ -99,9 +99,7 @@ def test_too_many_points_are_refused() -> None:
         ({"list": {"phase": [0.0, 0.1], "load": [0.0, 0.1]}}, PathCollection),
     ],
 )
-def test_lines_maps_and_samples_are_drawn_with_gaps_for_failures(
-    content: dict[str, Any], drawn: type
-) -> None:
+def test_lines_maps_and_samples_are_drawn(content: dict[str, Any], drawn: type) -> None:
     sweep = grid_from(content, "grid.toml")
     axes = sweep_figure(sweep, columns_of(sweep)).axes[0]
     assert isinstance([*axes.collections, *axes.lines][0], drawn)

@@ -71,9 +71,7 @@ TASK = Task(("friction_coefficient",), (), ("steady_velocity",), 20, Run(1, 1, 0
 BOTH = Task(("phase",), (), ("blocking_force", "velocity.rms"), 20, Run(2, 16, 0))
 
 
-def test_a_point_that_fails_is_a_row_with_its_error_and_the_next_is_sound(
-    instance: Instance,
-) -> None:
+def test_failed_point_is_a_row_with_its_error_and_the_next_is_sound(instance: Instance) -> None:
     used = instance.slave
     failed = measure_point(instance, TASK, (0, (-1.0,)), {})
     assert instance.slave is not used, "whatever state the failure has left it in"

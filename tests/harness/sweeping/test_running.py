@@ -23,9 +23,7 @@ def rows_of(fmu: Path, time_limit: float, measure: str = "velocity.rms") -> list
     return sorted(kept)
 
 
-def test_a_point_that_takes_too_long_is_a_row_and_the_others_go_on(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_point_over_the_time_limit_is_a_row(native_fmu: Path, tmp_path: Path) -> None:
     """Endless in the second run of a process."""
     slow = "static int set; if (set) { LOOP } set = 1;"
     fmu = compiled(native_fmu, tmp_path / "slow.fmu", f"IN_STEP={slow}", "VALUE=1.0")
@@ -43,9 +41,7 @@ def test_a_process_that_dies_once_costs_no_point(native_fmu: Path, tmp_path: Pat
 
 
 @pytest.mark.slow
-def test_predictions_that_hang_are_left_to_the_single_points(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_predictions_that_hang_are_left_to_single_points(native_fmu: Path, tmp_path: Path) -> None:
     fmu = compiled(native_fmu, tmp_path / "hangs.fmu", "IN_STEP=LOOP", "VALUE=2.0")
     for _, cells, error in rows_of(fmu, 1.0, "steady_velocity"):
         assert cells == [None, None]

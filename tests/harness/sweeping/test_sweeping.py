@@ -85,9 +85,7 @@ def interrupt(label: str, share: float) -> None:
         raise KeyboardInterrupt
 
 
-def test_finished_points_but_damaged_ones_are_not_computed_again(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_only_missing_and_damaged_points_are_computed(native_fmu: Path, tmp_path: Path) -> None:
     out = tmp_path / "a.csv"
     with pytest.raises(KeyboardInterrupt) as caught:
         run_sweep(GRID, native_fmu, out, workers=1, progress=interrupt)
@@ -106,9 +104,7 @@ def test_finished_points_but_damaged_ones_are_not_computed_again(
     assert out.read_bytes() == (tmp_path / "b.csv").read_bytes()
 
 
-def test_points_of_another_grid_are_refused_unless_discarded(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_points_of_another_grid_are_refused(native_fmu: Path, tmp_path: Path) -> None:
     out = tmp_path / "a.csv"
     with open_journal(out, "other"):
         pass
@@ -145,9 +141,7 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
 @pytest.mark.parametrize(
     "kills", [pytest.param(3, marks=pytest.mark.slow), pytest.param(6, marks=pytest.mark.nightly)]
 )
-def test_a_sweep_killed_at_random_is_resumed_to_the_same_file(
-    native_fmu: Path, tmp_path: Path, kills: int
-) -> None:
+def test_killed_sweep_resumes_to_the_file(native_fmu: Path, tmp_path: Path, kills: int) -> None:
     long_grid = tmp_path / "long.toml"
     long_grid.write_text(LONG, encoding="utf-8")
     undisturbed, out = tmp_path / "undisturbed.parquet", tmp_path / "killed.parquet"
@@ -169,9 +163,7 @@ def test_a_sweep_killed_at_random_is_resumed_to_the_same_file(
     assert not journal_path(out).exists()
 
 
-def test_only_a_table_of_these_points_and_measures_is_replaced_unasked(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_only_a_table_of_this_sweep_is_replaced_unasked(native_fmu: Path, tmp_path: Path) -> None:
     out = tmp_path / "a.csv"
     run_sweep(FEW, native_fmu, out, workers=1)
     table = out.read_text()
@@ -188,9 +180,7 @@ def test_only_a_table_of_these_points_and_measures_is_replaced_unasked(
     assert out.read_text() == table
 
 
-def test_points_kept_from_before_do_not_replace_other_results(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_kept_points_do_not_replace_other_results(native_fmu: Path, tmp_path: Path) -> None:
     out = tmp_path / "a.csv"
     run_sweep(FEW, native_fmu, out, workers=1)
     names, first, *rest = out.read_text().splitlines()
@@ -227,9 +217,7 @@ def test_a_cluster_writes_the_same_table_as_this_machine_also_when_a_worker_is_k
             assert not victims, "the worker was killed in mid-sweep"
 
 
-def test_a_scheduler_that_is_not_there_is_named(
-    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_no_scheduler(native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cluster, "CONNECT_SECONDS", 0.5)
     for address in ("tcp://127.0.0.1:9", "no address"):
         with pytest.raises(HarnessError, match=f"--dask {address}: no scheduler answers"):
@@ -245,9 +233,7 @@ def test_a_worker_of_another_version_refuses(native_fmu: Path, tmp_path: Path) -
     assert list(tmp_path.iterdir()) == []
 
 
-def test_without_distributed_the_extra_is_named(
-    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_no_distributed(native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sweeping, "find_spec", lambda name: None)
     with pytest.raises(HarnessError, match=r"pip install 'slider-resonator\[cluster\]'"):
         run_sweep(FEW, native_fmu, tmp_path / "a.csv", workers=1, dask="tcp://x:1")

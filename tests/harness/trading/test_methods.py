@@ -42,9 +42,7 @@ def test_a_ramp_that_is_passed_on_costs_nothing(instance: Instance) -> None:
     assert max(found.values()) < 1e-11, f"steps of 10 periods: {found}"
 
 
-def test_a_held_ramp_costs_the_first_power_of_the_step(
-    instance: Instance, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_held_ramp_is_of_order_1(instance: Instance, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(FmuMethods, "interpolates", False)
     ramp = problem(RAMP)
     steps = np.array([0.01, 0.1, 1.0])
@@ -135,9 +133,7 @@ def test_a_method_stops_where_its_budget_ends(monkeypatch: pytest.MonkeyPatch) -
     assert "more than its budget of 1 s" in reported["far too slow", "all"]
 
 
-def test_a_method_that_cannot_stick_is_omitted_where_the_slider_sticks(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_method_that_cannot_stick_is_omitted(monkeypatch: pytest.MonkeyPatch) -> None:
     sticking = problem(STICKING, max_periods=4)
     only(monkeypatch, made_up("sliding", still(sticking), cannot_stick=True))
     trade = measure_trade(sticking, {}, quiet, repeats=1)

@@ -37,9 +37,7 @@ def own(native_fmu: Path) -> Iterator[Instance]:
         ("initialUnknowns", "velocity", "initial_velocity", "at the start"),
     ],
 )
-def test_a_dependency_that_is_left_out_is_a_fault(
-    own: Instance, place: str, output: str, name: str, when: str
-) -> None:
+def test_missing_dependency(own: Instance, place: str, output: str, name: str, when: str) -> None:
     unknowns = getattr(own.fmu.description, place)
     (unknown,) = [one for one in unknowns if one.variable.name == output]
     unknown.dependencies = [one for one in unknown.dependencies if one.name != name]
@@ -80,9 +78,7 @@ def test_a_false_offer_is_a_fault(own: Instance, offer: str, value: object, said
         ("fmi2DoStep", 4, "fmi2Fatal"),
     ],
 )
-def test_a_status_that_ends_a_run_is_a_fault_by_the_name_of_its_version(
-    function: str, number: int, status: str
-) -> None:
+def test_status_that_ends_a_run_is_a_fault(function: str, number: int, status: str) -> None:
     fmu = SimpleNamespace(variables={}, runs_without_python=True)
     instance = SimpleNamespace(messages=[], fmu=fmu, read=lambda names: {})
     trial = Trial(cast(Instance, instance), [])
@@ -95,9 +91,7 @@ def test_a_status_that_ends_a_run_is_a_fault_by_the_name_of_its_version(
 
 
 @pytest.mark.skipif(os.name != "posix", reason="nothing is compared on Windows")
-def test_a_process_without_resources_keeps_its_environment(
-    instance: Instance, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_environment_is_restored(instance: Instance, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse() -> None:
         raise OSError("no space left on device")
 

@@ -77,9 +77,7 @@ def test_plots_show_the_fmu_on_the_reference_over_time_or_the_sweep(tmp_path: Pa
     assert_as_before("report_plots.txt", "".join(lines))
 
 
-def test_the_page_leads_to_each_scene_and_escapes_what_is_foreign(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_page_of_every_kind_of_verdict(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Scenes that pass, fail, do not apply, could not be run, or have a hostile name."""
     monkeypatch.setattr(html_report, "provenance_of_all", lambda _: PROVENANCE)
     hostile = replace(GOOD, checks=(replace(PASSED, scene="<script>"), SLOWER))

@@ -42,9 +42,7 @@ def test_printed_text_is_not_taken_for_a_traceback() -> None:
         (Ending(processes=321), "321 processes; must be at most 250"),
     ],
 )
-def test_too_much_is_reported_with_the_limit(
-    ending: Ending, what: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_exceeded_limits(ending: Ending, what: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(MEMORY, "300")
     assert not missed_limit("", ending)
     assert crash_report("", "", ending, 60.0) == f"the FMU was ended: it had {what}"

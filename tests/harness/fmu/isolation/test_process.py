@@ -42,9 +42,7 @@ def test_an_error_keeps_its_type_and_the_process_goes_on(isolated: IsolatedFmu) 
 @pytest.mark.parametrize(
     ("task", "reason"), [(tasks.fail, "in fail\n"), (tasks.unpicklable, "pickle")]
 )
-def test_a_programming_error_has_the_traceback_of_the_process(
-    isolated: IsolatedFmu, task: process.Task, reason: str
-) -> None:
+def test_programming_error(isolated: IsolatedFmu, task: process.Task, reason: str) -> None:
     with pytest.raises(RuntimeError, match=reason):
         isolated.run(task)
 
@@ -90,9 +88,7 @@ def test_the_fmu_shares_no_stream_with_the_harness(isolated: IsolatedFmu) -> Non
     assert isolated.run(tasks.disturb) == ""
 
 
-def test_a_process_and_one_that_it_started_end_and_leave_nothing(
-    native_fmu: Path, tmp_path: Path, temporary: Path
-) -> None:
+def test_crash_leaves_nothing(native_fmu: Path, tmp_path: Path, temporary: Path) -> None:
     pid_file = tmp_path / "pid"
     start_child = partial(tasks.start_child, pid_file=pid_file)
     with IsolatedFmu(native_fmu, 60.0) as isolated:

@@ -55,9 +55,7 @@ ABORT, REFUSED = tasks_of_tests.abort, tasks_of_tests.refused
         {2: ABORT, 7: ABORT, 8: ABORT},
     ],
 )
-def test_outcomes_do_not_depend_on_the_number_of_processes(
-    native_fmu: Path, faults: dict[int, Task]
-) -> None:
+def test_outcomes_do_not_depend_on_jobs(native_fmu: Path, faults: dict[int, Task]) -> None:
     points = ["a", "b", "c1", "c2", "d", "e", "f", "g", "h", "k1", "k2"]
     given = [(point, faults.get(index, MOVE)) for index, point in enumerate(points)]
     assert outcomes(native_fmu, given, jobs=2) == outcomes(native_fmu, given, jobs=1)

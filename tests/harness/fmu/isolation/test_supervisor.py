@@ -51,9 +51,7 @@ def test_processes_are_counted_as_often_as_that_is_cheap(
     assert last - before <= interval + cost + supervisor.POLL_INTERVAL
 
 
-def test_pages_that_processes_share_are_looked_for_only_where_all_have_too_much(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_shared_pages_are_counted_above_the_limit_only(monkeypatch: pytest.MonkeyPatch) -> None:
     shares: list[int] = []
 
     def share(process: int) -> int:

@@ -72,9 +72,7 @@ def test_a_missed_time_limit_ends_the_run(native_fmu: Path) -> None:
     assert str(last.error) == "given up after 1 crash or exceeded limit; not run: b, c"
 
 
-def test_crashes_that_took_the_time_limit_end_the_run(
-    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_slow_crashes_end_the_run(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tasks, "monotonic", lambda: CLOCK[0])
     slow: Named = ("a", partial(die, seconds=0.9))
     given = [slow, ("b", slow[1]), ("c", slow[1])]

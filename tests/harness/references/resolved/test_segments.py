@@ -18,9 +18,7 @@ from slider_resonator.references.resolved.simulate import simulate
 @pytest.mark.parametrize("rate", [3500.0, -3500.0, 0.5])
 @pytest.mark.parametrize("amplitude", [1.0 + 1e-9, 1.5, 40.0])
 @pytest.mark.parametrize("angle", [-3.0, 0.0, 1.0, 3.5, 5.0, 100.0])
-def test_contact_changes_where_the_normal_load_crosses_zero(
-    rate: float, amplitude: float, angle: float
-) -> None:
+def test_contact_changes_at_zero_normal_load(rate: float, amplitude: float, angle: float) -> None:
     for lifted in (False, True):
         time = time_to_contact_change(lifted, 1.0, amplitude, angle, rate)
         assert 0.0 <= time <= 2.0 * math.pi / abs(rate), "it happens once in every period"
@@ -74,9 +72,7 @@ RISES = Polynomial([1.0, -2.0])
     ],
     ids=str,
 )
-def test_first_of_several_falls_is_found(
-    polynomial: Polynomial, stop: float, expected: float | None
-) -> None:
+def test_first_fall_is_found(polynomial: Polynomial, stop: float, expected: float | None) -> None:
     """In the interval up to `stop`; a near miss is no root."""
     found = fall(polynomial, stop)
     assert found == (None if expected is None else pytest.approx(expected, rel=1e-14))

@@ -48,9 +48,7 @@ RAMPS = [
         (Device(fidelity=1, tangential_force=50.0), until(4 * PERIOD, phase=0.4), 0.05),
     ],
 )
-def test_sgn_agrees_with_located_events(
-    device: Device, held: list[HeldInputs], share: float
-) -> None:
+def test_sgn_agrees_with_events(device: Device, held: list[HeldInputs], share: float) -> None:
     times = np.linspace(0.0, held[-1].stop, 201)
     exact = resolved.simulate(device, held, times)
     coarse, fine = (
