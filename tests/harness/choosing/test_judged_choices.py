@@ -1,10 +1,11 @@
 """Choices judged by full runs of all candidates: scenes of a table, and random ones."""
 
-import textwrap
 import time
+import tomllib
 from dataclasses import dataclass
 from itertools import chain
 from math import inf
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,11 +22,10 @@ from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
 from slider_resonator.scenes.need_table import STEADY_NEEDS
-from slider_resonator.scenes.scene import Scene
+from slider_resonator.scenes.scene import Scene, scene_from
 from tests.harness.choosing.generated_scenes import COUNT, generated_scene
-from tests.harness.choosing.scene_table import SCENES
-from tests.harness.scene_text import scene_of
 
+SCENES = tomllib.loads(Path(__file__).with_name("hard_scenes.toml").read_text(encoding="utf-8"))
 LARGER_STEPS = 4.0
 """Steps of candidates besides the chosen one, over that: smaller ones cost more."""
 REPEATS = 5
@@ -226,7 +226,7 @@ def judged(instance: Instance, scenes: dict[str, Scene]) -> None:
 
 
 def hard_scene(name: str) -> dict[str, Scene]:
-    return {name: scene_of(textwrap.dedent(SCENES[name]))}
+    return {name: scene_from({"name": name, "title": name, **SCENES[name]}, "hard_scenes.toml")}
 
 
 def random_scenes(seeds: range) -> dict[str, Scene]:

@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 import tomllib
 from pathlib import Path
 
@@ -18,7 +19,7 @@ from slider_resonator.sweeping.table import (
     table_columns,
     write_table,
 )
-from tests.harness.golden import assert_mistakes_as_before
+from tests.harness.golden import SCREENS, assert_mistakes_as_before
 
 
 def _read(text: str) -> Sweep:
@@ -73,47 +74,12 @@ def test_a_seed_gives_the_same_sample_and_another_seed_another() -> None:
     assert sample(1)[0][0] == 0.13436424411240122, "the first number of Python's generator"
 
 
-MISTAKES = (
-    "",
-    'name = "a"\n[run]\nstop_time = 1.0',
-    "[grid]\nfase = [1.0]",
-    "[grid]\nphase = 1.0",
-    "[grid]\nphase = []",
-    "[grid]\nphase = [nan]",
-    "[grid]\nphase = { from = 0, to = 1 }",
-    '[grid]\nphase = { from = 0, to = "1 mm", count = 3 }',
-    "[grid]\nphase = { to = 1, count = 2 }",
-    "[grid]\nphase = { from = 0, to = 1, count = 1 }",
-    "[grid]\nphase = { from = 0, to = 1, cuont = 2 }",
-    '[grid]\nphase = { from = 0, to = 1, count = 2, spacing = "log" }',
-    "[grid]\nfriction_law = [0.5]",
-    "[grid]\nphase = [0]\n[list]\nphase = [1]",
-    "[grid]\nphase = [0]\n[fixed]\nphase = 1",
-    "[fixed]\nload = 'a'\n[grid]\nphase = [0]",
-    "[list]\nphase = [0]\nload = [0, 1]",
-    "[random]\nload = { from = 0, to = 1 }",
-    "[random]\ncount = 2\nseed = 1",
-    "measures = ['speed']\n[grid]\nphase = [0]",
-    "measures = ['velocity.men']\n[grid]\nphase = [0]",
-    "measures = ['velocty.rms']\n[grid]\nphase = [0]",
-    "measures = [['speed']]\n[grid]\nphase = [0]",
-    "measures = []\n[grid]\nphase = [0]",
-    "title = 3\n[grid]\nphase = [0]",
-    "grit = 1",
-    "grid = 1",
-    "[grid]\nphase = [0]\n[run]\nskip_periods = 100",
-    "[grid]\nphase = [0]\n[run]\nsteps_per_period = 0",
-    "[grid]\nphase = { from = 0, to = 1, count = 100000 }\n"
-    "load = { from = 0, to = 1, count = 100000 }",
-    "[grid",
-    "[grid]\nphase = 0,4",
-)
-"""Grids that cannot be swept; what is said of them is in the file `screens/grid_mistakes.txt`."""
-
-
 def test_an_invalid_grid_is_refused_with_name_value_and_requirement(tmp_path: Path) -> None:
-    texts = {text: text for text in MISTAKES}
-    assert_mistakes_as_before("grid_mistakes.txt", tmp_path / "grid.toml", texts, read_grid)
+    """The file has the grids, each above what is said of it, which is indented."""
+    name = "grid_mistakes.txt"
+    *texts, _ = re.split("(?m)(?:^ {4}.*\n)+", (SCREENS / name).read_text(encoding="utf-8"))
+    grids = {text[:-1]: text[:-1] for text in texts}
+    assert_mistakes_as_before(name, tmp_path / "grid.toml", grids, read_grid)
 
 
 TASK = Task(("fidelity", "phase"), (), ("steady_velocity",), 20, Run(1, 1, 0))
