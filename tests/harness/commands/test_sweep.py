@@ -7,7 +7,7 @@ import pytest
 
 import slider_resonator as sr
 from slider_resonator.scenes.device_file import read_device_file
-from tests.harness.calling import call, refused
+from tests.harness.calling import call
 from tests.harness.public_json import assert_public_keys
 
 
@@ -53,18 +53,3 @@ def test_ranges_may_be_options(native_fmu: Path, tmp_path: Path) -> None:
     assert plot.is_file()
     title = read_device_file("ultrasonic_slider").title
     assert f"<h1>{title}</h1>" in page.read_text(encoding="utf-8")
-
-
-def test_results_of_another_device_are_not_replaced(native_fmu: Path, tmp_path: Path) -> None:
-    out = tmp_path / "a.csv"
-    sweep = ("sweep", "--over", "phase=0:1:2", "--out", out, "--fmu", native_fmu)
-    assert call(*sweep).exit_code == 0
-    first = out.read_bytes()
-    assert call(*sweep).exit_code == 0, "the same again is the same"
-    said = refused(*sweep, "--set", "friction_coefficient=0.2")
-    assert "has steady_velocity = 0.126666997" in said
-    assert out.read_bytes() == first
-    assert call(*sweep).exit_code == 0, "the refused sweep is not in the way of the first one"
-    again = call(*sweep, "--set", "friction_coefficient=0.2", "--overwrite")
-    assert again.exit_code == 0
-    assert out.read_bytes() != first

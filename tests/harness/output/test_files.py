@@ -52,11 +52,8 @@ def test_a_write_that_fails_is_named(tmp_path: Path, target: str, written: str, 
 @pytest.mark.parametrize(
     ("target", "refused"),
     [
-        ("", "names no file"),
-        (".", "is a directory; must be a regular file"),
         ("pipe", "is a pipe; must be a regular file"),
         ("link", "is a symbolic link; must be a regular file"),
-        ("/dev/null", "is a device; must be a regular file"),
         ("missing/out.csv", "there is no folder missing"),
         ("file/out.csv", "Not a directory"),
         ("x" * 300, "name too long"),

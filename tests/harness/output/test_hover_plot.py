@@ -34,18 +34,14 @@ def written(folder: Path, plot: HoverPlot) -> tuple[str, Page]:
     return text, Page(text)
 
 
-def test_the_data_is_in_the_page_and_nothing_is_loaded(tmp_path: Path) -> None:
-    _, page = written(tmp_path, PLOT)
+def test_a_page_has_its_data_and_allows_its_own_scripts_only(tmp_path: Path) -> None:
+    text, page = written(tmp_path, PLOT)
     assert page.loaded == ["data:,"]
     (data,) = page.plots
     assert data["y"] == {"label": "velocity [m/s]", "log": True, "range": None}
     (series,) = data["series"]
     assert (series["x"], series["y"]) == ([1.0, 2.0], [0.5, None])
     assert series["notes"] == ["one", "two"]
-
-
-def test_the_policy_allows_the_scripts_of_the_page_and_no_other(tmp_path: Path) -> None:
-    text, _ = written(tmp_path, PLOT)
     (policy,) = re.findall('Content-Security-Policy" content="([^"]*)"', text)
     assert "default-src 'none'" in policy
     allowed = re.findall("sha256-([^']*)", policy)

@@ -2,7 +2,6 @@
 
 import csv
 import math
-import re
 import tomllib
 from pathlib import Path
 
@@ -19,7 +18,7 @@ from slider_resonator.sweeping.table import (
     table_columns,
     write_table,
 )
-from tests.harness.golden import SCREENS, assert_mistakes_as_before
+from tests.harness.golden import assert_mistakes_as_before, mistakes_in
 
 
 def _read(text: str) -> Sweep:
@@ -75,11 +74,8 @@ def test_a_seed_gives_the_same_sample_and_another_seed_another() -> None:
 
 
 def test_an_invalid_grid_is_refused_with_name_value_and_requirement(tmp_path: Path) -> None:
-    """The file has the grids, each above what is said of it, which is indented."""
     name = "grid_mistakes.txt"
-    *texts, _ = re.split("(?m)(?:^ {4}.*\n)+", (SCREENS / name).read_text(encoding="utf-8"))
-    grids = {text[:-1]: text[:-1] for text in texts}
-    assert_mistakes_as_before(name, tmp_path / "grid.toml", grids, read_grid)
+    assert_mistakes_as_before(name, tmp_path / "grid.toml", mistakes_in(name), read_grid)
 
 
 TASK = Task(("fidelity", "phase"), (), ("steady_velocity",), 20, Run(1, 1, 0))

@@ -43,7 +43,9 @@ GRID = grid_from(
     "a grid",
 )
 """Half of the points are refused by the FMU: LuGre friction needs a coefficient above 0."""
-FEW = grid_from({"grid": {"phase": [0.0, 0.1, 0.2, 0.3]}}, "few points")
+PHASE = {"phase": [0.0, 0.1, 0.2, 0.3]}
+FEW = grid_from({"grid": PHASE}, "few points")
+OTHER_DEVICE = grid_from({"grid": PHASE, "fixed": {"friction_coefficient": 0.2}}, "other device")
 RATIOS = {"from": 0.5, "to": 5.5, "count": 41}
 PHASES = {"from": 0.0, "to": 3.1, "count": 30}
 WIDE = grid_from({"grid": {"frequency_ratio": RATIOS, "phase": PHASES}}, "a wide grid")
@@ -177,7 +179,13 @@ def test_only_a_table_of_this_sweep_is_replaced_unasked(native_fmu: Path, tmp_pa
             run_sweep(FEW, native_fmu, out, workers=1)
         assert out.read_text() == text
     run_sweep(FEW, native_fmu, out, workers=1, overwrite=True)
+    with pytest.raises(HarnessError, match=r"has steady_velocity = 0\.126666997"):
+        run_sweep(OTHER_DEVICE, native_fmu, out, workers=1)
     assert out.read_text() == table
+    run_sweep(FEW, native_fmu, out, workers=1)
+    assert out.read_text() == table, "the refused sweep is not in the way of the first one"
+    run_sweep(OTHER_DEVICE, native_fmu, out, workers=1, overwrite=True)
+    assert out.read_text() != table
 
 
 def test_kept_points_do_not_replace_other_results(native_fmu: Path, tmp_path: Path) -> None:
