@@ -105,5 +105,5 @@ def test_a_run_has_the_names_of_a_table_for_the_drive(tmp_path: Path) -> None:
 def test_bad_data_are_explained(tmp_path: Path) -> None:
     name = "data_mistakes.txt"
     assert_mistakes_as_before(name, tmp_path / "data.csv", mistakes_in(name), read_measurements)
-    with pytest.raises(HarnessError, match="one of .*steady_velocity, tangential_force, time, "):
+    with pytest.raises(HarnessError, match=r"one of .*steady_velocity, tangential_force, time, "):
         read(tmp_path, "phase,velocty\n0,1\n")

@@ -112,10 +112,6 @@ def test_json_keeps_all_digits_and_has_its_version_in_each_object_at_the_top() -
             "multipliers": [[0.5, 0.25]],
             "note": None,
         },
-        {
-            "schema_version": SCHEMA_VERSION,
-            "numbers": [None, None, 1.5],
-            "inner": {"c": True},
-        },
+        {"schema_version": SCHEMA_VERSION, "numbers": [None, None, 1.5], "inner": {"c": True}},
     ]
     assert json.loads(to_json({"a": 1})) == {"schema_version": SCHEMA_VERSION, "a": 1}

@@ -13,11 +13,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.sweeping import table
 from slider_resonator.sweeping.grid import Sweep, grid_from, read_grid
 from slider_resonator.sweeping.measures import Row, Run, Task
-from slider_resonator.sweeping.table import (
-    check_writer,
-    table_columns,
-    write_table,
-)
+from slider_resonator.sweeping.table import check_writer, table_columns, write_table
 from tests.harness.golden import assert_mistakes_as_before, mistakes_in
 
 

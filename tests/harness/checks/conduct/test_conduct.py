@@ -46,8 +46,7 @@ def test_missing_dependency(own: Instance, place: str, output: str, name: str, w
 
 
 @pytest.mark.parametrize(
-    ("other", "said"),
-    [(float(np.nextafter(5.0, 6.0)), "5.000000000000001"), (float("nan"), "nan")],
+    ("other", "said"), [(float(np.nextafter(5.0, 6.0)), "5.000000000000001"), (float("nan"), "nan")]
 )
 def test_the_last_bit_and_nan_are_differences(other: float, said: str) -> None:
     rows, others = [[1.0, 2.0], [5.0, 6.0]], [[1.0, 2.0], [other, 6.0]]

@@ -11,12 +11,7 @@ from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation import tasks
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
-from slider_resonator.fmu.isolation.tasks import (
-    LocalProcesses,
-    Outcome,
-    run_all_tasks,
-    run_tasks,
-)
+from slider_resonator.fmu.isolation.tasks import LocalProcesses, Outcome, run_all_tasks, run_tasks
 from tests.harness.fmu.isolation.tasks_of_tests import position_after, refused
 
 MOVE = partial(position_after, time=0.01)
