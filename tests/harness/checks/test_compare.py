@@ -140,23 +140,16 @@ def test_near_a_reference_of_zero_the_absolute_tolerance_counts(noise: float, pa
         assert np.isfinite(verdict.deviation), "a share of next to nothing means nothing"
 
 
-def test_a_signal_without_oscillation_has_no_frequency_and_fails() -> None:
+def test_a_signal_without_oscillation_fails_and_one_too_short_could_not_run() -> None:
+    expect: dict[str, Any] = {"quantity": "ripple_frequency", "value": 557.0, "relative": 1e-6}
     for still in (np.ones(1000), np.full(1000, np.nan)):
-        verdict = judge(
-            fmu(record=RecordOf(velocity=still)),
-            quantity="ripple_frequency",
-            value=557.0,
-            relative=1e-6,
-        )
+        verdict = judge(fmu(record=RecordOf(velocity=still)), **expect)
         assert not verdict.passed
         assert "ripple_frequency does not exist" in verdict.note
-
-
-def test_a_scene_that_does_not_allow_a_measure_could_not_run() -> None:
-    record = RecordOf(velocity=WAVE[:10])
-    record.times = RecordOf.times[:10]
+    short = RecordOf(velocity=WAVE[:10])
+    short.times = RecordOf.times[:10]
     with pytest.raises(SceneError, match=r"ripple_frequency cannot be measured: .* 16 points"):
-        judge(fmu(record=record), quantity="ripple_frequency", value=557.0, relative=1e-6)
+        judge(fmu(record=short), **expect)
 
 
 @pytest.mark.parametrize(("share", "passed"), [(9e-7, True), (2e-6, False)])

@@ -16,11 +16,15 @@ def fmu_with(page: str, folder: Path) -> Path:
     return folder / "with_page.fmu"
 
 
-def test_without_settings_the_page_is_that_of_the_fmu(tmp_path: Path) -> None:
-    out = tmp_path / "page.html"
-    printed = call("page", fmu_with(PAGE, tmp_path), "--out", out, "--json").stdout
-    assert_public_keys("page", printed)
-    assert out.read_text(encoding="utf-8") == PAGE
+def test_without_settings_the_page_is_that_in_the_fmu_or_beside_it(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    beside = Path(shutil.copy(native_fmu, tmp_path))
+    (tmp_path / "slider-resonator.html").write_text(PAGE, encoding="utf-8")
+    for fmu in (fmu_with(PAGE, tmp_path), beside):
+        out = tmp_path / f"{fmu.stem}.html"
+        assert_public_keys("page", call("page", fmu, "--out", out, "--json").stdout)
+        assert out.read_text(encoding="utf-8") == PAGE
 
 
 def test_device_and_inputs_are_those_to_start_from(tmp_path: Path) -> None:
@@ -45,10 +49,3 @@ def test_an_fmu_without_a_page_is_refused(native_fmu: Path, tmp_path: Path) -> N
     old.write_bytes(damaged.replace(b"<head>", b"<hand>"))
     assert "its page cannot be read" in refused("page", old, "--out", out)
     assert not out.exists()
-
-
-def test_the_page_beside_an_fmu_serves_too(native_fmu: Path, tmp_path: Path) -> None:
-    fmu = shutil.copy(native_fmu, tmp_path)
-    (tmp_path / "slider-resonator.html").write_text(PAGE, encoding="utf-8")
-    assert call("page", fmu, "--out", tmp_path / "out.html").exit_code == 0
-    assert (tmp_path / "out.html").read_text(encoding="utf-8") == PAGE

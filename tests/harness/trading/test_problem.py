@@ -107,17 +107,15 @@ def test_each_error_is_a_share_of_the_peak(short: Problem) -> None:
     assert found["event_times"] == pytest.approx(1e-3), "in drive periods"
 
 
-def test_a_shorter_run_is_compared_where_it_has_been(short: Problem) -> None:
+def test_a_shorter_run_is_compared_where_it_has_been_and_nan_is_infinitely_wrong(
+    short: Problem,
+) -> None:
     solution = drifting(short)
     early = solution.times <= 2.0001 * short.period
     half = Solution(solution.times[early], solution.position[early], solution.velocity[early])
     found = errors(short, half, windows(short, solution, 4), 2)
     assert found["position"] == 0.0
     assert "event_times" not in found, "a method that locates no events has no error of them"
-
-
-def test_values_that_are_not_finite_have_infinite_error(short: Problem) -> None:
-    solution = drifting(short)
     broken = replace(solution, velocity=np.full_like(solution.velocity, nan))
     assert errors(short, broken, windows(short, solution, 4), 4)["velocity"] == inf
 
