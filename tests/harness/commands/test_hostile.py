@@ -188,18 +188,17 @@ def arguments(command: str, fmu: Path, folder: Path) -> list[str]:
     return [f"{places.get(name, name)}{point}{suffix}" for name, point, suffix in words]
 
 
-READ_QUICKLY = ("validate", "run", *(name for name in COMMANDS if name.startswith("no such")))
-CASES = [
-    pytest.param(
-        name, as_json, marks=() if name in READ_QUICKLY and not as_json else pytest.mark.slow
-    )
-    for name in COMMANDS
-    for as_json in (False, True)
-    if not as_json or name in ("validate", "steady", "sweep", "hosts", "no such FMU")
-]
+QUICK = ("validate", "run", *(name for name in COMMANDS if name.startswith("no such")))
+AS_JSON = ("validate", "steady", "sweep", "hosts", "no such FMU")
 
 
-@pytest.mark.parametrize(("command", "as_json"), CASES)
+@pytest.mark.parametrize(
+    ("command", "as_json"),
+    [
+        *(pytest.param(n, False, marks=() if n in QUICK else pytest.mark.slow) for n in COMMANDS),
+        *(pytest.param(name, True, marks=pytest.mark.slow) for name in AS_JSON),
+    ],
+)
 def test_text_is_escaped(nasty_fmu: Path, tmp_path: Path, command: str, as_json: bool) -> None:
     summary = tmp_path / "summary.md"
     words = [*arguments(command, nasty_fmu, tmp_path), *(["--json"] if as_json else [])]
