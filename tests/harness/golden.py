@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -39,27 +39,33 @@ def without_long_lists(message: str) -> str:
     return re.sub(r" [(]must be one of [^)]{60,}[)]", "", message)
 
 
-def mistakes_in(name: str) -> dict[str, str]:
-    """Return the texts in a file of mistakes by themselves: each is above what is said of it."""
-    *texts, _ = re.split("(?m)(?:^ {4}.*\n)+", (SCREENS / name).read_text(encoding="utf-8"))
-    return {text[:-1]: text[:-1] for text in texts}
+def mistakes_in(name: str) -> list[tuple[str, str]]:
+    """Return what is wrong and the text of each mistake in the file of that name.
+
+    There the text is below a line of what is wrong, which may be left out, and above what is said
+    of it, which is indented; a line of "    ?" does until an update writes it.
+    """
+    blocks = re.split(r"(?m)(?:^ {4}.*\n)+", (SCREENS / name).read_text(encoding="utf-8"))[:-1]
+    found = (re.fullmatch(r"(## [^\n]*\n)?(.*)\n", block, re.DOTALL) for block in blocks)
+    return [(mistake[1] or "", mistake[2]) for mistake in found if mistake]
 
 
 def assert_mistakes_as_before(
-    name: str, file: Path, texts: Mapping[str, str], read: Callable[[Path], object]
+    name: str, file: Path, read: Callable[[Path], object], head: str = ""
 ) -> None:
-    """Compare why `read` refuses a file of each text, by its mistake, with the file of that name.
+    """Compare why `read` refuses each mistake of a file in `screens`, below a head, with that file.
 
     The words of the reader of TOML, and long lists of names, which come and go, are left out.
     """
     said = []
-    for mistake, text in texts.items():
-        file.write_text(text, encoding="utf-8")
+    for heading, text in mistakes_in(name):
+        file.write_text(head + text, encoding="utf-8")
         with pytest.raises(HarnessError) as refusal:
             read(file)
         message = escaped(str(refusal.value)).replace(f"{file.parent}/", "")
         assert all(line.startswith(file.name) for line in message.splitlines())
         message = re.sub(r"not TOML: [^;]*;", "not TOML;", message)
         message = without_long_lists(message)
-        said.append(f"{mistake}\n" + "".join(f"    {line}\n" for line in message.splitlines()))
+        reasons = "".join(f"    {line}\n" for line in message.splitlines())
+        said.append(f"{heading}{text}\n{reasons}")
     assert_as_before(name, "".join(said))

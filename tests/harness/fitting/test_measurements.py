@@ -7,7 +7,7 @@ import pytest
 from slider_resonator.errors import HarnessError
 from slider_resonator.fitting.measurements import Measurements
 from slider_resonator.fitting.reading import read_measurements
-from tests.harness.golden import assert_mistakes_as_before, mistakes_in
+from tests.harness.golden import assert_mistakes_as_before
 
 
 def read(folder: Path, text: str) -> Measurements:
@@ -103,7 +103,6 @@ def test_a_run_has_the_names_of_a_table_for_the_drive(tmp_path: Path) -> None:
 
 
 def test_bad_data_are_explained(tmp_path: Path) -> None:
-    name = "data_mistakes.txt"
-    assert_mistakes_as_before(name, tmp_path / "data.csv", mistakes_in(name), read_measurements)
+    assert_mistakes_as_before("data_mistakes.txt", tmp_path / "data.csv", read_measurements)
     with pytest.raises(HarnessError, match=r"one of .*steady_velocity, tangential_force, time, "):
         read(tmp_path, "phase,velocty\n0,1\n")

@@ -16,7 +16,8 @@ from slider_resonator.scenes.scene import scene_from
 from slider_resonator.scenes.scene_files import built_in_scenes, template
 from slider_resonator.scenes.schema import SceneTable
 from slider_resonator.scenes.toml_file import toml_value
-from tests.harness.scenes.test_mistakes import MISTAKES
+from tests.harness.golden import mistakes_in
+from tests.harness.scene_text import HEAD
 from tests.processes import ROOT
 
 EVERY_KEY = beside("every_key.toml").splitlines()
@@ -106,9 +107,10 @@ def test_the_json_schema_is_one_and_accepts_what_is_valid() -> None:
 
 
 def test_an_editor_finds_typical_mistakes() -> None:
-    for name, text in MISTAKES.items():
+    in_the_head = [text for _, text in mistakes_in("mistakes_in_the_head.txt")]
+    for text in (*in_the_head, *(HEAD + text for _, text in mistakes_in("mistakes.txt"))):
         with suppress(tomllib.TOMLDecodeError):
-            assert list(VALIDATOR.iter_errors(tomllib.loads(text))), name
+            assert list(VALIDATOR.iter_errors(tomllib.loads(text))), text
 
 
 def test_the_schema_describes_every_key() -> None:

@@ -14,7 +14,7 @@ from slider_resonator.sweeping import table
 from slider_resonator.sweeping.grid import Sweep, grid_from, read_grid
 from slider_resonator.sweeping.measures import Row, Run, Task
 from slider_resonator.sweeping.table import check_writer, table_columns, write_table
-from tests.harness.golden import assert_mistakes_as_before, mistakes_in
+from tests.harness.golden import assert_mistakes_as_before
 
 
 def _read(text: str) -> Sweep:
@@ -70,8 +70,7 @@ def test_a_seed_gives_the_same_sample_and_another_seed_another() -> None:
 
 
 def test_an_invalid_grid_is_refused_with_name_value_and_requirement(tmp_path: Path) -> None:
-    name = "grid_mistakes.txt"
-    assert_mistakes_as_before(name, tmp_path / "grid.toml", mistakes_in(name), read_grid)
+    assert_mistakes_as_before("grid_mistakes.txt", tmp_path / "grid.toml", read_grid)
 
 
 TASK = Task(("fidelity", "phase"), (), ("steady_velocity",), 20, Run(1, 1, 0))
