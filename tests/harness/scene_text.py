@@ -10,26 +10,15 @@ from slider_resonator.scenes.scene_files import find_scenes
 HEAD = 'name = "mine"\ntitle = "Mine"\n'
 
 
-def scene_file(folder: Path, text: str) -> Path:
-    """Write a scene file of a text below `HEAD`."""
-    path = folder / "mine.toml"
-    path.write_text(HEAD + text)
-    return path
-
-
 def read_scene(path: Path) -> Scene:
     """Return the only scene of a file."""
     (scene,) = read_scenes(path)
     return scene
 
 
-def scene_read(folder: Path, text: str) -> Scene:
-    """Return the scene of a file with a text below `HEAD`."""
-    return read_scene(scene_file(folder, text))
-
-
-def scene_of(text: str) -> Scene:
-    return scene_from(tomllib.loads(HEAD + text), "mine.toml")
+def scene_of(text: str, folder: Path = Path()) -> Scene:
+    """Return the scene of a text below `HEAD`, whose CSV files are in `folder`."""
+    return scene_from(tomllib.loads(HEAD + text), "mine.toml", folder)
 
 
 @cache

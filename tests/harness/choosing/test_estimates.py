@@ -41,8 +41,7 @@ def test_signals_are_judged_everywhere_and_numbers_at_the_end() -> None:
         error(name, other, reference)
         for name in ("position", "mean_velocity", "mean_velocity_throughout")
     )
-    assert position.error == pytest.approx(0.3)
-    assert throughout.error == pytest.approx(0.3)
+    assert (position.error, throughout.error) == pytest.approx((0.3, 0.3))
     assert position.magnitude == 1.0
     assert velocity.error < 1e-11
     assert velocity.magnitude == throughout.magnitude == 2.0
@@ -53,10 +52,9 @@ def test_events_are_the_nearest_true_ones() -> None:
     events = 0.1 * np.floor(10.0 * TIMES) + 0.05
     late = np.maximum(0.1 * np.floor(10.0 * TIMES - 1.0), 0.0) + 0.05 + 1e-4
     reference = record(last_event_time=events)
-    near = error("event_times", record(last_event_time=late), reference)
-    assert near.error == pytest.approx(1e-4)
-    far = error("event_times", record(last_event_time=events + 0.03), reference)
-    assert far.error == pytest.approx(0.03)
+    for found, expected in ((late, 1e-4), (events + 0.03, 0.03)):
+        near = error("event_times", record(last_event_time=found), reference)
+        assert near.error == pytest.approx(expected)
     missed = error("event_times", record(last_event_time=events, reversals=1), reference)
     assert missed.error == inf
     assert missed.reason == "1 reversal instead of 0"

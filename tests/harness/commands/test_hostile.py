@@ -19,7 +19,6 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from slider_resonator.fmu.limits import DEFAULTS, MEMORY
-from slider_resonator.output.json_output import to_json
 from tests.harness import faulty_fmus
 from tests.harness.calling import call, refused
 from tests.processes import run_command
@@ -211,11 +210,6 @@ def test_text_is_escaped(nasty_fmu: Path, tmp_path: Path, command: str, as_json:
         assert "<b>" not in page
         assert "](" not in page.replace("]\\(", "")
         assert "://" not in page
-
-
-def test_json_holds_no_command_of_a_workflow() -> None:
-    assert "##[" not in to_json({"name": "##[error]x"})
-    assert "\\u0023#[error]x" in to_json({"name": "##[error]x"})
 
 
 @pytest.mark.slow

@@ -384,7 +384,7 @@ def test_intervals_cover_the_truth_in_90_to_99_of_100(instance: Instance) -> Non
         found = fitted(instance, data, list(true), parameters=device, starts=2)
         for of, name in enumerate(true):
             low, high = interval(found, of)
-            judged[name] += np.isfinite([low, high]).all()
+            judged[name] += int(np.isfinite([low, high]).all())
             covered[name] += low <= true[name] <= high
     for name, count in covered.items():
         assert judged[name] >= 95, "few devices leave a parameter open"

@@ -114,4 +114,6 @@ def test_json_keeps_all_digits_and_has_its_version_in_each_object_at_the_top() -
         },
         {"schema_version": SCHEMA_VERSION, "numbers": [None, None, 1.5], "inner": {"c": True}},
     ]
-    assert json.loads(to_json({"a": 1})) == {"schema_version": SCHEMA_VERSION, "a": 1}
+    written = to_json({"a": "##[error]x"})
+    assert json.loads(written) == {"schema_version": SCHEMA_VERSION, "a": "##[error]x"}
+    assert "\\u0023#[error]x" in written, "no command of a workflow"

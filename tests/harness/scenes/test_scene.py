@@ -9,7 +9,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.json_schema import scene_schema
 from slider_resonator.scenes.scene import scene_from
-from tests.harness.scene_text import read_scene, scene_file, scene_of, scene_read
+from tests.harness.scene_text import HEAD, scene_of
 
 RUN = "[run]\nstop_time = 0.1\nstep_size = 0.01\n"
 
@@ -25,7 +25,7 @@ def test_inputs_of_every_kind(tmp_path: Path) -> None:
     [beside.inputs]
     load = { csv = "held.csv", between = "hold" }
     """
-    scene = scene_read(tmp_path, text + RUN)
+    scene = scene_of(text + RUN, tmp_path)
     signals = scene.signals
     assert signals["phase"].at(0.017) == 0.4
     assert signals["load"].at(0.05) == pytest.approx(0.025)
@@ -34,10 +34,10 @@ def test_inputs_of_every_kind(tmp_path: Path) -> None:
     assert scene.beside is not None
     held = scene.beside.signals["load"]
     assert (held.at(0.049), held.jumps) == (1.0, (0.05, 0.1))
-    assert scene.files[:2] == (tmp_path / "mine.toml", tmp_path / "load.csv")
+    assert scene.files == (tmp_path / "load.csv", tmp_path / "held.csv")
 
 
-def test_values_may_have_a_unit(tmp_path: Path) -> None:
+def test_values_may_have_a_unit() -> None:
     text = """
     [inputs]
     phase = "30 deg"
@@ -60,9 +60,8 @@ def test_values_may_have_a_unit(tmp_path: Path) -> None:
     variable = "damping_ratio"
     values = [0.1, "5 %"]
     """
-    path = scene_file(tmp_path, text)
-    jsonschema.validate(tomllib.loads(path.read_text()), scene_schema())
-    scene = read_scene(path)
+    jsonschema.validate(tomllib.loads(HEAD + text), scene_schema())
+    scene = scene_of(text)
     assert scene.signals["phase"].at(0.0) == pytest.approx(math.pi / 6.0)
     assert (scene.signals["load"].times, scene.signals["load"].values) == ((0.0, 1e-3), (0.0, 0.05))
     assert scene.tuning["drive_frequency"].values == pytest.approx((40e3 * math.pi, 130e3))
@@ -167,8 +166,8 @@ def test_a_csv_that_a_run_goes_beyond_is_refused(tmp_path: Path, text: str) -> N
     ):
         csv.write_text(f"time,value\n{first},1\n0.05,2\n")
         with pytest.raises(SceneError, match=rf"{RECORDED[text]}: csv .*x\.csv: .*{span}"):
-            scene_read(tmp_path, RUN.replace("0.1", f"{stop}") + text)
-    assert scene_read(tmp_path, RUN.replace("0.1", "0.05") + text).stop_time == 0.05
+            scene_of(RUN.replace("0.1", f"{stop}") + text, tmp_path)
+    assert scene_of(RUN.replace("0.1", "0.05") + text, tmp_path).stop_time == 0.05
 
 
 @pytest.mark.parametrize(

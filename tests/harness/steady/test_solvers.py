@@ -196,21 +196,9 @@ def test_steady_motion_is_found_from_any_guess(velocity: float) -> None:
     assert found.displacement / _Slider().period == pytest.approx(0.07, abs=1e-9)
 
 
-class _Still(_Slider):
-    """A state that decays without any motion."""
-
-    def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
-        return np.array([0.5 * state]), np.zeros(1)
-
-
 def test_the_load_that_stops_the_drift_is_found() -> None:
     found = blocked_point(_Slider(), _Slider().warm_up(0.0, 0.0), 0.0, 0.2)
     assert isinstance(found, FixedPoint)
     assert found.load == pytest.approx(0.1, abs=1e-10)
     assert found.displacement == pytest.approx(0.0, abs=1e-10)
     assert found.multipliers[0] == pytest.approx(0.99, abs=1e-8)
-
-
-def test_no_load_blocks_what_does_not_move() -> None:
-    found = blocked_point(_Still(), WarmedUp(np.ones(2), np.ones(2), 0.0), 0.1, 1.0)
-    assert isinstance(found, NoFixedPoint)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.output.progress import no_progress
 from slider_resonator.trading import measure
 from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.measure import measure_trade
@@ -73,10 +74,6 @@ def test_answers_are_those_of_the_commands(instance: Instance) -> None:
     assert second == pytest.approx(0.12666699702, rel=1e-9)
 
 
-def quiet(name: str, share: float) -> None:
-    assert 0.0 <= share <= 1.0
-
-
 def made_up(
     name: str, follow: Callable[[int], Solution], cost: float = 0.0, **fields: bool
 ) -> Method:
@@ -110,7 +107,7 @@ def test_a_failing_method_is_omitted_with_the_reason(monkeypatch: pytest.MonkeyP
         raise RuntimeError("the solver gives up")
 
     only(monkeypatch, made_up("failing", fails), made_up("standing", still(short)))
-    trade = measure_trade(short, {}, quiet, repeats=3)
+    trade = measure_trade(short, {}, no_progress, repeats=3)
     (row,) = trade.rows
     assert row.method == "standing"
     assert row.cpu == pytest.approx((1e-3 / short.period,) * 3), "per simulated second"
@@ -124,7 +121,7 @@ def test_a_method_stops_where_its_budget_ends(monkeypatch: pytest.MonkeyPatch) -
     longer = problem(TABLE_1, max_periods=64)
     slow = made_up("slow", still(longer), 0.1)
     only(monkeypatch, slow, made_up("far too slow", still(longer), 10.0))
-    trade = measure_trade(longer, {}, quiet, repeats=5, budget=1.0)
+    trade = measure_trade(longer, {}, no_progress, repeats=5, budget=1.0)
     (row,) = trade.rows
     assert row.periods == 8, "8 periods take 0.8 s, 16 would take 1.6 s of the 1 s"
     assert len(row.cpu) == 1, "nor are there repeats beyond the budget"
@@ -136,6 +133,6 @@ def test_a_method_stops_where_its_budget_ends(monkeypatch: pytest.MonkeyPatch) -
 def test_method_that_cannot_stick_is_omitted(monkeypatch: pytest.MonkeyPatch) -> None:
     sticking = problem(STICKING, max_periods=4)
     only(monkeypatch, made_up("sliding", still(sticking), cannot_stick=True))
-    trade = measure_trade(sticking, {}, quiet, repeats=1)
+    trade = measure_trade(sticking, {}, no_progress, repeats=1)
     assert [(o.method, o.quantity) for o in trade.omissions] == [("sliding", "all")]
     assert "sticks" in trade.omissions[0].reason
