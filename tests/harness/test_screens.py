@@ -166,7 +166,7 @@ def test_files_for_programs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     assert flood.count("steady_velocity") == 50
 
 
-@pytest.mark.parametrize("width", [60, 80, 120])
+@pytest.mark.parametrize("width", [60, 120])
 def test_no_name_is_cut(width: int) -> None:
     words = screen(shown(scenes_table([*built_in().values()])), width).split()
     assert built_in().keys() <= set(words)

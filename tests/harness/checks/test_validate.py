@@ -152,13 +152,3 @@ def test_a_scene_that_expects_a_prediction_reads_it(instance: Instance, quantity
     expecting = FmuSide(instance, scene_of(SLOW + expect.format(quantity)))
     assert measure(quantity, expecting).applicable
     assert set(PREDICTIONS) <= set(expecting.record.outputs)
-
-
-@pytest.mark.isolated
-def test_modules_in_the_present_folder_are_not_imported(
-    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "numpy.py").write_text("raise RuntimeError('a script of the user')")
-    monkeypatch.chdir(tmp_path)
-    (validation,) = validate([native_fmu.resolve()], [read_scene(faulty_fmus.scene(tmp_path))])
-    assert validation.exit_code == 0, validation.run_failures

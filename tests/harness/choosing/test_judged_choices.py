@@ -40,25 +40,10 @@ class Verdict:
     `cheapest` is None where no candidate serves.
     """
 
-    choice: Choice
     excess: float
     cost: float
     cheapest: Candidate | None
     lowest: float
-
-    @property
-    def met(self) -> bool:
-        """Whether the choice meets every need, or reports rightly that none can."""
-        return self.excess <= 1.0 if self.choice.meets else self.cheapest is None
-
-    def described(self, name: str) -> str:
-        """Return the verdict in words."""
-        choice = self.choice
-        return (
-            f"{name}: {choice.model.name}, step {choice.step}, tolerance {choice.tolerance:g}, "
-            f"{choice.reason}; error over allowed {self.excess:.3g}; cost {self.cost:.3g} s, "
-            f"cheapest {self.cheapest} at {self.lowest:.3g} s"
-        )
 
 
 class Judge:
@@ -176,7 +161,7 @@ def judge(instance: Instance, scene: Scene, choice: Choice) -> Verdict:
     if excess > 1.0:
         del costs[chosen]
     best = min(costs, key=lambda each: costs[each]) if costs else None
-    return Verdict(choice, excess, costs.get(chosen, cost), best, costs[best] if best else inf)
+    return Verdict(excess, costs.get(chosen, cost), best, costs[best] if best else inf)
 
 
 def _over(error: float, allowed: float) -> float:
@@ -208,14 +193,16 @@ def judged(instance: Instance, scenes: dict[str, Scene]) -> None:
         choice = choose_with(instance, scene)
         times.append(time.process_time() - began)
         verdict = judge(instance, scene, choice)
-        if not verdict.met:
-            missed.append(verdict.described(name))
+        chosen = f"{name}: {choice.model.name}, step {choice.step}, {choice.reason}; {verdict}"
+        # It must meet every need, or report rightly that none can.
+        if verdict.excess > 1.0 if choice.meets else verdict.cheapest is not None:
+            missed.append(chosen)
         if choice.meets:
             again = (judge(instance, scene, choice) for _ in range(JUDGINGS - 1))
             costs = (one.cost / one.lowest for one in chain([verdict], again))
             ratios.append(next((cost for cost in costs if cost <= WITHIN), inf))
             if ratios[-1] > WITHIN:
-                expensive.append(verdict.described(name))
+                expensive.append(chosen)
     print(
         f"{len(scenes)} scenes: {len(scenes) - len(missed)} meet their needs, "
         f"cost over lowest {sorted(round(ratio, 2) for ratio in ratios)}, "

@@ -187,7 +187,7 @@ def arguments(command: str, fmu: Path, folder: Path) -> list[str]:
     return [f"{places.get(name, name)}{point}{suffix}" for name, point, suffix in words]
 
 
-QUICK = ("validate", "run", *(name for name in COMMANDS if name.startswith("no such")))
+QUICK = ("validate", *(name for name in COMMANDS if name.startswith("no such")))
 AS_JSON = ("validate", "steady", "sweep", "hosts", "no such FMU")
 
 

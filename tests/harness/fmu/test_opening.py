@@ -42,13 +42,8 @@ def test_a_file_that_is_missing_or_no_archive_is_named(tmp_path: Path) -> None:
     [
         ({"readme.txt": "hello"}, "no modelDescription"),
         ({XML: "<fmiModelDescription"}, "cannot be read"),
-        *(
-            (
-                {XML: f'<fmiModelDescription fmiVersion="{version}"/>'},
-                f"FMI version {version}; must be 2.0 or 3.0",
-            )
-            for version in ("1.0", "3.1")
-        ),
+        ({XML: '<fmiModelDescription fmiVersion="1.0"/>'}, "FMI version 1.0; must be 2.0 or 3.0"),
+        ({XML: '<fmiModelDescription fmiVersion="3.1"/>'}, "FMI version 3.1; must be 2.0 or 3.0"),
         ({"a": "", "b": "", "c": ""}, "3 files; must be at most 2"),
         ({"a": " " * 3 * 2**20}, "3 MiB unpacked; must be at most 1 MiB (--max-unpacked)"),
     ],

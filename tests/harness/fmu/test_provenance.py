@@ -27,16 +27,10 @@ def test_an_fmu_is_identified_by_its_description_and_its_bytes(native_fmu: Path)
     with zipfile.ZipFile(native_fmu) as archive:
         root = ET.fromstring(archive.read("modelDescription.xml"))
     digest = hashlib.sha256(native_fmu.read_bytes()).hexdigest()
-    found = identity_of(native_fmu)
-    assert found == FmuIdentity(
-        str(native_fmu),
-        root.attrib["guid"],
-        digest,
-        root.get("version"),
-        root.get("generationTool"),
-    )
-    assert found.version
-    assert found.generation_tool
+    guid, version, tool = (root.attrib[name] for name in ("guid", "version", "generationTool"))
+    assert identity_of(native_fmu) == FmuIdentity(str(native_fmu), guid, digest, version, tool)
+    assert version
+    assert tool
 
 
 def test_what_cannot_be_read_is_none_and_what_is_not_stated_is_empty(tmp_path: Path) -> None:

@@ -116,7 +116,7 @@ def test_bristles_match_reference(instance: Instance, fidelity: float, stiffness
     assert blocking.blocking_force == pytest.approx(force, abs=1e-7), "the bristle as a state"
 
 
-@pytest.mark.parametrize("stiffness", [50.0, 3e3, 1e6])
+@pytest.mark.parametrize("stiffness", [50.0, 1e6])
 @pytest.mark.parametrize(
     "changed",
     [

@@ -1,6 +1,7 @@
 """The cases of the axes: each passes, or is refused with name, value and requirement."""
 
 from collections import Counter
+from collections.abc import Set
 from pathlib import Path
 
 import pytest
@@ -73,12 +74,10 @@ WITHOUT_MEANING = {
 }
 
 
-LONG_FOR_PYTHON = frozenset(
-    {
-        *(f"communication step: 1e4 s: LuGre, fidelity {n}" for n in (1, 2)),
-        "beat against step: 90 beats: LuGre, fidelity 0, order 2",
-    }
-)
+LONG_FOR_PYTHON = {
+    *(f"communication step: 1e4 s: LuGre, fidelity {n}" for n in (1, 2)),
+    "beat against step: 90 beats: LuGre, fidelity 0, order 2",
+}
 """Steps that would take the Python FMU minutes: it refuses them by its bound of work."""
 
 
@@ -93,7 +92,7 @@ def cases_in_part(every: int, of_second_order: int) -> list[Case]:
     ]
 
 
-def judged(fmu: Path, cases: list[Case], too_long: frozenset[str] = frozenset()) -> StressResult:
+def judged(fmu: Path, cases: list[Case], too_long: Set[str] = frozenset()) -> StressResult:
     result = run_cases(fmu, cases, no_progress)
     failed = [f"{one.name}: {one.reason}" for one in result.verdicts if one.verdict == FAILED]
     assert failed == []

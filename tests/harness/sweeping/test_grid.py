@@ -84,14 +84,8 @@ def test_parquet_has_typed_columns_in_the_order_of_the_points(tmp_path: Path) ->
     write_table(path, TASK, columns)
     read = parquet.read_table(path)
     assert read.to_pydict() == columns
-    assert [str(kind) for kind in read.schema.types] == [
-        "int64",
-        "int64",
-        "double",
-        "double",
-        "string",
-        "string",
-    ]
+    kinds = ["int64", "int64", "double", "double", "string", "string"]
+    assert [str(kind) for kind in read.schema.types] == kinds
 
 
 def test_csv_gives_back_the_same_numbers(tmp_path: Path) -> None:

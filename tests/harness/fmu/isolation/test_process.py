@@ -1,6 +1,7 @@
 import sys
 import tempfile
 from collections.abc import Iterator
+from contextlib import chdir
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -18,9 +19,16 @@ pytestmark = pytest.mark.isolated
 
 
 @pytest.fixture(scope="module")
-def isolated(native_fmu: Path) -> Iterator[IsolatedFmu]:
-    """A process for all tests after which it goes on."""
-    with IsolatedFmu(native_fmu, 60.0) as made:
+def isolated(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[IsolatedFmu]:
+    """A process for all tests after which it goes on.
+
+    It is started in a folder with a module of the user, which must not be imported.
+    """
+    folder = tmp_path_factory.mktemp("present")
+    (folder / "numpy.py").write_text("raise RuntimeError('a script of the user')")
+    with chdir(folder):
+        made = IsolatedFmu(native_fmu.resolve(), 60.0)
+    with made:
         yield made
 
 
