@@ -171,8 +171,7 @@ def test_no_name_is_cut(width: int) -> None:
     words = screen(shown(scenes_table([*built_in().values()])), width).split()
     assert built_in().keys() <= set(words)
     words = screen(shown(quantities_table()), width).replace(",", " ").split()
-    assert set(QUANTITIES) <= set(words)
-    assert {name for q in QUANTITIES.values() for name in q.references} <= set(words)
+    assert {*QUANTITIES, *(name for q in QUANTITIES.values() for name in q.references)} <= {*words}
     checks = [
         replace(TABLE_1, scene=f"{name}_scene", quantity=name, unit=quantity.unit)
         for name, quantity in QUANTITIES.items()
@@ -182,5 +181,4 @@ def test_no_name_is_cut(width: int) -> None:
         some = checks[start : start + MAX_SCENES]
         for details in (False, True):
             words = screen(validated(some, details=details), width).replace(",", " ").split()
-            assert {check.scene for check in some} <= set(words)
-            assert {check.quantity for check in some} <= set(words)
+            assert {name for check in some for name in (check.scene, check.quantity)} <= {*words}

@@ -1,5 +1,6 @@
 """The experiments that an FMU carries: found, run, and compared with the results beside them."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -27,9 +28,8 @@ def with_file(fmu: Path, folder: Path, name: str, old: bytes, new: bytes) -> Pat
 def test_every_build_carries_experiments_and_agrees_with_them(fmu: Fmu) -> None:
     result = call("validate", fmu.path, "--own")
     assert result.exit_code == 0, result.output
-    assert "12 of 12 checks passed" in result.output
-    for name in ("table_1", "lugre", "changing_inputs"):
-        assert name in result.output
+    for said in ("12 of 12 checks passed", "table_1", "lugre", "changing_inputs"):
+        assert said in result.output
 
 
 def test_wrong_result_has_experiment_variable_and_time(native_fmu: Path, tmp_path: Path) -> None:
@@ -39,8 +39,7 @@ def test_wrong_result_has_experiment_variable_and_time(native_fmu: Path, tmp_pat
     result = call("validate", wrong, "--own")
     assert result.exit_code == 1, result.output
     said = " ".join(result.output.split())
-    assert "FAIL table_1: velocity:" in said
-    assert "from 0.05 s on, most at 0.05 s" in said
+    assert re.search("FAIL table_1: velocity: .*from 0.05 s on, most at 0.05 s", said)
     assert "11 of 12 checks passed" in said
 
 

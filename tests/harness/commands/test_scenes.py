@@ -35,8 +35,7 @@ def test_what_scenes_can_expect_is_listed() -> None:
     (events,) = [row for row in listed if row["name"] == "event_times"]
     assert events["references"] == ["located_events", "bristle_state", "averaged"]
     assert events["unit"] == "drive periods"
-    text = call("scenes", "--quantities").stdout
-    assert "shooting" in text
+    assert "shooting" in call("scenes", "--quantities").stdout
 
 
 def test_a_scene_is_shown_as_its_file_says() -> None:

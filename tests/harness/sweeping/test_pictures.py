@@ -18,7 +18,8 @@ from tests.harness.known_provenance import PROVENANCE
 from tests.html_pages import Page
 
 AXIS = {"from": 0.0, "to": 1.0, "count": 8}
-LOGARITHMIC = {"from": 0.1, "to": 10.0, "count": 8, "spacing": "log"}
+LOGARITHMIC_RANGE = {"from": 0.1, "to": 10.0, "spacing": "log"}
+LOGARITHMIC = {**LOGARITHMIC_RANGE, "count": 8}
 
 
 def columns_of(sweep: Sweep, *, answered: bool = True) -> Columns:
@@ -74,9 +75,6 @@ def test_axes_are_logarithmic_where_the_grid_is(tmp_path: Path) -> None:
     content = {"random": {"count": 9, "seed": 1, "friction_coefficient": LOGARITHMIC_RANGE}}
     (plot,) = plots(tmp_path / "a.html", content)
     assert plot["x"]["log"]
-
-
-LOGARITHMIC_RANGE = {key: value for key, value in LOGARITHMIC.items() if key != "count"}
 
 
 def test_a_sweep_without_any_answer_has_a_page(tmp_path: Path) -> None:

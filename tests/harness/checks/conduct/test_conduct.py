@@ -55,18 +55,14 @@ def test_the_last_bit_and_nan_are_differences(other: float, said: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("offer", "value", "said"),
-    [
-        ("providesDirectionalDerivative", True, "providesDirectionalDerivative is true"),
-        ("maxOutputDerivativeOrder", 2, "maxOutputDerivativeOrder is 2"),
-    ],
+    ("offer", "value"), [("providesDirectionalDerivative", True), ("maxOutputDerivativeOrder", 2)]
 )
-def test_a_false_offer_is_a_fault(own: Instance, offer: str, value: object, said: str) -> None:
+def test_a_false_offer_is_a_fault(own: Instance, offer: str, value: object) -> None:
     own.start({})
     assert not [*derivative_offer_faults(own)]
     setattr(own.fmu.offers, offer, value)
     (fault,) = derivative_offer_faults(own)
-    assert fault.startswith(said)
+    assert fault.startswith(f"{offer} is {value}".replace("True", "true"))
 
 
 @pytest.mark.parametrize(
