@@ -14,7 +14,6 @@ from slider_resonator.choosing.steady_need import SteadyValue, steady_error
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.record import Record
 from slider_resonator.scenes.need_table import AllowedTable
-from slider_resonator.scenes.scene import Scene
 from tests.harness.scene_text import scene_of
 
 POINTS = np.linspace(0.1, 1.0, 10)
@@ -89,7 +88,7 @@ def test_a_slow_motion_that_does_not_beat_has_no_beat(instance: Instance) -> Non
     assert "in the resolved run" in choice.reason
 
 
-RAMP = (
+RAMPED = scene_of(
     "[inputs]\nload = { ramp = [[0, 0], [0.03, 0.3], [0.1, 0]] }\n"
     "phase = { steps = [[0, 0.2], [0.051, 0.7]] }\n"
     "frequency_ratio = { ramp = [[0, 1], [0.05, 1.5]] }\n"
@@ -98,25 +97,20 @@ RAMP = (
 ENDS = np.array([0.0, 0.1])
 
 
-@pytest.fixture
-def scene() -> Scene:
-    return scene_of(RAMP)
-
-
 @pytest.mark.parametrize("step", [0.011, 0.002])
-def test_held_inputs_give_their_impulse_exactly(scene: Scene, step: float) -> None:
-    schedule = exact_schedule(scene, ENDS, step, interpolates=False)
+def test_held_inputs_give_their_impulse_exactly(step: float) -> None:
+    schedule = exact_schedule(RAMPED, ENDS, step, interpolates=False)
     assert not schedule.ramps
     load, ratio = (np.diff(schedule.times) @ schedule.sampled[:-1, i] for i in (1, 2))
     assert load == pytest.approx(0.5 * 0.3 * 0.1, rel=1e-12)
     assert ratio == pytest.approx(0.05 * 1.25 + 0.05 * 1.5, rel=1e-12)
 
 
-def test_lines_that_are_passed_on_need_their_corners_only(scene: Scene) -> None:
-    schedule = exact_schedule(scene, np.array([0.0, 0.0651, 0.1]), 0.001, interpolates=True)
+def test_lines_that_are_passed_on_need_their_corners_only() -> None:
+    schedule = exact_schedule(RAMPED, np.array([0.0, 0.0651, 0.1]), 0.001, interpolates=True)
     assert schedule.times.tolist() == [0.0, 0.03, 0.05, 0.051, 0.0651, 0.1]
     assert schedule.rates[:-1, 1] == pytest.approx([10.0, *4 * [-0.3 / 0.07]])
-    assert schedule.sampled[:, 1] == pytest.approx(scene.signals["load"].over(schedule.times))
+    assert schedule.sampled[:, 1] == pytest.approx(RAMPED.signals["load"].over(schedule.times))
 
 
 def test_tuned_parameters_are_held_at_their_means() -> None:

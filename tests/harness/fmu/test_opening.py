@@ -22,13 +22,6 @@ def refusal(path: Path) -> str:
     return str(caught.value)
 
 
-def archive(folder: Path, files: dict[str, str]) -> Path:
-    with zipfile.ZipFile(folder / "other.fmu", "w", zipfile.ZIP_DEFLATED) as made:
-        for name, content in files.items():
-            made.writestr(name, content)
-    return folder / "other.fmu"
-
-
 def test_a_file_that_is_missing_or_no_archive_is_named(tmp_path: Path) -> None:
     assert "no such file" in refusal(tmp_path / "no.fmu")
     assert "is a directory" in refusal(tmp_path)
@@ -53,7 +46,10 @@ def test_an_archive_that_is_no_fmu_is_refused_unopened(
 ) -> None:
     monkeypatch.setenv(limits.UNPACKED, "1")
     monkeypatch.setattr(opening, "MAX_ENTRIES", 2)
-    assert said in refusal(archive(tmp_path, files))
+    with zipfile.ZipFile(tmp_path / "other.fmu", "w", zipfile.ZIP_DEFLATED) as made:
+        for name, content in files.items():
+            made.writestr(name, content)
+    assert said in refusal(tmp_path / "other.fmu")
 
 
 def test_model_exchange_alone_is_refused(python_fmu: Path, tmp_path: Path) -> None:

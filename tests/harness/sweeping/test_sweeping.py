@@ -120,19 +120,13 @@ def _start(grid: Path, fmu: Path, out: Path) -> subprocess.Popen[bytes]:
     return subprocess.Popen([*command, "--fmu", str(fmu), "--workers", "2"])
 
 
-def _children(process: subprocess.Popen[bytes]) -> list[int]:
-    """Return the processes of the FMU, which the threads of the sweep started."""
-    found: list[int] = []
+def _kill(process: subprocess.Popen[bytes]) -> None:
+    """Kill a sweep and wait for the processes of its FMU, which its threads started, to end."""
+    workers: list[str] = []
     for thread in Path(f"/proc/{process.pid}/task").iterdir():
         with suppress(FileNotFoundError):  # those that send a task are short-lived
-            found += map(int, (thread / "children").read_text().split())
-    return found
-
-
-def _kill(process: subprocess.Popen[bytes]) -> None:
-    """Kill a sweep and wait for its workers to end."""
-    workers = _children(process)
-    os.kill(process.pid, signal.SIGKILL)
+            workers += (thread / "children").read_text().split()
+    process.kill()
     process.wait(DEADLINE)
     until = time.monotonic() + 20.0
     while any(Path(f"/proc/{worker}").exists() for worker in workers):
