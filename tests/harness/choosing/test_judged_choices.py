@@ -195,7 +195,7 @@ def judged(instance: Instance, scenes: dict[str, Scene]) -> None:
         verdict = judge(instance, scene, choice)
         chosen = f"{name}: {choice.model.name}, step {choice.step}, {choice.reason}; {verdict}"
         # It must meet every need, or report rightly that none can.
-        if verdict.excess > 1.0 if choice.meets else verdict.cheapest is not None:
+        if not (verdict.excess <= 1.0 if choice.meets else verdict.cheapest is None):
             missed.append(chosen)
         if choice.meets:
             again = (judge(instance, scene, choice) for _ in range(JUDGINGS - 1))
