@@ -83,8 +83,10 @@ def test_at_an_event_both_of_its_sides_are_right(early: float) -> None:
 
 
 def test_away_from_events_there_is_one_right_value() -> None:
-    tube = side_until(PURE_SINE, 3.3).beside_events("located_events", "contact_mode")
-    assert tube.upper[-1] == tube.lower[-1] == tube.middle[-1]
+    references = side_until(PURE_SINE, 3.3)
+    for name in ("contact_mode", "friction_force"):
+        tube = references.beside_events("located_events", name)
+        assert tube.upper[-1] == tube.lower[-1] == tube.middle[-1]
 
 
 def test_an_event_that_a_change_of_inputs_causes_has_one_right_side() -> None:

@@ -81,15 +81,17 @@ step_size = 0.0005
 def test_results_are_written_drawn_and_summed_up(native_fmu: Path, tmp_path: Path) -> None:
     scene = tmp_path / "off.toml"
     scene.write_text(SWITCHED_OFF)
-    out, picture = tmp_path / "a.csv", tmp_path / "a.svg"
-    ran = call("run", native_fmu, scene, "--out", out, "--plot", picture)
+    out, usual, chosen = (tmp_path / name for name in ("a.csv", "a.svg", "b.svg"))
+    ran = call("run", native_fmu, scene, "--out", out, "--plot", usual)
     assert ran.exit_code == 0, ran.output
     rows = list(csv.DictReader(out.read_text().splitlines()))
     assert [float(row["amplitude_deviation"]) for row in rows] == [0.0] * 20 + [-1.0] * 21
     assert f"{float(rows[-1]['reversals']):.0f} reversals" in ran.stdout
     assert "11.1408 drive periods" in ran.stdout
     assert "us per drive period" in ran.stdout
-    assert "amplitude deviation" in picture.read_text(encoding="utf-8")
+    call("run", native_fmu, scene, "--plot", chosen, "--signals", "amplitude_deviation")
+    for picture in (usual, chosen):
+        assert "amplitude deviation" in picture.read_text(encoding="utf-8")
 
 
 def test_fidelities_and_fmus_are_overlaid(native_fmu: Path, tmp_path: Path) -> None:

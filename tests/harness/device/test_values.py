@@ -15,7 +15,6 @@ from slider_resonator.fmu.opening import Fmu
     ("name", "value", "message"),
     [
         ("load", nan, "load = nan: must be a finite number"),
-        ("phase", -inf, "phase = -inf: must be a finite number"),
         ("load", 10**400, "load = 1000.*: must be a finite number"),
         ("load", True, "load = True: must be a number"),
         ("friction_law", 10**400, "must be an integer up to 2147483647"),

@@ -45,7 +45,6 @@ def test_progress_stays_on_one_line(width: int, monkeypatch: pytest.MonkeyPatch)
         (10.0, 0.0, ""),
         (10.0, 0.01, ""),
         (10.0, 0.5, "0:10 left"),
-        (30.0, 0.25, "1:30 left"),
         (900.0, 0.1, "2:15:00 left"),
         (10.0, 1.0, "0:00 left"),
         (10.0, float("nan"), ""),

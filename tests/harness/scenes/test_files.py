@@ -69,6 +69,7 @@ def test_grids_have_a_device_whose_parameters_may_vary(tmp_path: Path) -> None:
         ({"drive_frequency": "20 kHz", "resonator_frequency": 20013.0}, ["resonator_frequency"]),
         ({"drive_frequency": 125663.7, "resonator_frequency": 125000.3}, []),
         ({"phase": -30}, ["phase"]),
+        ({"base_amplitude": 1.0}, ["base_amplitude"]),
         ({"phase": 3.0}, []),
         ({}, []),
     ],

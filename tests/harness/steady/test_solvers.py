@@ -202,3 +202,10 @@ def test_the_load_that_stops_the_drift_is_found() -> None:
     assert found.load == pytest.approx(0.1, abs=1e-10)
     assert found.displacement == pytest.approx(0.0, abs=1e-10)
     assert found.multipliers[0] == pytest.approx(0.99, abs=1e-8)
+
+
+def test_no_load_blocks_what_does_not_move(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A state that decays without any motion."""
+    monkeypatch.setattr(_Slider, "run", lambda _, state, *__: (0.5 * state[None], np.zeros(1)))
+    found = blocked_point(_Slider(), WarmedUp(np.ones(2), np.ones(2), 0.0), 0.1, 1.0)
+    assert isinstance(found, NoFixedPoint)

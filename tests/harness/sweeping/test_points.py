@@ -19,17 +19,11 @@ from slider_resonator.sweeping.measures import (
 TURN = np.linspace(0.0, tau, 65)
 
 
-@pytest.mark.parametrize(
-    ("statistic", "expected"),
-    [
-        ("mean", 3.0),
-        ("rms", (9.0 + 2.0) ** 0.5),
-        ("minimum", 1.0),
-        ("maximum", 5.0),
-        ("peak_to_peak", 4.0),
-        ("last", 3.0),
-    ],
-)
+EXPECTED = {"mean": 3.0, "rms": 11.0**0.5, "minimum": 1.0, "maximum": 5.0}
+EXPECTED |= {"peak_to_peak": 4.0, "last": 3.0}
+
+
+@pytest.mark.parametrize(("statistic", "expected"), EXPECTED.items())
 def test_statistics_of_an_offset_sine(statistic: str, expected: float) -> None:
     assert STATISTICS[statistic](3.0 + 2.0 * np.sin(TURN)) == pytest.approx(expected, rel=1e-12)
 

@@ -65,6 +65,8 @@ def test_a_missed_time_limit_ends_the_run(native_fmu: Path) -> None:
     (item, missed), (none, last) = run_tasks(native_fmu, given, 60.0, name=str)
     assert (item, ending(missed), none) == ("a", "died", None)
     assert str(last.error) == "given up after 1 crash or exceeded limit; not run: b, c"
+    ((only, _),) = run_tasks(native_fmu, given[:1], 60.0, name=str)
+    assert only == "a", "nothing is left to be given up"
 
 
 def test_slow_crashes_end_the_run(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:

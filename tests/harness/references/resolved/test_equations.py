@@ -15,7 +15,6 @@ RESONANT = {"fidelity": 1, "damping_ratio": 0.0, "resonator_frequency": 3500.0 /
         (RESONANT, r"damping_ratio = 0\.0 .* greater than 0"),
         ({"friction_law": 1, "friction_coefficient": 0.0}, "friction_coefficient"),
         ({"friction_law": 1, "bristle_stiffness": 0.0}, "bristle_stiffness"),
-        ({"friction_law": 1, "fidelity": 0}, "fidelity"),
     ],
 )
 def test_unsupported_devices_are_refused(parameters: dict[str, float], message: str) -> None:
