@@ -17,8 +17,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.schedule import schedule
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.fmu.record import Record
-from slider_resonator.fmu.run import run
+from slider_resonator.fmu.run import Record, run
 from slider_resonator.output.plot_style import COLOURS, save, shade_directions, style
 from slider_resonator.references.averaged.device_average import blocking_force, steady_velocity
 from slider_resonator.steady.steady_velocity import find_steady

@@ -48,7 +48,7 @@ from slider_resonator.fitting.result import Fit
 from slider_resonator.fmu.finished import fmu_path
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.isolation.tasks import available_cores
-from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import Record
 from slider_resonator.fmu.run import run as run_schedule
 from slider_resonator.output.progress import no_progress
 from slider_resonator.output.shown import Drawable

@@ -17,8 +17,7 @@ from slider_resonator.device.signal import steps
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.fmu.record import Record
-from slider_resonator.fmu.run import run
+from slider_resonator.fmu.run import Record, run
 from slider_resonator.scenes.scene import Scene, read_scenes
 from slider_resonator.scenes.scene_files import built_in_scenes
 

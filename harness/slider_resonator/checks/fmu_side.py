@@ -7,8 +7,7 @@ from typing import Any, TypeVar
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.tasks import Outcome, run_tasks
-from slider_resonator.fmu.record import Record
-from slider_resonator.fmu.run import run
+from slider_resonator.fmu.run import Record, run
 from slider_resonator.scenes.scene import Scene, ScenePoint
 from slider_resonator.steady.blocking_force import Blocking, find_blocking
 from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady

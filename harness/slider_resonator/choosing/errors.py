@@ -9,7 +9,7 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.checks.measures import dominant_frequency, peak
 from slider_resonator.device.schedule import nearest
-from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import Record
 from slider_resonator.output.readable import number_of
 from slider_resonator.scenes.need_table import AllowedTable
 

@@ -20,7 +20,7 @@ from slider_resonator.choosing.steady_need import timed_run
 from slider_resonator.device.model import Model
 from slider_resonator.device.schedule import communication_points
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import Record
 from slider_resonator.scenes.need_table import RUN_NEEDS, STEADY_NEEDS
 from slider_resonator.scenes.scene import Scene
 

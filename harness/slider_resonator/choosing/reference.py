@@ -16,7 +16,7 @@ from slider_resonator.device.schedule import Schedule, communication_points
 from slider_resonator.device.signal import Signal
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import Record
 from slider_resonator.scenes.scene import Scene
 
 

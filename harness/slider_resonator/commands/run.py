@@ -15,8 +15,7 @@ from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.values import si_number
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.fmu.record import Record
-from slider_resonator.fmu.run import run
+from slider_resonator.fmu.run import Record, run
 from slider_resonator.output.atomic import write_csv
 from slider_resonator.output.progress import Progress
 from slider_resonator.output.progress_bar import progress_bar

@@ -11,7 +11,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.drive_periods import DrivePeriods
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import Record
 from slider_resonator.output.plot_style import COLOURS, Picture, shade_directions, style
 from slider_resonator.output.plot_units import drawn, plot_unit
 from slider_resonator.output.start_beyond import limit_to_later

@@ -15,7 +15,7 @@ from slider_resonator.device.drive_periods import DrivePeriods
 from slider_resonator.device.interface import ALL_OUTPUTS, INPUTS, VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import HarnessError, unknown_name
-from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import Record
 from slider_resonator.output.plot_style import CONTACT, save, shade_directions, style
 from slider_resonator.output.plot_units import plot_unit
 from slider_resonator.output.start_beyond import limit_to_later

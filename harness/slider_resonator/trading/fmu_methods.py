@@ -12,8 +12,7 @@ import numpy as np
 
 from slider_resonator.device.model import LUGRE, Model
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.record import Record
-from slider_resonator.fmu.run import run
+from slider_resonator.fmu.run import Record, run
 from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.search_result import SearchResult
 from slider_resonator.steady.steady_velocity import find_steady

@@ -10,7 +10,7 @@ from slider_resonator.choosing.steady_need import SteadyValue, find, timed_run
 from slider_resonator.device.device import Device
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import Record
 
 STEP_COST = 1e-6
 """Stated cost of a communication step, s."""

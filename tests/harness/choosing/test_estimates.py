@@ -12,7 +12,7 @@ from slider_resonator.choosing.errors import ErrorEstimate, Readings
 from slider_resonator.choosing.reference import exact_schedule, must_hold
 from slider_resonator.choosing.steady_need import SteadyValue, steady_error
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import Record
 from slider_resonator.scenes.need_table import AllowedTable
 from tests.harness.scene_text import scene_of
 

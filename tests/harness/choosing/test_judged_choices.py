@@ -20,7 +20,7 @@ from slider_resonator.device.model import Model
 from slider_resonator.device.schedule import nearest
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.record import Record
+from slider_resonator.fmu.run import Record
 from slider_resonator.scenes.need_table import STEADY_NEEDS
 from slider_resonator.scenes.scene import Scene, scene_from
 from tests.harness.choosing.generated_scenes import COUNT, generated_scene

@@ -11,11 +11,9 @@ from slider_resonator.device.interface import OUTPUTS
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import FmuError, Refusal
-from slider_resonator.fmu.instance import instantiate
+from slider_resonator.fmu.instance import SavedState, instantiate
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.fmu.record import Record
-from slider_resonator.fmu.run import run
-from slider_resonator.fmu.saved_state import SavedState
+from slider_resonator.fmu.run import Record, run
 from tests.harness import faulty_fmus
 
 TIMES = np.linspace(0.0, 0.04, 41)

@@ -9,9 +9,8 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.blocks import Derivatives
-from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.instance import Instance, SavedState
 from slider_resonator.fmu.run import Running
-from slider_resonator.fmu.saved_state import SavedState
 
 AWAY = 1e-4
 """A step (s) that is taken back."""

@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 from slider_resonator.checks.conduct.findings import is_refused
-from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.saved_state import SavedState
+from slider_resonator.fmu.instance import Instance, SavedState
 
 CYCLES = 16
 """How often something is made and freed while memory is counted, after as many times before."""

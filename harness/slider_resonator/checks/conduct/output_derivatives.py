@@ -15,8 +15,7 @@ from fmpy.fmi2 import (
 )
 
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
-from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.saved_state import SavedState
+from slider_resonator.fmu.instance import Instance, SavedState
 
 OUTPUTS = (
     *("position", "velocity", "resonator_displacement", "resonator_velocity"),

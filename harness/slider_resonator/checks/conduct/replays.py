@@ -18,9 +18,8 @@ from slider_resonator.device.interface import PARAMETERS, TUNABLES, VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.blocks import WARNED
-from slider_resonator.fmu.instance import Instance, instantiate
+from slider_resonator.fmu.instance import Instance, SavedState, instantiate
 from slider_resonator.fmu.run import Running
-from slider_resonator.fmu.saved_state import SavedState
 
 Rows = Sequence[Sequence[float]]
 

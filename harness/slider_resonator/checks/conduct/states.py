@@ -15,9 +15,8 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.blocks import WARNED
-from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.instance import Instance, SavedState
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
-from slider_resonator.fmu.saved_state import SavedState
 
 STEP = 1.3e-3
 """Size of a step, s."""
