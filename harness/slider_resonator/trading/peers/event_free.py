@@ -19,8 +19,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_times, with_steady_phase
 from slider_resonator.references.resolved.contact import LIFTED, SLIP_FORWARD
 from slider_resonator.references.resolved.equations import Number, equations_of, initial_state
-from slider_resonator.references.resolved.recorder import Recorder
-from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.references.resolved.trajectory import Recorder, Trajectory
 
 MAX_EVALUATIONS = 20_000_000
 STEPS_PER_FASTEST_PERIOD = 16

@@ -17,8 +17,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import LIFTED, STICK
-from slider_resonator.references.resolved.mode_sequence import ModeSequence
-from slider_resonator.references.resolved.segment import Segment, SegmentResult
+from slider_resonator.references.resolved.mode_sequence import ModeSequence, Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.trading.peers.event_free import take_step
 

@@ -9,9 +9,8 @@ from numpy.polynomial import Polynomial
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import is_lifted, time_to_contact_change
-from slider_resonator.references.resolved.mode_sequence import ModeSequence
+from slider_resonator.references.resolved.mode_sequence import ModeSequence, Segment, SegmentResult
 from slider_resonator.references.resolved.polynomial_roots import first_fall
-from slider_resonator.references.resolved.segment import Segment, SegmentResult
 from slider_resonator.references.resolved.simulate import simulate
 
 
