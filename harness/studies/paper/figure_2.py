@@ -9,7 +9,7 @@ from matplotlib.figure import Figure as Drawing
 from slider_resonator.arrays import Array
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import uniform_average
-from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
+from slider_resonator.references.averaged.averaged_motion import slow_trajectory
 from slider_resonator.references.averaged.uniform_average import LugreCase
 from studies.paper import labels, slow_theory
 from studies.paper.figure import SHADES, Data, PaperFigure, markers, panels

@@ -8,8 +8,7 @@ from matplotlib.figure import Figure as Drawing
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.averaged.averaged_motion import slow_start
-from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
+from slider_resonator.references.averaged.averaged_motion import slow_start, slow_trajectory
 from slider_resonator.references.equivalent_force import equivalent_force
 from studies.paper import labels, slow_theory
 from studies.paper.figure import SHADES, Data, PaperFigure, markers, panels

@@ -8,9 +8,8 @@ from matplotlib.figure import Figure as Drawing
 
 from slider_resonator.device.device import Device
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.averaged.averaged_motion import slow_start
+from slider_resonator.references.averaged.averaged_motion import slow_start, slow_trajectory
 from slider_resonator.references.averaged.device_average import steady_velocity
-from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.steady.steady_velocity import find_steady
 from studies.paper import labels, slow_theory

@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import quad
 
 from slider_resonator.device.device import Device
-from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
+from slider_resonator.references.averaged.averaged_motion import slow_trajectory
 from slider_resonator.references.averaged.uniform_average import LugreCase
 from studies.paper import slow_theory as theory
 

@@ -14,7 +14,6 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged
 from slider_resonator.references.averaged.averaged_outputs import averaged_outputs
 from slider_resonator.references.averaged.device_average import prediction_valid, stable_velocity
-from slider_resonator.references.averaged.slow_trajectory import slow_trajectory
 from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
 
