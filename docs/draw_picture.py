@@ -20,7 +20,7 @@ from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.run import Record, run
 from slider_resonator.output.plot_style import COLOURS, save, shade_directions, style
 from slider_resonator.references.averaged.device_average import blocking_force, steady_velocity
-from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.steady.searches import find_steady
 
 ROOT = Path(__file__).resolve().parents[1]
 DEVICE = Device()

@@ -60,8 +60,7 @@ from slider_resonator.scenes.device_file import (
 from slider_resonator.scenes.device_file import to_toml as device_text
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes
-from slider_resonator.steady.blocking_force import Blocking, find_blocking
-from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
+from slider_resonator.steady.searches import Blocking, SteadyMotion, find_blocking, find_steady
 from slider_resonator.stressing.axes import axis_cases, device_cases
 from slider_resonator.stressing.random_cases import random_case
 from slider_resonator.stressing.run import TIME_LIMIT as CASE_LIMIT

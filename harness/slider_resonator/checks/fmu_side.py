@@ -9,8 +9,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.tasks import Outcome, run_tasks
 from slider_resonator.fmu.run import Record, run
 from slider_resonator.scenes.scene import Scene, ScenePoint
-from slider_resonator.steady.blocking_force import Blocking, find_blocking
-from slider_resonator.steady.steady_velocity import SteadyMotion, find_steady
+from slider_resonator.steady.searches import Blocking, SteadyMotion, find_blocking, find_steady
 
 PREDICTIONS = (
     *("steady_velocity", "blocking_force", "prediction_valid", "slow_motion_error"),

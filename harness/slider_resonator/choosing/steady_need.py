@@ -14,9 +14,7 @@ from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record, run
-from slider_resonator.steady.blocking_force import find_blocking
-from slider_resonator.steady.search_result import SearchResult
-from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.steady.searches import SearchResult, find_blocking, find_steady
 
 SIGNALS = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
 WARM_UP = {"fidelity": 2.0, "friction_law": float(COULOMB)}

@@ -14,9 +14,7 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
 from slider_resonator.scenes.device_file import DeviceFile
-from slider_resonator.steady.blocking_force import find_blocking
-from slider_resonator.steady.search_result import SearchResult
-from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.steady.searches import SearchResult, find_blocking, find_steady
 
 STEADY = """\
 Find the steady velocity of an FMU by shooting, without a long run.

@@ -18,8 +18,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fitting.measurements import Measurements, Point
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
-from slider_resonator.steady.blocking_force import find_blocking
-from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.steady.searches import find_blocking, find_steady
 
 
 def predict(

@@ -23,6 +23,8 @@ STATE = ("velocity", "resonator_displacement", "resonator_velocity")
 SLOW = 0.1
 """Distance of the frequency ratio from an integer, below which the phase runs slowly: a beat."""
 
+STICKS = 1e-10
+"""Rounding of the fraction of a period in which the slider sticks."""
 USUAL_JACOBIANS = 3
 """Jacobians of a search of usual length, by which its progress is estimated."""
 
@@ -162,6 +164,11 @@ class FmuPeriodMap(PeriodicRun):
             states = np.column_stack([states, np.full(len(rows), bent)])
         return states, travel
 
+    @property
+    def sticks_throughout(self) -> bool:
+        """Whether the slider stuck throughout the last period, as far as rounding tells."""
+        return abs(self.stick_fraction - 1.0) <= STICKS
+
     def scale(self, sizes: Vector) -> Vector:
         """Return the scale of each state.
 
@@ -197,12 +204,3 @@ class FmuPeriodMap(PeriodicRun):
             )
         self.stick_fraction = float(readings[-1, 6])
         return readings
-
-
-STICKS = 1e-10
-"""Rounding of the fraction of a period in which the slider sticks."""
-
-
-def sticks_throughout(stick_fraction: float) -> bool:
-    """Whether a slider sticks all the time, as far as rounding of the fraction tells."""
-    return abs(stick_fraction - 1.0) <= STICKS

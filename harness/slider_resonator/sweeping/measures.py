@@ -15,9 +15,8 @@ from slider_resonator.device.signal import constant
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
-from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.proved_predictions import QUANTITIES, proved_predictions
-from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.steady.searches import find_blocking, find_steady
 
 Cell = float | str | None
 """An entry of the table; None where there is none."""

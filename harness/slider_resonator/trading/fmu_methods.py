@@ -13,9 +13,7 @@ import numpy as np
 from slider_resonator.device.model import LUGRE, Model
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record, run
-from slider_resonator.steady.blocking_force import find_blocking
-from slider_resonator.steady.search_result import SearchResult
-from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.steady.searches import SearchResult, find_blocking, find_steady
 from slider_resonator.trading.method import STEADY, Method, SteadyAnswer, SteadyMethod
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import AVERAGED, RESOLVED, Label

@@ -11,7 +11,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged.averaged_motion import slow_start, slow_trajectory
 from slider_resonator.references.averaged.device_average import steady_velocity
 from slider_resonator.references.equivalent_force import equivalent_force
-from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.steady.searches import find_steady
 from studies.paper import labels, slow_theory
 from studies.paper.figure import SHADES, Data, PaperFigure, markers, panels
 from studies.paper.measure import plain, record

@@ -8,9 +8,8 @@ import pytest
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady import proved_predictions as module
-from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.proved_predictions import proved_predictions
-from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.steady.searches import find_blocking, find_steady
 
 
 def devices(count: int) -> list[dict[str, float]]:

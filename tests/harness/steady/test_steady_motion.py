@@ -8,7 +8,6 @@ import pytest
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUT_STARTS
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.steady.blocking_force import find_blocking
 from slider_resonator.steady.periodic import (
     Facts,
     FmuPeriodMap,
@@ -20,7 +19,7 @@ from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
     reference_steady_velocity,
 )
-from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.steady.searches import find_blocking, find_steady
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.steady.steady_velocity import find_steady
+from slider_resonator.steady.searches import find_steady
 from slider_resonator.sweeping.measures import (
     STATISTICS,
     Run,

@@ -1,0 +1,263 @@
+"""Find steady velocity and blocking force of an FMU by shooting, without a long run."""
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import isfinite
+from typing import Any
+
+from slider_resonator.device.common_period import MAX_DENOMINATOR
+from slider_resonator.device.interface import INPUTS, VARIABLES
+from slider_resonator.fmu.instance import Instance
+from slider_resonator.output.progress import Progress, no_progress
+from slider_resonator.output.readable import number_of, one_line, readable
+from slider_resonator.output.shown import Shown
+from slider_resonator.steady.periodic import (
+    Facts,
+    FmuPeriodMap,
+    Obstacle,
+    read_facts,
+    repeating_periods,
+)
+from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint, blocked_point, steady_point
+
+
+@dataclass(frozen=True, repr=False)
+class SearchResult(Shown):
+    """Status, reason and cost of a search.
+
+    `status` is for machines, `reason` for people; `predicted` is the FMU's own output and
+    `prediction_valid` what the FMU says of it, None where it has no such output. `inputs` are those
+    that were held, in SI units, with friction on `friction_faces`.
+    The common period has `common_period` drive periods; `periods` counts all simulated ones.
+    `multipliers` are the Floquet multipliers, largest first, `residual` the largest change of the
+    state over the common period in units of its scale.
+    """
+
+    status: str
+    reason: str
+    predicted: float
+    prediction_valid: bool | None
+    inputs: Mapping[str, float]
+    friction_faces: int
+    common_period: int | None = None
+    periods: int = 0
+    iterations: int = 0
+    residual: float | None = None
+    multipliers: tuple[complex, ...] = ()
+    stable: bool | None = None
+
+    @property
+    @abstractmethod
+    def answer(self) -> tuple[str, float | None, str]:
+        """What was searched, its value, None where there is none, and its unit."""
+
+    def describe(self) -> list[str]:
+        """Return the answer, why it is one, and what it cost."""
+        what, value, unit = self.answer
+        found = "none" if value is None else f"{readable(value, 10)} {unit}"
+        how = "read without a run"
+        if self.prediction_valid is False:
+            how += "; the FMU says that it does not hold here: prediction_valid = 0"
+        lines = [
+            f"{what:<17}{found}",
+            f"status           {self.status}: {one_line(self.reason)}",
+            f"FMU's output     {readable(self.predicted, 10)} {unit} ({how})",
+        ]
+        if self.common_period is not None:
+            lines.append(
+                f"cost             {number_of(self.periods, 'drive period')} in "
+                f"{number_of(self.iterations, 'iteration')}, "
+                f"a common period is {self.common_period} of them"
+            )
+        if self.multipliers:
+            sizes = ", ".join(f"{abs(multiplier):.6f}" for multiplier in self.multipliers)
+            lines.append(f"multipliers      {sizes} (magnitudes)")
+        held = (
+            f"{name} {readable(value, 6)} {VARIABLES[name].unit}".removesuffix(" 1")
+            for name, value in self.inputs.items()
+        )
+        return [
+            *lines,
+            f"inputs           {', '.join(held)}",
+            f"friction         on {number_of(self.friction_faces, 'face')} (friction_faces)",
+        ]
+
+
+def _asked(facts: Facts, predicted: float, searched: str = "") -> dict[str, Any]:
+    """Return the fields of a result that say what was asked, without the input that is searched."""
+    return {
+        "predicted": predicted,
+        "prediction_valid": facts.prediction_valid,
+        "inputs": {name: facts[name] for name in INPUTS if name != searched},
+        "friction_faces": int(facts["friction_faces"]),
+    }
+
+
+def _cost(
+    period_map: FmuPeriodMap, found: FixedPoint | NoFixedPoint | None = None
+) -> dict[str, Any]:
+    """Return the fields of a result that follow from the search itself."""
+    fields: dict[str, Any] = {
+        "common_period": period_map.drive_periods,
+        "periods": period_map.periods,
+    }
+    if found is not None:
+        fields |= {"iterations": found.iterations, "residual": found.residual}
+    if isinstance(found, FixedPoint):
+        fields["multipliers"] = tuple(found.multipliers.tolist())
+        fields["stable"] = found.stability == "stable"
+    return fields
+
+
+def _with_undamped_hint(reason: str, facts: Facts) -> str:
+    """Add to a reason that the resonator is undamped, if it is."""
+    if facts["damping_ratio"] > 0.0:
+        return reason
+    return f"{reason} (damping_ratio = 0: the transient of the resonator never decays)"
+
+
+@dataclass(frozen=True, repr=False)
+class SteadyMotion(SearchResult):
+    """The result of a search for steady motion.
+
+    `steady_velocity` (m/s) is the mean over the common period, None where there is no steady
+    motion; `state` is the one at theta = psi = 0. `status` is steady, stuck, unstable or neutral;
+    without a velocity it is load_above_friction, slow_beat (frequency_ratio next to an integer),
+    no_common_period, no_fixed_point, not_unique or not_converged.
+    """
+
+    steady_velocity: float | None = None
+    state: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def answer(self) -> tuple[str, float | None, str]:
+        """The steady velocity."""
+        return "steady velocity", self.steady_velocity, "m/s"
+
+
+def find_steady(
+    instance: Instance,
+    values: Mapping[str, float],
+    *,
+    max_denominator: int = MAX_DENOMINATOR,
+    progress: Progress = no_progress,
+) -> SteadyMotion:
+    """Find the steady motion of an FMU with the given parameters and inputs.
+
+    An `initial_velocity` among the values is where the search begins, otherwise that is the FMU's
+    own prediction. `progress` gets the drive periods run, of some that a search takes. Raises
+    FmuError and Refusal as `Instance.start` does.
+    """
+    facts = read_facts(instance, values)
+    said = _asked(facts, facts.steady_velocity)
+    runaway = _runaway(facts)
+    # Damped bristles can give more friction than full sliding: only the search can decide.
+    certain = runaway if facts["friction_law"] == 0 else None
+    count = certain or repeating_periods(facts, max_denominator)
+    if isinstance(count, Obstacle):
+        return SteadyMotion(count.status, count.reason, **said)
+    period_map = FmuPeriodMap(instance, values, facts, count, progress)
+    guess = values.get("initial_velocity", facts.steady_velocity)
+    found = steady_point(period_map, guess if isfinite(guess) else 0.0, facts["load"])
+    if isinstance(found, NoFixedPoint):
+        why = runaway or Obstacle(found.status, _with_undamped_hint(found.reason, facts))
+        return SteadyMotion(why.status, why.reason, **said, **_cost(period_map, found))
+    largest = f"{abs(found.multipliers[0]):.9g}"
+    repeats = "this motion repeats but departures from it"
+    status, reason = {
+        "stable": ("steady", f"stable: the largest multiplier is {largest}"),
+        "unstable": (
+            "unstable",
+            f"{repeats} grow by {largest} per common period: another one is reached in practice",
+        ),
+        "neutral": (
+            "neutral",
+            _with_undamped_hint(f"{repeats} neither grow nor decay ({largest})", facts),
+        ),
+    }[found.stability]
+    if period_map.sticks_throughout:
+        status = "stuck"
+        reason = "the slider sticks throughout: the drive does not overcome friction"
+    return SteadyMotion(
+        status,
+        reason,
+        **said,
+        **_cost(period_map, found),
+        steady_velocity=found.displacement / period_map.period,
+        state=dict(zip(period_map.names, found.state.tolist(), strict=True)),
+    )
+
+
+def _runaway(facts: Facts) -> Obstacle | None:
+    """Return the obstacle of a load that even full sliding friction cannot hold."""
+    load, limit = facts["load"], facts.friction_limit
+    if abs(load) < limit or (load == 0.0 and limit == 0.0):
+        return None
+    mass = facts["slider_mass"] + facts["resonator_mass"]
+    rate = abs(load) - limit
+    return Obstacle(
+        "load_above_friction",
+        f"no steady motion: load = {load:.6g} N is not below the {limit:.6g} N that friction "
+        f"gives on average in full sliding; the slider gains {rate / mass:.3g} m/s every second",
+    )
+
+
+@dataclass(frozen=True, repr=False)
+class Blocking(SearchResult):
+    """The result of a search for the blocking force.
+
+    `blocking_force` (N) is None where there is none. `status` is blocked, unstable or neutral;
+    without a force it is stuck, slow_beat (frequency_ratio next to an integer), no_common_period,
+    no_fixed_point, not_unique or not_converged.
+    """
+
+    blocking_force: float | None = None
+
+    @property
+    def answer(self) -> tuple[str, float | None, str]:
+        """The blocking force."""
+        return "blocking force", self.blocking_force, "N"
+
+
+def find_blocking(
+    instance: Instance,
+    values: Mapping[str, float],
+    *,
+    max_denominator: int = MAX_DENOMINATOR,
+    progress: Progress = no_progress,
+) -> Blocking:
+    """Find the load that stops an FMU with the given parameters and inputs.
+
+    A `load` among the values is where the search begins. `progress` and errors are those of
+    `find_steady`.
+    """
+    facts = read_facts(instance, values)
+    predicted = facts.blocking_force
+    said = _asked(facts, predicted, searched="load")
+    count = repeating_periods(facts, max_denominator)
+    if isinstance(count, Obstacle):
+        return Blocking(count.status, count.reason, **said)
+    period_map = FmuPeriodMap(instance, values, facts, count, progress)
+    load = values.get("load", predicted if isfinite(predicted) else 0.0)
+    warm = period_map.warm_up(0.0, load)
+    if period_map.sticks_throughout:
+        return Blocking(
+            "stuck",
+            f"the slider sticks throughout at load = {load:.6g} N: every load that friction holds "
+            "stops it, so that no single one is the blocking force",
+            **said,
+            **_cost(period_map),
+        )
+    found = blocked_point(period_map, warm, load, max(facts.friction_limit, 1e-12))
+    if isinstance(found, NoFixedPoint):
+        reason = _with_undamped_hint(found.reason, facts)
+        return Blocking(found.status, reason, **said, **_cost(period_map, found))
+    return Blocking(
+        "blocked" if found.stability == "stable" else found.stability,
+        f"at this load the mean velocity is zero; the largest multiplier is "
+        f"{abs(found.multipliers[0]):.9g}",
+        **said,
+        **_cost(period_map, found),
+        blocking_force=found.load,
+    )
