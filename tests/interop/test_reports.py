@@ -19,7 +19,7 @@ from slider_resonator.fmu.provenance import provenance_html, provenance_of
 from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, plot_html, write_plot_page
 from slider_resonator.output.html_page import write_page
 from slider_resonator.scenes.scene_files import find_scene
-from slider_resonator.stressing.page import write_stress_page
+from slider_resonator.stressing.report import write_stress_page
 from slider_resonator.sweeping.grid import grid_from
 from slider_resonator.sweeping.page import write_sweep_page
 from slider_resonator.sweeping.sweeping import run_sweep

@@ -10,7 +10,7 @@ from typing import Any
 
 from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.curves import Curves, curves_of, overview_of
-from slider_resonator.checks.expected_values import ExpectedValues
+from slider_resonator.checks.expecting import ExpectedValues
 from slider_resonator.checks.fmu_side import measure_points
 from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.verdict import place, sentence, title

@@ -21,8 +21,8 @@ from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.output.targets import make_folder
 from slider_resonator.stressing.axes import axis_cases, device_cases
 from slider_resonator.stressing.case import DEVICE, RANDOM, Case
-from slider_resonator.stressing.listing import as_plain, values_of, write_results
 from slider_resonator.stressing.random_cases import random_case
+from slider_resonator.stressing.report import as_plain, values_of, write_results
 from slider_resonator.stressing.run import TIME_LIMIT, StressResult, applicable, run_cases
 
 _OWN = re.compile(rf"{DEVICE} (.+?): ")

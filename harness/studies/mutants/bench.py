@@ -6,7 +6,7 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from slider_resonator.checks.expected_values import ExpectedValues
+from slider_resonator.checks.expecting import ExpectedValues
 from slider_resonator.checks.fmu_side import FmuSide, measure_points
 from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.validate import points_to_check

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.checks import expected_values
-from slider_resonator.checks.expected_values import ExpectedValues, values_in
+from slider_resonator.checks.expecting import ExpectedValues, values_in
 from slider_resonator.checks.validate import Validation, points_to_check, validate
 from slider_resonator.errors import HarnessError, SceneError
 from slider_resonator.fmu.isolation import tasks

@@ -14,8 +14,8 @@ from slider_resonator.output.progress import no_progress
 from slider_resonator.stressing import comparisons
 from slider_resonator.stressing.case import RANDOM, Case, Hold, name_of
 from slider_resonator.stressing.observe import Observation, observe
-from slider_resonator.stressing.page import write_stress_page
 from slider_resonator.stressing.random_cases import IN_TURN, random_case
+from slider_resonator.stressing.report import write_stress_page
 from slider_resonator.stressing.run import StressResult, applicable, judge, run_cases
 from slider_resonator.stressing.verdict import (
     FAILED,

@@ -20,8 +20,7 @@ from fmpy.fmi2 import (
 
 from slider_resonator.checks.conduct.crowd import crowd_faults, life_faults
 from slider_resonator.checks.conduct.event_mode import event_mode_faults
-from slider_resonator.checks.conduct.memory import instance_leaks
-from slider_resonator.checks.conduct.process import process_faults
+from slider_resonator.checks.conduct.process import instance_leaks, process_faults
 from slider_resonator.checks.conduct.refusals import explains
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import NotApplicable

@@ -10,7 +10,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
 from slider_resonator.checks.conduct.findings import adding_refusal, is_refused, other_value
-from slider_resonator.checks.conduct.memory import state_leaks
+from slider_resonator.checks.conduct.process import state_leaks
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import FmuError

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from slider_resonator.checks.conduct.memory import (
+from slider_resonator.checks.conduct.process import (
     OF_INSTANCE,
     OF_STATE,
     instance_leaks,

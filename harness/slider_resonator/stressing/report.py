@@ -1,14 +1,18 @@
-"""The result as a page of HTML: counts, what did not pass, and a grid for each axis."""
+"""The result as a page of HTML, with a grid for each axis, as plain data and in words."""
 
 from collections.abc import Sequence
+from itertools import accumulate
 from math import log10
 from pathlib import Path
 
+from slider_resonator.device.interface import INPUTS
 from slider_resonator.fmu.provenance import Provenance, provenance_html
+from slider_resonator.output.atomic import write_text
 from slider_resonator.output.html_page import escaped, rendered, section, write_page
+from slider_resonator.output.json_output import to_json
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict_so_far
-from slider_resonator.stressing.case import MODELS, RANDOM, name_of
+from slider_resonator.stressing.case import MODELS, RANDOM, Case, name_of
 from slider_resonator.stressing.run import StressResult
 from slider_resonator.stressing.verdict import FAILED, MEANINGS, PASSED, Verdict
 
@@ -124,3 +128,52 @@ def _margin(one: Verdict) -> float:
     """
     found = one.nearest.found if one.nearest else 0.0
     return min(max(log10(found), FAR), NEAR) if found > 0.0 else FAR
+
+
+def write_results(results: Sequence[StressResult], folder: Path, provenance: Provenance) -> None:
+    """Write stress.json and index.html; HarnessError when that is impossible."""
+    write_text(folder / "stress.json", to_json(as_plain(results), provenance))
+    write_stress_page(folder / "index.html", results, provenance)
+
+
+def as_plain(results: Sequence[StressResult]) -> dict[str, object]:
+    """Return the results for JSON."""
+    return {
+        "passed": all(result.passed for result in results),
+        "fmus": [
+            {
+                "fmu": result.fmu,
+                "passed": result.passed,
+                "cases": len(result.verdicts),
+                "skipped": result.skipped,
+                "not_run": result.not_run,
+                "counts": result.counts,
+                "wall_time": result.wall_time,
+                "worst_step_over_period_cost": result.most_expensive
+                and result.most_expensive.cost_ratio,
+                "worst_step_case": result.most_expensive and result.most_expensive.name,
+                "worst": {model: case.name for model, case in result.nearest.items()},
+                "verdicts": result.verdicts,
+            }
+            for result in results
+        ],
+    }
+
+
+def values_of(case: Case) -> str:
+    """Return the values of a case, in lines."""
+    lines = [f"  {case.name}:"]
+    lines += [f"    {name} = {value!r}" for name, value in case.settings.items()]
+    lines.append(
+        f"    {len(case.sizes)} steps of {case.sizes.min():.3g} to {case.sizes.max():.3g} s from "
+        f"{case.start_time:g} s on"
+    )
+    before: dict[str, float] = {}
+    starts = accumulate((hold.duration for hold in case.holds), initial=0.0)
+    for start, hold in zip(starts, case.holds, strict=False):
+        now = dict(zip(INPUTS, hold.inputs, strict=True)) | dict(hold.tuned)
+        if now != before:
+            words = ", ".join(f"{name} = {value!r}" for name, value in now.items())
+            lines.append(f"    from {start!r} s on: {words}")
+        before = now
+    return "\n".join(lines)
