@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.checks import expected_values
+from slider_resonator.checks import expecting
 from slider_resonator.checks.expecting import ExpectedValues, values_in
 from slider_resonator.checks.validate import Validation, points_to_check, validate
 from slider_resonator.errors import HarnessError, SceneError
@@ -21,7 +21,7 @@ SCENES = [find_scene(name) for name in ("overload", "stuck", "table_1", "lift_of
 
 @pytest.fixture(autouse=True)
 def few_points_suffice(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(expected_values, "MIN_POINTS", 1)
+    monkeypatch.setattr(expecting, "MIN_POINTS", 1)
     monkeypatch.setattr(tasks, "ALONE", 0.0)
 
 

@@ -3,14 +3,14 @@
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from functools import partial
 from itertools import repeat
 from threading import stack_size
 
 from fmpy.fmi1 import FMICallException
 
-from slider_resonator.checks.conduct.replays import plain_rows
+from slider_resonator.checks.conduct.replays import Replay
 from slider_resonator.device.schedule import schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import FmuError
@@ -40,30 +40,22 @@ def crowd_faults(instance: Instance) -> Iterator[str]:
         schedule(STEPS * STEP, (STEP,), {}, False, load=constant(0.01 * number))
         for number in range(INSTANCES)
     ]
-    alone = [plain_rows(instance, {}, course) for course in courses]
+    alone = [Replay(instance, {}, course).rows for course in courses]
     with ExitStack() as stack:
         try:
             others = [stack.enter_context(instantiate(instance.fmu)) for _ in courses]
         except FmuError as error:
             yield f"an instance beside {INSTANCES} others is refused: {error}"
             return
-        with _small_stacks(), ThreadPoolExecutor(INSTANCES) as pool:
-            if list(pool.map(plain_rows, others, repeat({}), courses)) != alone:
+        stack.callback(stack_size, stack_size(STACK))  # of threads of hosts that save memory
+        with ThreadPoolExecutor(INSTANCES) as pool:
+            together = [one.rows for one in pool.map(Replay, others, repeat({}), courses)]
+            if together != alone:
                 yield "instances that step in threads have other outputs than alone"
         for other in others:
             other.end(terminates=False)
-    if plain_rows(instance, {}, courses[0]) != alone[0]:
+    if Replay(instance, {}, courses[0]).rows != alone[0]:
         yield "an instance has other outputs after others are freed in the middle of their runs"
-
-
-@contextmanager
-def _small_stacks() -> Iterator[None]:
-    """Give threads that begin in the block the stack that hosts give them where it is small."""
-    usual = stack_size(STACK)
-    try:
-        yield
-    finally:
-        stack_size(usual)
 
 
 def life_faults(instance: Instance) -> Iterator[str]:
@@ -71,15 +63,10 @@ def life_faults(instance: Instance) -> Iterator[str]:
 
     As often as that goes in a while: an FMU may be slow.
     """
-
-    def make_another() -> None:
-        with instantiate(instance.fmu):
-            pass  # the library stays loaded for `instance`
-
     attempts: list[tuple[str, Callable[[], object], int]]
     attempts = [("resets of an instance", partial(instance.call, "fmi2Reset"), RESETS)]
     if not instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
-        attempts.append(("instances beside another", make_another, MADE))
+        attempts.append(("instances beside another", lambda: Instance(instance.fmu).end(), MADE))
     for what, attempt, count in attempts:
         began, done = time.monotonic(), 0
         try:

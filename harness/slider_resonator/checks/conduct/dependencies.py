@@ -26,7 +26,10 @@ STEP = 1.37e-4
 
 
 def dependency_faults(fmu: FmuSide) -> list[str]:
-    """Change each variable at the start, and each input in a run, and see which outputs follow."""
+    """Change each variable at the start, and each input in a run, and see which outputs follow.
+
+    An input in a run is set back after each step.
+    """
     instance, description = fmu.instance, fmu.instance.fmu.description
     at_start = _declared(description.initialUnknowns)
     in_run = _declared(description.outputs)
@@ -45,24 +48,15 @@ def dependency_faults(fmu: FmuSide) -> list[str]:
         with instance.explained():
             for _ in range(STEPS):
                 instance.step_by(STEP)
-                faults += _after_inputs(instance, situation, in_run)
+                before = instance.read(instance.fmu.outputs)
+                for name in (*INPUTS, *DEVIATIONS):
+                    if name not in instance.fmu.variables:
+                        continue
+                    value = situation.get(name, VARIABLES[name].start or 0.0)
+                    instance.set({name: other_value(name, value)})
+                    faults += _undeclared(instance, name, before, in_run, "in a run")
+                    instance.set({name: value})
     return list(dict.fromkeys(faults))
-
-
-def _after_inputs(
-    instance: Instance, set_values: Mapping[str, float], declared: Mapping[str, set[str] | None]
-) -> list[str]:
-    """Change each input from the value that was set, and set it back."""
-    faults: list[str] = []
-    before = instance.read(instance.fmu.outputs)
-    for name in (*INPUTS, *DEVIATIONS):
-        if name not in instance.fmu.variables:
-            continue
-        value = set_values.get(name, VARIABLES[name].start or 0.0)
-        instance.set({name: other_value(name, value)})
-        faults += _undeclared(instance, name, before, declared, "in a run")
-        instance.set({name: value})
-    return faults
 
 
 def _declared(unknowns: Iterable[Unknown]) -> dict[str, set[str] | None]:

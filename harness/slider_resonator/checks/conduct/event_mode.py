@@ -54,12 +54,6 @@ class _Slave:
     def now(self) -> float:
         return float(self.slave.getFloat64([self.time])[0])
 
-    def start(self) -> None:
-        self.slave.enterInitializationMode(startTime=0.0, stopTime=STEPS * STEP)
-        for name, value in DEVICE.items():
-            self.slave.setFloat64([self.reference(name)], [value])
-        self.slave.exitInitializationMode()
-
     def handle_event(self) -> Iterator[str]:
         """Ask for what is to be done in event mode, and leave it."""
         needed, ended, *_, defined, following = self.slave.updateDiscreteStates()
@@ -71,12 +65,17 @@ class _Slave:
 
 
 @contextmanager
-def _made(fmu: Fmu, *, events: bool, early: bool) -> Iterator[_Slave]:
-    made = _Slave(fmu, events=events, early=early)
+def _started(fmu: Fmu, *, events: bool, early: bool) -> Iterator[_Slave]:
+    """Start a run of the device, at whose end the instance is freed."""
+    started = _Slave(fmu, events=events, early=early)
     try:
-        yield made
+        started.slave.enterInitializationMode(startTime=0.0, stopTime=STEPS * STEP)
+        for name, value in DEVICE.items():
+            started.slave.setFloat64([started.reference(name)], [value])
+        started.slave.exitInitializationMode()
+        yield started
     finally:
-        made.slave.freeInstance()
+        started.slave.freeInstance()
 
 
 def event_mode_faults(instance: Instance) -> list[str]:
@@ -94,8 +93,7 @@ def event_mode_faults(instance: Instance) -> list[str]:
 def _plain_run(fmu: Fmu) -> tuple[list[list[float]], list[float]]:
     """Return the outputs after each step of a run without event mode, and the times of events."""
     rows, times = [], list[float]()
-    with _made(fmu, events=False, early=False) as plain:
-        plain.start()
+    with _started(fmu, events=False, early=False) as plain:
         for part in range(STEPS * FINE):
             plain.slave.doStep(part * STEP / FINE, STEP / FINE)
             (last,) = plain.read("last_event_time")
@@ -110,8 +108,7 @@ def _run_faults(fmu: Fmu, rows: list[list[float]], times: list[float]) -> Iterat
     """Run with event mode and early return: each event ends a step, and changes no output."""
     peaks = np.max(np.abs(rows), axis=0)
     seen: list[float] = []
-    with _made(fmu, events=True, early=True) as slave:
-        slave.start()
+    with _started(fmu, events=True, early=True) as slave:
         yield from slave.handle_event()
         for step, row in enumerate(rows):
             yield from _step_faults(slave, step * STEP, (step + 1) * STEP, seen)
@@ -158,8 +155,7 @@ def _last_moment_faults(fmu: Fmu, times: list[float]) -> Iterator[str]:
     """Step to the very times of events, each from the start, and on: by rounding they come then."""
     for time in times:
         seen: list[float] = []
-        with _made(fmu, events=True, early=True) as slave:
-            slave.start()
+        with _started(fmu, events=True, early=True) as slave:
             yield from slave.handle_event()
             yield from _step_faults(slave, 0.0, time, seen)
             yield from _step_faults(slave, time, time + SOON, seen)
@@ -169,8 +165,7 @@ def _last_moment_faults(fmu: Fmu, times: list[float]) -> Iterator[str]:
 
 def _late_return_faults(fmu: Fmu) -> Iterator[str]:
     """Run with event mode, but without early return: steps run through events."""
-    with _made(fmu, events=True, early=False) as slave:
-        slave.start()
+    with _started(fmu, events=True, early=False) as slave:
         slave.slave.enterStepMode()
         for step in range(STEPS):
             *_, early, reached = slave.slave.doStep(step * STEP, STEP)
@@ -181,8 +176,7 @@ def _late_return_faults(fmu: Fmu) -> Iterator[str]:
 
 def _call_faults(fmu: Fmu) -> Iterator[str]:
     """Try calls that only FMI 3.0 has."""
-    with _made(fmu, events=False, early=False) as slave:
-        slave.start()
+    with _started(fmu, events=False, early=False) as slave:
         slave.slave.doStep(0.0, STEP)
         if not is_refused(slave.slave.enterEventMode):
             yield "fmi3EnterEventMode is accepted though the host announced that it uses none"

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from ctypes import byref, c_char_p, c_double, c_int, c_uint, c_void_p
 from pathlib import Path
+from typing import Any
 
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import (
@@ -108,37 +109,46 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
 
     An FMU with log categories must say why it refuses them; FMI 2.0 does not ask that of others.
     """
-    logs = explains(instance)
-    guid = instance.fmu.description.guid
+    folder, guid = _resources(instance), instance.fmu.description.guid
+
+    def made(
+        name: str = "other",
+        kind: int = fmi2CoSimulation,
+        token: str = guid,
+        location: str = folder,
+        visible: bool = False,
+    ) -> tuple[bool, list[str]]:
+        """Make an instance and free it; return whether there was one, and the log."""
+        messages, callbacks = fmu_log.collect(name)
+        arguments = name.encode(), kind, token.encode(), location.encode(), byref(callbacks)
+        component = slave.dll.fmi2Instantiate(*arguments, visible, True)
+        fmu_log.forget(name)
+        if component:
+            slave.dll.fmi2FreeInstance(component)
+        return bool(component), messages
+
     last = "1" if guid[-2] == "0" else "0"
-    wrong = {
-        "of another GUID": ("other", fmi2CoSimulation, guid[:-2] + last + guid[-1]),
-        "without a name": ("", fmi2CoSimulation, guid),
+    wrong: dict[str, dict[str, Any]] = {
+        "of another GUID": {"token": guid[:-2] + last + guid[-1]},
+        "without a name": {"name": ""},
     }
     if instance.fmu.description.modelExchange is None:
-        wrong["for model exchange"] = ("other", fmi2ModelExchange, guid)
-    folder = Path(instance.fmu.folder, "resources").as_uri()
-    for what, (name, kind, token) in wrong.items():
-        messages, callbacks = fmu_log.collect(name)
-        made = slave.dll.fmi2Instantiate(
-            name.encode(), kind, token.encode(), folder.encode(), byref(callbacks), False, True
-        )
-        fmu_log.forget(name)
-        if made:
-            slave.dll.fmi2FreeInstance(made)
+        wrong["for model exchange"] = {"kind": fmi2ModelExchange}
+    for what, argument in wrong.items():
+        is_made, messages = made(**argument)
+        if is_made:
             yield f"an instance {what} is made"
-        elif logs and not messages:
+        elif explains(instance) and not messages:
             yield f"an instance {what} is refused without a message"
     # Some hosts show instances, and write the authority of a URI or leave it out.
     for visible, location in ((True, folder), (False, folder.replace("file:///", "file:/"))):
-        _, callbacks = fmu_log.collect("other")
-        arguments = b"other", fmi2CoSimulation, guid.encode(), location.encode()
-        made = slave.dll.fmi2Instantiate(*arguments, byref(callbacks), visible, True)
-        fmu_log.forget("other")
-        if made:
-            slave.dll.fmi2FreeInstance(made)
-        elif not instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
+        is_made, _ = made(location=location, visible=visible)
+        if not (is_made or instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess):
             yield f"an instance with visible = {visible} and resources in {location} is not made"
+
+
+def _resources(instance: Instance) -> str:
+    return Path(instance.fmu.folder, "resources").as_uri()
 
 
 def _switching_faults(instance: Instance) -> Iterator[str]:
@@ -158,7 +168,14 @@ def _switching_faults(instance: Instance) -> Iterator[str]:
         yield "a refusal is not logged though all messages were asked for"
     if not _refusal_is_logged(instance, True):
         yield "a refusal is not logged after logging is switched on"
-    yield from _text_faults(instance)
+    # A category whose name looks like a format, which a logger must get as a text.
+    del instance.messages[:]
+    with suppress(FMICallException):
+        name = (c_char_p * 1)((CATEGORY + FORMAT).encode())
+        instance.call("fmi2SetDebugLogging", True, 1, name)
+    for message in instance.messages:
+        if CATEGORY in message and CATEGORY + FORMAT not in message:
+            yield f"a message takes {FORMAT} for a format: {message}"
 
 
 def _refusal_is_logged(instance: Instance, on: bool, *categories: object) -> bool:
@@ -173,17 +190,6 @@ def _refusal_is_logged(instance: Instance, on: bool, *categories: object) -> boo
 def _has_category(instance: Instance, category: bytes) -> bool:
     description = Path(instance.fmu.folder, "modelDescription.xml").read_bytes()
     return b'<Category name="%s"' % category in description
-
-
-def _text_faults(instance: Instance) -> Iterator[str]:
-    """Ask for a category whose name looks like a format, which a logger must get as a text."""
-    del instance.messages[:]
-    with suppress(FMICallException):
-        name = (c_char_p * 1)((CATEGORY + FORMAT).encode())
-        instance.call("fmi2SetDebugLogging", True, 1, name)
-    for message in instance.messages:
-        if CATEGORY in message and CATEGORY + FORMAT not in message:
-            yield f"a message takes {FORMAT} for a format: {message}"
 
 
 def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
@@ -210,8 +216,7 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     messages, callbacks = fmu_log.collect(BESIDE.decode())
     callbacks.logger = fmi2CallbackLoggerTYPE(listen)
     callbacks.componentEnvironment = OTHER_HOST
-    folder = Path(instance.fmu.folder, "resources").as_uri()
-    guid = instance.fmu.description.guid
+    folder, guid = _resources(instance), instance.fmu.description.guid
     made = slave.dll.fmi2Instantiate(
         BESIDE, fmi2CoSimulation, guid.encode(), folder.encode(), byref(callbacks), False, False
     )

@@ -4,13 +4,12 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from slider_resonator.checks.conduct.replays import Replay
+from slider_resonator.checks.conduct.replays import Replay, Rows
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.blocks import Derivatives
 from slider_resonator.fmu.instance import Instance, SavedState
-from slider_resonator.fmu.run import Running
 
 AWAY = 1e-4
 """A step (s) that is taken back."""
@@ -29,41 +28,28 @@ def rate_differences(fmu: FmuSide) -> list[str]:
     """
     instance = fmu.instance
     instance.fmu.require("canInterpolateInputs")
-    plain = Replay(fmu)
+    plain = Replay.of(fmu)
     found: list[str] = []
     for what, set_inputs in WAYS.items():
-        running = Running(instance, plain.schedule)
-        running.start(plain.parameters)
-        with instance.explained():
-            running.read()
-            for step in range(running.steps):
-                set_inputs(instance, plain.schedule, step)
-                instance.step_by(running.step_size(step))
-                running.read()
-        found += plain.differences(what, running.rows)
-    return found + _kept(plain) + _begun(fmu)
-
-
-def _kept(plain: Replay) -> list[str]:
-    """Set values and derivatives at the corners of lines only: derivatives last until then."""
-    instance, rates = plain.instance, plain.schedule.rates
-    running = Running(instance, plain.schedule)
-    running.start(plain.parameters)
-    with instance.explained():
-        running.read()
-        for step in range(running.steps):
-            if step == 0 or not np.allclose(rates[step], rates[step - 1], rtol=1e-9, atol=1e-12):
-                instance.set_inputs(running.inputs[step].tolist())
-                instance.set_input_rates(rates[step].tolist())
-            _through_a_state(instance)
-            instance.step_by(running.step_size(step))
-            running.read()
+        found += plain.differences(what, _rows(plain, set_inputs))
     place = instance.fmu.outputs.index("position")
-    expected, position = (np.array(rows)[:, place] for rows in (plain.rows, running.rows))
-    off = float(np.abs(position - expected).max() / np.abs(expected).max())
-    if off <= ROUNDING:
-        return []
-    return [f"position is off by {off:.2g} of its peak where derivatives are kept"]
+    kept = np.array(_rows(plain, _at_corners))[:, place]
+    expected = np.array(plain.rows)[:, place]
+    off = float(np.abs(kept - expected).max() / np.abs(expected).max())
+    if not off <= ROUNDING:
+        found.append(f"position is off by {off:.2g} of its peak where derivatives are kept")
+    return found + _begun(fmu)
+
+
+def _rows(plain: Replay, set_inputs: Callable[[Instance, Schedule, int], None]) -> Rows:
+    """Return the rows of a run whose values and derivatives are set before each step."""
+    with plain.instance.explained():
+        running = plain.started()
+        for step in range(running.steps):
+            set_inputs(plain.instance, plain.schedule, step)
+            plain.instance.step_by(running.step_size(step))
+            running.read()
+    return running.rows
 
 
 def _begun(fmu: FmuSide) -> list[str]:
@@ -93,6 +79,15 @@ def _begun(fmu: FmuSide) -> list[str]:
         if after_a_step() != growing:
             faults.append("derivatives set before initialization ends are forgotten")
     return faults
+
+
+def _at_corners(instance: Instance, schedule: Schedule, step: int) -> None:
+    """Set values and derivatives at the corners of lines only: derivatives last until then."""
+    rates = schedule.rates
+    if step == 0 or not np.allclose(rates[step], rates[step - 1], rtol=1e-9, atol=1e-12):
+        instance.set_inputs(schedule.sampled[step].tolist())
+        instance.set_input_rates(rates[step].tolist())
+    _through_a_state(instance)
 
 
 def _before_values(instance: Instance, schedule: Schedule, step: int) -> None:

@@ -15,8 +15,8 @@ from threading import current_thread, main_thread
 from slider_resonator.checks.conduct.findings import is_refused
 from slider_resonator.fmu.instance import Instance, SavedState
 
-STEP = 1.1e-3
-"""Size of a step, s."""
+STEPS, STEP = 20, 1.1e-3
+"""Steps (s) of a run."""
 STREAMS = {1: "output", 2: "error"}
 """Standard streams. An FMU may print on the latter when it is instantiated, as some do."""
 SHOWN = 80
@@ -136,8 +136,6 @@ CYCLES = 16
 OF_INSTANCE, OF_STATE = 1024.0, 512.0
 """Bytes that each may leave: a sweep makes ten thousands of instances, a search by trial and return
 millions of states. The host itself leaves some."""
-STEPS, STEP = 20, 1.1e-3
-"""Steps (s) of a run."""
 
 
 class _Counts(ctypes.Structure):

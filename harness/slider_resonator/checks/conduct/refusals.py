@@ -189,28 +189,25 @@ class Trial:
         for variable in variables:
             if variable.kind != "Real":
                 continue
-            derive, name = partial(self._derive, variable), variable.name
+            name, reference = variable.name, self.instance.fmu.reference(variable.name)
             if variable.causality != "input":
-                self.refuses(f"a derivative of {name}", partial(derive, 1, 0.1), name)
+                derive = partial(self._derive, (reference, 1, 0.1))
+                self.refuses(f"a derivative of {name}", derive, name)
                 continue
             for bad in (math.nan, math.inf, -math.inf):
-                what = f"a derivative of {name} = {bad!r}"
-                self.refuses(what, partial(derive, 1, bad), name, [bad])
+                derive = partial(self._derive, (reference, 1, bad))
+                self.refuses(f"a derivative of {name} = {bad!r}", derive, name, [bad])
             for order in DERIVATIVE_ORDERS:
-                what = f"a derivative of {name} of order {order}"
-                self.refuses(what, partial(derive, order, 0.1), name, [order])
+                derive = partial(self._derive, (reference, order, 0.1))
+                self.refuses(f"a derivative of {name} of order {order}", derive, name, [order])
         load, phase = (self.instance.fmu.reference(name) for name in ("load", "phase"))
-        for what, second, order, value in (
-            ("phase = nan", phase, 1, math.nan),
-            ("phase of order 2", phase, 2, 0.1),
-            ("an unknown variable", UNKNOWN, 1, 0.1),
+        for what, second in (
+            ("phase = nan", (phase, 1, math.nan)),
+            ("phase of order 2", (phase, 2, 0.1)),
+            ("an unknown variable", (UNKNOWN, 1, 0.1)),
         ):
-            orders, values = (c_int * 2)(1, order), (c_double * 2)(7.0, value)
-            pair = (c_uint * 2)(load, second), 2, orders, values
-            self.refuses(
-                f"a derivative of {what} after one of load",
-                partial(self.instance.call, "fmi2SetRealInputDerivatives", *pair),
-            )
+            both = partial(self._derive, (load, 1, 7.0), second)
+            self.refuses(f"a derivative of {what} after one of load", both)
 
     def refuses_types(self, present: Sequence[Variable]) -> None:
         """Read and set variables, of which one is unknown, by the functions of other types."""
@@ -244,10 +241,14 @@ class Trial:
                 except FMICallException:
                     self.faults.append(f"{variable.name} = {bound!r} is refused, a bound")
 
-    def _derive(self, variable: Variable, order: int, value: float) -> None:
-        reference = self.instance.fmu.reference(variable.name)
-        arguments = (c_uint * 1)(reference), 1, (c_int * 1)(order), (c_double * 1)(value)
-        self.instance.call("fmi2SetRealInputDerivatives", *arguments)
+    def _derive(self, *derivatives: tuple[int, int, float]) -> None:
+        """Set derivatives of inputs, each of a reference, an order and a value, in one call."""
+        count, (references, orders, values) = len(derivatives), zip(*derivatives, strict=True)
+        self.instance.call(
+            "fmi2SetRealInputDerivatives",
+            *((c_uint * count)(*references), count),
+            *((c_int * count)(*orders), (c_double * count)(*values)),
+        )
 
     def _set(self, values: Mapping[Variable, float]) -> None:
         """Set variables of one type in one call."""
@@ -288,40 +289,33 @@ def bad_values(variable: Variable) -> list[float]:
 
 def refusal_faults(fmu: FmuSide) -> list[str]:
     """Try what must be refused before, in and after the run of the scene; the run goes on."""
-    plain = Replay(fmu)
-    running = Running(fmu.instance, plain.schedule)
-    start = {**plain.parameters, **running.first}
-    trial = Trial(fmu.instance, [])
-    with adding_refusal(fmu.instance, trial.faults):
-        _try_all(trial, running, start, plain.schedule.start_time)
-        trial.faults += plain.differences("a run with refused calls", running.rows)
-    return trial.faults
-
-
-def _try_all(trial: Trial, running: Running, start: Mapping[str, float], start_time: float) -> None:
-    """Try what must be refused; FMICallException when the FMU then refuses what it must do."""
-    instance = trial.instance
+    instance, plain = fmu.instance, Replay.of(fmu)
+    running = Running(instance, plain.schedule)
+    trial = Trial(instance, [])
     present = [v for name, v in VARIABLES.items() if name in instance.fmu.variables]
     settable = [v for v in present if v.causality != "output"]
-    _before_the_run(trial, settable)
-    instance.set_up(running.stop_time, start_time=start_time)
-    instance.set(start)
-    instance.call("fmi2EnterInitializationMode")
-    trial.reads = True
-    trial.outputs = [name for name in SMOOTH if name in instance.fmu.variables]
-    trial.refuses_values("in initialisation mode", settable)
-    trial.refuses_calls("in initialisation mode")
-    instance.begin()
-    running.read()
-    for step in range(running.steps):
-        tried = step in (1, running.steps // 2 + 1)
-        # After derivatives of inputs are set, which a refused call must not drop.
-        trying = partial(_in_the_run, trial, present, restores=step > 1)
-        running.advance(step, trying if tried else None)
-    beyond = STEP + 1e-3 * abs(running.stop_time)
-    trial.refuses("a step beyond the stop", partial(_step, instance, instance.time, beyond))
-    instance.terminate()
-    trial.refuses_calls("after a run")
+    with adding_refusal(instance, trial.faults):
+        _before_the_run(trial, settable)
+        instance.set_up(running.stop_time, start_time=plain.schedule.start_time)
+        instance.set({**plain.parameters, **running.first})
+        instance.call("fmi2EnterInitializationMode")
+        trial.reads = True
+        trial.outputs = [name for name in SMOOTH if name in instance.fmu.variables]
+        trial.refuses_values("in initialisation mode", settable)
+        trial.refuses_calls("in initialisation mode")
+        instance.begin()
+        running.read()
+        for step in range(running.steps):
+            tried = step in (1, running.steps // 2 + 1)
+            # After derivatives of inputs are set, which a refused call must not drop.
+            trying = partial(_in_the_run, trial, present, restores=step > 1)
+            running.advance(step, trying if tried else None)
+        beyond = STEP + 1e-3 * abs(running.stop_time)
+        trial.refuses("a step beyond the stop", partial(_step, instance, instance.time, beyond))
+        instance.terminate()
+        trial.refuses_calls("after a run")
+        trial.faults += plain.differences("a run with refused calls", running.rows)
+    return trial.faults
 
 
 def _before_the_run(trial: Trial, settable: list[Variable]) -> None:

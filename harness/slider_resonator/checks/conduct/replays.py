@@ -34,43 +34,40 @@ DETOUR = 3
 
 
 class Replay:
-    """The run of a scene on an instance, and how the rows of the same run in another way differ."""
+    """A run on an instance, and how the rows of the same run in another way differ."""
 
-    def __init__(self, fmu: FmuSide) -> None:
-        self.instance = fmu.instance
-        self.schedule = fmu.scene.schedule()
-        self.parameters = fmu.scene.parameters
+    def __init__(
+        self, instance: Instance, parameters: Mapping[str, float], schedule: Schedule
+    ) -> None:
+        self.instance = instance
+        self.parameters = parameters
+        self.schedule = schedule
         self.rows = self.again()
+
+    @classmethod
+    def of(cls, fmu: FmuSide) -> "Replay":
+        """Return the run of the scene."""
+        return cls(fmu.instance, fmu.scene.parameters, fmu.scene.schedule())
 
     def again(self) -> Rows:
         """Return the rows of the run."""
-        return plain_rows(self.instance, self.parameters, self.schedule)
+        with self.instance.explained():
+            running = self.started()
+            running.finish()
+        return running.rows
 
     def started(self) -> Running:
         """Return the run, started anew, with its first reading."""
-        return _started(self.instance, self.parameters, self.schedule)
+        running = Running(self.instance, self.schedule)
+        running.start(self.parameters)
+        running.check_steps()
+        running.read()
+        return running
 
     def differences(self, what: str, rows: Rows, *, begin: int = 0) -> list[str]:
         """Return how rows from the reading `begin` on differ from those of the run."""
         outputs, times = self.instance.fmu.outputs, self.schedule.readings()
         return differences(what, outputs, times[begin:], rows, self.rows[begin:])
-
-
-def _started(instance: Instance, parameters: Mapping[str, float], schedule: Schedule) -> Running:
-    """Return a run that has been started, with its first reading."""
-    running = Running(instance, schedule)
-    running.start(parameters)
-    running.check_steps()
-    running.read()
-    return running
-
-
-def plain_rows(instance: Instance, parameters: Mapping[str, float], schedule: Schedule) -> Rows:
-    """Return the rows of a run from the given parameters."""
-    with instance.explained():
-        running = _started(instance, parameters, schedule)
-        running.finish()
-    return running.rows
 
 
 @contextmanager
@@ -84,7 +81,7 @@ def _another(instance: Instance) -> Iterator[Instance]:
 def reset_differences(fmu: FmuSide) -> list[str]:
     """Compare a run on a new instance with one after a reset: after a run, and in its middle."""
     fmu.instance.renew()
-    first = Replay(fmu)
+    first = Replay.of(fmu)
     found = first.differences("after a reset", first.again())
     with fmu.instance.explained():
         running = first.started()
@@ -101,7 +98,7 @@ def restored_differences(fmu: FmuSide) -> list[str]:
     start of averages of first order, whose fast part sets in with the first step.
     """
     fmu.instance.fmu.require("canGetAndSetFMUstate")
-    plain = Replay(fmu)
+    plain = Replay.of(fmu)
     instance = fmu.instance
     found: list[str] = []
     wrong: list[str] = []
@@ -150,7 +147,7 @@ def transferred_differences(fmu: FmuSide) -> list[str]:
     """Go on in another instance, at first new and then used, from serialised states."""
     fmu.instance.fmu.require("canGetAndSetFMUstate")
     fmu.instance.fmu.require("canSerializeFMUstate")
-    plain = Replay(fmu)
+    plain = Replay.of(fmu)
     instance = fmu.instance
     found: list[str] = []
     with _another(instance) as other, instance.explained():
@@ -178,27 +175,27 @@ def beside_differences(fmu: FmuSide) -> list[str]:
     """Step two instances in turn, the second started later, and compare each with itself alone."""
     assert fmu.scene.beside is not None
     beside = fmu.scene.beside
-    plain = Replay(fmu)
+    plain = Replay.of(fmu)
     own = replace(plain.schedule, signals=beside.signals, tuning={})
     with _another(fmu.instance) as other, fmu.instance.explained(), other.explained():
-        alone = plain_rows(other, beside.parameters, own)
+        alone = Replay(other, beside.parameters, own)
         first = plain.started()
         late = min(1, first.steps)
         for step in range(late):
             first.advance(step)
-        second = _started(other, beside.parameters, own)
+        second = alone.started()
         for step in range(first.steps):
             if step + late < first.steps:
                 first.advance(step + late)
             second.advance(step)
         found = plain.differences("beside another instance", first.rows)
-        for one, given, when in (
-            (fmu.instance, plain.parameters, "beside another instance"),
-            (other, beside.parameters, "in the other instance"),
+        for run, when in (
+            (plain, "beside another instance"),
+            (alone, "in the other instance"),
         ):
-            found += unequal(one, {n: v for n, v in given.items() if n not in TUNABLES}, when)
-        outputs, times = fmu.instance.fmu.outputs, own.readings()
-        return found + differences("the other instance", outputs, times, second.rows, alone)
+            kept = {n: value for n, value in run.parameters.items() if n not in TUNABLES}
+            found += unequal(run.instance, kept, when)
+        return found + alone.differences("the other instance", second.rows)
 
 
 def overwritten_differences(fmu: FmuSide) -> list[str]:
@@ -206,7 +203,7 @@ def overwritten_differences(fmu: FmuSide) -> list[str]:
 
     Before the run outputs are read under the other values.
     """
-    plain = Replay(fmu)
+    plain = Replay.of(fmu)
     instance, running = fmu.instance, Running(fmu.instance, plain.schedule)
     values = dict(instance.fmu.settings({**plain.parameters, **running.first}))
     with instance.explained():
@@ -237,7 +234,7 @@ def separate_differences(fmu: FmuSide) -> list[str]:
     Initialization ends under a load that breaks a stick; that of the scene is set after it, as many
     hosts do.
     """
-    plain = Replay(fmu)
+    plain = Replay.of(fmu)
     instance, running = fmu.instance, Running(fmu.instance, plain.schedule)
     before = running.first
     load = before["load"]
@@ -258,7 +255,7 @@ def separate_differences(fmu: FmuSide) -> list[str]:
 
 def reading_differences(fmu: FmuSide) -> list[str]:
     """Read all variables, one by one and backwards, and the status, between any two calls."""
-    plain = Replay(fmu)
+    plain = Replay.of(fmu)
     instance, running = fmu.instance, Running(fmu.instance, plain.schedule)
     names = [name for name, v in instance.fmu.variables.items() if v.type == "Real"]
     blocks = [instance.block([name]) for name in names]
@@ -297,7 +294,7 @@ def other_device_differences(fmu: FmuSide) -> list[str]:
     """
     instance = fmu.instance
     instance.renew()
-    plain = Replay(fmu)
+    plain = Replay.of(fmu)
     found: list[str] = []
     for name in PARAMETERS:
         if name not in instance.fmu.variables or name in plain.schedule.tuning:
@@ -306,7 +303,7 @@ def other_device_differences(fmu: FmuSide) -> list[str]:
         other = {**plain.parameters, name: other_value(name, value)}
         instance.renew()  # for the other device to be the first one that is prepared
         try:
-            plain_rows(instance, other, plain.schedule)
+            Replay(instance, other, plain.schedule)
         except Refusal:
             continue
         found += plain.differences(f"after a device of another {name}", plain.again())
