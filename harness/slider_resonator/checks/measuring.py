@@ -7,24 +7,17 @@ from typing import Any
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.conduct.dependencies import dependency_faults
-from slider_resonator.checks.conduct.devices import device_faults
-from slider_resonator.checks.conduct.experiments import experiment_faults
-from slider_resonator.checks.conduct.host_calls import host_faults
-from slider_resonator.checks.conduct.input_rates import rate_differences
-from slider_resonator.checks.conduct.refusals import refusal_faults
-from slider_resonator.checks.conduct.replays import (
-    beside_differences,
-    other_device_differences,
-    overwritten_differences,
-    reading_differences,
-    reset_differences,
-    restored_differences,
-    separate_differences,
-    transferred_differences,
+from slider_resonator.checks.conduct import (
+    dependencies,
+    devices,
+    experiments,
+    host_calls,
+    input_rates,
+    refusals,
+    replays,
+    starts,
+    states,
 )
-from slider_resonator.checks.conduct.starts import start_faults
-from slider_resonator.checks.conduct.states import state_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measures import (
     NoOscillation,
@@ -128,9 +121,9 @@ OUTPUTS: Mapping[str, str] = {
 """Quantities that are outputs of the FMU, and are called otherwise."""
 
 
-def _later_half(times: Array, signal: Array) -> tuple[Array, Array]:
-    half = len(times) // 2
-    return times[half:], signal[half:]
+def _frequency_in_later_half(fmu: FmuSide, signal: str) -> float:
+    half = len(fmu.record.times) // 2
+    return dominant_frequency(fmu.record.times[half:], fmu.record[signal][half:])
 
 
 MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
@@ -153,29 +146,25 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "ripple_amplitude": lambda fmu: ripple_amplitude(
         fmu.record.times, fmu.record["position"], fmu.scene.drive_period
     ),
-    "ripple_frequency": lambda fmu: dominant_frequency(
-        *_later_half(fmu.record.times, fmu.record["velocity"])
-    ),
-    "beat_frequency": lambda fmu: dominant_frequency(
-        *_later_half(fmu.record.times, fmu.record["mean_velocity"])
-    ),
-    "reset_differences": reset_differences,
-    "restored_differences": restored_differences,
-    "transferred_differences": transferred_differences,
-    "beside_differences": beside_differences,
-    "overwritten_differences": overwritten_differences,
-    "separate_differences": separate_differences,
-    "reading_differences": reading_differences,
-    "rate_differences": rate_differences,
-    "other_device_differences": other_device_differences,
-    "refusal_faults": refusal_faults,
-    "start_faults": start_faults,
+    "ripple_frequency": lambda fmu: _frequency_in_later_half(fmu, "velocity"),
+    "beat_frequency": lambda fmu: _frequency_in_later_half(fmu, "mean_velocity"),
+    "reset_differences": replays.reset_differences,
+    "restored_differences": replays.restored_differences,
+    "transferred_differences": replays.transferred_differences,
+    "beside_differences": replays.beside_differences,
+    "overwritten_differences": replays.overwritten_differences,
+    "separate_differences": replays.separate_differences,
+    "reading_differences": replays.reading_differences,
+    "rate_differences": input_rates.rate_differences,
+    "other_device_differences": replays.other_device_differences,
+    "refusal_faults": refusals.refusal_faults,
+    "start_faults": starts.start_faults,
     "description_faults": lambda fmu: description_faults(fmu.instance.fmu.description),
-    "dependency_faults": dependency_faults,
-    "device_faults": device_faults,
-    "experiment_faults": experiment_faults,
-    "host_faults": host_faults,
-    "state_faults": state_faults,
+    "dependency_faults": dependencies.dependency_faults,
+    "device_faults": devices.device_faults,
+    "experiment_faults": experiments.experiment_faults,
+    "host_faults": host_calls.host_faults,
+    "state_faults": states.state_faults,
 }
 """Quantity to the function that measures it; all others are outputs of the FMU. None stands for a
 value that does not exist."""

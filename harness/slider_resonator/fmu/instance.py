@@ -128,10 +128,20 @@ class Instance:
         Refusal for a value that it does not take.
         """
         with self.explained():
-            self.set_up(stop_time, start_time=start_time)
-            self.set(values)
-            self.call("fmi2EnterInitializationMode")
+            self.initialise(values, stop_time, start_time=start_time)
             self.begin()
+
+    def initialise(
+        self,
+        values: Mapping[str, float],
+        stop_time: float | None = None,
+        *,
+        start_time: float = 0.0,
+    ) -> None:
+        """Set up an experiment (s), set values and enter initialisation mode."""
+        self.set_up(stop_time, start_time=start_time)
+        self.set(values)
+        self.call("fmi2EnterInitializationMode")
 
     def set_up(self, stop_time: float | None = None, *, start_time: float = 0.0) -> None:
         """Reset the instance, where it was used before, and set up an experiment (s).
@@ -223,6 +233,10 @@ class Instance:
         for name, reference in plan.integers.items():
             found[name] = float(self.slave.getInteger([reference])[0])
         return found
+
+    def outputs(self) -> dict[str, float]:
+        """Return the current values of all outputs."""
+        return self.read(self.fmu.outputs)
 
     def end(self, *, terminates: bool = True) -> None:
         """Terminate, where the FMU is in a state that allows it, and free the instance, once."""

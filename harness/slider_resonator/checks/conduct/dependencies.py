@@ -37,18 +37,21 @@ def dependency_faults(fmu: FmuSide) -> list[str]:
     names = [name for name in SETTABLE if name in instance.fmu.variables]
     chosen = ("fidelity", "friction_law", "averaging_order")  # each has a situation of its own
     for situation in SITUATIONS:
-        before = _started(instance, situation)
+        instance.start(situation)
+        with instance.explained():
+            before = instance.outputs()
         for name in names:
             if name in chosen:
                 continue
             value = situation.get(name, VARIABLES[name].start or 0.0)
             instance.start({**situation, name: other_value(name, value)})
             faults += _undeclared(instance, name, before, at_start, "at the start")
-        _started(instance, situation)
+        instance.start(situation)
         with instance.explained():
+            instance.outputs()
             for _ in range(STEPS):
                 instance.step_by(STEP)
-                before = instance.read(instance.fmu.outputs)
+                before = instance.outputs()
                 for name in (*INPUTS, *DEVIATIONS):
                     if name not in instance.fmu.variables:
                         continue
@@ -65,12 +68,6 @@ def _declared(unknowns: Iterable[Unknown]) -> dict[str, set[str] | None]:
         u.variable.name: None if u.dependencies is None else {v.name for v in u.dependencies}
         for u in unknowns
     }
-
-
-def _started(instance: Instance, values: Mapping[str, float]) -> Mapping[str, float]:
-    instance.start(values)
-    with instance.explained():
-        return instance.read(instance.fmu.outputs)
 
 
 def _undeclared(

@@ -1,8 +1,7 @@
 """Devices without a meaning, which an FMU must refuse before or in a run, and the same with one."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from math import isfinite, sqrt
 
 from fmpy.fmi1 import FMICallException
@@ -12,36 +11,23 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fmu.instance import Instance
 
+Values = Mapping[str, float]
+"""Parameters and inputs by name."""
+
 STEP = 1e-3
 """Size of a step, s."""
 
 
-@dataclass(frozen=True)
-class Meaningless:
-    """Values that together have no meaning: those of `cause` turn the device into one without."""
-
-    what: str
-    device: Mapping[str, float]
-    cause: Mapping[str, float]
-
-
-MEANINGLESS = (
-    Meaningless(
-        "LuGre friction without friction", {"friction_law": 1.0}, {"friction_coefficient": 0.0}
-    ),
-    Meaningless(
-        "the steady force of an undamped resonator at resonance",
+MEANINGLESS: Mapping[str, tuple[Values, Values]] = {
+    "LuGre friction without friction": ({"friction_law": 1.0}, {"friction_coefficient": 0.0}),
+    "the steady force of an undamped resonator at resonance": (
         {"fidelity": 1.0, "damping_ratio": 0.0, "resonator_frequency": 3500.0 / sqrt(1.1)},
         {"drive_frequency": 3500.0},
     ),
-    Meaningless(
-        "a drive beyond floating point numbers", {"fidelity": 1.0}, {"base_amplitude": 1e308}
-    ),
-)
-"""Devices that must be refused, each with one value that can be set in a run."""
-
-
-EXTREMES: tuple[Mapping[str, float], ...] = (
+    "a drive beyond floating point numbers": ({"fidelity": 1.0}, {"base_amplitude": 1e308}),
+}
+"""Devices that must be refused, each with one value that can be set in a run: its cause."""
+EXTREMES: tuple[Values, ...] = (
     {"fidelity": 1.0, "friction_law": 1.0, "initial_resonator_velocity": 1e308},
     {"fidelity": 1.0, "normal_amplitude": 1e300, "frequency_ratio": 1e200},
     {
@@ -64,31 +50,30 @@ def device_faults(fmu: FmuSide) -> list[str]:
 
     Extreme devices may be refused, but what is accepted has finite outputs.
     """
-    instance = fmu.instance
     faults: list[str] = []
-    for one in MEANINGLESS:
-        faults += _at_the_start(instance, one)
-        faults += _in_a_run(instance, one)
+    for what, (device, cause) in MEANINGLESS.items():
+        for attempt in (_at_the_start, _in_a_run):
+            faults += attempt(fmu.instance, what, device, cause)
     for device in EXTREMES:
-        faults += _extreme(instance, device)
+        faults += _extreme(fmu.instance, device)
     return faults
 
 
-def _at_the_start(instance: Instance, one: Meaningless) -> Iterator[str]:
+def _at_the_start(instance: Instance, what: str, device: Values, cause: Values) -> Iterator[str]:
     instance.set_up()
     instance.messages.clear()
     try:
-        instance.set({**one.device, **one.cause})
+        instance.set({**device, **cause})
         instance.call("fmi2EnterInitializationMode")
         instance.begin()
         instance.step_by(STEP)
     except FMICallException as error:
-        yield from _told(instance, one, error)
+        yield from _told(instance, what, [*device, *cause], error)
     else:
-        yield f"{one.what} is accepted"
+        yield f"{what} is accepted"
 
 
-def _extreme(instance: Instance, device: Mapping[str, float]) -> Iterator[str]:
+def _extreme(instance: Instance, device: Values) -> Iterator[str]:
     """Start and step; outputs may be refused, but motion of a step that is accepted may not."""
     values = ", ".join(f"{name} = {value:g}" for name, value in device.items())
     instance.set_up()
@@ -115,40 +100,42 @@ def _infinite(instance: Instance, values: str) -> Iterator[str]:
                 yield f"{name} is {value!r} with {values}"
 
 
-def _in_a_run(instance: Instance, one: Meaningless) -> Iterator[str]:
+def _in_a_run(instance: Instance, what: str, device: Values, cause: Values) -> Iterator[str]:
     """Turn a good device into the bad one; the run must then go on as if nothing was tried."""
-    starts = {name: VARIABLES[name].start or 0.0 for name in one.cause}
+    starts = {name: VARIABLES[name].start or 0.0 for name in cause}
     good = {
-        name: (1.0 + NEXT_TO) * start if start == one.cause[name] else start
+        name: (1.0 + NEXT_TO) * start if start == cause[name] else start
         for name, start in starts.items()
     }
+    read = [*cause, *instance.fmu.outputs]
     with instance.explained():
-        instance.start({**one.device, **good})
+        instance.start({**device, **good})
         instance.step_by(STEP)
-        before = instance.read([*one.cause, *instance.fmu.outputs])
+        before = instance.read(read)
         instance.step_by(STEP)
-        expected = instance.read(instance.fmu.outputs)
-        instance.start({**one.device, **good})
+        expected = instance.outputs()
+        instance.start({**device, **good})
         instance.step_by(STEP)
     instance.messages.clear()
     try:
-        instance.set(one.cause)
+        instance.set(cause)
     except FMICallException as error:
-        yield from _told(instance, one, error)
+        yield from _told(instance, what, [*device, *cause], error)
     else:
-        yield f"{one.what} is accepted in a run"
+        yield f"{what} is accepted in a run"
         return
     with instance.explained():
-        if instance.read([*one.cause, *instance.fmu.outputs]) != before:
-            yield f"{one.what} is refused in a run but changes it"
+        if instance.read(read) != before:
+            yield f"{what} is refused in a run but changes it"
         instance.step_by(STEP)
-        if instance.read(instance.fmu.outputs) != expected:
-            yield f"a run goes on differently after {one.what} is refused in it"
+        if instance.outputs() != expected:
+            yield f"a run goes on differently after {what} is refused in it"
 
 
-def _told(instance: Instance, one: Meaningless, error: FMICallException) -> Iterator[str]:
+def _told(
+    instance: Instance, what: str, names: Sequence[str], error: FMICallException
+) -> Iterator[str]:
     if error.status == fmi2Discard:  # the same number in each version of FMI
-        yield f"{one.what} gives a Discard, at which hosts end a run"
-    names = [*one.device, *one.cause]
+        yield f"{what} gives a Discard, at which hosts end a run"
     if not any(name in " ".join(instance.messages) for name in names):
-        yield f"{one.what} is refused without naming any of {', '.join(names)}"
+        yield f"{what} is refused without naming any of {', '.join(names)}"

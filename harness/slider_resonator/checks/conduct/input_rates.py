@@ -58,7 +58,7 @@ def _begun(fmu: FmuSide) -> list[str]:
 
     def after_a_step() -> Mapping[str, float]:
         instance.step_by(AWAY)
-        return instance.read(instance.fmu.outputs)
+        return instance.outputs()
 
     faults: list[str] = []
     with instance.explained():
@@ -71,9 +71,7 @@ def _begun(fmu: FmuSide) -> list[str]:
         instance.start(parameters)
         if after_a_step() != held:
             faults.append("derivatives of inputs outlive a reset")
-        instance.set_up()
-        instance.set(parameters)
-        instance.call("fmi2EnterInitializationMode")
+        instance.initialise(parameters)
         instance.set_input_rates(RATES)
         instance.begin()
         if after_a_step() != growing:

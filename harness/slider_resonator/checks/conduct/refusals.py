@@ -296,9 +296,8 @@ def refusal_faults(fmu: FmuSide) -> list[str]:
     settable = [v for v in present if v.causality != "output"]
     with adding_refusal(instance, trial.faults):
         _before_the_run(trial, settable)
-        instance.set_up(running.stop_time, start_time=plain.schedule.start_time)
-        instance.set({**plain.parameters, **running.first})
-        instance.call("fmi2EnterInitializationMode")
+        start = {**plain.parameters, **running.first}
+        instance.initialise(start, running.stop_time, start_time=plain.schedule.start_time)
         trial.reads = True
         trial.outputs = [name for name in SMOOTH if name in instance.fmu.variables]
         trial.refuses_values("in initialisation mode", settable)

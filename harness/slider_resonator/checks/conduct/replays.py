@@ -215,7 +215,7 @@ def overwritten_differences(fmu: FmuSide) -> list[str]:
         for name, value in reversed(values.items()):
             instance.set({name: other_value(name, value)})
             with suppress(FMICallException):  # some values have no meaning together
-                instance.read(instance.fmu.outputs)
+                instance.outputs()
             instance.set({name: value})
         instance.begin()
         running.read()
@@ -271,9 +271,8 @@ def reading_differences(fmu: FmuSide) -> list[str]:
         read_derivatives(instance)
 
     with instance.explained():
-        instance.set_up(running.stop_time, start_time=plain.schedule.start_time)
-        instance.set({**plain.parameters, **running.first})
-        instance.call("fmi2EnterInitializationMode")
+        start = {**plain.parameters, **running.first}
+        instance.initialise(start, running.stop_time, start_time=plain.schedule.start_time)
         read_all()
         instance.begin()
         read_all()

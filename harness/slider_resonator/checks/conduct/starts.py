@@ -60,16 +60,13 @@ def start_faults(fmu: FmuSide) -> list[str]:
 
 def _set_in_initialization(instance: Instance) -> Iterator[str]:
     """Read outputs before and after an input is set in initialization mode."""
-    instance.set_up()
-    instance.call("fmi2EnterInitializationMode")
-    instance.read(instance.fmu.outputs)
+    instance.initialise({})
+    instance.outputs()
     instance.set({"phase": PHASE})
-    found = instance.read(instance.fmu.outputs)
+    found = instance.outputs()
     instance.begin()
     yield from unequal(instance, found, "after initialization, as it was read in it under a phase")
-    instance.set_up()
-    instance.set({"phase": PHASE})
-    instance.call("fmi2EnterInitializationMode")
+    instance.initialise({"phase": PHASE})
     yield from unequal(instance, found, "in initialization mode, where the phase was set before")
     instance.begin()
 

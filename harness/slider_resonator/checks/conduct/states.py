@@ -60,11 +60,11 @@ def _overwriting_faults(instance: Instance) -> Iterator[str]:
     instance.call("fmi2GetFMUstate", byref(state))
     instance.step_by(STEP)
     instance.call("fmi2GetFMUstate", byref(state))
-    kept, time = instance.read(instance.fmu.outputs), instance.time
+    kept, time = instance.outputs(), instance.time
     instance.step_by(STEP)
     instance.call("fmi2SetFMUstate", state)
     instance.time = time
-    if instance.read(instance.fmu.outputs) != kept:
+    if instance.outputs() != kept:
         yield "a state that is got into the place of another is still the old one"
     instance.call("fmi2FreeFMUstate", byref(state))
 
@@ -75,12 +75,12 @@ def _damage_faults(instance: Instance) -> Iterator[str]:
     They must be refused. Turned bits may also be of no account: the state is then the one that was
     written, and not the present one.
     """
-    slave, outputs = instance.slave, instance.fmu.outputs
+    slave = instance.slave
     state = slave.getFMUstate()
     content = bytes(slave.serializeFMUstate(state))
     slave.freeFMUstate(state)
     instance.step_by(STEP)
-    time, before = instance.time, instance.read(outputs)
+    time, before = instance.time, instance.outputs()
     state = slave.getFMUstate()
     size = len(content)
     damaged = {f"cut off after {n} bytes": content[:n] for n in (0, size // 2, size - 8, size - 1)}
@@ -111,7 +111,7 @@ def _damage_faults(instance: Instance) -> Iterator[str]:
                 slave.freeFMUstate(taken)
         slave.setFMUstate(state)
     instance.time = time
-    if instance.read(outputs) != before:
+    if instance.outputs() != before:
         yield "a damaged state that is refused changes outputs"
     slave.freeFMUstate(state)
 
@@ -127,7 +127,7 @@ def _process_faults(instance: Instance) -> Iterator[str]:
     content = bytes(instance.slave.serializeFMUstate(state.handle))
     state.free()
     instance.step_by(STEP)
-    expected = instance.read(instance.fmu.outputs)
+    expected = instance.outputs()
     try:
         isolated = IsolatedFmu(instance.fmu.file, TIME_LIMIT)
     except (FmuError, OSError):  # there may be one instance, or no other process
@@ -151,18 +151,17 @@ def _outputs_after(instance: Instance, content: bytes) -> dict[str, float]:
         instance.slave.freeFMUstate(handle)
         instance.resumed(STEP)
         instance.step_by(STEP)
-        return instance.read(instance.fmu.outputs)
+        return instance.outputs()
 
 
 def _later_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterator[str]:
     """Save some states, and go back to each: in a run, after its end and after a reset."""
-    outputs = instance.fmu.outputs
     instance.start(parameters)
     states, rows = [], []
     for _ in range(STATES):
         instance.step_by(STEP)
         states.append(SavedState.of(instance))
-        rows.append(instance.read(outputs))
+        rows.append(instance.outputs())
     ways: dict[str, Callable[[], object]] = {
         "in a run": lambda: None,
         "after the end of a run": instance.terminate,
@@ -176,7 +175,7 @@ def _later_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
             except FMICallException as error:
                 yield f"a state is refused {when}: {error}"
                 break
-            if instance.read(outputs) != expected:
+            if instance.outputs() != expected:
                 yield f"a state is another one {when}"
         instance.start(parameters)
         instance.step_by(STEP)
@@ -212,10 +211,9 @@ def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
 
     The state goes back as it is and, where the FMU offers that, in serialised form.
     """
-    outputs = instance.fmu.outputs
     instance.start(parameters)
     instance.step_by(STEP)
-    expected = instance.read(outputs)
+    expected = instance.outputs()
     ways: list[Callable[[SavedState], None]] = [SavedState.restore]
     if instance.fmu.offers.canSerializeFMUstate:
         ways.append(lambda state: state.transfer(instance))
@@ -230,7 +228,7 @@ def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
             instance.begin()
         else:
             instance.call("fmi2EnterInitializationMode")
-        instance.read(outputs)
+        instance.outputs()
         try:
             go_back(state)
             if when == "before":
@@ -242,5 +240,5 @@ def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
             return
         finally:
             state.free()
-        if instance.read(outputs) != expected:
+        if instance.outputs() != expected:
             yield f"a state saved {when} initialization keeps the values set after it"
