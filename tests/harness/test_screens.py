@@ -9,7 +9,7 @@ import pytest
 from rich.console import Console
 
 from slider_resonator.checks.compare import AT_LEAST, AT_MOST, Check
-from slider_resonator.checks.reports import json_report, junit, step_summary
+from slider_resonator.checks.reports import for_ci
 from slider_resonator.checks.reports.terminal import MAX_SCENES, print_validation
 from slider_resonator.checks.validate import NotApplied, Validation
 from slider_resonator.checks.verdict import CALLED, measure_of, sentence, title
@@ -150,17 +150,16 @@ def test_failed_runs(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_files_for_programs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """JSON, JUnit and the summary of a job: all verdicts, what does not apply, hostile text."""
-    for module in (json_report, junit, step_summary):
-        monkeypatch.setattr(module, "provenance_of_all", lambda _: PROVENANCE)
+    monkeypatch.setattr(for_ci, "provenance_of_all", lambda _: PROVENANCE)
     validations = [GOOD, BAD, LACKING, BROKEN, NOTHING]
     paths = [tmp_path / name for name in ("report.json", "report.xml", "report.md")]
     paths[2].write_text("# Before\n")
-    json_report.write_json(paths[0], validations)
-    junit.write_junit(paths[1], validations)
-    step_summary.append_summary(paths[2], validations)
+    for_ci.write_json(paths[0], validations)
+    for_ci.write_junit(paths[1], validations)
+    for_ci.append_summary(paths[2], validations)
     for path in paths:
         assert_as_before(path.name, path.read_text(encoding="utf-8"))
-    step_summary.append_summary(tmp_path / "flood.md", [replace(BAD, checks=(SLOWER,) * 500)])
+    for_ci.append_summary(tmp_path / "flood.md", [replace(BAD, checks=(SLOWER,) * 500)])
     flood = (tmp_path / "flood.md").read_text()
     assert "and 450 more" in flood
     assert flood.count("steady_velocity") == 50

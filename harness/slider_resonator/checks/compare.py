@@ -97,8 +97,7 @@ def compare(
     if comparison.absolute is None:
         floor = smallest_reference(comparison.quantity, point.scene.device)
     if quantity.kind == "signal":
-        clock = _clock_rounding(point.scene)
-        difference = _difference_of_signals(comparison, measured, expected, floor, clock)
+        difference = _difference_of_signals(comparison, measured, expected, floor, point.scene)
     else:
         difference = _difference_of_values(comparison, measured.value, expected, floor)
     return Check(
@@ -135,12 +134,9 @@ def _difference_of_signals(
     measured: Measurement,
     expected: Array | Tube,
     floor: float,
-    clock: float,
+    scene: Scene,
 ) -> dict[str, Any]:
-    """Return the fields of a check of two signals; a value that is not finite fails.
-
-    `clock` is the share of the peak that rounded times account for.
-    """
+    """Return the fields of a check of two signals; a value that is not finite fails."""
     quantity = QUANTITIES[comparison.quantity]
     tube = expected if isinstance(expected, Tube) else no_tube(expected)
     outside = beyond_rounding(tube.outside(measured.value), tube.middle)
@@ -155,32 +151,16 @@ def _difference_of_signals(
     else:
         near_zero = comparison.absolute / allowed if comparison.absolute else max(0.0, floor - size)
         scale = size + near_zero
-        allowed += clock
+        if scene.start_time:
+            # Such a clock is coarse: steps that an FMU cuts in two end beside a communication
+            # point by a unit of it, each of them.
+            unit = float(np.spacing(abs(scene.start_time)))
+            allowed += len(scene.schedule().times) * scene.device.drive_frequency * unit
         deviation, limit = share_of(peak(outside), scale), allowed * scale
     passed = deviation <= allowed
     difference = {"deviation": deviation, "allowed": allowed, "passed": passed, "scale": scale}
     if not passed and measured.times is not None:
-        difference |= _places(outside, limit, measured.times)
+        size_of_each = np.where(np.isfinite(outside), outside, np.inf)
+        difference["first_time"] = float(measured.times[np.argmax(~(outside <= limit))])
+        difference["worst_time"] = float(measured.times[np.argmax(size_of_each)])
     return {"fmu": peak(measured.value), "reference": size, **difference}
-
-
-def _clock_rounding(scene: Scene) -> float:
-    """Return the share of its peak by which rounded times move a signal.
-
-    A clock that starts late is coarse: steps that an FMU cuts in two end beside a communication
-    point by a unit of the clock, each of them.
-    """
-    if not scene.start_time:
-        return 0.0
-    steps = len(scene.schedule().times)
-    return steps * scene.device.drive_frequency * float(np.spacing(abs(scene.start_time)))
-
-
-def _places(error: Array, limit: float, times: Array) -> dict[str, float]:
-    """Return the times (s) at which errors (n,) first exceed the limit and are largest."""
-    beyond = ~(error <= limit)
-    size = np.where(np.isfinite(error), error, np.inf)
-    return {
-        "first_time": float(times[np.argmax(beyond)]),
-        "worst_time": float(times[np.argmax(size)]),
-    }

@@ -8,6 +8,7 @@ left of a transient of the resonator does not move them.
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from math import pi
+from operator import attrgetter
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
@@ -49,25 +50,25 @@ def _ripple(device: Device) -> float:
 
 _resonator = partial(_amplitude, name="resonator_amplitude")
 _SCALES: Mapping[str, Callable[[Device], float]] = {
-    "steady_velocity": _velocity,
-    "predicted_velocity": _velocity,
-    "predicted_velocity_in_run": _velocity,
-    "mean_velocity": _velocity,
-    "mean_velocity_in_run": _velocity,
-    "last_step_velocity": _velocity,
-    "velocity": _velocity,
-    "blocking_force": lambda device: device.max_friction,
-    "predicted_blocking_force": lambda device: device.max_friction,
-    "predicted_blocking_force_in_run": lambda device: device.max_friction,
-    "friction_force": lambda device: device.max_friction,
-    "normal_force": lambda device: device.max_normal_force,
-    "position": _ripple,
-    "slow_displacement": _ripple,
-    "ripple_amplitude": _ripple,
+    **dict.fromkeys(
+        (
+            *("steady_velocity", "predicted_velocity", "predicted_velocity_in_run", "velocity"),
+            *("mean_velocity", "mean_velocity_in_run", "last_step_velocity"),
+        ),
+        _velocity,
+    ),
+    **dict.fromkeys(
+        (
+            *("blocking_force", "predicted_blocking_force", "predicted_blocking_force_in_run"),
+            "friction_force",
+        ),
+        attrgetter("max_friction"),
+    ),
+    "normal_force": attrgetter("max_normal_force"),
+    **dict.fromkeys(("position", "slow_displacement", "ripple_amplitude"), _ripple),
     "resonator_displacement": _resonator,
     "resonator_velocity": lambda device: _resonator(device) * device.drive_frequency,
-    "stick_fraction": lambda device: 1.0,
-    "stick_fraction_in_run": lambda device: 1.0,
+    **dict.fromkeys(("stick_fraction", "stick_fraction_in_run"), lambda device: 1.0),
     "friction_power": lambda device: device.max_friction * fast_velocity(device),
     "last_event_time": lambda device: 2.0 * pi / device.drive_frequency,
 }

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from itertools import count
 from pathlib import Path
 from time import perf_counter
@@ -12,7 +12,7 @@ from slider_resonator.checks.compare import Check, Comparison, compare
 from slider_resonator.checks.curves import Curves, curves_of, overview_of
 from slider_resonator.checks.expecting import ExpectedValues
 from slider_resonator.checks.fmu_side import measure_points
-from slider_resonator.checks.measuring import Measurement, measure_all
+from slider_resonator.checks.measuring import measure_all
 from slider_resonator.checks.verdict import place, sentence, title
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
@@ -192,59 +192,43 @@ def _validated(
     jobs: int,
 ) -> Validation:
     """Run an FMU at all points, and judge each while it runs at the next ones."""
-    began, identity, found = perf_counter(), identity_of(path), _Verdicts()
+    began, identity = perf_counter(), identity_of(path)
+    checks, curves = list[Check](), list[Curves]()
+    run_failures, not_applied = list[RunFailure](), list[NotApplied]()
+    overviews: dict[str, Curves | None] = {}
     with closing(measure_points(path, points, measure_all, time_limit, jobs)) as outcomes:
         for point, outcome in outcomes:
             if point is not None:
                 report(point)
             if point is None or outcome.error is not None:
-                found.failures.append(RunFailure.of(path, point, outcome.error))
-            else:
-                found.judge(point, outcome.value, expected.at(point))
+                run_failures.append(RunFailure.of(path, point, outcome.error))
+                continue
+            name, at, signals = point.scene.name, point.at, list[Curves]()
+            judged = zip(point.scene.expect, outcome.value, expected.at(point), strict=True)
+            for expect, measured, value in judged:
+                if not measured.applicable:
+                    not_applied.append(NotApplied(name, expect.quantity, measured.note, at))
+                elif isinstance(value, SceneError):
+                    run_failures.append(RunFailure(name, str(value), at))
+                else:
+                    check = compare(Comparison.of(expect), measured, value, point)
+                    checks.append(check)
+                    if shown := curves_of(check, measured, value):
+                        signals.append(shown)
+            curves += [shown for shown in signals if not shown.check.passed]
+            if name not in overviews:
+                overviews[name] = overview_of(signals)
     return Validation(
         str(path),
-        tuple(found.checks),
+        tuple(checks),
         perf_counter() - began,
-        tuple(found.failures),
-        tuple(found.curves),
+        tuple(run_failures),
+        tuple(curves),
         lacking(path),
-        tuple(found.not_applied),
+        tuple(not_applied),
         identity,
-        tuple(overview for overview in found.overviews.values() if overview is not None),
+        tuple(overview for overview in overviews.values() if overview is not None),
     )
-
-
-@dataclass
-class _Verdicts:
-    """What an FMU has shown so far, in the order of the points; the fields of a `Validation`.
-
-    `overviews` has each scene by its name, with None for one without a signal.
-    """
-
-    checks: list[Check] = field(default_factory=list)
-    failures: list[RunFailure] = field(default_factory=list)
-    not_applied: list[NotApplied] = field(default_factory=list)
-    curves: list[Curves] = field(default_factory=list)
-    overviews: dict[str, Curves | None] = field(default_factory=dict)
-
-    def judge(
-        self, point: ScenePoint, measurements: Sequence[Measurement], values: Sequence[Any]
-    ) -> None:
-        """Compare each measurement at a point with the expected value, or why there is none."""
-        name, at, signals = point.scene.name, point.at, list[Curves]()
-        for expect, measured, value in zip(point.scene.expect, measurements, values, strict=True):
-            if not measured.applicable:
-                self.not_applied.append(NotApplied(name, expect.quantity, measured.note, at))
-            elif isinstance(value, SceneError):
-                self.failures.append(RunFailure(name, str(value), at))
-            else:
-                check = compare(Comparison.of(expect), measured, value, point)
-                self.checks.append(check)
-                if shown := curves_of(check, measured, value):
-                    signals.append(shown)
-        self.curves.extend(shown for shown in signals if not shown.check.passed)
-        if name not in self.overviews:
-            self.overviews[name] = overview_of(signals)
 
 
 def provenance_of_all(validations: Sequence[Validation]) -> Provenance:

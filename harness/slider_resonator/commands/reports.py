@@ -9,9 +9,13 @@ from typing import Any
 
 import click
 
-from slider_resonator.checks.reports.json_report import validations_as_json, write_json
-from slider_resonator.checks.reports.junit import write_junit
-from slider_resonator.checks.reports.step_summary import VARIABLE, append_summary
+from slider_resonator.checks.reports.for_ci import (
+    VARIABLE,
+    append_summary,
+    validations_as_json,
+    write_json,
+    write_junit,
+)
 from slider_resonator.checks.reports.terminal import print_validation
 from slider_resonator.checks.validate import RunFailure, Validation
 from slider_resonator.commands.options import Parsed, target

@@ -111,7 +111,13 @@ def scene_sections(validation: Validation, prefix: str) -> list[str]:
     overviews = {overview.check.scene: overview for overview in validation.overviews}
     ids = {scene: f"{prefix}-{number}" for number, scene in enumerate(scenes)}
     columns = (*texts("scene", ""), *numbers("checks", "failed", "largest share of a tolerance"))
-    rows = [_index_row(Cell(name, target=ids[name]), checks) for name, checks in scenes.items()]
+    rows: list[Row] = []
+    for name, checks in scenes.items():
+        failed = sum(not check.passed for check in checks)
+        worst = max(check.severity for check in checks)
+        share = f"{worst:.2g}" if math.isfinite(worst) else "beyond"
+        counts = (str(len(checks)), str(failed), share)
+        rows.append((Cell(name, target=ids[name]), verdict(not failed), *counts))
     parts = ["<h3>Scenes</h3>", rendered(Table(columns, rows))]
     for name, checks in scenes.items():
         plots = _of_signals(overviews[name], "") if name in overviews else _over_sweep(checks)
@@ -122,13 +128,6 @@ def scene_sections(validation: Validation, prefix: str) -> list[str]:
         unfolded = failed > 0 or len(scenes) <= MAX_UNFOLDED
         parts.append(section(ids[name], name, note, drawn + table, unfolded=unfolded))
     return parts
-
-
-def _index_row(name: Cell, checks: Sequence[Check]) -> Row:
-    failed = sum(not check.passed for check in checks)
-    worst = max(check.severity for check in checks)
-    share = f"{worst:.2g}" if math.isfinite(worst) else "beyond"
-    return (name, verdict(not failed), str(len(checks)), str(failed), share)
 
 
 def _of_signals(curves: Curves, where: str) -> list[HoverPlot]:

@@ -39,8 +39,11 @@ def print_validation(
     to a bound, and show of many failures the worst of each scene. With `only_failed` leave out what
     has passed.
     """
-    if not only_failed:
-        _print_headline(console, validation.checks)
+    for heading, answers in () if only_failed else headline(validation.checks):
+        console.print(Text(escaped(heading.text), STYLES[heading.style]))
+        table = Table([*texts(""), *numbers("", ""), *texts("")], answers)
+        for line in aligned(rendered(table).table):
+            console.print(line)
     scenes = validation.scenes
     if len(scenes) > MAX_DETAILED and not (details or only_failed):
         _print_overview(console, scenes)
@@ -62,8 +65,8 @@ def print_validation(
     if len(rows) < count:
         more = number_of(count - len(rows), "more check")
         _print_line(console, Text(f"{more} failed (--details lists all)"))
-    for line in _not_applied_lines(validation, details):
-        _print_line(console, Text(escaped(f"not applicable: {line}")))
+    for text in _not_applied_lines(validation, details):
+        _print_line(console, Text(escaped(f"not applicable: {text}")))
     _print_line(console, _summary(validation))
 
 
@@ -79,14 +82,6 @@ def _not_applied_lines(validation: Validation, details: bool) -> Iterator[str]:
             scenes = len({scene for scene, _ in checks})
             alike = f"{number_of(len(checks), 'check')} of {number_of(scenes, 'scene')}"
             yield f"{alike}: {reason} (--details lists them)"
-
-
-def _print_headline(console: Console, checks: Sequence[Check]) -> None:
-    for heading, rows in headline(checks):
-        console.print(Text(escaped(heading.text), STYLES[heading.style]))
-        table = Table([*texts(""), *numbers("", ""), *texts("")], rows)
-        for line in aligned(rendered(table).table):
-            console.print(line)
 
 
 def _print_line(console: Console, line: Text) -> None:
@@ -108,13 +103,28 @@ def _summary(validation: Validation) -> Text:
 
 
 def _print_overview(console: Console, scenes: Mapping[str, Sequence[Check]]) -> None:
-    """Print a line for each of the first scenes that failed, and of those nearest to a bound."""
+    """Print a line for each of the first scenes that failed, and of those nearest to a bound.
+
+    It has the check nearest to its limit, or farthest beyond it.
+    """
     failed = [name for name, checks in scenes.items() if not all(c.passed for c in checks)]
     passed = [name for name in scenes if name not in failed]
     by_severity = sorted(passed, key=lambda name: -max(check.severity for check in scenes[name]))
     listed = {*failed[:MAX_SCENES], *by_severity[: max(0, MAX_SCENES - len(failed))]}
-    shown = {name: checks for name, checks in scenes.items() if name in listed}
-    console.print(rendered(_overview(shown)))
+    rows: list[Row] = []
+    for scene, checks in scenes.items():
+        if scene in listed:
+            count = sum(check.passed for check in checks)
+            nearest = max(checks, key=lambda check: check.severity)
+            off, allowed, measure = sizes(nearest)
+            cells = (scene, f"{count} of {len(checks)}", nearest.quantity)
+            is_passed = verdict(count == len(checks))
+            rows.append((*cells, _size(off), _size(allowed), measure, is_passed))
+    columns = (
+        *(*texts("scene"), *numbers("passed"), *texts("nearest to its bound")),
+        *(*numbers("off by", "allowed"), *texts("in", "")),
+    )
+    console.print(rendered(Table(columns, rows)))
     more_failed = len(failed) - len(listed.intersection(failed))
     more_passed = len(passed) - len(listed.intersection(passed))
     parts = [f"{number_of(more_failed, 'more scene')} failed"] if more_failed else []
@@ -132,23 +142,6 @@ def _worst_of_scenes(rows: Sequence[tuple[Check, int]], count: int) -> list[tupl
         by_scene.setdefault(rows[index][0].scene, []).append(index)
     ranked = [(rank, index) for worst in by_scene.values() for rank, index in enumerate(worst)]
     return [rows[index] for index in sorted(index for _, index in sorted(ranked)[:count])]
-
-
-def _overview(scenes: Mapping[str, Sequence[Check]]) -> Table:
-    """Return a line for each scene, with the check nearest to its limit or farthest beyond it."""
-    rows = []
-    for scene, checks in scenes.items():
-        passed = sum(check.passed for check in checks)
-        nearest = max(checks, key=lambda check: check.severity)
-        off, allowed, measure = sizes(nearest)
-        counts = f"{passed} of {len(checks)}"
-        cells = (scene, counts, nearest.quantity, _size(off), _size(allowed), measure)
-        rows.append((*cells, verdict(passed == len(checks))))
-    columns = (
-        *(*texts("scene"), *numbers("passed"), *texts("nearest to its bound")),
-        *(*numbers("off by", "allowed"), *texts("in", "")),
-    )
-    return Table(columns, rows)
 
 
 def _table(checks: Sequence[tuple[Check, int]], details: bool) -> Table:

@@ -1,0 +1,195 @@
+"""Verdicts for CI: a JSON document, JUnit XML, and Markdown on the page of a GitHub Actions run."""
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+from slider_resonator.checks.validate import RunFailure, Validation, provenance_of_all
+from slider_resonator.checks.verdict import TITLE, measure_of, place, sentence, title
+from slider_resonator.errors import HarnessError
+from slider_resonator.fmu.provenance import Provenance, provenance_markdown, provenance_properties
+from slider_resonator.output.atomic import replacing
+from slider_resonator.output.json_output import to_json
+from slider_resonator.output.markdown import escaped, rendered
+from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
+
+
+def validations_as_json(validations: Sequence[Validation], error: str = "") -> str:
+    """Return the verdicts on a single FMU directly, those on several under `fmus`.
+
+    An `error` that stopped the command before it reached an FMU is returned alone.
+    """
+    provenance = provenance_of_all(validations)
+    plain = [_plain(validation) for validation in validations]
+    if error:
+        return to_json({"passed": False, "error": error}, provenance)
+    if len(plain) == 1:
+        return to_json(plain[0], provenance)
+    passed = all(validation.passed for validation in validations)
+    return to_json({"passed": passed, "fmus": plain}, provenance)
+
+
+def write_json(path: Path, validations: Sequence[Validation], error: str = "") -> None:
+    """Write that document; HarnessError when the file cannot be written."""
+    with replacing(path) as temporary:
+        temporary.write_text(validations_as_json(validations, error) + "\n", encoding="utf-8")
+
+
+def _plain(validation: Validation) -> dict[str, object]:
+    checks = [
+        {
+            **vars(check),
+            "deviation_in": measure_of(check),
+            "verdict": "pass" if check.passed else sentence(check),
+        }
+        for check in validation.checks
+    ]
+    return {
+        "fmu": validation.fmu,
+        "passed": validation.passed,
+        "exit_code": validation.exit_code,
+        "wall_time": validation.wall_time,
+        "errors": validation.run_failures,
+        "lacks": validation.lacks,
+        "not_applicable": validation.not_applied,
+        "checks": checks,
+    }
+
+
+_NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""Characters that XML 1.0 cannot hold: an FMU may have printed them."""
+
+
+def write_junit(
+    path: Path, validations: Sequence[Validation], error: str = "", *, title: str = TITLE
+) -> None:
+    """Write one test suite for each FMU, with a test case for each check or failed run.
+
+    `error` is what stopped the command before it reached an FMU. Raises HarnessError when the file
+    cannot be written.
+    """
+    root = ET.Element("testsuites", name=title)
+    provenance = provenance_of_all(validations)
+    for validation in validations:
+        _suite(root, validation, provenance)
+    if error:
+        _suite(root, Validation(title, (), 0.0, (RunFailure("", error, {}),)), provenance)
+    for name in ("tests", "failures", "errors", "skipped"):
+        root.set(name, str(sum(int(suite.attrib[name]) for suite in root)))
+    root.set("time", f"{sum(v.wall_time for v in validations):.3f}")
+    ET.indent(root)
+    with replacing(path) as temporary:
+        ET.ElementTree(root).write(temporary, encoding="utf-8", xml_declaration=True)
+
+
+def _suite(root: ET.Element, validation: Validation, provenance: Provenance) -> None:
+    suite = ET.SubElement(
+        root,
+        "testsuite",
+        name=_text(validation.fmu),
+        tests=str(
+            len(validation.checks) + len(validation.run_failures) + len(validation.not_applied)
+        ),
+        failures=str(len(validation.failed)),
+        errors=str(len(validation.run_failures)),
+        skipped=str(len(validation.not_applied)),
+        time=f"{validation.wall_time:.3f}",
+    )
+    facts = {"judged": validation.without} if validation.without else {}
+    facts |= provenance_properties(provenance, validation.identity)
+    properties = ET.SubElement(suite, "properties")
+    for name, value in facts.items():
+        ET.SubElement(properties, "property", name=name, value=_text(value))
+    for scene, quantity, reason in validation.inapplicable:
+        case = ET.SubElement(suite, "testcase", classname=scene, name=quantity)
+        ET.SubElement(case, "skipped", message=_text(f"not applicable: {reason}"))
+    for check in validation.checks:
+        case = ET.SubElement(suite, "testcase", classname=check.scene, name=_text(title(check)))
+        if not check.passed:
+            failure = ET.SubElement(case, "failure", message=_text(sentence(check)))
+            failure.text = _text(f"{sentence(check)}\nexpected because: {check.why}")
+    for run_failure in validation.run_failures:
+        name = f"could not be run{place(run_failure.at, ' at ')}"
+        case = ET.SubElement(suite, "testcase", classname=run_failure.scene or "FMU", name=name)
+        ET.SubElement(case, "error", message=_text(run_failure.reason)).text = _text(
+            run_failure.reason
+        )
+
+
+def _text(text: str) -> str:
+    return _NOT_XML.sub("\ufffd", text)
+
+
+VARIABLE = "GITHUB_STEP_SUMMARY"
+"""Environment variable with the file that GitHub renders."""
+MAX_ROWS = 50
+"""Failures shown for each FMU: GitHub takes 1 MiB of summary."""
+OUTCOMES = (
+    Cell("pass", Style.PASS),
+    Cell("fail", Style.FAIL),
+    Cell("could not be run", Style.FAIL),
+)
+"""By exit code."""
+
+
+def append_summary(
+    path: Path, validations: Sequence[Validation], error: str = "", *, title: str = TITLE
+) -> None:
+    """Append a table of FMUs and one of what failed; HarnessError when that is impossible."""
+    text = "\n\n".join([f"## {title}", *_parts(validations, error)]) + "\n\n"
+    try:
+        with path.open("a", encoding="utf-8") as file:
+            file.write(text)
+    except OSError as failed:
+        raise HarnessError(f"{VARIABLE} {path}: cannot be written: {failed.strerror}") from failed
+
+
+def _parts(validations: Sequence[Validation], error: str) -> list[str]:
+    parts = [f"Could not run: {escaped(error)}"] if error else []
+    if validations:
+        columns = numbers(
+            "checks passed", "failed", "could not be run", "not applicable", "seconds"
+        )
+        rows: list[Row] = []
+        for validation in validations:
+            failed = len(validation.failed)
+            counts = (
+                *(len(validation.checks) - failed, failed),
+                *(len(validation.run_failures), len(validation.not_applied)),
+            )
+            seconds = f"{validation.wall_time:.1f}"
+            outcome = OUTCOMES[validation.exit_code]
+            rows.append((validation.fmu, outcome, *map(str, counts), seconds))
+        parts.append(rendered(Table([*texts("FMU", "verdict"), *columns], rows)))
+    parts += [
+        escaped(f"{Path(validation.fmu).name}: {validation.without}")
+        for validation in validations
+        if validation.without
+    ]
+    skipped: list[Row] = [
+        (Path(validation.fmu).name, *row)
+        for validation in validations
+        for row in validation.inapplicable[:MAX_ROWS]
+    ]
+    if skipped:
+        columns = texts("FMU", "scene", "quantity", "not applicable because")
+        parts.append(rendered(Table(columns, skipped)))
+    failures = [row for validation in validations for row in _failures(validation)]
+    if failures:
+        parts.append(rendered(Table(texts("FMU", "scene", "quantity", "verdict"), failures)))
+    parts.append(provenance_markdown(provenance_of_all(validations)))
+    return parts
+
+
+def _failures(validation: Validation) -> list[Row]:
+    found = [
+        (run_failure.scene, place(run_failure.at) or "-", run_failure.reason)
+        for run_failure in validation.run_failures
+    ]
+    found += [(c.scene, title(c), sentence(c)) for c in validation.failed]
+    name = Path(validation.fmu).name
+    rows: list[Row] = [(name, *row) for row in found[:MAX_ROWS]]
+    if len(found) > MAX_ROWS:
+        rows.append((name, "", "", f"and {len(found) - MAX_ROWS} more"))
+    return rows
