@@ -4,13 +4,10 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from math import isclose, isfinite, pi
 
 from fmpy.model_description import (
-    BaseUnit,
     DefaultExperiment,
-    DisplayUnit,
     ModelDescription,
     ModelVariable,
     Unit,
-    Unknown,
 )
 
 from slider_resonator.device.device import DEVIATIONS
@@ -51,29 +48,21 @@ def unit_problems(unit: str, definitions: Sequence[Unit]) -> list[str]:
     the values of variables are taken as they are; display units must have the factor that goes
     with their names, as far as these are known. The exponent of rad is free.
     """
-    problems: list[str] = []
-    for definition in definitions:
-        if definition.name == unit:
-            problems += _base_problems(unit, definition.baseUnit)
-            problems += _display_problems(unit, definition.displayUnits)
-    return problems
+    found = (one for one in definitions if one.name == unit)
+    return [problem for one in found for problem in _definition_problems(unit, one)]
 
 
-def _base_problems(unit: str, base: BaseUnit | None) -> Iterator[str]:
-    if base is None:
-        return
-    expected = DIMENSIONS[unit]
-    found = {name: getattr(base, name) for name in _EXPONENTS if getattr(base, name)}
-    if found != dict(expected):
-        yield f"unit {unit} is defined as {_dimension(found)}, must be {_dimension(expected)}"
-    if base.factor != 1.0:
-        yield f"unit {unit} is defined with factor {base.factor!r}, must be 1"
-    if base.offset != 0.0:
-        yield f"unit {unit} is defined with offset {base.offset!r}, must be 0"
-
-
-def _display_problems(unit: str, displayed: Sequence[DisplayUnit]) -> Iterator[str]:
-    for display in displayed:
+def _definition_problems(unit: str, definition: Unit) -> Iterator[str]:
+    if (base := definition.baseUnit) is not None:
+        expected = DIMENSIONS[unit]
+        found = {name: getattr(base, name) for name in _EXPONENTS if getattr(base, name)}
+        if found != dict(expected):
+            yield f"unit {unit} is defined as {_dimension(found)}, must be {_dimension(expected)}"
+        if base.factor != 1.0:
+            yield f"unit {unit} is defined with factor {base.factor!r}, must be 1"
+        if base.offset != 0.0:
+            yield f"unit {unit} is defined with offset {base.offset!r}, must be 0"
+    for display in definition.displayUnits:
         factor = _factor(unit, str(display.name))
         if factor is None:
             continue
@@ -150,7 +139,11 @@ def description_faults(description: ModelDescription) -> list[str]:
     for found in description.modelVariables:
         if found.name in VARIABLES:
             faults += _other_values(found, VARIABLES[found.name])
-            faults += _undefined_display(found, units)
+            unit, shown = _attribute(found, "unit"), _attribute(found, "displayUnit")
+            if unit is not None and shown is not None and shown not in units.get(unit, {shown}):
+                faults.append(
+                    f"displayUnit of {found.name} is {shown}, which {unit} does not define"
+                )
     declared = {unknown.variable.name: unknown.dependencies for unknown in description.outputs}
     names = {variable.name for variable in description.modelVariables}
     for name, variable in VARIABLES.items():
@@ -165,9 +158,17 @@ def description_faults(description: ModelDescription) -> list[str]:
             for other in sorted(dependencies - set(variable.depends_on)):
                 faults.append(f"{name} is declared to depend on {other}, which does not act on it")
     for unknown in description.outputs:
-        faults += _linear_faults(unknown)
+        name, kinds = unknown.variable.name, unknown.dependenciesKind or ()
+        for other, kind in zip(unknown.dependencies or (), kinds, strict=False):
+            if kind != "dependent" and name in VARIABLES:  # friction and contact are not linear
+                faults.append(f"{name} is declared {kind} in {other.name}, must be dependent")
     for unknown in description.initialUnknowns:
-        faults += _loop_faults(unknown)
+        name = unknown.variable.name
+        at_start = {other.name for other in unknown.dependencies or ()} & {*INPUTS, *DEVIATIONS}
+        for other in sorted(at_start - INPUTS_AT_START.get(name, at_start)):
+            faults.append(
+                f"{name} is declared to depend on {other} at the start, which does not act on it"
+            )
     if description.coSimulation.needsExecutionTool:
         faults.append("needsExecutionTool is true, must be false: hosts refuse the FMU")
     return faults
@@ -196,32 +197,6 @@ def _experiment_faults(experiment: DefaultExperiment | None) -> Iterator[str]:
     elif values.get("stepSize", 0.0) > stop - start:
         step = values["stepSize"]
         yield f"stepSize of the default experiment is {step!r} s, longer than all of it"
-
-
-def _linear_faults(unknown: Unknown) -> Iterator[str]:
-    """Find claims that an output is linear in an input: friction and contact make none so."""
-    if unknown.variable.name not in VARIABLES:
-        return
-    inputs, kinds = unknown.dependencies or (), unknown.dependenciesKind or ()
-    for other, kind in zip(inputs, kinds, strict=False):
-        if kind != "dependent":
-            name = unknown.variable.name
-            yield f"{name} is declared {kind} in {other.name}, must be dependent"
-
-
-def _loop_faults(unknown: Unknown) -> Iterator[str]:
-    """Find inputs on which an output is declared to depend at the start, and does not."""
-    name = unknown.variable.name
-    if name in INPUTS_AT_START:
-        declared = {other.name for other in unknown.dependencies or ()} & {*INPUTS, *DEVIATIONS}
-        for other in sorted(declared - INPUTS_AT_START[name]):
-            yield f"{name} is declared to depend on {other} at the start, which does not act on it"
-
-
-def _undefined_display(found: ModelVariable, units: Mapping[str, Set[str]]) -> Iterator[str]:
-    unit, shown = _attribute(found, "unit"), _attribute(found, "displayUnit")
-    if unit is not None and shown is not None and shown not in units.get(unit, {shown}):
-        yield f"displayUnit of {found.name} is {shown}, which {unit} does not define"
 
 
 def _departures(found: ModelVariable, variable: Variable) -> Iterator[str]:

@@ -80,14 +80,11 @@ def run(
 
     Without `outputs` all that the FMU has are read. Parameters that the schedule tunes start as it
     says. `progress` is called about a hundred times, without a label, with the share of the points
-    that is done. Raises FmuError and Refusal as `Instance.start` and `Instance.check_steps` do,
-    NotApplicable as `Running` does.
+    that is done. Raises FmuError and Refusal as `Running.start` does, NotApplicable as `Running`.
     """
     running = Running(instance, schedule, outputs)
     began, began_cpu = time.perf_counter(), time.process_time()
     running.start(parameters)
-    start_cpu = time.process_time() - began_cpu
-    running.check_steps()
     stepping_cpu = time.process_time()
     report_every = max(1, running.steps // 100)
     with instance.explained():
@@ -96,13 +93,13 @@ def run(
             running.advance(step)
             if (step + 1) % report_every == 0:
                 progress("", (step + 1) / running.steps)
-    step_cpu = time.process_time() - stepping_cpu
+    start_cpu, step_cpu = stepping_cpu - began_cpu, time.process_time() - stepping_cpu
     wall_time = time.perf_counter() - began
     readings, values = schedule.readings(), np.array(running.rows)
     held = np.searchsorted(schedule.times, readings, side="right") - 1
     tuned = dict(zip(schedule.tuning, schedule.tuned[held].T, strict=True))
     columns = {name: values[:, i].copy() for i, name in enumerate(running.outputs)}
-    inputs = running.inputs[held]
+    inputs = schedule.sampled[held]
     return Record(readings, inputs, columns, wall_time, start_cpu, step_cpu, tuned=tuned)
 
 
@@ -119,19 +116,15 @@ class Running:
         self.instance = instance
         self.outputs = instance.fmu.outputs if outputs is None else tuple(outputs)
         self.rows: list[list[float]] = []
-        self.inputs: Array = schedule.sampled
-        self._rates = schedule.rates
         self._ramps = schedule.ramps
         if self._ramps:
             instance.fmu.require("canInterpolateInputs")
-        self._tuned = schedule.tuned
         self._schedule = schedule
         self._times = schedule.times.tolist()
         self._changes = set(schedule.changes.tolist())
         self._block: Block | None = None
-        self._tunables: Block | None = None
-        names = (*INPUTS, *schedule.tuning)
-        self.first = dict(zip(names, [*self.inputs[0], *self._tuned[0]], strict=True))
+        self._names = (*INPUTS, *schedule.tuning)
+        self.first = self.values_at(0)
 
     @property
     def steps(self) -> int:
@@ -144,13 +137,13 @@ class Running:
         return float(self._schedule.start_time + self._times[-1])
 
     def start(self, parameters: Mapping[str, float]) -> None:
-        """Start the instance with parameters and `first`; raises as `Instance.start` does."""
-        values = {**parameters, **self.first}
-        self.instance.start(values, self.stop_time, start_time=self._schedule.start_time)
+        """Start the instance with parameters and `first`.
 
-    def check_steps(self) -> None:
-        """Raise FmuError as `Instance.check_steps` does."""
-        self.instance.check_steps(self._schedule.start_time + self._schedule.times[1:])
+        Raises as `Instance.start` and `Instance.check_steps` do.
+        """
+        values, start = {**parameters, **self.first}, self._schedule.start_time
+        self.instance.start(values, self.stop_time, start_time=start)
+        self.instance.check_steps(start + self._schedule.times[1:])
 
     def read(self) -> None:
         """Read the outputs into a new row."""
@@ -164,20 +157,25 @@ class Running:
 
     def values_at(self, step: int) -> dict[str, float]:
         """Return the inputs and tuned parameters over a step."""
-        values = [*self.inputs[step].tolist(), *self._tuned[step].tolist()]
-        return dict(zip(self.first, values, strict=True))
+        sampled, tuned = self._schedule.sampled[step], self._schedule.tuned[step]
+        return dict(zip(self._names, [*sampled.tolist(), *tuned.tolist()], strict=True))
 
     def advance(self, step: int, before: Callable[[], None] | None = None) -> None:
         """Set what changes, read where the schedule says so, call `before`, step and read."""
+        schedule = self._schedule
         if step in self._changes:
-            self._set_values(step)
-            if self._schedule.reads_twice:
+            self.instance.set_inputs(schedule.sampled[step].tolist())
+            if self._ramps:
+                self.instance.set_input_rates(schedule.rates[step].tolist())
+            if schedule.tuning:
+                self.instance.block(list(schedule.tuning)).write(schedule.tuned[step].tolist())
+            if schedule.reads_twice:
                 self.read()
         elif step == 0 and self._ramps:
-            self.instance.set_input_rates(self._rates[0].tolist())
+            self.instance.set_input_rates(schedule.rates[0].tolist())
         if before is not None:
             before()
-        start, target = self._schedule.start_time, self._times[step + 1]
+        start, target = schedule.start_time, self._times[step + 1]
         if start:  # what the schedule says, not the sum of rounded steps
             self.instance.time = start + self._times[step]
             self.instance.step_by(target - self._times[step])
@@ -189,12 +187,3 @@ class Running:
         """Advance from a step on to the end."""
         for index in range(step, self.steps):
             self.advance(index)
-
-    def _set_values(self, step: int) -> None:
-        self.instance.set_inputs(self.inputs[step].tolist())
-        if self._ramps:
-            self.instance.set_input_rates(self._rates[step].tolist())
-        if self._schedule.tuning:
-            if self._tunables is None:
-                self._tunables = self.instance.block(list(self._schedule.tuning))
-            self._tunables.write(self._tuned[step].tolist())

@@ -190,8 +190,7 @@ class FmuPeriodMap(PeriodicRun):
     def _readings(self, times: Array) -> Array:
         """Return what is read at the times (s), a row each; `stick_fraction` is then the last."""
         rows = []
-        if self.instance.fmu.takes_equal_steps_only:
-            self.instance.check_steps(times[times > self.instance.time])
+        self.instance.check_steps(times[times > self.instance.time])
         with self.instance.explained():
             for time in times.tolist():
                 if time > self.instance.time:

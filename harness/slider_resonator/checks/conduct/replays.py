@@ -60,7 +60,6 @@ class Replay:
         """Return the run, started anew, with its first reading."""
         running = Running(self.instance, self.schedule)
         running.start(self.parameters)
-        running.check_steps()
         running.read()
         return running
 

@@ -74,6 +74,7 @@ class IsolatedFmu:
         self._resources = ExitStack()
         # Also for the unpacked FMU, which a process that has crashed leaves behind.
         self._folder = self._resources.enter_context(temporary_folder())
+        self._log = self._folder / PRINTED
         try:
             self._start(fmu)
             _value(self._answer())
@@ -103,10 +104,6 @@ class IsolatedFmu:
         self._resources.callback(self._process.end)
         self._messages: queue.SimpleQueue[Message | None] = queue.SimpleQueue()
         threading.Thread(target=_collect, args=(answers, self._messages), daemon=True).start()
-
-    @property
-    def _log(self) -> Path:
-        return self._folder / PRINTED
 
     def __enter__(self) -> "IsolatedFmu":
         """Return the isolated FMU."""

@@ -163,19 +163,16 @@ def run_tasks(
             if len(crashed) >= MAX_CRASHES or wasted >= time_limit:
                 names = dict.fromkeys(name(one) for one, _ in tasks)
                 if not_run := [one for one in names if one not in finished]:
-                    yield None, Outcome(error=_given_up(len(crashed), not_run))
+                    many = "1 crash or exceeded limit"
+                    if len(crashed) > 1:
+                        many = f"{len(crashed)} crashes or exceeded limits"
+                    text = f"given up after {many}; not run: {', '.join(not_run)}"
+                    yield None, Outcome(error=FmuError(text))
                 return
         if error := processes.close():
             yield None, Outcome(error=error)
     finally:
         processes.end()
-
-
-def _given_up(crashes: int, not_run: Sequence[str]) -> FmuError:
-    many = "1 crash or exceeded limit"
-    if crashes > 1:
-        many = f"{crashes} crashes or exceeded limits"
-    return FmuError(f"given up after {many}; not run: {', '.join(not_run)}")
 
 
 def run_all_tasks(
