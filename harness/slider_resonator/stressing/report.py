@@ -79,14 +79,6 @@ def _of_one_fmu(result: StressResult) -> list[str]:
     return parts
 
 
-def _note(one: Verdict) -> str:
-    checks = sorted(one.checks, key=lambda check: -check.found)
-    lines = [f"{one.axis}: {one.value}", one.verdict + (f": {one.reason}" if one.reason else "")]
-    return "\n".join(
-        [*lines, *(f"{check.name}: {check.found:.2g} of what is allowed" for check in checks)]
-    )
-
-
 def _grid(axis: str, cases: Sequence[Verdict]) -> str:
     """Return a table of values over models, each cell with its checks as its title."""
     models = [name for name in map(name_of, MODELS) if any(one.model == name for one in cases)]
@@ -111,23 +103,24 @@ def _grid(axis: str, cases: Sequence[Verdict]) -> str:
 
 
 def _cell(one: Verdict | None) -> str:
-    """Return a case: shaded by its margin where it passed."""
-    if one is None:
-        return "<td></td>"
-    sign, colour = "", SHADE.format(0.1 + 0.9 * (_margin(one) - FAR) / (NEAR - FAR))
-    if one.verdict != PASSED:
-        sign, colour = ("F", FAILED_COLOUR) if one.verdict == FAILED else ("r", REFUSED_COLOUR)
-    note = escaped(f"{one.model}\n{_note(one)}")
-    return f'<td style="background: {colour}" title="{note}">{sign}</td>'
+    """Return a case with its checks as title: shaded by its margin where it passed.
 
-
-def _margin(one: Verdict) -> float:
-    """Return the largest deviation over its bound, as a decimal logarithm within the scale.
-
+    The margin is the largest deviation over its bound, as a decimal logarithm within the scale.
     What a step costs is no deviation and does not count.
     """
+    if one is None:
+        return "<td></td>"
     found = one.nearest.found if one.nearest else 0.0
-    return min(max(log10(found), FAR), NEAR) if found > 0.0 else FAR
+    margin = min(max(log10(found), FAR), NEAR) if found > 0.0 else FAR
+    sign, colour = "", SHADE.format(0.1 + 0.9 * (margin - FAR) / (NEAR - FAR))
+    if one.verdict != PASSED:
+        sign, colour = ("F", FAILED_COLOUR) if one.verdict == FAILED else ("r", REFUSED_COLOUR)
+    why = f": {one.reason}" if one.reason else ""
+    lines = [one.model, f"{one.axis}: {one.value}", one.verdict + why]
+    for check in sorted(one.checks, key=lambda check: -check.found):
+        lines.append(f"{check.name}: {check.found:.2g} of what is allowed")
+    note = escaped("\n".join(lines))
+    return f'<td style="background: {colour}" title="{note}">{sign}</td>'
 
 
 def write_results(results: Sequence[StressResult], folder: Path, provenance: Provenance) -> None:
