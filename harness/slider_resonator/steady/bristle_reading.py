@@ -61,7 +61,10 @@ class BristleReading:
             )
         share = friction[last] / (self.faces * normal[last])
         bent = (share - self.damping * velocity[last]) / weight[last]
-        for travel in _travels(times[last:], position[last:], velocity[last:]):
+        times, position, velocity = times[last:], position[last:], velocity[last:]
+        reversals = np.flatnonzero(velocity[1:] * velocity[:-1] < 0.0)
+        turns = [_turn(times, position, velocity, index) for index in reversals.tolist()]
+        for travel in np.diff([position[0], *turns, position[-1]]).tolist():
             limit = copysign(self.coefficient, travel)
             bent -= (limit - bent) * expm1(-self.stiffness * abs(travel) / self.coefficient)
         return float(bent / self.stiffness)
@@ -111,14 +114,6 @@ def _leads(values: Mapping[str, float], angle: float) -> tuple[float, ...]:
     fastest = max(drive * max(1.0, turning), resonator)
     count = min(MAX_POINTS, round(POINTS * span * fastest / tau) + 1)
     return tuple((span * np.linspace(1.0, 0.0, count + 1)).tolist())
-
-
-def _travels(times: Array, position: Array, velocity: Array) -> list[float]:
-    """Return the paths (m), signed, between reversals from the first time to the last."""
-    turns = [float(position[0])]
-    for index in np.flatnonzero(velocity[1:] * velocity[:-1] < 0.0):
-        turns.append(_turn(times, position, velocity, int(index)))
-    return [float(travel) for travel in np.diff([*turns, float(position[-1])])]
 
 
 def _turn(times: Array, position: Array, velocity: Array, index: int) -> float:

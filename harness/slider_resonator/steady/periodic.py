@@ -155,7 +155,10 @@ class FmuPeriodMap(PeriodicRun):
             grid = np.linspace(0.0, end, round(end / float(times[1] - times[0])) + 1)
         read_at = np.union1d(grid, leading)
         readings = self._readings(read_at)
-        self._count(round(end / self.drive_period))
+        self.periods += round(end / self.drive_period)
+        jacobians = USUAL_JACOBIANS * (2 * len(self.names) + 1)
+        usual = max(WARM_UP + jacobians * self.drive_periods, self.periods)
+        self.progress(f"drive period {self.periods} of some {usual}", self.periods / usual)
         rows = readings[nearest(read_at, times)]
         states, travel = rows[:, 1:4], rows[:, 0] - before
         if self.bristle is not None:
@@ -178,14 +181,6 @@ class FmuPeriodMap(PeriodicRun):
         floor = max(self.facts.friction_limit / mass * self.drive_period, 1e-9)
         scale = np.maximum(sizes[:3], [floor, floor * self.drive_period / (2.0 * pi), floor])
         return scale if self.bristle is None else np.append(scale, self.bristle.scale)
-
-    def _count(self, periods: int) -> None:
-        """Count drive periods, and report them among those of a search of usual length."""
-        self.periods += periods
-        runs = USUAL_JACOBIANS * (2 * len(self.names) + 1)
-        usual = max(WARM_UP + runs * self.drive_periods, self.periods)
-        label = f"drive period {self.periods} of some {usual}"
-        self.progress(label, self.periods / usual)
 
     def _readings(self, times: Array) -> Array:
         """Return what is read at the times (s), a row each; `stick_fraction` is then the last."""

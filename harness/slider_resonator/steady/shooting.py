@@ -50,6 +50,11 @@ CORRECTIONS = 2
 FAMILY = 1e-9
 """Residual, in units of the scale, below which a singular map has a family of fixed points."""
 
+A_FAMILY = (
+    "a whole family of motions repeats: friction does not choose among them, each start keeps its "
+    "own velocity"
+)
+
 Stability = Literal["stable", "unstable", "neutral"]
 
 
@@ -114,7 +119,7 @@ def fixed_point(
     if sides is not None:
         error = max(NEUTRAL, tolerance / DISTANCE)
         if min(abs(side - 1.0) for side in sides) <= error:
-            return _family(root)
+            return NoFixedPoint("not_unique", A_FAMILY, root.iterations, root.residual)
         if abs(sides[0] - sides[1]) > KINK * abs(1.0 - multipliers[0]):
             multipliers[0] = max(sides, key=abs)
     _, displacement = period_map(root.x)
@@ -177,37 +182,22 @@ def _multiplier(
     return 1.0 + float(left @ (change(x + scale * y) / scale)) / distance
 
 
-def _family(root: Root) -> NoFixedPoint:
-    """Explain a motion with neighbours that repeat, too."""
-    return NoFixedPoint(
-        "not_unique",
-        "a whole family of motions repeats: friction does not choose among them, each start "
-        "keeps its own velocity",
-        root.iterations,
-        root.residual,
-    )
-
-
 def _failure(root: Root) -> NoFixedPoint:
     """Explain a failed iteration."""
     if root.status == "singular" and root.residual <= FAMILY:
-        return _family(root)
+        return NoFixedPoint("not_unique", A_FAMILY, root.iterations, root.residual)
     if root.status == "singular":
-        return NoFixedPoint(
-            "no_fixed_point",
+        reason = (
             "the state drifts by the same amount in every period, whatever its start "
-            f"({root.residual:.3g} of its scale): no motion repeats",
-            root.iterations,
-            root.residual,
+            f"({root.residual:.3g} of its scale): no motion repeats"
         )
+        return NoFixedPoint("no_fixed_point", reason, root.iterations, root.residual)
     why = {"stalled": "no step brings it closer", "limit": "out of iterations"}[root.status]
-    return NoFixedPoint(
-        "not_converged",
+    reason = (
         f"did not converge ({why}): after {root.iterations} iterations the next correction is "
-        f"{root.correction:.3g} of the scale, the change over a period {root.residual:.3g}",
-        root.iterations,
-        root.residual,
+        f"{root.correction:.3g} of the scale, the change over a period {root.residual:.3g}"
     )
+    return NoFixedPoint("not_converged", reason, root.iterations, root.residual)
 
 
 @dataclass(frozen=True)

@@ -125,17 +125,17 @@ class ModeSequence:
             self._recorder.enter(mode, began)
         while (remaining := elapsed.until(span)) > 0.0:
             now = _present(inputs, elapsed)
-            contact_span = self._time_to_contact_change(mode, now)
+            chirp = now.ratio_rate * self._equations.drive_frequency
+            contact_span = time_to_contact_change(mode == LIFTED, *self._load(now), chirp)
             result = self._pass(mode, inputs, now, elapsed, min(remaining, contact_span))
             if self._bends and result.duration:
                 # Of a start at rest the first instant only shows the direction.
                 self._recorder.slide(self._direction, began)
                 self._recorder.enter(mode, began)
+            frequency = self._equations.drive_frequency
             elapsed.add(result.duration)
-            self._theta = advanced(self._theta, self._equations.drive_frequency * result.duration)
-            self._psi = advanced(
-                self._psi, now.turned(result.duration, self._equations.drive_frequency)
-            )
+            self._theta = advanced(self._theta, frequency * result.duration)
+            self._psi = advanced(self._psi, now.turned(result.duration, frequency))
             self.state = result.state
             began = inputs.start + elapsed.seconds
             now = _present(inputs, elapsed)
@@ -193,16 +193,15 @@ class ModeSequence:
         if count := len(times):
             self._keep(mode, inputs, np.zeros(count), np.tile(self.state, (count, 1)))
 
-    def _mode_now(self, inputs: HeldInputs) -> int:
+    def _load(self, inputs: HeldInputs) -> tuple[float, float, float, float]:
+        """Return preload and amplitude (N) of the normal load, its angle (rad) and rate (rad/s)."""
         equations = self._equations
-        if is_lifted(
-            equations.normal_preload,
-            equations.normal_amplitude,
-            self._psi + inputs.phase,
-            inputs.frequency_ratio * equations.drive_frequency,
-        ):
-            return LIFTED
-        return self._mode_in_contact(inputs)
+        rate = inputs.frequency_ratio * equations.drive_frequency
+        angle = self._psi + inputs.phase
+        return equations.normal_preload, equations.normal_amplitude, angle, rate
+
+    def _mode_now(self, inputs: HeldInputs) -> int:
+        return LIFTED if is_lifted(*self._load(inputs)) else self._mode_in_contact(inputs)
 
     def _mode_in_contact(self, inputs: HeldInputs) -> int:
         if self._bends:
@@ -227,22 +226,10 @@ class ModeSequence:
             return SLIP_FORWARD if event > 0 else SLIP_BACKWARD
         return now
 
-    def _time_to_contact_change(self, mode: int, inputs: HeldInputs) -> float:
-        equations = self._equations
-        return time_to_contact_change(
-            mode == LIFTED,
-            equations.normal_preload,
-            equations.normal_amplitude,
-            self._psi + inputs.phase,
-            inputs.frequency_ratio * equations.drive_frequency,
-            inputs.ratio_rate * equations.drive_frequency,
-        )
-
     def _guard_progress(self, duration: float, time: float) -> None:
         resolution = math.ulp(1.0) / self._equations.drive_frequency
-        self._events_at_this_instant = (
-            self._events_at_this_instant + 1 if duration <= resolution else 0
-        )
+        here = self._events_at_this_instant
+        self._events_at_this_instant = here + 1 if duration <= resolution else 0
         if self._events_at_this_instant > _MAX_EVENTS_AT_ONE_INSTANT:
             raise RuntimeError(
                 f"contact at t = {time!r} s changes mode more than {_MAX_EVENTS_AT_ONE_INSTANT} "
