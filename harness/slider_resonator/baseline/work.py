@@ -30,7 +30,7 @@ from slider_resonator.errors import HarnessError, NotApplicable, SceneError, unk
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import digest_of, identity_of
-from slider_resonator.output.atomic import replacing
+from slider_resonator.output.atomic import write_text
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.targets import make_folder
 from slider_resonator.scenes.scene import Scene
@@ -98,7 +98,11 @@ def check(
     began = perf_counter()
     identity = identity_of(fmu)
     scenes = list({one.source: one for one in scenes or scenes_recorded(folder)}.values())
-    golden = [_recorded(folder, scene) for scene in scenes]
+    for scene in scenes:
+        if not (folder / scene.name).is_dir():
+            known = [one.name for one in recorded_scenes(folder)]
+            raise HarnessError(f"{folder}: {unknown_name('recorded scene', scene.name, known)}")
+    golden = [read_recorded(folder / scene.name) for scene in scenes]
     with open_fmu(fmu):
         pass  # one that cannot be opened is no run failure
     measured, run_failures, not_applied = _measure(fmu, scenes, folder, progress, time_limit)
@@ -115,8 +119,11 @@ def check(
             continue
         compared += found
         if not all(verdict.passed for verdict, _ in found):
+            ignored = folder / CHANGED / ".gitignore"
             try:
-                _keep(folder, scene.name, now)
+                write_recorded(folder / CHANGED / scene.name, now)
+                if not ignored.exists():
+                    write_text(ignored, "*\n")
             except HarnessError as error:
                 reason = f"the changes could not be kept for accept: {error}"
                 run_failures.append(RunFailure(scene.name, reason, {}))
@@ -222,14 +229,6 @@ def _scene_of(path: Path) -> Scene:
     return find_scene(path.name)
 
 
-def _recorded(folder: Path, scene: Scene) -> Recorded:
-    path = folder / scene.name
-    if not path.is_dir():
-        known = [one.name for one in recorded_scenes(folder)]
-        raise HarnessError(f"{folder}: {unknown_name('recorded scene', scene.name, known)}")
-    return read_recorded(path)
-
-
 def _compare(
     scene: Scene, golden: Recorded, now: Recorded, tolerance: float
 ) -> list[tuple[Check, Curves | None]]:
@@ -245,11 +244,3 @@ def _compare(
             point, golden.points.get(key(point.at), {}), now.points[key(point.at)], tolerance
         )
     ]
-
-
-def _keep(folder: Path, name: str, now: Recorded) -> None:
-    write_recorded(folder / CHANGED / name, now)
-    ignored = folder / CHANGED / ".gitignore"
-    if not ignored.exists():
-        with replacing(ignored) as temporary:
-            temporary.write_text("*\n", encoding="utf-8")

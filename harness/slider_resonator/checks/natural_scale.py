@@ -1,16 +1,10 @@
-"""The natural scale of a quantity in a device, and what leaps over periods may err by in it.
-
-Below a share of its scale a reference counts as near zero. Leaps are compared with resolved motion
-by the velocity and position of slider and resonator as one mass, X' + r Y' and X + r Y: what is
-left of a transient of the resonator does not move them.
-"""
+"""The natural scale of a quantity in a device, below a share of which a reference is near zero."""
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from math import pi
 from operator import attrgetter
 
-from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.equivalent_force import equivalent_force
@@ -84,25 +78,3 @@ def smallest_reference(quantity: str, device: Device) -> float:
     """
     scale = _SCALES.get(quantity)
     return NEAR_ZERO * scale(device) if scale else 0.0
-
-
-CENTRE_VELOCITY, CENTRE = "centre velocity", "centre"
-MARGIN = 10.0
-"""Largest error of the slow velocity, over `tolerance` times the fast velocity."""
-
-
-def allowed_by_leaps(
-    device: Device, held: Sequence[HeldInputs], duration: float
-) -> Mapping[str, float]:
-    """Return the allowed error of both signals, in m/s and m, after a run of `duration` (s)."""
-    velocity = MARGIN * device.tolerance * largest_fast_velocity(device, held)
-    return {CENTRE_VELOCITY: velocity, CENTRE: velocity * duration}
-
-
-def centre_signals(device: Device, signals: Mapping[str, Array]) -> dict[str, Array]:
-    """Return velocity (m/s) and position (m) of slider and resonator as one mass, shape (n,)."""
-    share = device.mass_ratio
-    return {
-        CENTRE_VELOCITY: signals["velocity"] + share * signals["resonator_velocity"],
-        CENTRE: signals["position"] + share * signals["resonator_displacement"],
-    }

@@ -144,18 +144,24 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
     where = f"{file.name}: experiment {name}"
     run = {**entry.attrib, **getattr(entry.find("TransientSimulation"), "attrib", {})}
     sources = {
-        kind: _source(found, file.parent, root)
+        kind: _source(named, file.parent, root)
         for kind in ("Parameters", "Stimuli", "References")
-        if (found := entry.find(kind)) is not None
+        if (named := entry.find(kind)) is not None
     }
     if "References" not in sources:
         raise SceneError(f"{where}: <References> is missing; must name a CSV file")
+    inputs = {}
+    if "Stimuli" in sources:  # values at communication points, held until the next
+        inputs = {
+            name: {"csv": str(sources["Stimuli"]), "column": name, "between": "hold"}
+            for name in _columns(sources["Stimuli"], (*INPUTS, *DEVIATIONS))
+        }
     scene = scene_from(
         {
             "name": name,
             "title": entry.get("description") or name,
             "device": _parameters(sources["Parameters"]) if "Parameters" in sources else {},
-            "inputs": _inputs(sources["Stimuli"]) if "Stimuli" in sources else {},
+            "inputs": inputs,
             "run": {
                 "stop_time": finite_number(f"{where}: stopTime", run.get("stopTime")),
                 "step_size": finite_number(f"{where}: stepSize", run.get("stepSize")),
@@ -164,14 +170,17 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
         },
         where,
     )
-    times, results = _results(sources["References"])
+    signals = [name for name, one in QUANTITIES.items() if one.kind == "signal"]
+    columns = _columns(sources["References"], signals)
+    found = {name: csv_signal(sources["References"], name, "hold") for name in columns}
+    results = {name: np.array(one.values) for name, one in found.items()}
     annotation = entry.find(f"References/Annotations/Annotation[@type='{ALLOWED}']")
     allowed = USUAL_DEVIATION
     if annotation is not None:
         allowed = finite_number(f"{where}: {ALLOWED}", annotation.text)
     if not 0.0 < allowed < 1.0:
         raise SceneError(f"{where}: {ALLOWED} = {allowed:g}: must be a share between 0 and 1")
-    return OwnExperiment(scene, times, results, allowed)
+    return OwnExperiment(scene, np.array(found[columns[0]].times), results, allowed)
 
 
 def _parameters(file: Path) -> dict[str, float]:
@@ -184,22 +193,6 @@ def _parameters(file: Path) -> dict[str, float]:
         text = next((one.get("value") for one in entry), None)
         found[name] = finite_number(f"{file.name}: {name}", text)
     return found
-
-
-def _inputs(file: Path) -> dict[str, dict[str, str]]:
-    """Return the inputs of a table of values at communication points, held until the next."""
-    return {
-        name: {"csv": str(file), "column": name, "between": "hold"}
-        for name in _columns(file, (*INPUTS, *DEVIATIONS))
-    }
-
-
-def _results(file: Path) -> tuple[Array, dict[str, Array]]:
-    """Return times (s) and outputs, (n,) each."""
-    signals = [name for name, one in QUANTITIES.items() if one.kind == "signal"]
-    found = {name: csv_signal(file, name, "hold") for name in _columns(file, signals)}
-    results = {name: np.array(one.values) for name, one in found.items()}
-    return np.array(next(iter(found.values())).times), results
 
 
 def _columns(file: Path, allowed: Collection[str]) -> list[str]:

@@ -19,6 +19,8 @@ MIN_DIVISIBLE = 1e-300
 """Steps up to this size, s, are not divided."""
 LEAP_TOLERANCE = 1e-6
 """Tolerance under which averages of second order leap over periods, where none is given."""
+MARGIN = 10.0
+"""Largest error of the slow velocity in leaps, over `tolerance` times the fast velocity."""
 RANDOM = "random device"
 """Axis of the cases that are drawn."""
 DEVICE = "device"

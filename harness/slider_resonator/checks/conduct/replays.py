@@ -120,7 +120,11 @@ def restored_differences(fmu: FmuSide) -> list[str]:
             found += plain.differences("while states are saved", running.rows)
             for step, rows, state in reversed(saved):
                 state.restore()
-                _detour(running, step)
+                # A detour: other inputs and tunables for a few steps.
+                present = {**running.first, **instance.read(TUNABLES)}
+                instance.set({name: other_value(name, value) for name, value in present.items()})
+                for index in range(step, min(step + DETOUR, running.steps)):
+                    instance.step_by(running.step_size(index))
                 state.restore()
                 running.rows = []
                 running.read()
@@ -131,15 +135,6 @@ def restored_differences(fmu: FmuSide) -> list[str]:
             for _, _, state in saved:
                 state.free()
     return found + wrong
-
-
-def _detour(running: Running, step: int) -> None:
-    """Take a few steps with other inputs and tunables."""
-    instance = running.instance
-    present = {**running.first, **instance.read(TUNABLES)}
-    instance.set({name: other_value(name, value) for name, value in present.items()})
-    for index in range(step, min(step + DETOUR, running.steps)):
-        instance.step_by(running.step_size(index))
 
 
 def transferred_differences(fmu: FmuSide) -> list[str]:

@@ -1,6 +1,6 @@
 """What the variables of an FMU are before a run, and whether they keep what is set."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import partial
 from itertools import product
 
@@ -40,7 +40,10 @@ def start_faults(fmu: FmuSide) -> list[str]:
         faults += early(instance, others, "after it was set")
         instance.call("fmi2EnterInitializationMode")
         faults += unequal(instance, others, "in initialization mode")
-        first = _one_by_one(instance, instance.fmu.outputs)
+        # Integers first: no Real may be needed to bring them up to date.
+        types = {name: instance.fmu.variables[name].type for name in instance.fmu.outputs}
+        ordered = sorted(types, key=lambda name: (types[name], name))
+        first = {name: instance.value(name) for name in ordered}
         instance.begin()
         faults += unequal(instance, others, "in a run")
         faults += unequal(instance, first, "after initialization, as it was read in it")
@@ -90,10 +93,3 @@ def _integer_faults(instance: Instance) -> Iterator[str]:
                 f"Integers set to {values} in a call are {at_once} in a call, and {one_by_one} in "
                 "calls of their own"
             )
-
-
-def _one_by_one(instance: Instance, names: Iterable[str]) -> dict[str, float]:
-    """Read variables, Integers first: no Real may be needed to bring them up to date."""
-    variables = instance.fmu.variables
-    ordered = sorted(names, key=lambda name: (variables[name].type, name))
-    return {name: instance.read([name])[name] for name in ordered}

@@ -40,11 +40,10 @@ def state_faults(fmu: FmuSide) -> list[str]:
     with adding_refusal(instance, faults):
         instance.start(fmu.scene.parameters)
         instance.step_by(STEP)
-        faults.extend(_overwriting_faults(instance))
+        faults.extend(_pointer_faults(instance))
         if instance.fmu.offers.canSerializeFMUstate:
             faults.extend(_damage_faults(instance))
             faults.extend(_process_faults(instance))
-        faults.extend(_freeing_faults(instance))
         faults.extend(_later_faults(instance, fmu.scene.parameters))
         faults.extend(state_leaks(instance))
         faults.extend(_early_faults(instance, fmu.scene.parameters))
@@ -54,19 +53,31 @@ def state_faults(fmu: FmuSide) -> list[str]:
     return faults
 
 
-def _overwriting_faults(instance: Instance) -> Iterator[str]:
-    """Get the state twice into one place, the second time after a step."""
+def _pointer_faults(instance: Instance) -> Iterator[str]:
+    """Get the state twice into one place, the second time after a step, and free it.
+
+    The pointer must then be null, but pythonfmu leaves it as it is. To free a null pointer is no
+    error.
+    """
+    call, is_native = instance.call, instance.fmu.runs_without_python
     state = c_void_p()
-    instance.call("fmi2GetFMUstate", byref(state))
+    call("fmi2GetFMUstate", byref(state))
     instance.step_by(STEP)
-    instance.call("fmi2GetFMUstate", byref(state))
+    call("fmi2GetFMUstate", byref(state))
     kept, time = instance.outputs(), instance.time
     instance.step_by(STEP)
-    instance.call("fmi2SetFMUstate", state)
+    call("fmi2SetFMUstate", state)
     instance.time = time
     if instance.outputs() != kept:
         yield "a state that is got into the place of another is still the old one"
-    instance.call("fmi2FreeFMUstate", byref(state))
+    call("fmi2FreeFMUstate", byref(state))
+    if state.value and is_native:
+        yield "the pointer to a state that is freed is not null"
+    state.value = None
+    if is_native and not is_refused(partial(call, "fmi2SetFMUstate", state)):
+        yield "a null pointer is accepted as a state"
+    if is_refused(partial(call, "fmi2FreeFMUstate", byref(state))):
+        yield "freeing a null pointer is refused"
 
 
 def _damage_faults(instance: Instance) -> Iterator[str]:
@@ -186,24 +197,6 @@ def _later_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
     instance.step_by(STEP)
     for state in states:
         state.free()
-
-
-def _freeing_faults(instance: Instance) -> Iterator[str]:
-    """Free a state, whose pointer must then be null, and a null pointer, which is no error.
-
-    pythonfmu leaves the pointer as it is.
-    """
-    state = c_void_p()
-    instance.call("fmi2GetFMUstate", byref(state))
-    instance.call("fmi2FreeFMUstate", byref(state))
-    if state.value and instance.fmu.runs_without_python:
-        yield "the pointer to a state that is freed is not null"
-    state.value = None
-    call = instance.call
-    if instance.fmu.runs_without_python and not is_refused(partial(call, "fmi2SetFMUstate", state)):
-        yield "a null pointer is accepted as a state"
-    if is_refused(partial(call, "fmi2FreeFMUstate", byref(state))):
-        yield "freeing a null pointer is refused"
 
 
 def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterator[str]:

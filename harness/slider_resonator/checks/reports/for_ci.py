@@ -9,7 +9,7 @@ from slider_resonator.checks.validate import RunFailure, Validation, provenance_
 from slider_resonator.checks.verdict import TITLE, measure_of, place, sentence, title
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.provenance import Provenance, provenance_markdown, provenance_properties
-from slider_resonator.output.atomic import replacing
+from slider_resonator.output.atomic import replacing, write_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.markdown import escaped, rendered
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
@@ -32,8 +32,7 @@ def validations_as_json(validations: Sequence[Validation], error: str = "") -> s
 
 def write_json(path: Path, validations: Sequence[Validation], error: str = "") -> None:
     """Write that document; HarnessError when the file cannot be written."""
-    with replacing(path) as temporary:
-        temporary.write_text(validations_as_json(validations, error) + "\n", encoding="utf-8")
+    write_text(path, validations_as_json(validations, error) + "\n")
 
 
 def _plain(validation: Validation) -> dict[str, object]:

@@ -158,7 +158,9 @@ def _table(checks: Sequence[tuple[Check, int]], details: bool) -> Table:
         if check.scene != scene:
             scene = check.scene
             rows.append([Cell(f"{scene}, {points} points" if points > 1 else scene, Style.HEADING)])
-        cells = [f" {_quantity(check)}", *([place(check.at)] if swept else [])]
+        unit = f", {check.unit}" if check.unit not in ("", "1") else ""
+        mark = SIGNAL if _of_peak(check) else ""
+        cells = [f" {check.quantity}{mark}{unit}", *([place(check.at)] if swept else [])]
         cells += [value_text(value, DIGITS) for value in (check.fmu, check.reference)]
         cells.append(CALLED.get(check.against, check.against))
         cells += [_size(size) for size in sizes(check)[:2]]
@@ -166,12 +168,6 @@ def _table(checks: Sequence[tuple[Check, int]], details: bool) -> Table:
         if details:
             rows.append([Cell(check.why, Style.NOTE)])
     return Table(columns, rows)
-
-
-def _quantity(check: Check) -> str:
-    """Return name and unit, with a mark for a signal."""
-    unit = f", {check.unit}" if check.unit not in ("", "1") else ""
-    return f"{check.quantity}{SIGNAL if _of_peak(check) else ''}{unit}"
 
 
 def _of_peak(check: Check) -> bool:

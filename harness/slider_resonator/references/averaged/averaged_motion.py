@@ -193,27 +193,22 @@ def in_slow_phases(held: Sequence[HeldInputs], device: Device) -> list[HeldInput
     """Return the same inputs cut where a ratio that grows comes near a slow phase or leaves one."""
     parts: list[HeldInputs] = []
     for inputs in held:
-        edges = [inputs.start, *_slow_edges(inputs, inputs.tuned_device(device)), inputs.stop]
-        for begin, end in pairwise(edges):
+        times: list[float] = []
+        if inputs.ratio_rate:
+            first = inputs.frequency_ratio
+            low, high = sorted((first, first + inputs.ratio_rate * (inputs.stop - inputs.start)))
+            lifts = inputs.tuned_device(device).amplitude_ratio > 1.0
+            edges = {
+                (whole + side * MAX_DETUNING / turns) / turns
+                for turns in range(1, (MAX_TURNS if lifts else 1) + 1)
+                for whole in range(math.floor(turns * low) - 1, math.ceil(turns * high) + 2)
+                for side in (-1.0, 1.0)
+            }
+            reached = (inputs.start + (edge - first) / inputs.ratio_rate for edge in edges)
+            times = sorted(time for time in reached if inputs.start < time < inputs.stop)
+        for begin, end in pairwise([inputs.start, *times, inputs.stop]):
             parts.append(replace(inputs.later(begin - inputs.start), start=begin, stop=end))
     return parts
-
-
-def _slow_edges(inputs: HeldInputs, device: Device) -> list[float]:
-    """Return the times (s) inside at which the ratio is at the edge of a slow phase."""
-    if not inputs.ratio_rate:
-        return []
-    last = inputs.frequency_ratio + inputs.ratio_rate * (inputs.stop - inputs.start)
-    low, high = sorted((inputs.frequency_ratio, last))
-    most = MAX_TURNS if device.amplitude_ratio > 1.0 else 1
-    ratios = {
-        (whole + side * MAX_DETUNING / turns) / turns
-        for turns in range(1, most + 1)
-        for whole in range(math.floor(turns * low) - 1, math.ceil(turns * high) + 2)
-        for side in (-1.0, 1.0)
-    }
-    times = (inputs.start + (r - inputs.frequency_ratio) / inputs.ratio_rate for r in ratios)
-    return sorted(time for time in times if inputs.start < time < inputs.stop)
 
 
 def slow_trajectory(
