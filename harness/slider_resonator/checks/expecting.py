@@ -50,22 +50,22 @@ def _resolved(method: str, *arguments: Any) -> Mapping[str, Expected]:
 EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     "steady_velocity": {
         "located_events": lambda references: references.steady.steady_velocity,
-        "closed_form": lambda references: references.steady.averaged_velocity,
+        "closed_form": lambda references: references.steady.of_paper.predicted_velocity,
         "averaged": lambda references: references.steady.predicted_velocity,
     },
     "blocking_force": {
         "located_events": lambda references: references.steady.blocking_force,
-        "closed_form": lambda references: references.steady.averaged_blocking_force,
+        "closed_form": lambda references: references.steady.of_paper.predicted_blocking_force,
         "averaged": lambda references: references.steady.predicted_blocking_force,
     },
     "predicted_velocity": {
         "located_events": lambda references: references.steady.full_device.steady_velocity,
-        "closed_form": lambda references: references.steady.averaged_velocity,
+        "closed_form": lambda references: references.steady.of_paper.predicted_velocity,
         "averaged": lambda references: references.steady.predicted_velocity,
     },
     "predicted_blocking_force": {
         "located_events": lambda references: references.steady.full_device.blocking_force,
-        "closed_form": lambda references: references.steady.averaged_blocking_force,
+        "closed_form": lambda references: references.steady.of_paper.predicted_blocking_force,
         "averaged": lambda references: references.steady.predicted_blocking_force,
     },
     "predicted_velocity_in_run": {

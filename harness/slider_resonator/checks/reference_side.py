@@ -1,8 +1,9 @@
 """The references in a scene: trajectories, averaged motion, steady motion, each computed once."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
+from math import pi
 from typing import Any
 
 import numpy as np
@@ -11,15 +12,106 @@ from numpy.typing import NDArray
 from slider_resonator.arrays import Array
 from slider_resonator.checks.measures import Tube, no_tube
 from slider_resonator.checks.period_means import COINCIDENCE, last_events, quadrature
-from slider_resonator.checks.steady_references import SteadyReferences
-from slider_resonator.device.device import FULL
+from slider_resonator.device.device import FULL, Device
 from slider_resonator.device.drive_periods import DrivePeriods
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
 from slider_resonator.references.averaged.averaged_outputs import AveragedOutputs, averaged_outputs
+from slider_resonator.references.averaged.device_average import (
+    blocking_force,
+    prediction_valid,
+    steady_velocity,
+)
+from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.scenes.scene import Scene
+from slider_resonator.steady.reference_steady import (
+    reference_blocking_force,
+    reference_steady_velocity,
+)
+
+
+@dataclass(frozen=True)
+class SteadyReferences:
+    """Steady motion, predictions and closed forms for a device under constant inputs.
+
+    `phase` in rad, `load` in N. Velocities are in m/s, forces in N, each computed on first use.
+    """
+
+    device: Device
+    phase: float
+    load: float
+    frequency_ratio: float
+
+    @cached_property
+    def steady_velocity(self) -> float | None:
+        """Mean velocity of the steady motion, by shooting with located events."""
+        try:
+            guess = self.predicted_velocity
+        except ValueError:
+            guess = 0.0
+        inputs = (self.phase, self.load, self.frequency_ratio)
+        return reference_steady_velocity(self.device, *inputs, guess)
+
+    @cached_property
+    def blocking_force(self) -> float | None:
+        """Load that makes the mean velocity zero, by shooting with located events."""
+        return reference_blocking_force(self.device, self.phase, self.frequency_ratio)
+
+    @cached_property
+    def full_device(self) -> "SteadyReferences":
+        """The same for the full device, whatever the fidelity."""
+        return replace(self, device=replace(self.device, fidelity=FULL))
+
+    @property
+    def predicted_velocity(self) -> float:
+        """Steady velocity of averaged motion: any ratio, both laws, with lift-off."""
+        return steady_velocity(self.device, self.phase, self.load, self.frequency_ratio)
+
+    @property
+    def predicted_blocking_force(self) -> float:
+        """Blocking force of averaged motion, as for `predicted_velocity`."""
+        return blocking_force(self.device, self.phase, self.frequency_ratio)
+
+    @property
+    def prediction_valid(self) -> float:
+        """1 where averaged theory applies, 0 where not."""
+        inputs = (self.phase, self.load, self.frequency_ratio)
+        return 1.0 if prediction_valid(self.device, *inputs) else 0.0
+
+    @property
+    def of_paper(self) -> "SteadyReferences":
+        """The same for Coulomb friction, of which averages are (5), (20) and, for all faces, (22).
+
+        Raises ValueError where these do not hold.
+        """
+        if self.frequency_ratio != 1.0:
+            raise ValueError(
+                f"frequency_ratio = {self.frequency_ratio!r}: the closed form allows only 1"
+            )
+        if self.device.normal_amplitude > self.device.normal_preload:
+            raise ValueError(
+                f"normal_amplitude = {self.device.normal_amplitude!r} N must be at most "
+                f"normal_preload = {self.device.normal_preload!r} N: where the contact lifts the "
+                "closed form does not hold"
+            )
+        return replace(self, device=replace(self.device, friction_law=0))
+
+    @property
+    def ripple_amplitude(self) -> float:
+        """Amplitude (m) of the fast displacement, (33)-(34)."""
+        return equivalent_force(self.device).ripple_amplitude
+
+    @property
+    def difference_frequency(self) -> float:
+        """Distance (Hz) of the normal force's frequency from a multiple of the drive's: the beat.
+
+        For a ratio near 1 it is that of appendix A.
+        """
+        ratio = self.frequency_ratio
+        return abs(ratio - round(ratio)) * self.device.drive_frequency / (2.0 * pi)
+
 
 _FRICTION_LAWS: Mapping[str, int] = {"located_events": 0, "bristle_state": 1}
 """The friction law of each resolved reference."""

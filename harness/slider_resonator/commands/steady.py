@@ -80,7 +80,7 @@ def _search_command(
             result: SearchResult = isolated.run(search, progress)
         lines = [*result.describe(), f"FMU              {one_line(str(fmu))}"]
         print_result(result, "\n".join(lines), as_json=as_json, provenance=provenance)
-        return 1 if result.answer[1] is None else 0
+        return 1 if result.value is None else 0
 
     return command
 

@@ -178,13 +178,11 @@ def _experiment_faults(experiment: DefaultExperiment | None) -> Iterator[str]:
     """Find what a host that takes its settings from the description cannot run."""
     if experiment is None:
         return
-    given = {
-        "startTime": experiment.startTime,
-        "stopTime": experiment.stopTime,
-        "stepSize": experiment.stepSize,
-        "tolerance": experiment.tolerance,
+    values = {
+        name: float(text)
+        for name in ("startTime", "stopTime", "stepSize", "tolerance")
+        if (text := getattr(experiment, name)) is not None
     }
-    values = {name: float(text) for name, text in given.items() if text is not None}
     for name, value in values.items():
         if not isfinite(value) or (name in ("stepSize", "tolerance") and not value > 0.0):
             yield f"{name} of the default experiment is {value!r}"

@@ -1,10 +1,9 @@
 """Find steady velocity and blocking force of an FMU by shooting, without a long run."""
 
-from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isfinite
-from typing import Any
+from typing import Any, ClassVar
 
 from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.device.interface import INPUTS, VARIABLES
@@ -26,6 +25,7 @@ from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint, blocked_p
 class SearchResult(Shown):
     """Status, reason and cost of a search.
 
+    What is `searched` is a field, in `unit`.
     `status` is for machines, `reason` for people; `predicted` is the FMU's own output and
     `prediction_valid` what the FMU says of it, None where it has no such output. `inputs` are those
     that were held, in SI units, with friction on `friction_faces`.
@@ -34,6 +34,8 @@ class SearchResult(Shown):
     state over the common period in units of its scale.
     """
 
+    searched: ClassVar[str]
+    unit: ClassVar[str]
     status: str
     reason: str
     predicted: float
@@ -48,13 +50,14 @@ class SearchResult(Shown):
     stable: bool | None = None
 
     @property
-    @abstractmethod
-    def answer(self) -> tuple[str, float | None, str]:
-        """What was searched, its value, None where there is none, and its unit."""
+    def value(self) -> float | None:
+        """What was searched, None where there is none."""
+        found: float | None = getattr(self, self.searched)
+        return found
 
     def describe(self) -> list[str]:
         """Return the answer, why it is one, and what it cost."""
-        what, value, unit = self.answer
+        what, unit, value = self.searched.replace("_", " "), self.unit, self.value
         found = "none" if value is None else f"{readable(value, 10)} {unit}"
         how = "read without a run"
         if self.prediction_valid is False:
@@ -127,13 +130,9 @@ class SteadyMotion(SearchResult):
     no_common_period, no_fixed_point, not_unique or not_converged.
     """
 
+    searched, unit = "steady_velocity", "m/s"
     steady_velocity: float | None = None
     state: Mapping[str, float] = field(default_factory=dict)
-
-    @property
-    def answer(self) -> tuple[str, float | None, str]:
-        """The steady velocity."""
-        return "steady velocity", self.steady_velocity, "m/s"
 
 
 def find_steady(
@@ -212,12 +211,8 @@ class Blocking(SearchResult):
     no_fixed_point, not_unique or not_converged.
     """
 
+    searched, unit = "blocking_force", "N"
     blocking_force: float | None = None
-
-    @property
-    def answer(self) -> tuple[str, float | None, str]:
-        """The blocking force."""
-        return "blocking force", self.blocking_force, "N"
 
 
 def find_blocking(

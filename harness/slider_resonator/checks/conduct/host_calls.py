@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from ctypes import byref, c_char_p, c_double, c_int, c_uint, c_void_p
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,12 +16,12 @@ from fmpy.fmi2 import (
     fmi2ModelExchange,
     fmi2OK,
     fmi2PendingStatus,
-    fmi2ValueReference,
     fmi2Warning,
 )
 
 from slider_resonator.checks.conduct.crowd import crowd_faults, life_faults
 from slider_resonator.checks.conduct.event_mode import event_mode_faults
+from slider_resonator.checks.conduct.findings import is_refused
 from slider_resonator.checks.conduct.process import instance_leaks, process_faults
 from slider_resonator.checks.conduct.refusals import explains
 from slider_resonator.checks.fmu_side import FmuSide
@@ -76,9 +77,7 @@ def host_faults(fmu: FmuSide) -> list[str]:
     if instance.fmu.runs_without_python:
         faults += _other_host_faults(instance, slave)
     faults += _many_values_faults(instance)
-    try:
-        instance.call("fmi2GetReal", None, 0, None)
-    except FMICallException:
+    if is_refused(partial(instance.call, "fmi2GetReal", None, 0, None)):
         faults.append("a call for no values at all is refused")
     faults += _offer_faults(instance, slave)
     with instance.explained():
@@ -261,38 +260,13 @@ def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
         instance.call("fmi2DoStep", instance.time, -1.0, True)
     if slave.dll.fmi2GetStatus(slave.component, 0, byref(status)) == fmi2OK and status.value == 0:
         yield "fmi2GetStatus calls a refused step a success"
-    with suppress(FMICallException):
-        instance.call("fmi2CancelStep")
+    if not is_refused(partial(instance.call, "fmi2CancelStep")):
         yield "fmi2CancelStep is accepted though no step is pending"
 
 
 def derivative_offer_faults(instance: Instance) -> Iterator[str]:
     """Ask for each kind of derivative that the description offers, and for those it does not."""
     offers = instance.fmu.offers
-    position, load = (
-        byref(fmi2ValueReference(instance.fmu.reference(name))) for name in ("position", "load")
-    )
-    order = offers.maxOutputDerivativeOrder or 0
-    if order > 0:
-        try:
-            derivative = (position, 1, byref(c_int(order)), byref(c_double()))
-            instance.call("fmi2GetRealOutputDerivatives", *derivative)
-        except FMICallException:
-            yield f"maxOutputDerivativeOrder is {order}, but position has no such derivative"
-    yield from _wrong_derivative_faults(instance, order)
-    arguments = (position, 1, load, 1, byref(c_double(1.0)), byref(c_double()))
-    try:
-        instance.call("fmi2GetDirectionalDerivative", *arguments)
-    except FMICallException:
-        if offers.providesDirectionalDerivative:
-            yield "providesDirectionalDerivative is true, but that of position by load is refused"
-        return
-    if not offers.providesDirectionalDerivative:
-        yield "fmi2GetDirectionalDerivative is accepted though there are none"
-
-
-def _wrong_derivative_faults(instance: Instance, order: int) -> Iterator[str]:
-    """Ask for derivatives of outputs that there are not, and for two at once."""
     position, velocity, load = map(instance.fmu.reference, ("position", "velocity", "load"))
 
     def derivatives(references: Sequence[int], order: int) -> list[float]:
@@ -302,15 +276,24 @@ def _wrong_derivative_faults(instance: Instance, order: int) -> Iterator[str]:
         instance.call("fmi2GetRealOutputDerivatives", asked, count, orders, values)
         return list(values)
 
+    order = offers.maxOutputDerivativeOrder or 0
+    if order > 0 and is_refused(partial(derivatives, [position], order)):
+        yield f"maxOutputDerivativeOrder is {order}, but position has no such derivative"
     for what, reference, wrong in (
         (f"order {order + 1}", position, order + 1),
         ("order 0", position, 0),
         ("an input", load, 1),
     ):
-        with suppress(FMICallException):
-            derivatives([reference], wrong)
+        if not is_refused(partial(derivatives, [reference], wrong)):
             yield f"an output derivative of {what} is given"
     if order > 0:
         both = derivatives([position, velocity], 1)
         if both != [*derivatives([position], 1), *derivatives([velocity], 1)]:
             yield "derivatives of outputs are others together than one by one"
+    known, unknown = byref(c_uint(load)), byref(c_uint(position))
+    arguments = (unknown, 1, known, 1, byref(c_double(1.0)), byref(c_double()))
+    refused = is_refused(partial(instance.call, "fmi2GetDirectionalDerivative", *arguments))
+    if refused and offers.providesDirectionalDerivative:
+        yield "providesDirectionalDerivative is true, but that of position by load is refused"
+    if not (refused or offers.providesDirectionalDerivative):
+        yield "fmi2GetDirectionalDerivative is accepted though there are none"

@@ -83,13 +83,11 @@ class IsolatedFmu:
             raise
 
     def _start(self, fmu: Path | None) -> None:
+        # -P: the present folder must not be on the search path.
+        child = (sys.executable, "-P", "-m", "slider_resonator.fmu.isolation.child")
         with self._log.open("wb") as log:
             self._process = Supervised(
-                # -P: the present folder must not be on the search path.
-                [
-                    *(sys.executable, "-P", "-m", "slider_resonator.fmu.isolation.child"),
-                    *(str(fmu or ""), repr(self.time_limit), str(self._folder)),
-                ],
+                [*child, str(fmu or ""), repr(self.time_limit), str(self._folder)],
                 self._folder,
                 os.environ.get("PYTHONPATH", ""),
                 stdin=subprocess.PIPE,

@@ -75,7 +75,8 @@ def follow_series(segment: Segment) -> SegmentResult:
             local = elapsed.until(times[sampled:])
             local = local[: np.searchsorted(local, step, side="right")]
             if len(local):
-                kept.append(_values(series.states, local))
+                rows: Array = np.polynomial.polynomial.polyval(local, np.array(series.states).T)
+                kept.append(rows.T)
                 sampled += len(local)
         steps += 1
         elapsed.add(step)
@@ -169,9 +170,3 @@ def _size(row: Series, step: float) -> float:
 
 def _powers(step: float) -> Series:
     return list(accumulate(repeat(step, ORDER), mul, initial=1.0))
-
-
-def _values(rows: list[Series], times: Array) -> Array:
-    """Return the values, shape (n, k), of k series at n times."""
-    values: Array = np.polynomial.polynomial.polyval(times, np.array(rows).T)
-    return values.T
