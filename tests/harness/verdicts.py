@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from slider_resonator.checks.compare import Check
-from slider_resonator.checks.curves import Curves
+from slider_resonator.checks.compare import Check, Curves
 from slider_resonator.checks.validate import NotApplied, RunFailure, Validation
 
 PASSED = Check(

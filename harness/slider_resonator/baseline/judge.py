@@ -5,8 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from slider_resonator.checks.compare import Check, Comparison, compare
-from slider_resonator.checks.curves import Curves, curves_of
+from slider_resonator.checks.compare import Check, Comparison, Curves, compare, curves_of
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measuring import Measurement, measure
 from slider_resonator.errors import NotApplicable, SceneError

@@ -22,8 +22,7 @@ from slider_resonator.baseline.store import (
     scene_digest,
     write_recorded,
 )
-from slider_resonator.checks.compare import Check
-from slider_resonator.checks.curves import Curves
+from slider_resonator.checks.compare import Check, Curves
 from slider_resonator.checks.fmu_side import measure_points
 from slider_resonator.checks.validate import NotApplied, RunFailure, Validation
 from slider_resonator.errors import HarnessError, NotApplicable, SceneError, unknown_name

@@ -47,32 +47,28 @@ def _resolved(method: str, *arguments: Any) -> Mapping[str, Expected]:
     return {name: methodcaller(method, name, *arguments) for name in RESOLVED}
 
 
+_OF_VELOCITY: Mapping[str, Expected] = {
+    "closed_form": lambda references: references.steady.of_paper.predicted_velocity,
+    "averaged": lambda references: references.steady.predicted_velocity,
+}
+_OF_FORCE: Mapping[str, Expected] = {
+    "closed_form": lambda references: references.steady.of_paper.predicted_blocking_force,
+    "averaged": lambda references: references.steady.predicted_blocking_force,
+}
 EXPECTED: Mapping[str, Mapping[str, Expected]] = {
-    "steady_velocity": {
-        "located_events": lambda references: references.steady.steady_velocity,
-        "closed_form": lambda references: references.steady.of_paper.predicted_velocity,
-        "averaged": lambda references: references.steady.predicted_velocity,
-    },
-    "blocking_force": {
-        "located_events": lambda references: references.steady.blocking_force,
-        "closed_form": lambda references: references.steady.of_paper.predicted_blocking_force,
-        "averaged": lambda references: references.steady.predicted_blocking_force,
-    },
+    "steady_velocity": {"located_events": attrgetter("steady.steady_velocity"), **_OF_VELOCITY},
+    "blocking_force": {"located_events": attrgetter("steady.blocking_force"), **_OF_FORCE},
     "predicted_velocity": {
-        "located_events": lambda references: references.steady.full_device.steady_velocity,
-        "closed_form": lambda references: references.steady.of_paper.predicted_velocity,
-        "averaged": lambda references: references.steady.predicted_velocity,
+        "located_events": attrgetter("steady.full_device.steady_velocity"),
+        **_OF_VELOCITY,
     },
     "predicted_blocking_force": {
-        "located_events": lambda references: references.steady.full_device.blocking_force,
-        "closed_form": lambda references: references.steady.of_paper.predicted_blocking_force,
-        "averaged": lambda references: references.steady.predicted_blocking_force,
+        "located_events": attrgetter("steady.full_device.blocking_force"),
+        **_OF_FORCE,
     },
-    "predicted_velocity_in_run": {
-        "averaged": lambda references: references.predictions("predicted_velocity")
-    },
+    "predicted_velocity_in_run": {"averaged": methodcaller("predictions", "predicted_velocity")},
     "predicted_blocking_force_in_run": {
-        "averaged": lambda references: references.predictions("predicted_blocking_force")
+        "averaged": methodcaller("predictions", "predicted_blocking_force")
     },
     "final_predicted_velocity": {
         "located_events": lambda references: references.steady_at_end.full_device.steady_velocity,

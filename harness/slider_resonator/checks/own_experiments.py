@@ -11,8 +11,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.compare import Check, Comparison, compare
-from slider_resonator.checks.curves import Curves
+from slider_resonator.checks.compare import Comparison, Curves, compare
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.validate import RunFailure, Validation
 from slider_resonator.device.device import DEVIATIONS
@@ -87,8 +86,7 @@ def validate_own(
 
 
 def _validate(fmu: Path, progress: Progress, time_limit: float) -> Validation:
-    began, checks, failures = perf_counter(), list[Check](), list[RunFailure]()
-    curves: list[Curves] = []
+    began, judged, failures = perf_counter(), list[Curves](), list[RunFailure]()
     try:
         experiments = own_experiments(fmu)
     except HarnessError as error:
@@ -97,17 +95,15 @@ def _validate(fmu: Path, progress: Progress, time_limit: float) -> Validation:
         point = ScenePoint(experiment.scene)
         progress(f"{fmu.name}: {experiment.scene.name}", index / len(experiments))
         try:
-            for one in _judged(fmu, experiment, point, time_limit):
-                checks.append(one.check)
-                curves += [] if one.check.passed else [one]
+            judged += _judged(fmu, experiment, point, time_limit)
         except HarnessError as error:
             failures.append(RunFailure.of(fmu, point, error))
     return Validation(
         str(fmu),
-        tuple(checks),
+        tuple(one.check for one in judged),
         perf_counter() - began,
         tuple(failures),
-        tuple(curves),
+        tuple(one for one in judged if not one.check.passed),
         lacking(fmu),
         identity=identity_of(fmu),
     )

@@ -8,8 +8,14 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from slider_resonator.checks.compare import Check, Comparison, compare
-from slider_resonator.checks.curves import Curves, curves_of, overview_of
+from slider_resonator.checks.compare import (
+    Check,
+    Comparison,
+    Curves,
+    compare,
+    curves_of,
+    overview_of,
+)
 from slider_resonator.checks.expecting import ExpectedValues
 from slider_resonator.checks.fmu_side import measure_points
 from slider_resonator.checks.measuring import measure_all

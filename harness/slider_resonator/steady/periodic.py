@@ -15,8 +15,8 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.references.averaged.vibrating_contact import mean_load
 from slider_resonator.steady.bristle_reading import bristle_reading
-from slider_resonator.steady.newton import Matrix, Vector
 from slider_resonator.steady.shooting import WARM_UP, PeriodicRun
+from slider_resonator.steady.solvers import Matrix, Vector
 
 STATE = ("velocity", "resonator_displacement", "resonator_velocity")
 """The outputs that are states; the position does not matter, for nothing depends on it."""

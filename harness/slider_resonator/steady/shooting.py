@@ -15,13 +15,13 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from slider_resonator.steady.bracketing import bracketed_state
-from slider_resonator.steady.newton import (
+from slider_resonator.steady.solvers import (
     DIFFERENCE,
     Matrix,
     PeriodMap,
     Root,
     Vector,
+    bracketed_state,
     central_jacobian,
     solve,
 )

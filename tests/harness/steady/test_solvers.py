@@ -5,8 +5,6 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from slider_resonator.steady.bracketing import bracketed_state
-from slider_resonator.steady.newton import Matrix, PeriodMap, Vector, solve
 from slider_resonator.steady.shooting import (
     FixedPoint,
     NoFixedPoint,
@@ -16,6 +14,7 @@ from slider_resonator.steady.shooting import (
     fixed_point,
     steady_point,
 )
+from slider_resonator.steady.solvers import Matrix, PeriodMap, Vector, bracketed_state, solve
 
 
 @pytest.mark.parametrize("scales", [(1.0, 1.0), (1e-6, 1e3)])

@@ -19,10 +19,14 @@ from fmpy.fmi2 import (
     fmi2Warning,
 )
 
-from slider_resonator.checks.conduct.crowd import crowd_faults, life_faults
 from slider_resonator.checks.conduct.event_mode import event_mode_faults
 from slider_resonator.checks.conduct.findings import is_refused
-from slider_resonator.checks.conduct.process import instance_leaks, process_faults
+from slider_resonator.checks.conduct.process import (
+    crowd_faults,
+    instance_leaks,
+    life_faults,
+    process_faults,
+)
 from slider_resonator.checks.conduct.refusals import explains
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import NotApplicable

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from slider_resonator.checks.compare import Check
-from slider_resonator.checks.curves import Curves
+from slider_resonator.checks.compare import Check, Curves
 from slider_resonator.checks.reports.headline import headline
 from slider_resonator.checks.validate import Validation, provenance_of_all, worst_of_sweeps
 from slider_resonator.checks.verdict import TITLE, sentence, sizes, title, value_text

@@ -12,7 +12,7 @@ import os
 import pickle
 import sys
 import traceback
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from functools import partial
 from pathlib import Path
 from typing import BinaryIO
@@ -64,11 +64,13 @@ def main() -> None:
             instance = stack.enter_context(instantiate(fmu)) if fmu is not None else None
             faulthandler.cancel_dump_traceback_later()
             _send(messages, Result())
-            while request := _next(requests):
-                begin()
-                message = _run(instance, request, messages)
-                faulthandler.cancel_dump_traceback_later()
-                _send(messages, message)
+            with suppress(EOFError):  # there are no more requests
+                while True:
+                    request: Request = pickle.load(requests)
+                    begin()
+                    message = _run(instance, request, messages)
+                    faulthandler.cancel_dump_traceback_later()
+                    _send(messages, message)
             begin()
     except HarnessError as error:
         _send(messages, Failure(error))
@@ -82,14 +84,6 @@ def _take_standard_streams() -> tuple[BinaryIO, BinaryIO]:
     os.close(nothing)
     os.dup2(2, 1)
     return requests, messages
-
-
-def _next(requests: BinaryIO) -> Request | None:
-    try:
-        request: Request = pickle.load(requests)
-    except EOFError:
-        return None
-    return request
 
 
 def _run(instance: Instance | None, request: Request, messages: BinaryIO) -> Message:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import slider_resonator
-from slider_resonator.checks.curves import Curves
+from slider_resonator.checks.compare import Curves
 from slider_resonator.checks.reports import html_report
 from slider_resonator.checks.reports.html_report import MAX_UNFOLDED, write_html
 from slider_resonator.checks.validate import Validation
