@@ -171,14 +171,27 @@ def accept(fmu: Path, folder: Path, names: Sequence[str]) -> tuple[str, ...]:
 
 
 def scenes_recorded(folder: Path) -> list[Scene]:
-    """Return the scenes of everything recorded; HarnessError where that is nothing."""
+    """Return the scenes of everything recorded; HarnessError where that is nothing.
+
+    A built-in one is found by its name, others where they were.
+    """
     folders = recorded_scenes(folder)
     if not folders:
         raise HarnessError(
             f"{folder}: nothing is recorded here; `slider-resonator baseline record FMU --dir "
             f"{folder}` does so"
         )
-    return [_scene_of(path) for path in folders]
+    found = []
+    for path in folders:
+        file = read_recorded(path).provenance.get(SCENE_FILE, BUILT_IN)
+        if file == BUILT_IN and path.name not in built_in_scenes():
+            raise SceneError(
+                f"{path}: recorded of a built-in scene that this version does not have; remove the "
+                "folder, or name with --scene what to check"
+            )
+        name = path.name if file == BUILT_IN else f"{path.parent / file}#{path.name}"
+        found.append(find_scene(name))
+    return found
 
 
 def _measure(
@@ -213,19 +226,6 @@ def _measure(
     whole = [source for source in points if len(found[source]) == len(points[source])]
     recorded = {source: Recorded(found[source], origins[source]) for source in whole}
     return recorded, run_failures, not_applied
-
-
-def _scene_of(path: Path) -> Scene:
-    """Return the scene that is recorded: a built-in one by its name, others where they were."""
-    file = read_recorded(path).provenance.get(SCENE_FILE, BUILT_IN)
-    if file != BUILT_IN:
-        return find_scene(f"{path.parent / file}#{path.name}")
-    if path.name not in built_in_scenes():
-        raise SceneError(
-            f"{path}: recorded of a built-in scene that this version does not have; remove the "
-            "folder, or name with --scene what to check"
-        )
-    return find_scene(path.name)
 
 
 def _compare(

@@ -46,7 +46,7 @@ def load(fmu: Fmu, name: str) -> FMU2Slave | FMU3Slave:
         return slave(
             instanceName=name,
             guid=fmu.description.guid,
-            modelIdentifier=fmu.identifier,
+            modelIdentifier=fmu.offers.modelIdentifier,
             unzipDirectory=str(fmu.folder),
         )
 

@@ -49,11 +49,6 @@ class Fmu:
         return "3.0" if self.description.fmiVersion.startswith("3.") else "2.0"
 
     @property
-    def identifier(self) -> str:
-        """The model identifier, which is also the name of the binary."""
-        return str(self.offers.modelIdentifier)
-
-    @property
     def runs_without_python(self) -> bool:
         """Whether a host without Python can load it: it contains no Python sources."""
         return not any((self.folder / "resources").glob("*.py"))

@@ -90,8 +90,8 @@ def _bristles(random: Random, values: Mapping[str, float]) -> dict[str, float]:
     }
 
 
-def _duration(random: Random, device: Device, model: Model) -> float:
-    """Return the length of a run, s."""
+def _times(random: Random, device: Device, model: Model) -> list[float]:
+    """Return the communication points (s), at random or in equal steps with a shorter last one."""
     low, high = AVERAGED_PERIODS if model.averages else RESOLVED_PERIODS
     if model.leaps:
         low, high = SECOND_ORDER_PERIODS
@@ -100,11 +100,6 @@ def _duration(random: Random, device: Device, model: Model) -> float:
         fast = equivalent_force(device).velocity_amplitude
         longest = MAX_LUGRE_RELAXATIONS * device.total_mass * fast / device.mean_friction
         duration = min(duration, longest)
-    return duration
-
-
-def _times(random: Random, duration: float, model: Model) -> list[float]:
-    """Return the communication points (s), at random or in equal steps with a shorter last one."""
     count = random.randint(1, 60)
     if model.leaps and random.random() < 0.5:
         count = random.randint(1, SECOND_ORDER_STEPS)
@@ -118,7 +113,7 @@ def _times(random: Random, duration: float, model: Model) -> list[float]:
 
 def _holds(random: Random, device: Device, model: Model) -> tuple[Hold, ...]:
     """Return steps whose inputs jump a few times, and whose parameters are tuned there."""
-    times = _times(random, _duration(random, device, model), model)
+    times = _times(random, device, model)
     jumps = sorted({0, *(random.randrange(len(times)) for _ in range(random.randint(0, 4)))})
     starts = [jump for jump in jumps if jump < len(times) - 1]
     load = device.mean_friction * random.choice((0.0, 0.3, 1.2))

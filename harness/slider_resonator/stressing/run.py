@@ -157,15 +157,15 @@ class StressResult(Shown, Tabular):
     @property
     def summary(self) -> str:
         """The counts and the worst cost, in words."""
-        compared = sum(one.has(REFERENCE) for one in self.verdicts)
+        made = Counter(check.name for one in self.verdicts for check in one.checks)
         counts = ", ".join(f"{count} {verdict}" for verdict, count in self.counts.items())
         skipped = f"{self.skipped} skipped: not for this FMU" if self.skipped else "none skipped"
         not_run = f", {self.not_run} not run: incomplete" if self.not_run else ""
         lines = [
             f"{number_of(len(self.verdicts), 'case')}: {counts}, {skipped}{not_run}; "
             f"{self.wall_time:.0f} s",
-            f"{number_of(compared, 'case')} compared with a reference, "
-            f"which gave up in {sum(one.has(NO_REFERENCE) for one in self.verdicts)} others",
+            f"{number_of(made[REFERENCE], 'case')} compared with a reference, "
+            f"which gave up in {made[NO_REFERENCE]} others",
         ]
         worst = self.most_expensive
         if worst is not None:

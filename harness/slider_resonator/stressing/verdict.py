@@ -79,10 +79,6 @@ class Verdict:
         """Return the command that runs the case again and prints its values."""
         return shlex.join(("slider-resonator", "stress", fmu, "--case", self.name))
 
-    def has(self, check: str) -> bool:
-        """Whether a check of this name was made."""
-        return any(one.name == check for one in self.checks)
-
 
 def verdict_on(case: Case, verdict: str, reason: str = "") -> Verdict:
     """Return a verdict on a case without checks: a refusal, a crash, an exceeded limit."""

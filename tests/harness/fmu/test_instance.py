@@ -86,7 +86,7 @@ def test_loading_a_library_leaves_the_working_folder_as_it_is(
     assert capfd.readouterr().err == "", "nobody complains that they were not started"
     broken = tmp_path / "broken"
     shutil.copytree(fmu.folder, broken)
-    for library in (broken / "binaries").rglob(f"{fmu.identifier}.*"):
+    for library in (broken / "binaries").rglob(f"{fmu.offers.modelIdentifier}.*"):
         library.write_bytes(b"no library")
     with (
         pytest.raises(FmuError, match="cannot be instantiated"),

@@ -43,7 +43,12 @@ MAX_WRITTEN = 2**26
 def main() -> None:
     """Instantiate the FMU and run tasks until there are no more requests."""
     path, limit, folder = sys.argv[1], float(sys.argv[2]), Path(sys.argv[3])
-    requests, messages = _take_standard_streams()
+    # Standard input and output, moved to descriptors that the FMU does not know.
+    requests, messages = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nothing, 0)
+    os.close(nothing)
+    os.dup2(2, 1)
     if sys.platform != "win32":
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_WRITTEN, MAX_WRITTEN))
@@ -74,16 +79,6 @@ def main() -> None:
             begin()
     except HarnessError as error:
         _send(messages, Failure(error))
-
-
-def _take_standard_streams() -> tuple[BinaryIO, BinaryIO]:
-    """Return standard input and output, moved to descriptors that the FMU does not know."""
-    requests, messages = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
-    nothing = os.open(os.devnull, os.O_RDONLY)
-    os.dup2(nothing, 0)
-    os.close(nothing)
-    os.dup2(2, 1)
-    return requests, messages
 
 
 def _run(instance: Instance | None, request: Request, messages: BinaryIO) -> Message:

@@ -3,6 +3,7 @@
 import re
 import signal
 from collections.abc import Mapping
+from contextlib import suppress
 
 from slider_resonator.fmu.isolation.supervised import Ending
 from slider_resonator.fmu.isolation.supervisor import MAX_PROCESSES
@@ -72,15 +73,11 @@ def crash_report(printed: str, trace: str, ending: Ending, limit: float) -> str:
     elif missed_limit(trace, ending):
         report = f"no answer within the time limit of {limit:g} s{where}: the FMU was ended"
     else:
-        report = f"the FMU crashed{where}: its process ended with {_ending(ending.code)}"
+        end = f"exit code {ending.code}"
+        if ending.code is not None and ending.code < 0:
+            end = f"signal {-ending.code}"
+            with suppress(ValueError):
+                end = signal.Signals(-ending.code).name
+        report = f"the FMU crashed{where}: its process ended with {end}"
     own = " ".join(printed.split())[-MAX_PRINTED:]
     return f"{report}; it printed: {own}" if own else report
-
-
-def _ending(code: int | None) -> str:
-    if code is not None and code < 0:
-        try:
-            return signal.Signals(-code).name
-        except ValueError:
-            return f"signal {-code}"
-    return f"exit code {code}"
