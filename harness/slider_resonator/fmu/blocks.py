@@ -32,33 +32,24 @@ class Block:
 
     def __init__(self, slave: FMU2Slave | Fmi3Slave, references: Sequence[int]) -> None:
         size = len(references)
-        self.values = (c_double * size)()
-        arguments = (fmi2ValueReference * size)(*references), size, self.values
-        self._get = partial(call, slave, "fmi2GetReal", *arguments)
-        self._set = partial(call, slave, "fmi2SetReal", *arguments)
+        self._values = (c_double * size)()
+        variables = (fmi2ValueReference * size)(*references), size
+        self._get = partial(call, slave, "fmi2GetReal", *variables, self._values)
+        self._set = partial(call, slave, "fmi2SetReal", *variables, self._values)
+        first = (fmi2Integer * size)(*[1] * size), self._values
+        self._set_rates = partial(call, slave, "fmi2SetRealInputDerivatives", *variables, *first)
 
     def read(self) -> list[float]:
         """Return the current values."""
         self._get()
-        return self.values[:]
+        return self._values[:]
 
     def write(self, values: Sequence[float]) -> None:
         """Set the variables."""
-        self.values[:] = list(values)
-        self._set()
-
-
-class Derivatives:
-    """First derivatives of a fixed set of inputs, written many times without allocation."""
-
-    def __init__(self, slave: FMU2Slave | Fmi3Slave, references: Sequence[int]) -> None:
-        size = len(references)
-        self._values = (c_double * size)()
-        orders = (fmi2Integer * size)(*[1] * size)
-        arguments = (fmi2ValueReference * size)(*references), size, orders, self._values
-        self._set = partial(call, slave, "fmi2SetRealInputDerivatives", *arguments)
-
-    def write(self, values: Sequence[float]) -> None:
-        """Set the derivatives."""
         self._values[:] = list(values)
         self._set()
+
+    def write_rates(self, rates: Sequence[float]) -> None:
+        """Set the first derivatives of the variables, which are inputs."""
+        self._values[:] = list(rates)
+        self._set_rates()

@@ -18,7 +18,7 @@ from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.values import check_integer
 from slider_resonator.errors import FmuError, Refusal
 from slider_resonator.fmu import fmu_log
-from slider_resonator.fmu.blocks import Block, Derivatives, call
+from slider_resonator.fmu.blocks import Block, call
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.opening import Fmu
 
@@ -101,7 +101,6 @@ class Instance:
         self._readable: dict[tuple[str, ...], _Plan] = {}
         self._blocks: dict[tuple[str, ...], Block] = {}
         self._inputs = self.block(list(INPUTS))
-        self._rates: Derivatives | None = None
 
     def call(self, name: str, *arguments: Any) -> None:
         """Call a function of FMI 2.0 by its name; raises FMICallException."""
@@ -209,11 +208,8 @@ class Instance:
 
         Raises NotApplicable for an FMU that takes none.
         """
-        if self._rates is None:
-            self.fmu.require("canInterpolateInputs")
-            references = [self.fmu.reference(name) for name in INPUTS]
-            self._rates = Derivatives(self.slave, references)
-        self._rates.write(values)
+        self.fmu.require("canInterpolateInputs")
+        self._inputs.write_rates(values)
 
     def step_to(self, target: float) -> None:
         """Advance to `target` (s)."""

@@ -8,7 +8,6 @@ from slider_resonator.checks.conduct.replays import Replay, Rows
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.fmu.blocks import Derivatives
 from slider_resonator.fmu.instance import Instance, SavedState
 
 AWAY = 1e-4
@@ -112,18 +111,14 @@ def _without_zeros(instance: Instance, schedule: Schedule, step: int) -> None:
     rates = schedule.rates[step].tolist()
     for name, rate in zip(INPUTS, rates, strict=True):
         if rate:
-            _set_rate(instance, name, rate)
+            instance.block([name]).write_rates([rate])
 
 
 def _one_by_one(instance: Instance, schedule: Schedule, step: int) -> None:
     values, rates = schedule.sampled[step].tolist(), schedule.rates[step].tolist()
     for name, value, rate in zip(INPUTS, values, rates, strict=True):
-        _set_rate(instance, name, rate)
+        instance.block([name]).write_rates([rate])
         instance.set({name: value})
-
-
-def _set_rate(instance: Instance, name: str, rate: float) -> None:
-    Derivatives(instance.slave, [instance.fmu.reference(name)]).write([rate])
 
 
 WAYS: dict[str, Callable[[Instance, Schedule, int], None]] = {

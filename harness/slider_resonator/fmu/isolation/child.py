@@ -90,20 +90,21 @@ def _run(instance: Instance | None, request: Request, messages: BinaryIO) -> Mes
     except HarnessError as error:
         return Failure(error)
     except Exception:
-        return _internal(traceback.format_exc())
+        return _internal()
 
 
 def _send(messages: BinaryIO, message: Message) -> None:
     try:
         content = pickle.dumps(message)
     except Exception:  # pickle raises anything
-        content = pickle.dumps(_internal(traceback.format_exc()))
+        content = pickle.dumps(_internal())
     messages.write(content)
     messages.flush()
 
 
-def _internal(trace: str) -> Failure:
+def _internal() -> Failure:
     """Return the failure of a task that raised an unexpected exception, a programming error."""
+    trace = traceback.format_exc()
     return Failure(RuntimeError(f"a task failed in the process of the FMU:\n{trace}"))
 
 

@@ -17,6 +17,7 @@ _CALLS: Mapping[str, str] = {
     "step_by": "fmi2DoStep",
     "read": "fmi2GetReal",
     "write": "fmi2SetReal",
+    "write_rates": "fmi2SetRealInputDerivatives",
     "value": "fmi2GetReal or fmi2GetInteger",
     "start": "initialisation",
     "instantiate": "fmi2Instantiate",
