@@ -145,7 +145,7 @@ def _of_signals(curves: Curves, where: str) -> list[HoverPlot]:
 def _over_sweep(checks: Sequence[Check]) -> list[HoverPlot]:
     """Return the plots of the first number that has a reference over the sweep, if there is one."""
     swept = [
-        check
+        (check, check.fmu, check.reference)
         for check in checks
         if isinstance(check.fmu, float)
         and isinstance(check.reference, float)
@@ -154,14 +154,13 @@ def _over_sweep(checks: Sequence[Check]) -> list[HoverPlot]:
     ]
     if not swept:
         return []
-    first, variable = swept[0], next(iter(swept[0].at))
-    same = [c for c in swept if (c.quantity, c.against) == (first.quantity, first.against)]
-    same.sort(key=lambda check: check.at[variable])
-    x = [check.at[variable] for check in same]
-    fmu, reference = (
-        [value for value in values if isinstance(value, float)]
-        for values in ([c.fmu for c in same], [c.reference for c in same])
-    )
+    (first, _, _), (variable,) = swept[0], swept[0][0].at
+    points = [
+        (check.at[variable], fmu, reference)
+        for check, fmu, reference in sorted(swept, key=lambda one: one[0].at[variable])
+        if (check.quantity, check.against) == (first.quantity, first.against)
+    ]
+    x, fmu, reference = ([*column] for column in zip(*points, strict=True))
     is_wide = x[0] > 0.0 and math.log10(x[-1] / x[0]) >= MIN_DECADES
     name = first.quantity.replace("_", " ")
     return _overlay(

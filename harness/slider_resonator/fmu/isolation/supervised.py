@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO
+from typing import Any
 
 from slider_resonator.fmu.limits import MEMORY, max_bytes
 
@@ -46,20 +46,13 @@ class Ending:
 class Supervised:
     """A running program in a session of its own, with `folder` for its temporary files.
 
-    It can import this package, and what is on `search_path`; the streams are those of
-    `subprocess.Popen`. On Windows what the program has started is not ended; on other systems than
-    Linux a child that has left the program's session is not.
+    It can import this package, and what is on `search_path`; `streams` are stdin, stdout and stderr
+    of `subprocess.Popen`. On Windows what the program has started is not ended; on other systems
+    than Linux a child that has left the program's session is not.
     """
 
     def __init__(
-        self,
-        command: Sequence[str],
-        folder: Path,
-        search_path: str = "",
-        *,
-        stdin: int | IO[bytes],
-        stdout: int | IO[bytes],
-        stderr: int | IO[bytes],
+        self, command: Sequence[str], folder: Path, search_path: str = "", **streams: Any
     ) -> None:
         self._folder = folder
         self._ending: Ending | None = None
@@ -70,9 +63,7 @@ class Supervised:
             "PYTHONPATH": os.pathsep.join(filter(None, [PACKAGE_PATH, search_path])),
         }
         if sys.platform == "win32":
-            self.process = subprocess.Popen(
-                command, env=environment, stdin=stdin, stdout=stdout, stderr=stderr
-            )
+            self.process = subprocess.Popen(command, env=environment, **streams)
             return
         self._control, theirs = socket.socketpair()
         with theirs:
@@ -82,9 +73,7 @@ class Supervised:
                 env=environment,
                 pass_fds=[theirs.fileno()],
                 start_new_session=True,
-                stdin=stdin,
-                stdout=stdout,
-                stderr=stderr,
+                **streams,
             )
 
     def poll(self) -> bool:
