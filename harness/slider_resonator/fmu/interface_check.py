@@ -115,10 +115,17 @@ def interface_problems(description: ModelDescription) -> list[str]:
     found = {variable.name: variable for variable in description.modelVariables}
     problems: list[str] = []
     for name, variable in VARIABLES.items():
-        if name in found:
-            problems += _departures(found[name], variable)
-        elif variable.since == FIRST:
-            problems.append(f"{variable.causality} {name} is missing")
+        if name not in found:
+            if variable.since == FIRST:
+                problems.append(f"{variable.causality} {name} is missing")
+            continue
+        own = found[name]
+        if own.causality != variable.causality:
+            problems.append(f"{name} is {own.causality}, must be {variable.causality}")
+        if own.type != variable.kind:
+            problems.append(f"{name} is of type {own.type}, must be {variable.kind}")
+        if (unit := _attribute(own, "unit") or "1") != variable.unit:
+            problems.append(f"{name} has unit {unit}, must be {variable.unit}")
     for unit in dict.fromkeys(variable.unit for variable in VARIABLES.values()):
         problems += unit_problems(unit, description.unitDefinitions)
     return problems
@@ -195,17 +202,6 @@ def _experiment_faults(experiment: DefaultExperiment | None) -> Iterator[str]:
     elif values.get("stepSize", 0.0) > stop - start:
         step = values["stepSize"]
         yield f"stepSize of the default experiment is {step!r} s, longer than all of it"
-
-
-def _departures(found: ModelVariable, variable: Variable) -> Iterator[str]:
-    name = found.name
-    if found.causality != variable.causality:
-        yield f"{name} is {found.causality}, must be {variable.causality}"
-    if found.type != variable.kind:
-        yield f"{name} is of type {found.type}, must be {variable.kind}"
-    unit = _attribute(found, "unit") or "1"
-    if unit != variable.unit:
-        yield f"{name} has unit {unit}, must be {variable.unit}"
 
 
 def _other_values(found: ModelVariable, variable: Variable) -> Iterator[str]:

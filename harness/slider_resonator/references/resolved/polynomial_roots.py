@@ -32,19 +32,18 @@ def first_fall(terms: Array, noise: float) -> float | None:
     deflated = terms[first:]
     if deflated[0] < 0.0:
         return 0.0
-    bernstein = _to_bernstein(len(deflated) - 1) @ deflated
+    to_bernstein, _ = _matrices(len(deflated) - 1)
+    bernstein = to_bernstein @ deflated
     bracket = _first_bracket(bernstein, 0.0, 1.0, noise, _HALVINGS)
     return None if bracket is None else _root(deflated[::-1].tolist(), *bracket)
 
 
 @cache
-def _to_bernstein(degree: int) -> Array:
-    return np.array(
-        [
-            [comb(row, column) / comb(degree, column) for column in range(degree + 1)]
-            for row in range(degree + 1)
-        ]
-    )
+def _matrices(degree: int) -> tuple[Array, Array]:
+    """Return that to Bernstein form, and that of de Casteljau's algorithm for the first half."""
+    sizes = range(degree + 1)
+    binomials = np.array([[float(comb(row, column)) for column in sizes] for row in sizes])
+    return binomials / binomials[-1], binomials / 2.0 ** np.arange(degree + 1.0)[:, None]
 
 
 def _first_bracket(
@@ -57,24 +56,13 @@ def _first_bracket(
         return None
     if changes == 1 and bernstein[0] > 0.0 > bernstein[-1]:
         return left, right
-    halving = _halving(len(bernstein) - 1)
+    _, halving = _matrices(len(bernstein) - 1)
     middle = 0.5 * (left + right)
     bracket = _first_bracket(halving @ bernstein, left, middle, noise, halvings - 1)
     if bracket is not None:
         return bracket
     second = halving[::-1, ::-1] @ bernstein
     return _first_bracket(second, middle, right, noise, halvings - 1)
-
-
-@cache
-def _halving(degree: int) -> Array:
-    """Return the matrix of de Casteljau's algorithm for the first half of an interval."""
-    return np.array(
-        [
-            [comb(row, column) / 2.0**row for column in range(degree + 1)]
-            for row in range(degree + 1)
-        ]
-    )
 
 
 def _root(descending: list[float], left: float, right: float) -> float:
