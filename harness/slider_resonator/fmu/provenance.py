@@ -112,13 +112,10 @@ def _date() -> str:
     return datetime.fromtimestamp(int(given), UTC).isoformat(timespec="seconds")
 
 
-HEADING = "Provenance"
-
-
 def provenance_html(provenance: Provenance) -> str:
     """Return a section of a page."""
     tables = "".join(html_page.rendered(one) for one in _tables(provenance))
-    return f'<section id="provenance"><h2>{HEADING}</h2>{tables}</section>'
+    return f'<section id="provenance"><h2>Provenance</h2>{tables}</section>'
 
 
 def provenance_markdown(provenance: Provenance) -> str:

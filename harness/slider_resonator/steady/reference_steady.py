@@ -39,8 +39,7 @@ def reference_steady_velocity(
     """Return the mean velocity (m/s) of the steady motion, None where none is found.
 
     `phase` in rad, `load` in N; `guess` (m/s) is where the search begins. `simulate` is any
-    integrator, `tolerance` that of the state in units of its
-    scale.
+    integrator, `tolerance` that of the state in units of its scale.
     """
     count = common_period(ratio)
     if count is None:

@@ -17,8 +17,7 @@ from slider_resonator.references.averaged.averaged_motion import AveragedMotion,
 from slider_resonator.references.averaged.device_average import full_friction, mean_friction
 from slider_resonator.references.equivalent_force import EquivalentForce, equivalent_force
 from slider_resonator.references.phase import advanced
-
-_LIFTED = 2
+from slider_resonator.references.resolved.contact import LIFTED
 
 
 @dataclass(frozen=True)
@@ -66,7 +65,7 @@ def averaged_outputs(
                 frequency * force.resonator_amplitude * np.cos(swing),
                 np.maximum(0.0, normal),
                 [_friction(tuned, force, inputs.load, *one) for one in sampled.tolist()],
-                np.where(normal > 0.0, np.sign(motion.velocity[here]), float(_LIFTED)),
+                np.where(normal > 0.0, np.sign(motion.velocity[here]), float(LIFTED)),
             ]
         )
         span = frequency * (inputs.stop - inputs.start)
