@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from slider_resonator.arrays import Array
 from slider_resonator.checks.compare import MAX_POINTS, Curves, curves_of, overview_of
 from slider_resonator.checks.measures import (
     Tube,

@@ -11,7 +11,7 @@ from numpy.polynomial import Polynomial
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.averaged.averaged_motion import simulate_averaged
+from slider_resonator.references.averaged.averaged_motion import simulate_averaged, slow_trajectory
 from slider_resonator.references.averaged.averaged_outputs import averaged_outputs
 from slider_resonator.references.averaged.device_average import prediction_valid, stable_velocity
 from slider_resonator.references.equivalent_force import equivalent_force
