@@ -13,8 +13,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fitting.curves import abscissa_and_curves, set_value
 from slider_resonator.fitting.measurements import Measurements, Point
-from slider_resonator.output.plot_style import COLOURS, Picture, style
-from slider_resonator.output.plot_units import Drawn, drawn, plot_unit
+from slider_resonator.output.plot_style import COLOURS, Drawn, Picture, drawn, plot_unit, style
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,11 @@
-"""The common style of all figures."""
+"""What all figures have in common: style, units of curves, ranges of axes."""
 
 import base64
 import io
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from math import inf, pi
 from pathlib import Path
 from typing import Any
 
@@ -103,3 +105,88 @@ def shade_directions(axes: Axes, abscissa: Array, modes: Array) -> list[Patch]:
         axes.axvspan(left, right, color=CONTACT[round(modes[first])][1], linewidth=0.0, zorder=0)
     present = sorted({round(mode) for mode in modes})
     return [Patch(color=CONTACT[mode][1], label=CONTACT[mode][0]) for mode in present]
+
+
+_LADDERS: Mapping[str, Sequence[tuple[float, float, str]]] = {
+    "m": ((1e-4, 1e6, "um"), (2.0, 1e3, "mm")),
+    "m/s": ((2.0, 1e3, "mm/s"),),
+    "s": ((2.0, 1e3, "ms"),),
+    "N": ((0.5, 1e3, "mN"),),
+    "W": ((0.5, 1e3, "mW"),),
+    "kg": ((0.5, 1e3, "g"),),
+    "rad": ((inf, 180.0 / pi, "deg"),),
+    "rad/s": ((2e4 * pi, 0.5 / pi, "Hz"), (inf, 5e-4 / pi, "kHz")),
+}
+"""For a unit, the peaks below which another unit suits curves, with the factor to it."""
+
+
+def plot_unit(unit: str, *curves: Array) -> tuple[float, str]:
+    """Return the factor from `unit` to the unit that suits the peak of these curves, and that unit.
+
+    Each curve has shape (n,); all share the unit, so that they can be compared in one panel.
+    """
+    peak = max((float(np.abs(curve).max()) for curve in curves if curve.size), default=0.0)
+    for limit, factor, smaller in _LADDERS.get(unit, ()):
+        if peak < limit:
+            return factor, smaller
+    return 1.0, unit
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A quantity as it is drawn: `values` (n,) in `unit`, NaN where there is none."""
+
+    words: str
+    unit: str
+    values: Array
+
+    @property
+    def label(self) -> str:
+        """The label of an axis."""
+        return f"{self.words} [{self.unit}]"
+
+    def named(self, value: float) -> str:
+        """Return the name of a line of one value in `unit`."""
+        return f"{self.words} {value:.4g} {self.unit}".removesuffix(" 1")
+
+
+def drawn(name: str, unit: str, values: Array) -> Drawn:
+    """Return a quantity of this name, whose values (n,) are in `unit`, as it is drawn."""
+    factor, suited = plot_unit(unit, values[np.isfinite(values)])
+    return Drawn(name.replace("_", " "), suited, factor * values)
+
+
+START = 0.1
+"""Share of the time of a curve that counts as its start."""
+FAR = 2.0
+"""How far outside a start must be, in widths of the range that follows."""
+ROUNDING = 1e-6
+"""Width below which what follows is no more than rest, as a share of the whole."""
+MARGIN = 0.06
+
+
+def range_after_start(times: Array, *curves: Array) -> tuple[float, float] | None:
+    """Return the range of curves after a start that is far outside it, with 0 and a margin.
+
+    `times` and curves have shape (n,). None where the start is not far outside.
+    """
+    later = times >= times[0] + START * (times[-1] - times[0])
+    values = np.array(curves)
+    lowest, highest = min(0.0, np.min(values)), max(0.0, np.max(values))
+    low, high = min(0.0, np.min(values[:, later])), max(0.0, np.max(values[:, later]))
+    width = high - low
+    far = max(highest - high, low - lowest) > FAR * width > FAR * ROUNDING * (highest - lowest)
+    return (low - MARGIN * width, high + MARGIN * width) if far else None
+
+
+def words_for_start(*curves: Array) -> str:
+    """Return what a plot says whose range leaves out the start of curves."""
+    return f"start beyond the axis: {np.min(curves):.3g} to {np.max(curves):.3g}"
+
+
+def limit_to_later(axes: Axes, times: Array, *curves: Array) -> None:
+    """Let what follows a start far outside set the axis of y, and say so above the plot."""
+    found = range_after_start(times, *curves)
+    if found is not None:
+        axes.set_ylim(found)
+        axes.set_title(words_for_start(*curves), loc="right", fontsize=8, pad=2.0)

@@ -12,9 +12,15 @@ from slider_resonator.device.drive_periods import DrivePeriods
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.run import Record
-from slider_resonator.output.plot_style import COLOURS, Picture, shade_directions, style
-from slider_resonator.output.plot_units import drawn, plot_unit
-from slider_resonator.output.start_beyond import limit_to_later
+from slider_resonator.output.plot_style import (
+    COLOURS,
+    Picture,
+    drawn,
+    limit_to_later,
+    plot_unit,
+    shade_directions,
+    style,
+)
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.signals_plot import schedule_for_window
 

@@ -16,9 +16,14 @@ from slider_resonator.device.interface import ALL_OUTPUTS, INPUTS, VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.run import Record
-from slider_resonator.output.plot_style import CONTACT, save, shade_directions, style
-from slider_resonator.output.plot_units import plot_unit
-from slider_resonator.output.start_beyond import limit_to_later
+from slider_resonator.output.plot_style import (
+    CONTACT,
+    limit_to_later,
+    plot_unit,
+    save,
+    shade_directions,
+    style,
+)
 from slider_resonator.scenes.scene import Scene
 
 SIGNALS = (

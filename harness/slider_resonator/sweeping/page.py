@@ -22,7 +22,7 @@ from slider_resonator.output.hover_plot import (
     write_plot_page,
 )
 from slider_resonator.output.html_page import escaped, rendered
-from slider_resonator.output.plot_units import Drawn, drawn
+from slider_resonator.output.plot_style import Drawn, drawn
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Row, Table, numbers, texts
 from slider_resonator.sweeping.grid import Sweep

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.errors import HarnessError
-from slider_resonator.output.plot_style import Picture, style
-from slider_resonator.output.plot_units import Drawn, drawn
+from slider_resonator.output.plot_style import Drawn, Picture, drawn, style
 from slider_resonator.sweeping.grid import Sweep
 from slider_resonator.sweeping.measures import unit
 from slider_resonator.sweeping.table import Columns

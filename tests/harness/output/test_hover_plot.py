@@ -19,7 +19,7 @@ from slider_resonator.output.hover_plot import (
     plot_html,
     write_plot_page,
 )
-from slider_resonator.output.plot_units import plot_unit
+from slider_resonator.output.plot_style import plot_unit
 from tests.html_pages import Page
 
 SERIES = Series("an FMU", [1.0, 2.0], [0.5, None], "#000", notes=["one", "two"])

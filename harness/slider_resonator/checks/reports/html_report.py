@@ -14,8 +14,8 @@ from slider_resonator.device.interface import SETTABLE
 from slider_resonator.fmu.provenance import provenance_html
 from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, plot_html, write_plot_page
 from slider_resonator.output.html_page import escaped, folded, rendered, section
+from slider_resonator.output.plot_style import range_after_start, words_for_start
 from slider_resonator.output.readable import number_of
-from slider_resonator.output.start_beyond import range_after_start, words_for_start
 from slider_resonator.output.table import Cell, Row, Table, numbers, texts, verdict
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
