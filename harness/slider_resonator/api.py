@@ -35,8 +35,8 @@ from slider_resonator.checks.validate import Validation
 from slider_resonator.checks.validate import validate as validate_scenes
 from slider_resonator.choosing import Choice
 from slider_resonator.choosing import choose as choose_model
-from slider_resonator.device.common_period import MAX_DENOMINATOR
 from slider_resonator.device.device import Device
+from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import HarnessError, SceneError, unknown_name

@@ -1,7 +1,9 @@
-"""The periods of a drive whose frequency may change over a run."""
+"""The periods of a drive whose frequency may change, and those after which its run repeats."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
 from math import tau
 
 import numpy as np
@@ -10,6 +12,11 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 
+MAX_DENOMINATOR = 20
+"""Largest number of drive periods that counts as a common period, by default."""
+
+MAX_DEVIATION = 1e-12
+"""Largest distance of a frequency ratio from p/q, relative to max(ratio, 1)."""
 _ENDED = 1e-9
 """Share of a drive period that may be missing from one that counts as ended."""
 
@@ -67,3 +74,11 @@ def drive_periods(device: Device, held: Sequence[HeldInputs]) -> DrivePeriods:
     passed = [r * (h.stop - h.start) / tau for r, h in zip(rates, held, strict=True)]
     times = (held[0].start, *(inputs.stop for inputs in held))
     return DrivePeriods(period, times, (0.0, *np.cumsum(passed).tolist()))
+
+
+@lru_cache(maxsize=1024)  # sweeps ask for the same few again and again
+def common_period(frequency_ratio: float, max_denominator: int = MAX_DENOMINATOR) -> int | None:
+    """Return the q of frequency_ratio = p/q in lowest terms, None where it exceeds the maximum."""
+    fraction = Fraction(frequency_ratio).limit_denominator(max_denominator)
+    near = abs(float(fraction) - frequency_ratio) <= MAX_DEVIATION * max(1.0, abs(frequency_ratio))
+    return fraction.denominator if near else None

@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.common_period import common_period
+from slider_resonator.device.drive_periods import common_period
 from slider_resonator.device.schedule import nearest
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import FmuError

@@ -18,8 +18,8 @@ from typing import Literal
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
+from slider_resonator.device.drive_periods import common_period
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
+from slider_resonator.device.drive_periods import common_period
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.simulate import simulate as simulate_resolved

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any, ClassVar
 
-from slider_resonator.device.common_period import MAX_DENOMINATOR
+from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.device.interface import INPUTS, VARIABLES
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.progress import Progress, no_progress

@@ -18,7 +18,7 @@ from pydantic import (
     model_validator,
 )
 
-from slider_resonator.device.common_period import MAX_DENOMINATOR
+from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import HarnessError, unknown_name

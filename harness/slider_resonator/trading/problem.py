@@ -6,9 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
-from slider_resonator.device.drive_periods import DrivePeriods
+from slider_resonator.device.drive_periods import DrivePeriods, common_period
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.device.schedule import Schedule, schedule
 from slider_resonator.device.signal import Signal

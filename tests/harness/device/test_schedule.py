@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from slider_resonator.device.common_period import common_period
 from slider_resonator.device.device import Device
+from slider_resonator.device.drive_periods import common_period
 from slider_resonator.device.held_inputs import HeldInputs, check_times
 from slider_resonator.device.schedule import communication_points, schedule, step_count
 from slider_resonator.device.signal import Signal, constant, ramp, steps
