@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from time import process_time
+from typing import Any
 
 import numpy as np
 from scipy.integrate import DOP853
@@ -30,99 +31,79 @@ from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import PEER, Label
 from slider_resonator.trading.solution import Solution, solution_of
 
-Follow = Callable[[Device, Sequence[HeldInputs], Array], Solution]
-
 MAX_EVALUATIONS = 1_000_000
 """Maximum evaluations of a method on sgn: one that chatters is stopped early."""
 SHOOTING = 1e-6
 """Accuracy of shooting, in units of the state, with methods that lose their order at reversals."""
 NO_EVENTS = {"event_times": "no event is located"}
 NOT_SHOT = dict.fromkeys(STEADY, "shooting needs a start in any state of the full device")
+NO_REVERSALS = {"event_times": "the times of reversals are not reported", **NOT_SHOT}
+NO_MODES = {"event_times": "averaged motion has no events", **NOT_SHOT}
 
 
 @dataclass(frozen=True)
 class Peer:
     """A method by the setting that its error depends on.
 
-    `simulate`, where there is one, can start in any state, as shooting requires; `shooting` is the
-    accuracy in units of the state.
+    `simulate` returns a trajectory, with the times of its events where it is `located`, or a
+    solution. `shooting` is the accuracy of shooting in units of the state, None for a method that
+    cannot start in any state.
     """
 
     family: str
     setting: str
     tolerance: float | None
-    follow: Follow
-    simulate: Simulate | None = None
-    shooting: float = 1e-9
+    simulate: Callable[[Device, Sequence[HeldInputs], Array], Any]
+    shooting: float | None = SHOOTING
+    located: bool = False
     cannot_stick: bool = False
-    missing: Mapping[str, str] = field(default_factory=dict)
+    missing: Mapping[str, str] = field(default_factory=lambda: NO_EVENTS)
+
+    def follow(self, device: Device, held: Sequence[HeldInputs], times: Array) -> Solution:
+        """Return the motion of a device through inputs at times (s), shape (n,)."""
+        found = self.simulate(device, held, times)
+        return found if isinstance(found, Solution) else solution_of(found, located=self.located)
+
+    def label(self, problem: Problem) -> Label:
+        """Return what it is called on a problem."""
+        name = f"{self.family}, {self.setting}" if self.setting else self.family
+        law = problem.device.friction_law
+        return Label(PEER, self.family, name, law, tolerance=self.tolerance)
 
 
-def peers(problem: Problem) -> list[Peer]:
-    """Return the peers for the friction law of a problem."""
-    exact = _peer("Taylor series in Python", "", simulate_series, shooting=1e-9, located=True)
-    own = _lugre() if problem.device.friction_law == 1 else _coulomb()
-    missing = {"event_times": "averaged motion has no events", **NOT_SHOT}
-    averaged = Peer("averaged equation, scipy", "", None, _averaged, missing=missing)
-    return [exact, *own, averaged]
-
-
-def _coulomb() -> Iterator[Peer]:
+def peers(problem: Problem) -> Iterator[Peer]:
+    """Yield the peers for the friction law of a problem."""
+    located = partial(Peer, located=True, missing={})
+    yield located("Taylor series in Python", "", None, simulate_series, shooting=1e-9)
+    is_lugre = problem.device.friction_law == 1
+    family = "heyoka at its fastest" + (", bristle from path" if is_lugre else "")
+    in_one_call = partial(Peer, shooting=None, cannot_stick=True, missing=NO_REVERSALS)
     for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
-        yield _heyoka("heyoka at its fastest", tolerance)
-    for tolerance in (1e-3, 1e-5, 1e-8, 1e-11):
-        located = partial(
-            located_scipy.simulate, rtol=tolerance, atol=1e-2 * tolerance, steps_per_period=4
-        )
-        family, setting = "DOP853 with located events", f"tol {tolerance:.0e}"
-        yield _peer(family, setting, located, tolerance, max(1e-9, tolerance), located=True)
-    for atol in (1e-4, 1e-6, 1e-8, 1e-10):
-        sgn = partial(
-            event_free.simulate,
-            method=DOP853,
-            rtol=1e-6,
-            atol=atol,
-            max_evaluations=MAX_EVALUATIONS,
-        )
-        yield _peer("DOP853 on sgn (the paper)", f"rtol 1e-06, atol {atol:.0e}", sgn, atol)
-    for count in (16, 64, 256, 1024):
-        stepping = partial(moreau_jean.simulate, steps_per_period=count)
-        yield _peer("Moreau-Jean", f"{count} steps a period", stepping)
-    for share in (1e-1, 1e-2, 1e-3, 1e-4):
-        setting = f"width {share:g} of the fast velocity"
-        yield _peer("tanh, LSODA", setting, partial(_regularised, share=share))
-
-
-def _lugre() -> Iterator[Peer]:
-    for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
-        yield _heyoka("heyoka at its fastest, bristle from path", tolerance)
-    for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
-        bristle = partial(event_free.simulate, rtol=tolerance, atol=1e-2 * tolerance)
-        family, setting = "LSODA, bristle as state", f"tol {tolerance:.0e}"
-        yield _peer(family, setting, bristle, tolerance, max(1e-9, tolerance))
-
-
-def _heyoka(family: str, tolerance: float) -> Peer:
-    follow = partial(heyoka_in_one_call, tolerance=tolerance)
-    missing = {"event_times": "the times of reversals are not reported", **NOT_SHOT}
-    setting = f"tol {tolerance:.0e}"
-    return Peer(family, setting, tolerance, follow, cannot_stick=True, missing=missing)
-
-
-def _peer(
-    family: str,
-    setting: str,
-    simulate: Simulate,
-    tolerance: float | None = None,
-    shooting: float = SHOOTING,
-    *,
-    located: bool = False,
-) -> Peer:
-    def follow(device: Device, held: Sequence[HeldInputs], times: Array) -> Solution:
-        return solution_of(simulate(device, held, times), located=located)
-
-    missing = {} if located else NO_EVENTS
-    return Peer(family, setting, tolerance, follow, simulate, shooting, missing=missing)
+        heyoka = partial(heyoka_in_one_call, tolerance=tolerance)
+        yield in_one_call(family, f"tol {tolerance:.0e}", tolerance, heyoka)
+    if is_lugre:
+        for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
+            bristle = partial(event_free.simulate, rtol=tolerance, atol=1e-2 * tolerance)
+            family, setting = "LSODA, bristle as state", f"tol {tolerance:.0e}"
+            yield Peer(family, setting, tolerance, bristle, max(1e-9, tolerance))
+    else:
+        for tolerance in (1e-3, 1e-5, 1e-8, 1e-11):
+            scipy = partial(
+                located_scipy.simulate, rtol=tolerance, atol=1e-2 * tolerance, steps_per_period=4
+            )
+            family, setting = "DOP853 with located events", f"tol {tolerance:.0e}"
+            yield located(family, setting, tolerance, scipy, max(1e-9, tolerance))
+        on_sgn = partial(event_free.simulate, method=DOP853, max_evaluations=MAX_EVALUATIONS)
+        for atol in (1e-4, 1e-6, 1e-8, 1e-10):
+            sgn = partial(on_sgn, rtol=1e-6, atol=atol)
+            yield Peer("DOP853 on sgn (the paper)", f"rtol 1e-06, atol {atol:.0e}", atol, sgn)
+        for count in (16, 64, 256, 1024):
+            stepping = partial(moreau_jean.simulate, steps_per_period=count)
+            yield Peer("Moreau-Jean", f"{count} steps a period", None, stepping)
+        for share in (1e-1, 1e-2, 1e-3, 1e-4):
+            setting = f"width {share:g} of the fast velocity"
+            yield Peer("tanh, LSODA", setting, None, partial(_regularised, share=share))
+    yield Peer("averaged equation, scipy", "", None, _averaged, shooting=None, missing=NO_MODES)
 
 
 def _regularised(
@@ -171,27 +152,19 @@ def shoot(
 def peer_methods(problem: Problem) -> Iterator[Method]:
     """Yield the peers as methods."""
     for peer in peers(problem):
-        yield Method(
-            _label(problem, peer),
-            partial(_run, problem, peer),
-            partial(_seconds, problem, peer),
-            cannot_stick=peer.cannot_stick,
-            missing=peer.missing,
-        )
+        run = partial(_run, problem, peer)
+        seconds = partial(_seconds, run)
+        missing, label = peer.missing, peer.label(problem)
+        yield Method(label, run, seconds, cannot_stick=peer.cannot_stick, missing=missing)
 
 
 def peer_answers(problem: Problem) -> Iterator[SteadyMethod]:
     """Yield the searches for steady velocity and blocking force, of peers that support shooting."""
     for quantity in STEADY:
         for peer in peers(problem):
-            if peer.simulate is not None:
+            if peer.shooting is not None:
                 find = partial(shoot, problem, quantity, peer.simulate, peer.shooting)
-                yield SteadyMethod(_label(problem, peer), quantity, find)
-
-
-def _label(problem: Problem, peer: Peer) -> Label:
-    name = f"{peer.family}, {peer.setting}" if peer.setting else peer.family
-    return Label(PEER, peer.family, name, problem.device.friction_law, tolerance=peer.tolerance)
+                yield SteadyMethod(peer.label(problem), quantity, find)
 
 
 def _run(problem: Problem, peer: Peer, periods: int) -> tuple[float, Solution]:
@@ -207,6 +180,6 @@ def _run(problem: Problem, peer: Peer, periods: int) -> tuple[float, Solution]:
     return process_time() - began, solution
 
 
-def _seconds(problem: Problem, peer: Peer, periods: int) -> float:
-    taken, solution = _run(problem, peer, periods)
+def _seconds(run: Callable[[int], tuple[float, Solution]], periods: int) -> float:
+    taken, solution = run(periods)
     return taken - (solution.start_cpu or 0.0)
