@@ -19,7 +19,7 @@ from slider_resonator.trading.measure import BUDGET, REPEATS, TIME_LIMIT, measur
 from slider_resonator.trading.page import write_trades
 from slider_resonator.trading.plots import draw_picture
 from slider_resonator.trading.problem import Problem, problem_of
-from slider_resonator.trading.result import Trade, write_omissions, write_rows
+from slider_resonator.trading.result import Trade, write_tables
 from slider_resonator.trading.summary import SUFFIXES, comparisons, standings, title, write_choices
 
 TABLES = ("index.html", "trade.csv", "omissions.csv")
@@ -126,8 +126,7 @@ def trade_command(
             trades.append(trade)
             # After each scene, so that a later failure does not lose minutes of measurement.
             index, rows, omissions = tables.values()
-            write_rows(rows, trades)
-            write_omissions(omissions, trades)
+            write_tables(rows, omissions, trades)
             write_trades(index, trades, provenance)
     if picture is not None:
         draw_picture(trades[0], picture)

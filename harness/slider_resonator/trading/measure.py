@@ -1,5 +1,7 @@
 """Measure the errors and the time of each method on a problem, within its budget.
 
+The reference of all errors are Taylor series with located events, and shooting with these.
+
 Methods are timed in turn, so that a busy moment of the machine affects all of them.
 """
 
@@ -11,27 +13,70 @@ from math import inf
 from operator import attrgetter
 from pathlib import Path
 
-from slider_resonator.errors import FmuError
+import numpy as np
+
+from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from slider_resonator.output.progress import Progress, counted, no_progress, part_of
+from slider_resonator.references.resolved.contact import STICK
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trading.fmu_methods import FmuMethods, TaskRunner
 from slider_resonator.trading.method import STEADY, Method, SteadyMethod
-from slider_resonator.trading.peer_methods import peer_answers, peer_methods
+from slider_resonator.trading.peer_methods import peer_answers, peer_methods, shoot
 from slider_resonator.trading.problem import Problem
-from slider_resonator.trading.reference import Reference, find_reference
 from slider_resonator.trading.result import Omission, Row, Trade
-from slider_resonator.trading.solution import QUANTITIES, errors
+from slider_resonator.trading.solution import (
+    QUANTITIES,
+    WindowReadings,
+    errors,
+    solution_of,
+    windows,
+)
 
 BUDGET = 1.0
 """CPU time (s) for the longest run or search of a method, and as much again for repeats."""
 REPEATS = 5
 TIME_LIMIT = 600.0
 """Default time limit of a run or a search of an FMU, s."""
+SHOOTING = 1e-10
+"""Accuracy of the steady state in units of its scale."""
 
 _FAILURES = (ValueError, RuntimeError, ArithmeticError, ModuleNotFoundError, FmuError)
 
 _Notes = dict[tuple[str, str], str]
 """Method and quantity to the reason why there is no such row or error; the first reason stays."""
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The reference solution of a problem.
+
+    `windows` are its readings; `sticks` says whether the slider sticks after the first drive
+    period. The steady velocity (m/s) and the blocking force (N) are None where there is none.
+    """
+
+    windows: WindowReadings
+    sticks: bool
+    steady_velocity: float | None
+    blocking_force: float | None
+
+
+def find_reference(problem: Problem) -> Reference:
+    """Compute the reference; HarnessError where that is impossible."""
+    try:
+        held, periods = problem.lines(problem.periods), problem.periods
+        run = simulate(problem.device, held, problem.readings(periods))
+        found = windows(problem, solution_of(run, located=True), periods)
+        answers = dict.fromkeys(STEADY, None)
+        if problem.steady:
+            answers = {n: shoot(problem, n, simulate, SHOOTING, inf)[1].value for n in STEADY}
+    except (ValueError, RuntimeError) as error:
+        raise HarnessError(
+            f"scene {problem.name}: the reference cannot follow it: {error}"
+        ) from error
+    edges = np.concatenate([[0.0], run.event_times, [inf]])
+    later = np.diff(np.maximum(edges, problem.period)) > 1e-9 * problem.period
+    return Reference(found, bool(np.any(later & (run.modes == STICK))), **answers)
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,10 @@
 """The HTML page: ratios, work-precision plots, all rows and the omissions."""
 
 from collections.abc import Sequence
+from functools import partial
 from math import isfinite
 from pathlib import Path
+from typing import Any
 
 from slider_resonator.fmu.provenance import Provenance, provenance_html
 from slider_resonator.output.hover_plot import (
@@ -30,44 +32,27 @@ from slider_resonator.trading.summary import comparisons, duration, title
 def work_precision_plot(trade: Trade, quantity: str) -> HoverPlot:
     """Return the plot of a quantity: a series for each family, and the Pareto front of all."""
     drawn = [row for row in trade.having(quantity) if isfinite(row.errors[quantity])]
+
+    def series(label: str, rows: list[Row], **looks: Any) -> Series:
+        costs, errors = [row.cost for row in rows], [drawn_error(row, quantity) for row in rows]
+        return Series(label, costs, errors, notes=[_note(row) for row in rows], **looks)
+
     best = front(drawn, quantity)
-    series = [_series("Pareto front of all", best, quantity, "#cfd8dc", "", 6.0)]
+    all_series = [series("Pareto front of all", best, colour="#cfd8dc", width=6.0)]
     for index, family in enumerate(families(trade.rows)):
         own = [row for row in drawn if row.family == family]
         if own:
             colour, marker, dash = look(index)
-            joined = front(own, quantity)
-            series.append(_series(family, joined, quantity, colour, marker, 1.3, dash))
+            joined, point = front(own, quantity), partial(series, colour=colour, marker=marker)
+            all_series.append(point(family, joined, width=1.3, dash=dash))
             if others := [row for row in own if row not in joined]:
-                label = f"{family}: not on its front"
-                series.append(_series(label, others, quantity, colour, marker))
+                all_series.append(point(f"{family}: not on its front", others))
     return HoverPlot(
         f"{quantity.replace('_', ' ')}: error over cost",
         Axis(cost_label(drawn), log=True),
         Axis(f"error: {QUANTITIES[quantity]}", log=True),
-        series,
+        all_series,
         height=460,
-    )
-
-
-def _series(
-    label: str,
-    rows: list[Row],
-    quantity: str,
-    colour: str,
-    marker: str,
-    width: float = 0.0,
-    dash: tuple[int, ...] = (),
-) -> Series:
-    return Series(
-        label=label,
-        x=[row.cost for row in rows],
-        y=[drawn_error(row, quantity) for row in rows],
-        colour=colour,
-        marker=marker,
-        width=width,
-        dash=dash,
-        notes=[_note(row) for row in rows],
     )
 
 

@@ -168,15 +168,11 @@ COLUMNS = (
 what a method does not have or does not report is empty."""
 
 
-def write_rows(path: Path, trades: Sequence[Trade]) -> None:
-    """Write all rows; HarnessError when that is impossible."""
-    write_csv(path, COLUMNS, (_cells(row) for trade in trades for row in trade.rows))
-
-
-def write_omissions(path: Path, trades: Sequence[Trade]) -> None:
-    """Write the omissions with their reasons; HarnessError when that is impossible."""
+def write_tables(rows: Path, omissions: Path, trades: Sequence[Trade]) -> None:
+    """Write all rows, and the omissions with their reasons; HarnessError if that is impossible."""
+    write_csv(rows, COLUMNS, (_cells(row) for trade in trades for row in trade.rows))
     lines = (vars(omission).values() for trade in trades for omission in trade.omissions)
-    write_csv(path, ("scene", "method", "quantity", "reason"), lines)
+    write_csv(omissions, ("scene", "method", "quantity", "reason"), lines)
 
 
 def _cells(row: Row) -> list[Any]:

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from slider_resonator.references.resolved.simulate import simulate
+from slider_resonator.trading.measure import find_reference
 from slider_resonator.trading.peer_methods import shoot
 from slider_resonator.trading.problem import MIN_PERIODS, Problem
-from slider_resonator.trading.reference import find_reference
 from slider_resonator.trading.solution import Solution, errors, windows
 from tests.harness.trading.problems import BEAT, RAMP, SCAN, TABLE_1, problem
 
