@@ -11,31 +11,15 @@ DEVIATIONS = ("amplitude_deviation", "frequency_deviation")
 """Inputs by which the drive differs from what the parameters say, relative to these."""
 
 
-def _real(
-    start: float,
-    unit: str,
-    minimum: float | None = None,
-    *,
-    maximum: float | None = None,
-    nominal: float | None = None,
-    tunable: bool = False,
-) -> Any:
+def _real(start: float, unit: str, minimum: float | None = None, **about: Any) -> Any:
     """Return a field with the rest of what `interface.Variable` says of the parameter."""
-    about = {
-        "variability": "tunable" if tunable else "fixed",
-        "unit": unit,
-        "minimum": minimum,
-        "maximum": maximum,
-        "nominal": start if nominal is None else nominal,
-    }
-    return field(default=start, metadata=about)
+    usual = {"variability": "fixed", "unit": unit, "minimum": minimum, "nominal": start}
+    return field(default=start, metadata={**usual, **about})
 
 
 def _choice(start: int, minimum: int, maximum: int, **version: Any) -> Any:
     """Return the same of an Integer; `version` is what says since when there is one."""
-    bounds = {"minimum": minimum, "maximum": maximum}
-    about = {"variability": "fixed", "unit": "1", "kind": "Integer", **bounds, **version}
-    return field(default=start, metadata=about)
+    return _real(start, "1", minimum, maximum=maximum, kind="Integer", nominal=None, **version)
 
 
 @dataclass(frozen=True, repr=False)
@@ -51,12 +35,12 @@ class Device:
     resonator_mass: float = _real(0.1, "kg", 0.0)
     resonator_frequency: float = _real(3500.0, "rad/s", 1e-6)
     damping_ratio: float = _real(0.05, "1", 0.0)
-    normal_preload: float = _real(1.0, "N", 0.0, tunable=True)
-    normal_amplitude: float = _real(1.0, "N", 0.0, tunable=True)
-    base_amplitude: float = _real(1e-4, "m", 0.0, tunable=True)
-    drive_frequency: float = _real(3500.0, "rad/s", 1e-6, tunable=True)
-    tangential_force: float = _real(0.0, "N", nominal=1.0, tunable=True)
-    friction_coefficient: float = _real(0.1, "1", 0.0, tunable=True)
+    normal_preload: float = _real(1.0, "N", 0.0, variability="tunable")
+    normal_amplitude: float = _real(1.0, "N", 0.0, variability="tunable")
+    base_amplitude: float = _real(1e-4, "m", 0.0, variability="tunable")
+    drive_frequency: float = _real(3500.0, "rad/s", 1e-6, variability="tunable")
+    tangential_force: float = _real(0.0, "N", nominal=1.0, variability="tunable")
+    friction_coefficient: float = _real(0.1, "1", 0.0, variability="tunable")
     friction_faces: int = _choice(2, 1, 2)
     friction_law: int = _choice(0, 0, 1)
     bristle_stiffness: float = _real(1e5, "1/m", 0.0)
@@ -72,11 +56,8 @@ class Device:
 
     def __repr__(self) -> str:
         """Return what differs from table 1, as the call that makes it."""
-        differing = [
-            f"{one.name}={getattr(self, one.name)!r}"
-            for one in fields(self)
-            if getattr(self, one.name) != one.default
-        ]
+        start = vars(Device())
+        differing = [f"{n}={value!r}" for n, value in vars(self).items() if value != start[n]]
         return f"Device({', '.join(differing)})"
 
     @classmethod
@@ -85,8 +66,7 @@ class Device:
 
         Raises ValueError naming an unknown parameter, or an Integer parameter that got a fraction.
         """
-        integer_names = {field.name for field in fields(cls) if field.type is int}
-        known = {field.name for field in fields(cls)}
+        known = {field.name: field.type for field in fields(cls)}
         arguments: dict[str, Any] = {}
         for name, value in values.items():
             if name in DEVIATIONS:
@@ -96,12 +76,9 @@ class Device:
                     f"unknown device parameter {name!r} = {value!r}; "
                     f"must be one of {', '.join(sorted(known))}"
                 )
-            if name in integer_names:
-                if not float(value).is_integer():
-                    raise ValueError(f"device parameter {name} = {value!r} must be an integer")
-                arguments[name] = int(value)
-            else:
-                arguments[name] = float(value)
+            if known[name] is int and not float(value).is_integer():
+                raise ValueError(f"device parameter {name} = {value!r} must be an integer")
+            arguments[name] = int(value) if known[name] is int else float(value)
         return cls(**arguments).deviating(values)
 
     def deviating(self, values: Mapping[str, float]) -> "Device":

@@ -96,9 +96,8 @@ def turning_apart(held: Sequence[HeldInputs]) -> list[HeldInputs]:
         first, rate = inputs.frequency_ratio, inputs.ratio_rate
         turn = inputs.start - first / rate if first * rate < 0.0 else inputs.start
         if inputs.start < turn < inputs.stop:
-            after = inputs.later(turn - inputs.start)
             parts.append(replace(inputs, stop=turn))
-            parts.append(replace(after, start=turn, frequency_ratio=0.0))
-        else:
-            parts.append(inputs)
+            after = inputs.later(turn - inputs.start)
+            inputs = replace(after, start=turn, frequency_ratio=0.0)
+        parts.append(inputs)
     return parts
