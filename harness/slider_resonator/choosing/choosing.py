@@ -7,12 +7,17 @@ from functools import partial
 from math import inf
 from pathlib import Path
 
-from slider_resonator.choosing.candidate import START_TOLERANCE, Candidate, tolerances
+from slider_resonator.choosing.candidate import (
+    MAX_PERIODS,
+    START_TOLERANCE,
+    Candidate,
+    coarsest,
+    tolerances,
+)
 from slider_resonator.choosing.choice import SAME_COST, Choice, Evaluation, RuledOut, cheapest
 from slider_resonator.choosing.errors import Estimates
-from slider_resonator.choosing.ladder import coarsest
 from slider_resonator.choosing.probe import Probe
-from slider_resonator.choosing.reference import FINEST_TOLERANCE, HEAD_PERIODS, MAX_PERIODS
+from slider_resonator.choosing.reference import FINEST_TOLERANCE, HEAD_PERIODS
 from slider_resonator.choosing.steady_need import SteadyValue, find, steady_error
 from slider_resonator.device.model import COULOMB, LUGRE, Model
 from slider_resonator.errors import FmuError, SceneError

@@ -7,14 +7,15 @@ from math import ceil, inf
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.choosing.beat import beat_frequency, lacking_beat, unseen_beat
-from slider_resonator.choosing.candidate import Candidate
+from slider_resonator.choosing.candidate import SIGNAL_NEEDS, Candidate, step_ladder
 from slider_resonator.choosing.errors import (
     ErrorEstimate,
     Estimates,
     Readings,
+    beat_frequency,
+    lacking_beat,
+    unseen_beat,
 )
-from slider_resonator.choosing.ladder import SIGNAL_NEEDS, step_ladder
 from slider_resonator.choosing.reference import Reference, must_hold
 from slider_resonator.choosing.steady_need import timed_run
 from slider_resonator.device.model import Model

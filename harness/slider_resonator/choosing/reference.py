@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.choosing.candidate import Candidate
+from slider_resonator.choosing.candidate import MAX_PERIODS, Candidate
 from slider_resonator.choosing.errors import Readings
 from slider_resonator.choosing.steady_need import timed_run
 from slider_resonator.device.model import Model
@@ -69,8 +69,6 @@ GAIN = 3.0
 """Quotient of CPU times from which on leaps gain enough for a second run."""
 HEAD_PERIODS = 300.0
 """Drive periods from which the CPU time of resolved motion is measured."""
-MAX_PERIODS = 10_000.0
-"""Drive periods in a step of resolved motion: FMUs bound the work of a step."""
 STEPS, MIN_POINTS, MAX_POINTS = 8, 4000, 20_000
 """Points of a reference in a step of the candidate, and in total, where inputs must be held; at
 least two in a step."""

@@ -6,7 +6,7 @@ from math import inf, log2, pi
 from hypothesis import given
 from hypothesis import strategies as st
 
-from slider_resonator.choosing.ladder import coarsest
+from slider_resonator.choosing.candidate import coarsest
 from slider_resonator.choosing.probe import Probe
 from slider_resonator.fmu.instance import Instance
 from tests.harness.scene_text import scene_of
