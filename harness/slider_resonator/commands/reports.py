@@ -28,11 +28,6 @@ PRINTED = Path("-")
 """The value of `--json` without a file."""
 
 
-def _json_target(text: str) -> Path:
-    """Return the path of a JSON file to write, checked, or `PRINTED`."""
-    return PRINTED if text == str(PRINTED) else writable(text, [".json"])
-
-
 @dataclass(frozen=True)
 class Reports:
     """The report files of a command; None for a report that was not requested."""
@@ -77,7 +72,7 @@ def report_options(title: str) -> Callable[[Callable[..., Any]], Callable[..., A
         ),
         click.option(
             "--json",
-            type=Parsed("FILE", _json_target),
+            type=Parsed("FILE", lambda name: PRINTED if name == "-" else writable(name, [".json"])),
             is_flag=False,
             flag_value=str(PRINTED),
             metavar="[FILE.json]",

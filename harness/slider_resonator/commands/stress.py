@@ -107,7 +107,9 @@ def stress_command(
     several += ["--long"] if long else []
     if len(several) > 1:
         raise click.UsageError(f"{' and '.join(several)}: must be only one")
-    drawn = [f"--{option}" for option in ("first", "seed") if _is_on_command_line(context, option)]
+    # The environment may have them for other commands.
+    stated = ParameterSource.COMMANDLINE
+    drawn = [f"--{n}" for n in ("first", "seed") if context.get_parameter_source(n) is stated]
     if drawn and count is None:
         raise click.UsageError(f"{' and '.join(drawn)}: must be with --random")
     if name is not None:
@@ -118,43 +120,6 @@ def stress_command(
         cases = [random_case(seed, number) for number in range(first, first + count)]
     else:
         cases = axis_cases(long=long)
-    return stress(fmus, cases, out, time_limit, jobs, as_json=as_json)
-
-
-def _is_on_command_line(context: click.Context, option: str) -> bool:
-    """Whether an option was given, not by the environment, where it may be for other commands."""
-    return context.get_parameter_source(option) is ParameterSource.COMMANDLINE
-
-
-def case_named(name: str) -> Case:
-    """Return the case of a name, on an axis or drawn; HarnessError when there is none."""
-    drawn = _DRAWN.fullmatch(name)
-    if drawn:
-        return random_case(int(drawn[1]), int(drawn[2]))
-    own = _OWN.match(name)
-    found = (
-        device_cases(own[1], options.device_file(own[1]).values) if own else axis_cases(long=True)
-    )
-    cases = {case.name: case for case in found}
-    if name not in cases:
-        near = get_close_matches(name, cases, n=1)
-        hint = f"; did you mean {near[0]!r}?" if near else ""
-        raise HarnessError(
-            f"--case {name!r} refused: must be AXIS: VALUE: MODEL of a case, as in the result{hint}"
-        )
-    return cases[name]
-
-
-def stress(
-    fmus: Sequence[Path],
-    cases: Sequence[Case],
-    out: Path | None,
-    time_limit: float,
-    jobs: int | None,
-    *,
-    as_json: bool,
-) -> int:
-    """Run the cases, print and write the result, and return the exit code."""
     chosen = fmus or options.default_fmus()
     for path in chosen:
         applicable(path, cases)  # before any of them runs: it takes minutes
@@ -178,6 +143,25 @@ def stress(
     lines += [] if out is None else [f"written {one_line(str(out))}"]
     print_result(as_plain(results), "\n".join(lines), as_json=as_json, provenance=provenance)
     return 0 if all(result.passed for result in results) else 1
+
+
+def case_named(name: str) -> Case:
+    """Return the case of a name, on an axis or drawn; HarnessError when there is none."""
+    drawn = _DRAWN.fullmatch(name)
+    if drawn:
+        return random_case(int(drawn[1]), int(drawn[2]))
+    own = _OWN.match(name)
+    found = (
+        device_cases(own[1], options.device_file(own[1]).values) if own else axis_cases(long=True)
+    )
+    cases = {case.name: case for case in found}
+    if name not in cases:
+        near = get_close_matches(name, cases, n=1)
+        hint = f"; did you mean {near[0]!r}?" if near else ""
+        raise HarnessError(
+            f"--case {name!r} refused: must be AXIS: VALUE: MODEL of a case, as in the result{hint}"
+        )
+    return cases[name]
 
 
 def _kept(results: Sequence[StressResult], out: Path | None) -> str:

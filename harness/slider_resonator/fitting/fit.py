@@ -188,7 +188,10 @@ def fit(
             notes.append(NO_INTERVALS)
         notes += misfit_notes(measurements, predicted, best.jacobian)
     if not directions:
-        notes += [_as_good(one, free) for one in others]
+        for one in others:
+            pairs = zip(free, one.internal.tolist(), strict=True)
+            said = ", ".join(f"{which.name} = {which.value(x):.6g}" for which, x in pairs)
+            notes.append(f"the data are met as well by {said}; bounds decide")
     return Fit(
         fitted,
         device,
@@ -321,14 +324,6 @@ def _solutions(minima: Sequence[Minimum], free: Sequence[Free], rounding: float)
 
 def _distance(one: Minimum, other: Minimum) -> float:
     return float(np.abs(one.internal - other.internal).max())
-
-
-def _as_good(other: Minimum, free: Sequence[Free]) -> str:
-    found = (
-        f"{one.name} = {one.value(value):.6g}"
-        for one, value in zip(free, other.internal.tolist(), strict=True)
-    )
-    return f"the data are met as well by {', '.join(found)}; bounds decide"
 
 
 def _starts(free: Sequence[Free], count: int) -> list[Array]:

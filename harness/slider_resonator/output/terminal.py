@@ -34,17 +34,15 @@ def fitting(text: str, width: int | None) -> str:
     """Return the text with lines of at most `width` columns, if it is given and words permit."""
     if width is None:
         return text
-    return "\n".join(_wrapped(line, width) for line in text.splitlines())
-
-
-def _wrapped(line: str, width: int) -> str:
-    if len(line) <= width:
-        return line
-    label = _LABELLED.match(line)
-    start = len(label[0]) if label else 0
-    if not 0 < start <= width // 2:
-        start = len(line) - len(line.lstrip()) + len(INDENT)
-    return words(line, width, " " * start)
+    lines = text.splitlines()
+    for index, line in enumerate(lines):
+        if len(line) > width:
+            label = _LABELLED.match(line)
+            start = len(label[0]) if label else 0
+            if not 0 < start <= width // 2:
+                start = len(line) - len(line.lstrip()) + len(INDENT)
+            lines[index] = words(line, width, " " * start)
+    return "\n".join(lines)
 
 
 STYLES: Mapping[Style, str] = {

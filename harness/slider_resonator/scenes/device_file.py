@@ -126,8 +126,13 @@ def device_values(content: Mapping[str, Any], source: str) -> dict[str, float]:
 def _value(name: str, value: Any) -> Any:
     """Return the value of a parameter in its SI unit; ValueError with key, value, requirement."""
     key = f"device.{name}"
+    if name in INPUTS:
+        must = "must be given by --set, or in [inputs] of a scene"
+        raise ValueError(f"device: {name} is an input; {must}")
+    if name in _TEXTS:
+        raise ValueError(f"device: {name} must be above [device]")
     if name not in PARAMETERS:
-        raise ValueError(f"device: {_no_parameter(name)}")
+        raise ValueError(f"device: {unknown_name('parameter', name, PARAMETERS)}")
     if isinstance(value, bool):
         raise ValueError(f"{key} = {str(value).lower()}: must be a number")
     variable = VARIABLES[name]
@@ -141,15 +146,6 @@ def _value(name: str, value: Any) -> Any:
     except ValueError as error:
         raise ValueError(f"device.{error}") from error
     return value
-
-
-def _no_parameter(name: str) -> str:
-    """Return what is wrong with a key of [device] that is no parameter."""
-    if name in INPUTS:
-        return f"{name} is an input; must be given by --set, or in [inputs] of a scene"
-    if name in _TEXTS:
-        return f"{name} must be above [device]"
-    return unknown_name("parameter", name, PARAMETERS)
 
 
 FREQUENCIES = ("drive_frequency", "resonator_frequency")

@@ -54,23 +54,18 @@ PARAMETER_MEANINGS: Mapping[str, str] = {
 
 def device_schema() -> dict[str, Any]:
     """Return what the JSON schema of a table of parameters has beyond that of a mapping."""
-    return {
-        "properties": {name: _property(name, PARAMETER_MEANINGS[name]) for name in PARAMETERS},
-        "additionalProperties": False,
-    }
-
-
-def _property(name: str, meaning: str) -> dict[str, Any]:
-    variable = VARIABLES[name]
-    bounds = {"minimum": variable.minimum, "maximum": variable.maximum}
-    is_integer = variable.kind == "Integer"
-    return {
-        **({"type": "integer"} if is_integer else NUMBER_OR_TEXT),
-        "description": meaning,
-        "unit": variable.unit,
-        "default": variable.start,
-        **{bound: value for bound, value in bounds.items() if value is not None},
-    }
+    properties = {}
+    for name, meaning in PARAMETER_MEANINGS.items():
+        one = VARIABLES[name]
+        bounds = {"minimum": one.minimum, "maximum": one.maximum}
+        properties[name] = {
+            **({"type": "integer"} if one.kind == "Integer" else NUMBER_OR_TEXT),
+            "description": meaning,
+            "unit": one.unit,
+            "default": one.start,
+            **{bound: value for bound, value in bounds.items() if value is not None},
+        }
+    return {"properties": properties, "additionalProperties": False}
 
 
 NAMED = "named"

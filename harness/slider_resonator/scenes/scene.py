@@ -222,11 +222,9 @@ class Scene(Shown):
 
     def interpolating(self, interpolate: bool) -> "Scene":
         """Return the scene with straight lines of inputs passed on as derivatives, or held."""
-        return self._with_run(interpolate=interpolate) if self.run else self
-
-    def _with_run(self, **changed: float | None) -> "Scene":
-        assert self.run is not None
-        return replace(self, run=self.run.model_copy(update=changed))
+        if self.run is None:
+            return self
+        return replace(self, run=self.run.model_copy(update={"interpolate": interpolate}))
 
     def lines_reach(self, interpolates: bool) -> str | None:
         """Return how straight lines of inputs reach an FMU, None without any.

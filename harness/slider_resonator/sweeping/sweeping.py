@@ -18,6 +18,7 @@ from slider_resonator.fmu.isolation.tasks import LocalProcesses, Processes
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import digest_of
 from slider_resonator.output.console import noting_on_interrupt
+from slider_resonator.output.journal import Journal
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Drawable, Shown, Tabular
@@ -28,7 +29,7 @@ from slider_resonator.sweeping.table import (
     Columns,
     check_nothing_lost,
     check_writer,
-    open_journal,
+    journal_path,
     replaceable,
     table_columns,
     write_table,
@@ -134,7 +135,8 @@ def run_sweep(
     # All that the rows of a journal depend on.
     content = json.dumps([__version__, fmu_digest, asdict(sweep.task), sweep.points])
     digest = hashlib.sha256(content.encode()).hexdigest()
-    with open_journal(out, digest, restart=restart) as journal:
+    remedy = "move the file away, or discard it with --restart"
+    with Journal(journal_path(out), "sweep", digest, remedy, restart=restart) as journal:
         rows: dict[int, Row] = {
             number: (number, cells, error)
             for kept in journal.entries.values()

@@ -11,7 +11,6 @@ from typing import Any
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.atomic import replacing, write_csv
-from slider_resonator.output.journal import Journal
 from slider_resonator.output.targets import writable
 from slider_resonator.sweeping.measures import Row, Task
 
@@ -124,12 +123,3 @@ def write_table(path: Path, task: Task, columns: Columns) -> None:
 def journal_path(table: Path) -> Path:
     """Return where the journal of a table is."""
     return table.with_name(f"{table.name}.journal")
-
-
-def open_journal(table: Path, digest: str, *, restart: bool = False) -> Journal:
-    """Open the journal of a table, whose entries are lists of rows.
-
-    Raises HarnessError as `Journal` does.
-    """
-    remedy = "move the file away, or discard it with --restart"
-    return Journal(journal_path(table), "sweep", digest, remedy, restart=restart)

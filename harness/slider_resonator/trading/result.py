@@ -146,12 +146,6 @@ def cheapest(rows: Iterable[Row], quantity: str, error: float) -> Row | None:
     return min(good, key=lambda row: row.cost, default=None)
 
 
-def paired_ratio(row: Row, against: Row) -> tuple[float, float, float]:
-    """Return median, minimum and maximum ratio of the costs of two rows, repeat by repeat."""
-    ratios = [ours / theirs for ours, theirs in zip(row.cpu, against.cpu, strict=False)]
-    return median(ratios), min(ratios), max(ratios)
-
-
 def families(rows: Sequence[Row]) -> list[str]:
     """Return the families in the order in which they appear."""
     return list(dict.fromkeys(row.family for row in rows))

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from statistics import median
 
 from slider_resonator.device.model import LAWS
 from slider_resonator.output import html_page, markdown
@@ -15,7 +16,6 @@ from slider_resonator.trading.result import (
     Row,
     Trade,
     cheapest,
-    paired_ratio,
 )
 
 TARGETS = (("mean_velocity", 1e-2), ("position", 1e-9))
@@ -47,7 +47,11 @@ def standings(trade: Trade) -> list[Standing]:
         against = cheapest([row for row in rows if row.kind == RESOLVED], quantity, error)
         for kind in CLASSES:
             row = cheapest([row for row in rows if row.kind == kind], quantity, error)
-            ratio = None if row is None or against is None else paired_ratio(row, against)
+            ratio = None
+            if row is not None and against is not None:
+                pairs = zip(row.cpu, against.cpu, strict=False)
+                ratios = [ours / theirs for ours, theirs in pairs]
+                ratio = (median(ratios), min(ratios), max(ratios))
             found.append(Standing(quantity, error, kind, row, ratio))
     return found
 

@@ -19,10 +19,11 @@ from distributed import LocalCluster, Worker
 from pyarrow import parquet
 
 from slider_resonator.errors import HarnessError
+from slider_resonator.output.journal import Journal
 from slider_resonator.sweeping import cluster, sweeping
 from slider_resonator.sweeping.grid import grid_from
 from slider_resonator.sweeping.sweeping import run_sweep
-from slider_resonator.sweeping.table import journal_path, open_journal
+from slider_resonator.sweeping.table import journal_path
 
 DEADLINE = 120.0
 """Seconds after which a sweep of seconds counts as hanging."""
@@ -108,7 +109,7 @@ def test_only_missing_and_damaged_points_are_computed(native_fmu: Path, tmp_path
 
 def test_points_of_another_grid_are_refused(native_fmu: Path, tmp_path: Path) -> None:
     out = tmp_path / "a.csv"
-    with open_journal(out, "other"):
+    with Journal(journal_path(out), "sweep", "other", ""):
         pass
     with pytest.raises(HarnessError, match="another sweep"):
         run_sweep(FEW, native_fmu, out, workers=1)
