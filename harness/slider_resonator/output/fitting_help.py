@@ -44,13 +44,10 @@ def _paragraph(text: str, width: int) -> str:
     lines = text.splitlines()
     if not lines or lines[0].strip() != "\b":
         return text
-    return "\n".join([lines[0], *(_line(line, width) for line in lines[1:])])
-
-
-def _line(line: str, width: int) -> str:
-    if len(line) <= width:
-        return line
-    return _example(line, width) if _EXAMPLE.match(line) else fitting(line, width)
+    for index, line in enumerate(lines):
+        if len(line) > width:
+            lines[index] = _example(line, width) if _EXAMPLE.match(line) else fitting(line, width)
+    return "\n".join(lines)
 
 
 def _example(line: str, width: int) -> str:

@@ -8,7 +8,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.drive_periods import DrivePeriods
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.run import Record
@@ -45,38 +44,47 @@ def schedule_to_plot(scene: Scene) -> Schedule:
 
 def run_figure(record: Record, scene: Scene) -> Figure:
     """Draw a run: the last drive periods where its points resolve them, and inputs that vary."""
-    before = _periods_before_the_end(record, scene.drive_periods)
-    varying = [name for name, values in record.given.items() if np.ptp(values) > 0.0]
+    passed = scene.drive_periods.passed_by(record.times)
+    before: Array = passed - passed[-1]
+    before = before[before >= -ZOOM_PERIODS * (1.0 + 1e-9)]
     gaps = np.diff(before)
     resolved = gaps.size > 0 and bool(np.max(gaps) * MIN_POINTS <= 1.0)
+    has_resonator = scene.device.resonator_mass > 0.0
+    zoomed = [one for one in ZOOMED if resolved and (has_resonator or one[0] != "resonator")]
+    given = {n: drawn(n, VARIABLES[n].unit, values) for n, values in record.given.items()}
+    varying = [name for name, values in record.given.items() if np.ptp(values) > 0.0]
+    constant = [
+        one.named(one.values[0])
+        for name, one in given.items()
+        if name not in varying and record.given[name][0] != VARIABLES[name].start
+    ]
+    heights = [2.0, 2.0, *(height for _, height, _ in zoomed), *[1.3 for _ in varying]]
+    time, position = drawn("time", "s", record.times), drawn("position", "m", record["position"])
     with style():
-        has_resonator = scene.device.resonator_mass > 0.0
-        zoomed = [one for one in ZOOMED if resolved and (has_resonator or one[0] != "resonator")]
-        heights = [2.0, 2.0, *(height for _, height, _ in zoomed), *[1.3 for _ in varying]]
         figure = Picture(figsize=(8.0, sum(heights) + 0.3), layout="constrained")
         axes = figure.subplots(len(heights), 1, height_ratios=heights)
-        figure.suptitle(f"{scene.heading}{_constant_inputs(record, varying)}")
-        factor, unit = plot_unit("s", record.times)
-        times = factor * record.times
-        _position(axes[0], record, times)
-        _velocity(axes[1], record, times, unit, held=not scene.interpolates)
+        figure.suptitle("\n".join([scene.heading, *([", ".join(constant)] if constant else [])]))
+        axes[0].plot(time.values, position.values, color=COLOURS["position"])
+        limit_to_later(axes[0], time.values, position.values)
+        axes[0].set(ylabel=position.label)
+        axes[0].tick_params(labelbottom=False)
+        _velocity(axes[1], record, time.values, held=not scene.interpolates)
+        inputs = axes[len(heights) - len(varying) :]
         for panel, (label, _, names) in zip(axes[2:], zoomed, strict=False):
             _zoom(panel, record, before, label, names)
-        for panel, name in zip(axes[len(heights) - len(varying) :], varying, strict=True):
-            _input(panel, record, times, unit, name)
+        for panel, name in zip(inputs, varying, strict=True):
+            one = given[name]
+            panel.step(time.values, one.values, where="post", color=COLOURS["slow"])
+            panel.set(ylabel=f"{one.words}\n[{one.unit}]")
+        for panel in (axes[1], *inputs):
+            panel.set(xlabel=time.label)
+        for panel in (*axes[:2], *inputs):
+            panel.set(xlim=(time.values[0], time.values[-1]))
         figure.align_ylabels(axes)
     return figure
 
 
-def _position(axes: Axes, record: Record, times: Array) -> None:
-    factor, unit = plot_unit("m", record["position"])
-    axes.plot(times, factor * record["position"], color=COLOURS["position"])
-    limit_to_later(axes, times, factor * record["position"])
-    axes.set(ylabel=f"position [{unit}]", xlim=(times[0], times[-1]))
-    axes.tick_params(labelbottom=False)
-
-
-def _velocity(axes: Axes, record: Record, times: Array, time_unit: str, *, held: bool) -> None:
+def _velocity(axes: Axes, record: Record, times: Array, *, held: bool) -> None:
     """Plot the mean velocity, and the steady one: of inputs that are held, of the step before."""
     mean, steady = record["mean_velocity"], record["steady_velocity"]
     valid = record.outputs.get("prediction_valid", np.ones_like(steady)) == 1.0
@@ -92,7 +100,7 @@ def _velocity(axes: Axes, record: Record, times: Array, time_unit: str, *, held:
             drawstyle="steps-pre" if held else "default",
             label="steady, for these inputs",
         )
-    axes.set(xlabel=f"time [{time_unit}]", ylabel=f"velocity [{unit}]", xlim=(times[0], times[-1]))
+    axes.set(ylabel=f"velocity [{unit}]")
     limit_to_later(axes, times, factor * mean, np.where(valid, factor * steady, 0.0))
     axes.legend()
 
@@ -118,28 +126,3 @@ def _zoom(axes: Axes, record: Record, before: Array, label: str, names: Sequence
     if shown := entries.get(label):
         place = (1.0, 0.98)
         axes.legend(handles=shown, loc="lower right", bbox_to_anchor=place, ncols=len(shown))
-
-
-def _periods_before_the_end(record: Record, drive: DrivePeriods) -> Array:
-    """Return the last times in drive periods before the end, at least one."""
-    passed = drive.passed_by(record.times)
-    before: Array = passed - passed[-1]
-    return before[before >= -ZOOM_PERIODS * (1.0 + 1e-9)]
-
-
-def _constant_inputs(record: Record, varying: list[str]) -> str:
-    """Return a line with the inputs that are constant, but not at their start value."""
-    constant = [
-        drawn(name, VARIABLES[name].unit, values[:1])
-        for name, values in record.given.items()
-        if name not in varying and values[0] != VARIABLES[name].start
-    ]
-    shown = [one.named(one.values[0]) for one in constant]
-    return "\n" + ", ".join(shown) if shown else ""
-
-
-def _input(axes: Axes, record: Record, times: Array, unit: str, name: str) -> None:
-    given = drawn(name, VARIABLES[name].unit, record.given[name])
-    axes.step(times, given.values, where="post", color=COLOURS["slow"])
-    label = f"{given.words}\n[{given.unit}]"
-    axes.set(xlabel=f"time [{unit}]", ylabel=label, xlim=(times[0], times[-1]))
