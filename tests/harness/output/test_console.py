@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.cells import cell_len
 
-from slider_resonator.output.progress_bar import progress_bar, time_left
+from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.terminal import fitting
 
 
@@ -37,21 +37,6 @@ def test_progress_stays_on_one_line(width: int, monkeypatch: pytest.MonkeyPatch)
     assert shown
     assert all("set or get" in line and "0:00:0" in line for line in shown)
     assert max(map(cell_len, lines)) <= width
-
-
-@pytest.mark.parametrize(
-    ("elapsed", "share", "text"),
-    [
-        (10.0, 0.0, ""),
-        (10.0, 0.01, ""),
-        (10.0, 0.5, "0:10 left"),
-        (900.0, 0.1, "2:15:00 left"),
-        (10.0, 1.0, "0:00 left"),
-        (10.0, float("nan"), ""),
-    ],
-)
-def test_the_time_left_follows_from_the_share_done(elapsed: float, share: float, text: str) -> None:
-    assert time_left(elapsed, share) == text
 
 
 @given(st.text("ab_-. \n", max_size=80), st.integers(5, 40))
