@@ -160,16 +160,14 @@ class FmuMethods:
 
     def _search(self, quantity: str, model: Model) -> SteadyMethod:
         values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
+        search_for: Callable[..., SearchResult] = find_steady
+        if quantity == "blocking_force":
+            search_for = find_blocking
+            del values["load"]  # the guess is the search's own
 
         def find(_: float) -> tuple[float, SteadyAnswer]:
-            search: SearchResult
-            if quantity == "steady_velocity":
-                taken, search = self._run(find_steady, values=values)
-            else:
-                free = {name: value for name, value in values.items() if name != "load"}
-                taken, search = self._run(find_blocking, values=free)
-            found = SteadyAnswer(getattr(search, quantity), search.reason, search.periods)
-            return taken, found
+            taken, search = self._run(search_for, values=values)
+            return taken, SteadyAnswer(getattr(search, quantity), search.reason, search.periods)
 
         return SteadyMethod(self._label(model, USUAL_TOLERANCE, None), quantity, find)
 

@@ -27,7 +27,7 @@ from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import Omission, Row, Trade
 from slider_resonator.trading.solution import (
     QUANTITIES,
-    WindowReadings,
+    Readings,
     errors,
     solution_of,
     windows,
@@ -55,7 +55,7 @@ class Reference:
     period. The steady velocity (m/s) and the blocking force (N) are None where there is none.
     """
 
-    windows: WindowReadings
+    windows: Readings
     sticks: bool
     steady_velocity: float | None
     blocking_force: float | None
@@ -229,7 +229,7 @@ def _follow(
             f"followed over {periods} of {problem.periods} drive periods: the next longer run "
             f"would exceed its budget of {budget:g} s of CPU time",
         )
-    optional = {"beat_frequency": problem.beat, "event_times": reference.windows.last_event}
+    optional = {"beat_frequency": problem.beat, "event_times": reference.windows.get("last_event")}
     for quantity in QUANTITIES:
         if quantity not in (*STEADY, *found) and optional.get(quantity, ()) is not None:
             reason = "its own steps are too long or its run too short"

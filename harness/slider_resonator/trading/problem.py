@@ -88,18 +88,14 @@ class Problem:
         """The drive periods after which a method may stop, all of them where inputs vary."""
         return self.horizons if self.constant else (self.periods,)
 
-    def windows(self, periods: int) -> tuple[int, ...]:
-        """Return the horizons within a run of `periods` drive periods."""
-        return tuple(end for end in self.horizons if end <= periods)
-
-    def window(self, end: int) -> Array:
-        """Return the times (s), shape (POINTS + 1,), of the readings in a window."""
-        return self.drive.instants(end - 1 + np.arange(POINTS + 1) / POINTS)
+    def windows(self, periods: int) -> Array:
+        """Return the times (s), shape (w, POINTS + 1), of the readings in the windows of a run."""
+        ends = np.array([end for end in self.horizons if end <= periods], np.float64)
+        return self.drive.instants(ends[:, None] - 1.0 + np.arange(POINTS + 1) / POINTS)
 
     def readings(self, periods: int) -> Array:
         """Return the times (s) of the readings in all windows of a run, ascending."""
-        read = [self.window(end) for end in self.windows(periods)]
-        return np.unique(np.concatenate([np.empty(0), *read]))
+        return np.unique(self.windows(periods))
 
     def ends(self, periods: int) -> Array:
         """Return the times (s), shape (periods + 1,), at which drive periods begin and end."""

@@ -52,53 +52,40 @@ class Solution:
     start_cpu: float | None = None
 
 
-@dataclass(frozen=True)
-class WindowReadings:
-    """The compared readings, one row for each window of a problem.
+Readings = Mapping[str, Array]
+"""What is compared by name, a row for each window of a problem, shape (w,) or (w, POINTS + 1).
 
-    `position` and `velocity` have the shape (w, POINTS + 1), the others (w,).
-    """
-
-    position: Array
-    velocity: Array
-    mean_velocity: Array
-    slow_displacement: Array
-    last_event: Array | None
+Without `last_event` where no event is located.
+"""
 
 
-def windows(problem: Problem, solution: Solution, periods: int) -> WindowReadings:
+def windows(problem: Problem, solution: Solution, periods: int) -> Readings:
     """Return the readings of a solution over `periods` drive periods, window by window."""
-    times = np.array([problem.window(end) for end in problem.windows(periods)])
-    places = [nearest(solution.times, window) for window in times]
-    position = np.array([solution.position[at] for at in places])
-    last = [at[-1] for at in places]
+    times = problem.windows(periods)
+    places = np.array([nearest(solution.times, window) for window in times])
+    position, last = solution.position[places], places[:, -1]
     lengths = times[:, -1] - times[:, 0]
     mean = (position[:, -1] - position[:, 0]) / lengths
     if solution.mean_velocity is not None:
         mean = solution.mean_velocity[last]
     slow = [slow_displacement(*one)[-1] for one in zip(times, position, lengths, strict=True)]
-    return WindowReadings(
-        position=position,
-        velocity=np.array([solution.velocity[at] for at in places]),
-        mean_velocity=mean,
-        slow_displacement=np.array(slow),
-        last_event=None if solution.last_event is None else solution.last_event[last],
-    )
-
-
-def last_events(event_times: Array, times: Array) -> Array:
-    """Return the time of the last event up to each time, 0 before the first; shape of `times`."""
-    known = np.concatenate([[0.0], event_times])
-    return np.asarray(known[np.searchsorted(event_times, times, side="right")])
+    return {
+        "mean_velocity": mean,
+        "slow_displacement": np.array(slow),
+        "position": position,
+        "velocity": solution.velocity[places],
+        **({} if solution.last_event is None else {"last_event": solution.last_event[last]}),
+    }
 
 
 def solution_of(run: Trajectory, *, located: bool) -> Solution:
     """Return a trajectory as a solution; reversals stand for events that are not located."""
+    last = np.append(0.0, run.event_times)[np.searchsorted(run.event_times, run.time, "right")]
     return Solution(
         times=run.time,
         position=run.position,
         velocity=run.velocity,
-        last_event=last_events(run.event_times, run.time) if located else None,
+        last_event=last if located else None,
         steps=run.steps or None,
         evaluations=run.evaluations,
         events=len(run.event_times) if located else run.reversals,
@@ -106,18 +93,16 @@ def solution_of(run: Trajectory, *, located: bool) -> Solution:
 
 
 def errors(
-    problem: Problem, solution: Solution, reference: WindowReadings, periods: int
+    problem: Problem, solution: Solution, reference: Readings, periods: int
 ) -> dict[str, float]:
     """Return the error of each quantity of a solution, infinite where it is not finite."""
-    found = windows(problem, solution, periods)
-    count = len(found.mean_velocity)
     reported = {}
-    for name in ("mean_velocity", "slow_displacement", "position", "velocity"):
-        expected = getattr(reference, name)[:count]
-        reported[name] = share_of(peak(getattr(found, name) - expected), peak(expected))
-    if found.last_event is not None and reference.last_event is not None:
-        late = np.abs(found.last_event - reference.last_event[:count]).max()
-        reported["event_times"] = float(late) / problem.period
+    for name, found in windows(problem, solution, periods).items():
+        expected = reference[name][: len(found)] if name in reference else None
+        if expected is not None and name == "last_event":
+            reported["event_times"] = peak(found - expected) / problem.period
+        elif expected is not None:
+            reported[name] = share_of(peak(found - expected), peak(expected))
     if problem.beat is not None and solution.history is not None:
         beat = _beat(*solution.history, problem.beat)
         if beat is not None:

@@ -2,7 +2,7 @@
 
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trading.problem import Problem, problem_of
-from slider_resonator.trading.solution import WindowReadings, solution_of, windows
+from slider_resonator.trading.solution import Readings, solution_of, windows
 from tests.harness.scene_text import scene_of
 
 
@@ -10,7 +10,7 @@ def problem(text: str, max_periods: int | None = None) -> Problem:
     return problem_of(scene_of(text), {}, max_periods)
 
 
-def reference_of(problem: Problem) -> WindowReadings:
+def reference_of(problem: Problem) -> Readings:
     """The readings of a problem by the Taylor references, over its whole run."""
     periods = problem.periods
     run = simulate(problem.device, problem.lines(periods), problem.readings(periods))

@@ -60,7 +60,7 @@ def test_a_window_is_a_period_of_the_drive_as_it_is() -> None:
             ends.append(inputs.start + (turn - turned) / rate)
         turned += rate * (inputs.stop - inputs.start)
     assert found.ends(16) == pytest.approx(ends, rel=1e-12)
-    assert found.window(7)[[0, -1]] == pytest.approx(ends[6:8], rel=1e-12)
+    assert found.windows(8)[-1, [0, -1]] == pytest.approx(ends[7:9], rel=1e-12)
 
 
 def test_table_1_by_a_run_and_by_shooting() -> None:
