@@ -67,9 +67,9 @@ def _list(as_json: bool) -> None:
     titles = {name: device_content(path)["title"] for name, path in example_devices().items()}
     if as_json:
         print_json({"devices": [{"name": n, "title": title} for n, title in titles.items()]})
-        return
-    print_table(Table(texts("device", "what it is"), list(titles.items())))
-    print_text("`slider-resonator device --example NAME > mine.toml` starts a file of your own")
+    else:
+        print_table(Table(texts("device", "what it is"), list(titles.items())))
+        print_text("`slider-resonator device --example NAME > mine.toml` starts a file of your own")
 
 
 def _explain(name_or_file: str, ssv: Path | None, as_json: bool) -> None:

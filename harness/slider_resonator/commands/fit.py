@@ -10,13 +10,12 @@ import click
 
 from slider_resonator.commands import options
 from slider_resonator.commands.results import print_json, print_table, print_text
-from slider_resonator.device.interface import PARAMETERS, VARIABLES
+from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.device.values import si_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.fitting.measurements import datasheet
 from slider_resonator.fitting.reading import read_measurements
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
-from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
@@ -24,12 +23,8 @@ from slider_resonator.output.targets import distinct, make_folder
 from slider_resonator.scenes.device_file import DeviceFile
 
 
-def _quantity(variable: str) -> options.Parsed[float]:
-    """Return a finite number in SI units, or a text with a unit, of a variable."""
-    return options.Parsed(VARIABLES[variable].unit, partial(_finite, variable))
-
-
 def _finite(variable: str, text: str) -> float:
+    """Return the finite number in SI units of a text; ValueError for another text."""
     number = si_value(variable, text)
     if not isfinite(number):
         raise ValueError(f"{variable} = {text}: must be finite")
@@ -55,6 +50,10 @@ def _bounds(text: str) -> tuple[str, tuple[float, float]]:
     return name, (_finite(name, match[2]), _finite(name, match[3]))
 
 
+_VELOCITY = options.Parsed("m/s", partial(_finite, "steady_velocity"))
+_FORCE = options.Parsed("N", partial(_finite, "blocking_force"))
+
+
 @click.command("fit", cls=options.SettingsCommand)
 @click.argument("data", type=options.DATA_FILE, nargs=-1)
 @click.option(
@@ -70,8 +69,8 @@ def _bounds(text: str) -> tuple[str, tuple[float, float]]:
     multiple=True,
     help="Bounds of one. Repeatable.",
 )
-@click.option("--velocity", type=_quantity("steady_velocity"), help="Velocity without load.")
-@click.option("--blocking", type=_quantity("blocking_force"), help="Load that stops the slider.")
+@click.option("--velocity", type=_VELOCITY, help="Velocity without load.")
+@click.option("--blocking", type=_FORCE, help="Load that stops the slider.")
 @click.option(
     "--velocity-at",
     "loaded",
@@ -86,11 +85,7 @@ def _bounds(text: str) -> tuple[str, tuple[float, float]]:
     show_default=True,
     help="Starts of the search: the device, and others beside it.",
 )
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, file_okay=False),
-    help="Folder for device.toml, fit.png, residuals.csv and fit.html.",
-)
+@options.out_folder_option("device.toml, fit.png, residuals.csv and fit.html", required=False)
 @options.device_options
 @options.fmu_option
 @options.jobs_option
@@ -108,7 +103,7 @@ def fit_command(
     device: DeviceFile | None,
     settings: dict[str, float],
     fmu: Path | None,
-    jobs: int | None,
+    jobs: int,
     time_limit: float,
     as_json: bool,
 ) -> int:
@@ -151,8 +146,7 @@ def fit_command(
             )
     path = options.default_fmu(fmu)
     provenance = provenance_of(path)
-    workers = jobs or available_cores()
-    with progress_bar() as progress, isolated(path, workers, time_limit, progress) as run:
+    with progress_bar() as progress, isolated(path, jobs, time_limit, progress) as run:
         found = fit(
             measurements,
             [name.strip() for names in free for name in names.split(",") if name.strip()],

@@ -13,6 +13,7 @@ from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import check_value, is_number, si_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fmu import finished
+from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.output.readable import escaped
 from slider_resonator.output.targets import writable
 from slider_resonator.scenes.device_file import (
@@ -72,13 +73,16 @@ def setting(text: str) -> tuple[str, float]:
     value = si_value(name, number)
     check_value(name, value)
     if is_number(number):
-        _note(possible_slips({name: value}))
+        note(possible_slips({name: value}))
     return name, value
 
 
-def note_slips(source: str, slips: Sequence[str]) -> None:
-    """Print what may be meant in another unit in a file or option."""
-    _note([f"{source}: {slip}" for slip in slips])
+def note(sentences: Sequence[str], source: str = "") -> None:
+    """Print notes, such as what may be meant in another unit in a file or option."""
+    for sentence in sentences:
+        click.echo(
+            escaped(f"note: {source}: {sentence}" if source else f"note: {sentence}"), err=True
+        )
 
 
 def note_slips_of(scene: Scene, name: str | None, device: DeviceFile | None) -> None:
@@ -87,12 +91,7 @@ def note_slips_of(scene: Scene, name: str | None, device: DeviceFile | None) -> 
     `name` is what the command line calls the scene.
     """
     if device is None and name not in built_in_scenes():
-        note_slips(scene.source, scene.slips)
-
-
-def _note(sentences: Sequence[str]) -> None:
-    for sentence in sentences:
-        click.echo(escaped(f"note: {sentence}"), err=True)
+        note(scene.slips, scene.source)
 
 
 class SettingsCommand(click.Command):
@@ -288,6 +287,7 @@ jobs_option = click.option(
     "jobs",
     cls=Renamed,
     type=click.IntRange(min=1),
+    callback=lambda _, __, jobs: jobs or available_cores(),
     help="Processes.  [default: one per core]",
 )
 
@@ -314,7 +314,7 @@ def device_file(name_or_file: str) -> DeviceFile:
     Raises SceneError as `read_device_file` does.
     """
     read = read_device_file(name_or_file)
-    _note([f"{name_or_file}: {note}" for note in (*read.slips, *without_drive(read.values))])
+    note([*read.slips, *without_drive(read.values)], name_or_file)
     return read
 
 
@@ -343,12 +343,12 @@ def values_of(device: DeviceFile | None, settings: Mapping[str, float]) -> dict[
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
 
 
-def out_folder_option(contents: str) -> Callable[[FC], FC]:
+def out_folder_option(contents: str, *, required: bool = True) -> Callable[[FC], FC]:
     """Return the option --out, a folder; `contents` is the help text about what goes into it."""
     return click.option(
         "--out",
         type=click.Path(path_type=Path, file_okay=False),
-        required=True,
+        required=required,
         help=f"Folder for {contents}.",
     )
 

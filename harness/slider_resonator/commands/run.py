@@ -210,7 +210,7 @@ def run_command(
 
             fine = _run(isolated, read, schedule_to_plot(read), progress)
             save(run_figure(fine, read), plot)
-    summary = _summary(fmu, read, record, out, plot, choice, how)
+    summary = _summary(fmu, read, record, out=out, plot=plot, auto=choice, inputs=how)
     print_result(summary, _sentences(summary, read), as_json=as_json, provenance=provenance)
     return 0
 
@@ -262,18 +262,12 @@ def _draw_signals(
 
 
 def _summary(
-    fmu: Path,
-    scene: Scene,
-    record: Record,
-    out: Path | None,
-    plot: Path | None,
-    choice: "Choice | None",
-    how: str | None,
+    fmu: Path, scene: Scene, record: Record, **more: "Path | Choice | str | None"
 ) -> dict[str, Any]:
     """Return a run and its cost; times in s, positions in m, velocities in m/s.
 
-    `auto` is the choice of --auto, `inputs` how inputs that are straight lines reach the FMU: one
-    of `HOW_INPUTS`, None where there are none.
+    Of `more`, `auto` is the choice of --auto, `inputs` how inputs that are straight lines reach the
+    FMU: one of `HOW_INPUTS`, None where there are none.
     """
     simulated = float(record.times[-1])
     periods = float(scene.drive_periods.passed_by(record.times[-1:])[0])
@@ -291,10 +285,7 @@ def _summary(
         "wall_time": record.wall_time,
         "wall_time_per_simulated_time": record.wall_time / simulated,
         "microseconds_per_drive_period": 1e6 * record.wall_time / periods,
-        "out": None if out is None else str(out),
-        "plot": None if plot is None else str(plot),
-        "auto": choice,
-        "inputs": how,
+        **more,
     }
 
 
@@ -322,4 +313,4 @@ def _sentences(summary: Mapping[str, Any], scene: Scene) -> str:
         f"{summary['microseconds_per_drive_period']:.3g} us per drive period"
     )
     written = (summary["out"], summary["plot"])
-    return "\n".join([*lines, *(f"written  {one_line(file)}" for file in written if file)])
+    return "\n".join([*lines, *(f"written  {one_line(str(file))}" for file in written if file)])

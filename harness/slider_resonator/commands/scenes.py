@@ -74,7 +74,7 @@ def scenes_command(as_json: bool, **chosen: Any) -> None:
         click.echo(template(), nl=False)
     elif chosen["check"]:
         for scene in find_scenes([chosen["check"]]):
-            options.note_slips(scene.source, scene.slips)
+            options.note(scene.slips, scene.source)
             checks = sum(len(point.scene.expect) for point in scene.points())
             click.echo(escaped(f"{scene.source}: valid, {number_of(checks, 'check')}"))
     elif chosen["schema"]:

@@ -12,7 +12,6 @@ from click.core import ParameterSource
 from slider_resonator.commands import options
 from slider_resonator.commands.results import print_result
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt
 from slider_resonator.output.progress import part_of
@@ -63,11 +62,7 @@ def _random_option(name: str, default: int, text: str) -> Callable[[options.FC],
 @click.option("--case", "name", metavar="NAME", help="Run the case of this name alone.")
 @options.time_limit_option(TIME_LIMIT, "For each case; one that hangs fails.")
 @options.jobs_option
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, file_okay=False),
-    help="Folder for stress.json and index.html.",
-)
+@options.out_folder_option("stress.json and index.html", required=False)
 @options.json_option
 @click.pass_context
 def stress_command(
@@ -80,7 +75,7 @@ def stress_command(
     device: str | None,
     name: str | None,
     time_limit: float,
-    jobs: int | None,
+    jobs: int,
     out: Path | None,
     as_json: bool,
 ) -> int:
@@ -136,8 +131,7 @@ def stress_command(
     with noting_on_interrupt(partial(_kept, results, out)), progress_bar() as progress:
         for index, fmu in enumerate(chosen):
             part = part_of(progress, index, len(chosen))
-            workers = jobs or available_cores()
-            keep(run_cases(fmu, cases, part, time_limit, jobs=workers, keep=keep))
+            keep(run_cases(fmu, cases, part, time_limit, jobs=jobs, keep=keep))
     lines = [line for result in results for line in result.sentences()]
     lines += [values_of(case) for case in cases if len(cases) == 1]
     lines += [] if out is None else [f"written {one_line(str(out))}"]

@@ -13,13 +13,12 @@ from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import si_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
-from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
 from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.scenes.device_file import DeviceFile
-from slider_resonator.sweeping.grid import Sweep, grid_from, read_grid
+from slider_resonator.sweeping.grid import grid_from, read_grid
 from slider_resonator.sweeping.sweeping import run_sweep
 from slider_resonator.sweeping.table import SUFFIXES, journal_path
 
@@ -77,7 +76,7 @@ def sweep_command(
     device: DeviceFile | None,
     settings: dict[str, float],
     fmu: Path | None,
-    jobs: int | None,
+    jobs: int,
     dask: str | None,
     restart: bool,
     overwrite: bool,
@@ -129,10 +128,18 @@ def sweep_command(
     else:
         content = {"grid": dict(axes), **({"measures": list(measures)} if measures else {})}
         sweep = grid_from(content, "--over", own, settings)
-    options.note_slips(str(grid or "--over"), sweep.slips)
+    options.note(sweep.slips, str(grid or "--over"))
     if device and not sweep.title:
         sweep = replace(sweep, title=device.title)
-    _check_drawable(sweep, plot, html)
+    # Imported here: drawing takes longer to load than many sweeps to run.
+    if plot is not None:
+        from slider_resonator.sweeping.picture import check_picture
+
+        check_picture(sweep, "--plot")
+    if html is not None:
+        from slider_resonator.sweeping.page import check_page, write_sweep_page
+
+        check_page(sweep, "--html")
     path = options.default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:
@@ -140,7 +147,7 @@ def sweep_command(
             sweep,
             path,
             out,
-            workers=jobs or available_cores(),
+            workers=jobs,
             dask=dask,
             restart=restart,
             overwrite=overwrite,
@@ -150,8 +157,6 @@ def sweep_command(
     if plot is not None:
         result.plot(plot)
     if html is not None:
-        from slider_resonator.sweeping.page import write_sweep_page
-
         write_sweep_page(html, sweep, result.columns, provenance)
     for number in result.damaged:
         print_text(
@@ -164,16 +169,3 @@ def sweep_command(
     text = "\n".join([*result.sentences(), f"written    {one_line(written)}"])
     print_result(document, text, as_json=as_json, provenance=provenance)
     return 1 if result.failed else 0
-
-
-def _check_drawable(sweep: Sweep, plot: Path | None, html: Path | None) -> None:
-    """Raise HarnessError for a sweep of which there is no such picture or page."""
-    # Imported here: drawing takes longer to load than many sweeps to run.
-    if plot is not None:
-        from slider_resonator.sweeping.picture import check_picture
-
-        check_picture(sweep, "--plot")
-    if html is not None:
-        from slider_resonator.sweeping.page import check_page
-
-        check_page(sweep, "--html")

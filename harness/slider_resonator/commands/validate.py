@@ -11,7 +11,6 @@ from slider_resonator.commands import options
 from slider_resonator.commands.reports import Reports, print_verdicts, report_options
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
-from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.scenes.scene_files import find_scenes
 
@@ -38,7 +37,7 @@ def validate_command(
     scenes: tuple[str, ...],
     own: bool,
     details: bool,
-    jobs: int | None,
+    jobs: int,
     time_limit: float,
     reports: Reports,
 ) -> int:
@@ -72,9 +71,7 @@ def validate_command(
             if own:
                 validations = validate_own(paths, progress, time_limit=time_limit)
             else:
-                validations = validate(
-                    paths, found, progress, time_limit=time_limit, jobs=jobs or available_cores()
-                )
+                validations = validate(paths, found, progress, time_limit=time_limit, jobs=jobs)
     except HarnessError as error:
         reports.write([], str(error))
         raise

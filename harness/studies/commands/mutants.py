@@ -18,7 +18,6 @@ from slider_resonator.commands.options import (
 from slider_resonator.commands.results import print_json
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
-from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, output
 from slider_resonator.output.progress_bar import progress_bar
@@ -106,7 +105,7 @@ def mutants_command(
     files: tuple[str, ...],
     kinds: tuple[str, ...],
     scenes: tuple[str, ...],
-    jobs: int | None,
+    jobs: int,
     time_limit: float,
     journal: Path | None,
     as_json: bool,
@@ -160,8 +159,7 @@ def mutants_command(
         return
     provenance = provenance_of(path)
     with noting_on_interrupt(lambda: _kept(journal)), progress_bar() as progress:
-        cores = jobs or available_cores()
-        judging = Judging(find_scenes(scenes), cores, time_limit, journal, progress)
+        judging = Judging(find_scenes(scenes), jobs, time_limit, journal, progress)
         run: MutationRun[Any] = judge(judging)
     if as_json:
         print_json(changes_as_plain(run) if native else mutants_as_plain(run), provenance)
