@@ -16,7 +16,6 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS, VARIABLES
 from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
-from slider_resonator.fitting.curves import points_between
 from slider_resonator.fitting.estimation import (
     Free,
     Minimum,
@@ -28,7 +27,7 @@ from slider_resonator.fitting.estimation import (
     predict_between,
     profile_end,
 )
-from slider_resonator.fitting.measurements import Measurements, Point
+from slider_resonator.fitting.measurements import Measurements, Point, points_between
 from slider_resonator.fitting.notes import (
     SUPPOSITIONS,
     data_notes,

@@ -11,8 +11,12 @@ from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.fitting.curves import abscissa_and_curves, set_value
-from slider_resonator.fitting.measurements import Measurements, Point
+from slider_resonator.fitting.measurements import (
+    Measurements,
+    Point,
+    abscissa_and_curves,
+    set_value,
+)
 from slider_resonator.output.plot_style import COLOURS, Drawn, Picture, drawn, plot_unit, style
 
 

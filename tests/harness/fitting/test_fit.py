@@ -14,10 +14,15 @@ from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import FmuError, HarnessError
-from slider_resonator.fitting.curves import points_between
 from slider_resonator.fitting.estimation import Problem, minimise, predict
 from slider_resonator.fitting.fit import NO_INTERVALS, fit, free_parameters, isolated
-from slider_resonator.fitting.measurements import Measurements, Point, Run, datasheet
+from slider_resonator.fitting.measurements import (
+    Measurements,
+    Point,
+    Run,
+    datasheet,
+    points_between,
+)
 from slider_resonator.fitting.notes import OUTLIER_LEVEL, data_notes, outlying
 from slider_resonator.fitting.reading import measurements_from
 from slider_resonator.fitting.report import parameter_table
