@@ -14,7 +14,6 @@ from pydantic.fields import FieldInfo
 
 from slider_resonator.device.interface import PARAMETERS, TUNABLES, VARIABLES
 from slider_resonator.scenes.expansion import bundles
-from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.input_tables import (
     AllInputsTable,
     BesideTable,
@@ -22,8 +21,14 @@ from slider_resonator.scenes.input_tables import (
     TuningTable,
 )
 from slider_resonator.scenes.key_table import PARAMETER_MEANINGS, KeyTable
-from slider_resonator.scenes.need_table import AllowedTable, NeedTable
-from slider_resonator.scenes.schema import RunTable, SceneTable, SweepTable
+from slider_resonator.scenes.schema import (
+    AllowedTable,
+    ExpectTable,
+    NeedTable,
+    RunTable,
+    SceneTable,
+    SweepTable,
+)
 from slider_resonator.scenes.toml_file import toml_value
 from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES, Quantity
 

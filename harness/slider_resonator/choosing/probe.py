@@ -22,8 +22,8 @@ from slider_resonator.device.model import Model
 from slider_resonator.device.schedule import communication_points
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record
-from slider_resonator.scenes.need_table import RUN_NEEDS, STEADY_NEEDS
 from slider_resonator.scenes.scene import Scene
+from slider_resonator.scenes.schema import RUN_NEEDS, STEADY_NEEDS
 
 MAX_STEPS = 10_000
 """Steps of a candidate whose steps can be put together in the probe, or that holds inputs."""

@@ -21,11 +21,9 @@ from slider_resonator.output.shown import Shown
 from slider_resonator.scenes.csv_signal import csv_signal
 from slider_resonator.scenes.device_file import possible_slips, read_device_file, refuse_other_kinds
 from slider_resonator.scenes.expansion import variants
-from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.explanations import explanations
 from slider_resonator.scenes.input_tables import InputTable
-from slider_resonator.scenes.need_table import NeedTable
-from slider_resonator.scenes.schema import RunTable, SceneTable, SweepTable
+from slider_resonator.scenes.schema import ExpectTable, NeedTable, RunTable, SceneTable, SweepTable
 from slider_resonator.scenes.si_values import with_si_values
 from slider_resonator.scenes.toml_file import read_toml
 

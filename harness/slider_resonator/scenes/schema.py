@@ -1,7 +1,8 @@
 """The schema of a scene file. Every key is listed in its tables; any other is refused."""
 
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar
+from math import isfinite
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, field_validator, model_validator
 
@@ -10,11 +11,11 @@ from slider_resonator.device.interface import INPUTS, SETTABLE, TUNABLES
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.expansion import with_bundles
-from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.input_tables import AllInputsTable, BesideTable, TuningTable
 from slider_resonator.scenes.key_table import (
     KeyTable,
     Line,
+    NotNegative,
     Number,
     Parameters,
     Positive,
@@ -23,8 +24,15 @@ from slider_resonator.scenes.key_table import (
     key,
     required,
 )
-from slider_resonator.scenes.need_table import RUN_NEEDS, STEADY_NEEDS, NeedTable
-from slider_resonator.scenes.vocabulary import QUANTITIES
+from slider_resonator.scenes.vocabulary import MAX_TUBE, QUANTITIES, REFERENCES, Quantity
+
+STEADY_NEEDS = ("steady_velocity", "blocking_force")
+"""Needs in the steady motion under constant inputs."""
+RUN_NEEDS = (
+    *("mean_velocity", "mean_velocity_throughout", "position", "velocity"),
+    *("event_times", "beat"),
+)
+"""Needs that are measured in a run."""
 
 
 class RunTable(KeyTable):
@@ -77,6 +85,100 @@ class RunTable(KeyTable):
         return self
 
 
+class ExpectTable(KeyTable):
+    """One expectation: a quantity of the FMU against a reference, a value or a bound."""
+
+    rules: ClassVar[tuple[str, ...]] = (
+        "Exactly one of `reference`, `value`, `at_most` and `at_least`. A signal needs a "
+        "reference, a word a `value`; only numbers have bounds.",
+        "The allowed deviation of a number is `absolute + relative * |reference|`. Without "
+        "`absolute` a reference counts as no smaller than a hundredth of its natural scale: v_q, "
+        "full friction, the fast amplitude.",
+        "The allowed deviation of a signal is `relative`, a share of the reference's peak; "
+        "`absolute` beside it is for a reference near zero.",
+        "A real number needs a tolerance, be it 0; counts, words and contact modes need none.",
+        "`tube` allows a signal to be early or late, with the references `located_events` "
+        "and `bristle_state`. For `event_times` it is the tolerance, alone.",
+        "`quantity` may be a list of names, which is short for an [[expect]] of each.",
+        "`absolute = 0.001` with a unit of m means 1 mm: all values are in the unit of the "
+        "quantity.",
+    )
+
+    quantity: str = required(
+        "what is compared; the list is below", "position", enum=list(QUANTITIES)
+    )
+    reference: str | None = key(
+        "reference that gives the expected value; which the quantity has is below",
+        "located_events",
+        enum=list(REFERENCES),
+    )
+    value: float | str | None = key("expected number or word", 0.126667)
+    at_most: Number | None = key("upper bound of a number", 100.0)
+    at_least: Number | None = key("lower bound of a number", 0.12)
+    absolute: NotNegative = key("allowed deviation", 1e-9, unit="unit of the quantity", default=0.0)
+    relative: NotNegative = key("allowed deviation, as a share", 1e-8, unit="1", default=0.0)
+    tube: Annotated[float, Field(strict=True, gt=0.0, lt=MAX_TUBE)] | None = key(
+        "allowed shift in time", 0.01, unit="drive periods"
+    )
+    why: Line = required(
+        "the reason for the expectation, for the report", "the step must arrive when it is due"
+    )
+
+    @field_validator("quantity")
+    @classmethod
+    def _known_quantity(cls, name: str) -> str:
+        if name not in QUANTITIES:
+            raise ValueError(unknown_name("quantity", name, QUANTITIES))
+        return name
+
+    @field_validator("value", mode="before")
+    @classmethod
+    def _number_or_word(cls, value: object) -> object:
+        number = isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
+        if not (number or isinstance(value, str)):
+            raise ValueError("must be a finite number or a text in quotes")
+        return value
+
+    @model_validator(mode="after")
+    def _comparable(self) -> "ExpectTable":
+        kinds = ("reference", "value", "at_most", "at_least")
+        given = [*self.given(kinds)]
+        exactly_one("expect", given, ", ".join(kinds))
+        quantity = QUANTITIES[self.quantity]
+        if self.reference is not None and self.reference not in quantity.references:
+            name = f"reference for {self.quantity}"
+            raise ValueError(unknown_name(name, self.reference, quantity.references))
+        if quantity.kind == "signal" and self.reference is None:
+            raise ValueError(f"{self.quantity} is a signal: it needs a reference")
+        if isinstance(self.value, str) != (quantity.kind == "word") and self.value is not None:
+            raise ValueError(
+                f"{self.quantity} is a {quantity.kind}, the value {self.value!r} is not"
+            )
+        if given in (["at_most"], ["at_least"]) and quantity.kind != "number":
+            raise ValueError(f"{self.quantity} is a {quantity.kind}: it cannot have a bound")
+        if given in (["reference"], ["value"]):
+            self._check_tolerance(quantity)
+        return self
+
+    def _check_tolerance(self, quantity: Quantity) -> None:
+        if quantity.in_periods:
+            given = sorted(self.model_fields_set & {"absolute", "relative"})
+            if self.tube is None or given:
+                raise ValueError(f"{self.quantity} needs a tube, a share of the period, alone")
+            return
+        if self.tube is not None and self.reference not in quantity.tube_references:
+            by = " or ".join(quantity.tube_references)
+            only = f"only against {by}" if by else "with no reference: delete the key"
+            raise ValueError(f"tube = {self.tube!r}: {self.quantity} can have one {only}")
+        signal = quantity.kind == "signal"
+        alone = quantity.exact or not self.relative > 0.0
+        if signal and "absolute" in self.model_fields_set and alone:
+            raise ValueError(f"{self.quantity} is a signal: must be relative, not absolute alone")
+        if not quantity.exact and not self.model_fields_set & {"absolute", "relative"}:
+            needed = "relative, a share of the peak" if signal else "relative or absolute"
+            raise ValueError(f"{self.quantity} is a real number: it needs a tolerance, {needed}")
+
+
 class SweepTable(KeyTable):
     """One parameter or input and its values; every expectation must hold at each."""
 
@@ -101,6 +203,91 @@ class SweepTable(KeyTable):
         for value in self.values:
             check_value(self.variable, value)
         return self
+
+
+class AllowedTable(KeyTable):
+    """Allowed error of a needed quantity: `abs + rel * size`, where either may be left out.
+
+    `abs` is in the quantity's unit. The size is the magnitude of a number, the peak of a signal and
+    the drive period for event times.
+    """
+
+    rules: ClassVar[tuple[str, ...]] = ("At least one of `abs` and `rel`.",)
+
+    abs: Positive | None = key("allowed error", 2e-3, unit="unit of the quantity")
+    rel: Positive | None = key(
+        "allowed error as a share of the size: the magnitude of a number, the peak of a signal, "
+        "the drive period for event times",
+        0.01,
+        unit="1",
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _a_table(cls, value: object) -> object:
+        if not isinstance(value, dict):
+            raise ValueError("must be a table with abs or rel, such as { rel = 0.01 }")
+        return value
+
+    @model_validator(mode="after")
+    def _some_tolerance(self) -> "AllowedTable":
+        if self.abs is None and self.rel is None:
+            raise ValueError("needs a tolerance: abs, rel or both")
+        return self
+
+    def at(self, size: float) -> float:
+        """Return the allowed error for a quantity of this size, both in the quantity's unit."""
+        return (self.abs or 0.0) + (self.rel or 0.0) * abs(size)
+
+
+class NeedTable(KeyTable):
+    """The quantities that the scene needs, and how accurately: the command choose meets them."""
+
+    rules: ClassVar[tuple[str, ...]] = (
+        "At least one quantity, each with `abs`, `rel` or both.",
+        "`steady_velocity` and `blocking_force` need constant inputs and parameters; the others "
+        "need a [run].",
+    )
+
+    mean_velocity: AllowedTable | None = key(
+        "mean velocity over the last drive period of the run", {"rel": 0.02}, unit="m/s"
+    )
+    mean_velocity_throughout: AllowedTable | None = key(
+        "mean velocity over the last drive period at each communication point from the end of the "
+        "first period on",
+        {"abs": 1e-3},
+        unit="m/s",
+    )
+    position: AllowedTable | None = key(
+        "position at each communication point", {"abs": 2e-3}, unit="m"
+    )
+    velocity: AllowedTable | None = key(
+        "velocity at each communication point", {"rel": 0.01}, unit="m/s"
+    )
+    steady_velocity: AllowedTable | None = key(
+        "mean velocity of the steady motion", {"rel": 0.01}, unit="m/s"
+    )
+    blocking_force: AllowedTable | None = key(
+        "load under which the mean velocity is zero", {"abs": 1e-3}, unit="N"
+    )
+    event_times: AllowedTable | None = key("time of each event", {"rel": 0.01}, unit="s")
+    beat: AllowedTable | None = key(
+        "frequency of the slow velocity beside an integer ratio", {"rel": 0.05}, unit="Hz"
+    )
+    friction_law: Literal["given", "free"] = key(
+        "whether either friction law may be chosen", "free", default="given"
+    )
+
+    @model_validator(mode="after")
+    def _some_need(self) -> "NeedTable":
+        if not self.needs:
+            raise ValueError(f"needs at least one of {', '.join((*STEADY_NEEDS, *RUN_NEEDS))}")
+        return self
+
+    @property
+    def needs(self) -> dict[str, AllowedTable]:
+        """The needed quantities by name."""
+        return self.given((*STEADY_NEEDS, *RUN_NEEDS))
 
 
 class SceneTable(KeyTable):

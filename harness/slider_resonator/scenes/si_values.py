@@ -8,8 +8,7 @@ from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.values import si_number
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.key_table import HAS_UNIT, units_of
-from slider_resonator.scenes.need_table import NeedTable
-from slider_resonator.scenes.schema import RunTable
+from slider_resonator.scenes.schema import NeedTable, RunTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 _UNITS: Mapping[str, str] = {

@@ -18,8 +18,8 @@ from slider_resonator.checks.reference_side import ReferenceSide
 from slider_resonator.checks.verdict import sentence
 from slider_resonator.device.device import Device
 from slider_resonator.errors import SceneError
-from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.scene import ScenePoint, scene_from
+from slider_resonator.scenes.schema import ExpectTable
 
 TABLE_1 = {"name": "scene", "title": "Scene"}
 STILL = {**TABLE_1, "device": {"base_amplitude": 0.0}}

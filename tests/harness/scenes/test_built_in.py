@@ -8,9 +8,9 @@ import pytest
 
 from slider_resonator.device.interface import HELD, INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.scenes.expansion import bundles
-from slider_resonator.scenes.expect_table import ExpectTable
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import built_in_scenes, find_scene, is_core
+from slider_resonator.scenes.schema import ExpectTable
 from tests.harness.scene_text import built_in
 
 
