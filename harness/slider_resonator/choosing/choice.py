@@ -162,9 +162,15 @@ class Choice(Shown, Tabular):
 
     def sentences(self) -> list[str]:
         """Return what was chosen, without the needs, for people."""
+        step = "none, nothing is run"
+        if self.step is not None:
+            step = f"{self.step:.6g} s, {self.step / self.drive_period:.4g} drive periods"
+        step += f", tolerance {self.tolerance:g}" if uses_tolerance(self.model) else ""
+        step += f"; {INPUTS[self.inputs]}" if self.step and self.inputs else ""
+        step += "; steps also end where inputs jump" if self.step and self.jumps else ""
         return [
             f"{'chosen' if self.meets else 'nearest':<9}{self.model.name}",
-            f"step     {self._step}",
+            f"step     {step}",
             f"why      {self.reason}",
             f"cost     {self.cost:.3g} s of CPU time, measured",
             f"probe    against {PROBES[self.probe]}; {self.probe_drive_periods:.0f} drive periods "
@@ -188,13 +194,3 @@ class Choice(Shown, Tabular):
         ]
         others = [f"not      {one.model.name}: {one.why}" for one in self.ruled_out]
         return [*self.sentences(), *needs, *others]
-
-    @property
-    def _step(self) -> str:
-        tolerance = f", tolerance {self.tolerance:g}" if uses_tolerance(self.model) else ""
-        if self.step is None:
-            return f"none, nothing is run{tolerance}"
-        periods = self.step / self.drive_period
-        inputs = f"; {INPUTS[self.inputs]}" if self.inputs else ""
-        inputs += "; steps also end where inputs jump" if self.jumps else ""
-        return f"{self.step:.6g} s, {periods:.4g} drive periods{tolerance}{inputs}"

@@ -67,7 +67,7 @@ class Probe:
     @property
     def covers(self) -> str:
         """What the errors were compared with: "whole", "leaps" over the whole, or "beginning"."""
-        if self._stop < self.duration:
+        if self._reference.stop < self.duration:
             return "beginning"
         return "leaps" if self._reference.leaps else "whole"
 
@@ -86,23 +86,25 @@ class Probe:
         Raises FmuError or Refusal where the FMU cannot run it.
         """
         step = candidate.step or self.duration
-        joined = step * self._together(step)
-        record, seconds = self._run(candidate, joined, self._stop)
+        joined, stop = step * self._together(step), self._reference.stop
+        record, seconds = self._run(candidate, joined, stop)
         if joined > step:
-            seconds = self.cost(candidate) * self._stop / self.duration
+            seconds = self.cost(candidate) * stop / self.duration
         reference, grid = self._reference.record(step), self._grid(step)
         seen = replace(self._reference.readings, grid=grid).errors(record, reference)
         if "beat" in seen and (
             why := self.no_beat or unseen_beat(seen["beat"], beat_frequency(self.scene))
         ):
             seen["beat"] = ErrorEstimate(inf, 0.0, why)
-        grown = seen if self._stop == self.duration else self._grown(candidate.model, seen)
-        return grown, seconds * self.duration / self._stop
+        if stop < self.duration:
+            seen = self._grown(candidate.model, seen)
+        return seen, seconds * self.duration / stop
 
     def cost(self, candidate: Candidate, stop: float = inf) -> float:
         """Return the cost (s) of a run with a candidate, by that up to `stop` (s)."""
         step = candidate.step or self.duration
-        stop = min(stop, self._stop, TIMED_STEPS * step if self._together(step) > 1 else inf)
+        most = TIMED_STEPS * step if self._together(step) > 1 else inf
+        stop = min(stop, self._reference.stop, most)
         return self._run(candidate, min(step, stop), stop)[1] * self.duration / stop
 
     def _run(self, candidate: Candidate, step: float, stop: float) -> tuple[Record, float]:
@@ -126,7 +128,7 @@ class Probe:
         if model != self.reference_model:
             reason = "the scene is too long for a resolved run of all of it, and leaps do not serve"
             return {name: replace(e, error=inf, reason=reason) for name, e in seen.items()}
-        growth = CAUTION * self.duration / self._stop
+        growth = CAUTION * self.duration / self._reference.stop
         return {
             name: estimate if name == "beat" else replace(estimate, error=growth * estimate.error)
             for name, estimate in seen.items()
@@ -136,11 +138,6 @@ class Probe:
     def no_beat(self) -> str:
         """The reason why a run shows no beat; empty where it shows one or none is needed."""
         return lacking_beat(self.scene) if "beat" in self.run_needs else ""
-
-    @property
-    def _stop(self) -> float:
-        """End (s) of what is compared."""
-        return self._reference.stop
 
     @cached_property
     def _reference(self) -> Reference:
@@ -167,7 +164,7 @@ class Probe:
         """Return the times (s) at which a candidate with this step (s) shows a beat."""
         if "beat" not in self.run_needs:
             return np.empty(0)
-        return communication_points(stop or self._stop, step)[:-1]
+        return communication_points(stop or self._reference.stop, step)[:-1]
 
 
 def _cut(scene: Scene, stop: float) -> Scene:

@@ -176,11 +176,9 @@ def run_command(
     names = [name.strip() for name in signals.split(",")] if signals is not None else None
     if is_chosen:
         # Imported here: drawing takes longer to load than the rest to run.
-        from slider_resonator.scenes.signals_plot import check_signals, check_window
+        from slider_resonator.scenes.signals_plot import check_plot
 
-        check_signals(names or (), read)
-        if window is not None:
-            check_window(window, read)
+        check_plot(read, names or (), window)
     with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
         if auto:
             # Imported here: it loads scipy.

@@ -27,7 +27,7 @@ from slider_resonator.fitting.estimation import (
     predict_between,
     profile_end,
 )
-from slider_resonator.fitting.measurements import Measurements, Point, points_between
+from slider_resonator.fitting.measurements import Measurements, points_between
 from slider_resonator.fitting.notes import (
     SUPPOSITIONS,
     data_notes,
@@ -191,6 +191,11 @@ def fit(
             pairs = zip(free, one.internal.tolist(), strict=True)
             said = ", ".join(f"{which.name} = {which.value(x):.6g}" for which, x in pairs)
             notes.append(f"the data are met as well by {said}; bounds decide")
+    points = points_between(measurements.points)
+    try:
+        (between,) = run("drawing", [partial(predict_between, parameters=found, points=points)])
+    except FmuError:
+        between = ()
     return Fit(
         fitted,
         device,
@@ -206,7 +211,7 @@ def fit(
         measurements=measurements,
         unmet=tuple(unmet),
         notes=tuple(notes),
-        between=_between(measurements.points, found, run),
+        between=tuple(between),
     )
 
 
@@ -245,18 +250,6 @@ def _supposed(problem: Problem, run: Runner) -> dict[str, Array]:
         return dict(zip(meant, run("supposing", tasks), strict=True))
     except FmuError:
         return {}
-
-
-def _between(
-    points: Sequence[Point], parameters: Mapping[str, float], run: Runner
-) -> tuple[Point, ...]:
-    """Return what is predicted between the measured points, nothing where the FMU fails."""
-    task = partial(predict_between, parameters=parameters, points=points_between(points))
-    try:
-        (found,) = run("drawing", [task])
-    except FmuError:
-        return ()
-    return tuple(found)
 
 
 def _weighted(problem: Problem, best: Minimum, run: Runner) -> tuple[Problem, Minimum, int]:

@@ -16,7 +16,7 @@ from slider_resonator.device.signal import steps
 from slider_resonator.device.values import is_number, si_value, with_unit
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fitting.measurements import STEADY, TIME, Measurements, Point, Run
-from slider_resonator.scenes.csv_signal import check_cells, csv_number, csv_rows
+from slider_resonator.scenes.csv_signal import csv_number, csv_rows
 from slider_resonator.scenes.device_file import IN_ANOTHER_UNIT
 
 _ALIASES = {"frequency": "drive_frequency", "amplitude": "base_amplitude"}
@@ -93,7 +93,6 @@ def _columns(path: Path) -> _Columns:
     """Return the columns of a file, empty cells as NaN."""
     try:
         header, filled = csv_rows(path)
-        check_cells(path, header, filled)
         if not 1 <= len(filled) <= MAX_ROWS:
             raise ValueError(f"{len(filled)} rows below the header; must be 1 to {MAX_ROWS}")
         rows = [f"line {line}" for line, _ in filled]

@@ -49,20 +49,7 @@ def write_report(fit: Fit, folder: Path, title: str, provenance: Provenance) -> 
     write_text(device, note + to_toml(fit.device, title))
     figure = fit.figure()
     save(figure, picture)
-    _write_residuals(fit, table)
-    said = "".join(f"<li>{escape(line)}</li>" for line in fit.sentences())
-    parts = [
-        rendered(parameter_table(fit)),
-        f"<ul>{said}</ul>",
-        f'<img alt="measurements and fit" src="{png_data_uri(figure)}">',
-        provenance_html(provenance),
-    ]
-    write_page(page, title, parts)
-    return paths
-
-
-def _write_residuals(fit: Fit, path: Path) -> None:
-    """Write a row for each number; what a steady measurement set is in columns of its own."""
+    # A row for each number; what a steady measurement set is in columns of its own.
     points = fit.measurements.points
     settings = list(dict.fromkeys(name for point in points for name in point.values))
     quantities, *where = zip(*fit.measurements.places, strict=True)
@@ -72,4 +59,13 @@ def _write_residuals(fit: Fit, path: Path) -> None:
     for name in settings:
         columns.append([*(point.values.get(name, "") for point in points), *of_runs])
     header = ("quantity", "measured", "predicted", "residual_over_deviation", "source", "row")
-    write_csv(path, (*header, *settings), zip(*columns, strict=True))
+    write_csv(table, (*header, *settings), zip(*columns, strict=True))
+    said = "".join(f"<li>{escape(line)}</li>" for line in fit.sentences())
+    parts = [
+        rendered(parameter_table(fit)),
+        f"<ul>{said}</ul>",
+        f'<img alt="measurements and fit" src="{png_data_uri(figure)}">',
+        provenance_html(provenance),
+    ]
+    write_page(page, title, parts)
+    return paths

@@ -49,7 +49,12 @@ class Journal:
                 if not is_new:
                     self._check(digest, restart=restart)
                 if is_new or restart:
-                    self._create(digest)
+                    self._file.execute("DROP TABLE IF EXISTS work")
+                    self._file.execute("DROP TABLE IF EXISTS entries")
+                    for table in TABLES:
+                        self._file.execute(table)
+                    self._file.execute(f"PRAGMA application_id = {APPLICATION}")
+                    self._file.execute("INSERT INTO work VALUES (?, ?)", (work, digest))
                 self._file.execute("COMMIT")
             except BaseException:
                 self._file.close()
@@ -98,14 +103,6 @@ class Journal:
             else:
                 self.damaged.append(number)
         self._file.executemany("DELETE FROM entries WHERE number = ?", [(n,) for n in self.damaged])
-
-    def _create(self, digest: str) -> None:
-        self._file.execute("DROP TABLE IF EXISTS work")
-        self._file.execute("DROP TABLE IF EXISTS entries")
-        for table in TABLES:
-            self._file.execute(table)
-        self._file.execute(f"PRAGMA application_id = {APPLICATION}")
-        self._file.execute("INSERT INTO work VALUES (?, ?)", (self._work, digest))
 
     def _is_none(self) -> HarnessError:
         return HarnessError(

@@ -33,7 +33,7 @@ def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
 
     Columns are apart by commas, by what the header has of `SEPARATORS`, or by what a line `sep=`
     above it says. Lines that begin with # and rows without a value are left out. Raises ValueError
-    naming the file and what is wrong.
+    naming the file and what is wrong, also for a row that has more cells than the header.
     """
     try:
         file = io.StringIO(_text(path), newline="")
@@ -56,18 +56,14 @@ def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     header = [name.strip() for name in rows[0][1]] if rows else []
     if separator != ",":
         rows = [(line, [cell.replace(",", ".") for cell in row]) for line, row in rows]
-    return header, rows[1:]
-
-
-def check_cells(path: Path, header: Sequence[str], rows: Sequence[tuple[int, list[str]]]) -> None:
-    """Raise ValueError for a row that has more cells than the header, naming file and line."""
-    for line, row in rows:
+    for line, row in rows[1:]:
         if any(cell.strip() for cell in row[len(header) :]):
             raise ValueError(
                 f"csv {path} line {line}: {len(row)} cells below {len(header)} headings; "
                 "must be as many (with decimal commas columns are apart by ;, text with commas "
                 "is in quotes)"
             )
+    return header, rows[1:]
 
 
 def csv_signal(path: Path, column: str, between: str) -> Signal:
@@ -93,7 +89,6 @@ def csv_signal(path: Path, column: str, between: str) -> Signal:
             points.append((csv_number("time", row, 0), csv_number(name, row, index)))
         except ValueError as error:
             raise ValueError(f"csv {path} line {line}: {error}") from error
-    check_cells(path, header, rows)
     try:
         signal = steps(points) if between == "hold" else ramp(points)
     except ValueError as error:

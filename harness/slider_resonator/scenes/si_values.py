@@ -49,7 +49,9 @@ def _in_si(value: Any, path: str, unit: str) -> Any:
         is_number = unit and re.search(HAS_UNIT, value) and not value.lower().endswith(".csv")
         return si_number(path, value, unit) if is_number else value
     if isinstance(value, Mapping):
-        own = _own_unit(value) or unit
+        about = QUANTITIES.get(str(value.get("quantity")))
+        own = about.unit if about else _UNITS.get(str(value.get("variable")), "")
+        own = own if own in _UNITS.values() else unit
         return {
             key: _in_si(one, f"{path}.{key}", _UNITS.get(key, own if key in _INHERITED else ""))
             for key, one in value.items()
@@ -63,12 +65,3 @@ def _in_si(value: Any, path: str, unit: str) -> Any:
         else one
         for k, one in enumerate(value)
     ]
-
-
-def _own_unit(table: Mapping[str, Any]) -> str:
-    """Return the unit of the variable or quantity that a table is about, if it names one."""
-    variable, quantity = str(table.get("variable")), str(table.get("quantity"))
-    if quantity not in QUANTITIES:
-        return _UNITS.get(variable, "")
-    unit = QUANTITIES[quantity].unit
-    return unit if unit in _UNITS.values() else ""

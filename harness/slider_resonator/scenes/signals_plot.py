@@ -53,20 +53,20 @@ class Run:
     record: Record
 
 
-def check_signals(names: Sequence[str], scene: Scene) -> None:
-    """Raise HarnessError for a name that is no output, input or tuned, or is given twice."""
+def check_plot(scene: Scene, names: Sequence[str], window: tuple[float, float] | None) -> None:
+    """Raise HarnessError for what a plot cannot show.
+
+    That is a name that is no output, input or tuned, or is given twice; a window (s) that is empty
+    or not within the run.
+    """
     allowed = [*ALL_OUTPUTS, *INPUTS, *scene.tuning]
     for name in names:
         if name not in allowed:
             raise HarnessError(f"--signals: {unknown_name('output or input', name, allowed)}")
         if list(names).count(name) > 1:
             raise HarnessError(f"--signals: {name} is given twice; must be given once")
-
-
-def check_window(window: tuple[float, float], scene: Scene) -> None:
-    """Raise HarnessError for a window (s) that is empty or not within the run."""
-    begin, end = window
     stop = float(scene.schedule().times[-1])
+    begin, end = window or (0.0, stop)
     if not 0.0 <= begin < end <= stop:
         raise HarnessError(
             f"--window {begin:g}:{end:g}: must be FROM:TO with 0 <= FROM < TO <= {stop:g} s, "

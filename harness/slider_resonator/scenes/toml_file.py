@@ -82,17 +82,12 @@ def toml_mistake(text: str, error: str) -> str:
     """Return where and what is wrong in `text`, and the remedy, for the error of `tomllib`."""
     lines = text.splitlines() or [""]
     found = _LINE.search(error)
-    number = min(int(found[1]), len(lines)) if found else _unclosed(lines)
+    opening = [n for n, line in enumerate(lines, 1) if _opened(line) > 0] or [len(lines)]
+    number = min(int(found[1]), len(lines)) if found else opening[-1]
     line = lines[number - 1].strip()
     shown = line if len(line) <= MAX_SHOWN else f"{line[:MAX_SHOWN]}..."
     wrong = _LINE.sub("", error).removesuffix("(at end of document)").strip()
     return f"line {number}: {shown}: not TOML: {wrong}; {_remedy(error, line)}"
-
-
-def _unclosed(lines: list[str]) -> int:
-    """Return the number of the last line that opens more brackets than it closes."""
-    opens = [n for n, line in enumerate(lines, 1) if _opened(line) > 0]
-    return opens[-1] if opens else len(lines)
 
 
 def _opened(line: str) -> int:

@@ -77,20 +77,17 @@ class SweepResult(Shown, Tabular, Drawable):
         if self.found:
             lines.append(f"found      {self.found} of them finished before")
         if self.unanswered:
+            statuses: Counter[str] = Counter()
+            for name in SEARCHED.keys() & self.sweep.task.measures:
+                pairs = zip(self.columns[name], self.columns[f"{name}_status"], strict=True)
+                statuses.update(status for value, status in pairs if value is None and status)
+            reasons = ", ".join(f"{one} ({count})" for one, count in statuses.most_common())
             points = number_of(self.unanswered, "point")
-            lines.append(f"no answer  to a measure at {points}: {', '.join(self._reasons())}")
+            lines.append(f"no answer  to a measure at {points}: {reasons}")
         if self.failed:
             points = number_of(self.failed, "point")
             lines.append(f"failed     {points}; the first error: {self.first_error}")
         return lines
-
-    def _reasons(self) -> list[str]:
-        """Return the statuses of measures that have no value, with how often each is."""
-        statuses: Counter[str] = Counter()
-        for name in SEARCHED.keys() & self.sweep.task.measures:
-            pairs = zip(self.columns[name], self.columns[f"{name}_status"], strict=True)
-            statuses.update(status for value, status in pairs if value is None and status)
-        return [f"{status} ({count})" for status, count in statuses.most_common()]
 
     def describe(self) -> list[str]:
         """Return what was varied, what became of the points, and the range of each measure."""

@@ -102,24 +102,19 @@ def write_trades(path: Path, trades: Sequence[Trade], provenance: Provenance) ->
             items = "".join(f"<li>{escaped(words)}</li>" for words in sentences)
             parts.append(f"<p><strong>{escaped(target)}</strong></p><ul>{items}</ul>")
     parts.append(EXPLANATION)
-    parts += [part for trade in trades for part in _scene(trade)]
+    for trade in trades:
+        parts.append(f"<h2>{escaped(title(trade))}: in full</h2>")
+        run = f"{trade.periods} drive periods, {trade.simulated:.4g} s simulated."
+        parts.append(f"<p>{escaped(run)}</p>")
+        shown = [quantity for quantity in QUANTITIES if trade.having(quantity)]
+        parts += [plot_html(work_precision_plot(trade, quantity)) for quantity in shown]
+        table = Table(_COLUMNS, [_cells(row) for row in trade.rows])
+        parts.append(folded(f"All {len(trade.rows)} rows", rendered(table)))
+        omitted = [(one.method, one.quantity, one.reason) for one in trade.omissions]
+        missing = rendered(Table(texts("method", "quantity", "reason"), omitted))
+        parts.append(folded(f"{len(omitted)} omissions: what is missing, and why", missing))
     parts.append(provenance_html(provenance))
     write_plot_page(path, "What accuracy costs", parts)
-
-
-def _scene(trade: Trade) -> list[str]:
-    parts = [f"<h2>{escaped(title(trade))}: in full</h2>"]
-    run = f"{trade.periods} drive periods, {trade.simulated:.4g} s simulated."
-    parts.append(f"<p>{escaped(run)}</p>")
-    for quantity in QUANTITIES:
-        if trade.having(quantity):
-            parts.append(plot_html(work_precision_plot(trade, quantity)))
-    table = Table(_COLUMNS, [_cells(row) for row in trade.rows])
-    parts.append(folded(f"All {len(trade.rows)} rows", rendered(table)))
-    omitted = [(one.method, one.quantity, one.reason) for one in trade.omissions]
-    missing = rendered(Table(texts("method", "quantity", "reason"), omitted))
-    parts.append(folded(f"{len(omitted)} omissions: what is missing, and why", missing))
-    return parts
 
 
 def _cells(row: Row) -> list[str]:

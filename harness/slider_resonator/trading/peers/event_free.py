@@ -47,8 +47,7 @@ def simulate(
     fails or the right hand side is evaluated more than ``max_evaluations`` times.
     """
     limits = (rtol, atol, width, max_evaluations)
-    follow = partial(_integrate, method=method, limits=limits)
-    return RunWithoutEvents(device, times).run(held, follow)
+    return RunWithoutEvents(device, times).run(held, partial(_integrate, method, limits))
 
 
 class RunWithoutEvents:
@@ -102,11 +101,10 @@ class RunWithoutEvents:
 
 
 def _integrate(
-    run: RunWithoutEvents,
-    inputs: HeldInputs,
-    *,
     method: Callable[..., Any],
     limits: tuple[float, float, float, int],
+    run: RunWithoutEvents,
+    inputs: HeldInputs,
 ) -> None:
     """Advance a run; `limits` are rtol, atol, width and max_evaluations of `simulate`."""
     rtol, atol, width, max_evaluations = limits
