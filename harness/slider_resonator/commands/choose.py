@@ -8,8 +8,8 @@ from slider_resonator.choosing import Choice, choose
 from slider_resonator.choosing.choice import error_text
 from slider_resonator.choosing.choosing import TIME_LIMIT
 from slider_resonator.commands import options
-from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.fmu.provenance import provenance_of
+from slider_resonator.output.console import print_json, print_table, print_text
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.device_file import DeviceFile

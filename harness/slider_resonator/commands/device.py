@@ -5,14 +5,13 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import json_option, target
-from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.values import with_unit
-from slider_resonator.output.atomic import write_text
+from slider_resonator.output.console import print_json, print_table, print_text
+from slider_resonator.output.files import distinct, write_text
 from slider_resonator.output.readable import escaped, number_of, one_line
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.output.targets import distinct
 from slider_resonator.scenes.device_file import (
     device_content,
     example_devices,

@@ -9,7 +9,6 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands import options
-from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.device.values import si_value
 from slider_resonator.errors import unknown_name
@@ -17,9 +16,10 @@ from slider_resonator.fitting.measurements import datasheet
 from slider_resonator.fitting.reading import read_measurements
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.provenance import provenance_of
+from slider_resonator.output.console import print_json, print_table, print_text
+from slider_resonator.output.files import distinct, make_folder
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
-from slider_resonator.output.targets import distinct, make_folder
 from slider_resonator.scenes.device_file import DeviceFile
 
 

@@ -14,8 +14,8 @@ from slider_resonator.device.values import check_value, is_number, si_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fmu import finished
 from slider_resonator.fmu.isolation.tasks import available_cores
+from slider_resonator.output.files import writable
 from slider_resonator.output.readable import escaped
-from slider_resonator.output.targets import writable
 from slider_resonator.scenes.device_file import (
     DeviceFile,
     possible_slips,

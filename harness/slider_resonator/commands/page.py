@@ -9,11 +9,11 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands import options
-from slider_resonator.commands.results import print_json, print_text
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.errors import FmuError
-from slider_resonator.output.atomic import replacing
+from slider_resonator.output.console import print_json, print_text
+from slider_resonator.output.files import replacing
 from slider_resonator.output.readable import one_line
 from slider_resonator.scenes.device_file import DeviceFile, to_toml
 

@@ -20,8 +20,8 @@ from slider_resonator.checks.reports.terminal import print_validation
 from slider_resonator.checks.validate import RunFailure, Validation
 from slider_resonator.commands.options import Parsed, target
 from slider_resonator.output.console import output
+from slider_resonator.output.files import distinct, writable
 from slider_resonator.output.readable import indented
-from slider_resonator.output.targets import distinct, writable
 from slider_resonator.output.terminal import fitting, terminal_width
 
 PRINTED = Path("-")

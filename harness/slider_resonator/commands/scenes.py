@@ -8,7 +8,7 @@ import click
 
 from slider_resonator.commands import options
 from slider_resonator.commands.options import json_option
-from slider_resonator.commands.results import print_json, print_table
+from slider_resonator.output.console import print_json, print_table
 from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.expansion import variants

@@ -7,10 +7,10 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands import options
-from slider_resonator.commands.results import print_result
 from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
+from slider_resonator.output.console import print_result
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
 from slider_resonator.scenes.device_file import DeviceFile

@@ -10,14 +10,13 @@ import click
 from click.core import ParameterSource
 
 from slider_resonator.commands import options
-from slider_resonator.commands.results import print_result
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import noting_on_interrupt
+from slider_resonator.output.console import noting_on_interrupt, print_result
+from slider_resonator.output.files import make_folder
 from slider_resonator.output.progress import part_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line
-from slider_resonator.output.targets import make_folder
 from slider_resonator.stressing.axes import axis_cases, device_cases
 from slider_resonator.stressing.case import DEVICE, RANDOM, Case
 from slider_resonator.stressing.random_cases import random_case

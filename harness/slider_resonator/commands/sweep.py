@@ -8,15 +8,15 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands import options
-from slider_resonator.commands.results import print_result, print_text
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import si_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.provenance import provenance_of
+from slider_resonator.output.console import print_result, print_text
+from slider_resonator.output.files import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
-from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct
 from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.sweeping.grid import grid_from, read_grid
 from slider_resonator.sweeping.sweeping import run_sweep

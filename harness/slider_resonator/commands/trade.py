@@ -7,12 +7,11 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands import options
-from slider_resonator.commands.results import print_json, print_text
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import noting_on_interrupt
+from slider_resonator.output.console import noting_on_interrupt, print_json, print_text
+from slider_resonator.output.files import PICTURE_SUFFIXES, distinct, make_folder
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line
-from slider_resonator.output.targets import PICTURE_SUFFIXES, distinct, make_folder
 from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.trading.measure import BUDGET, REPEATS, TIME_LIMIT, measure_trades, opened

@@ -8,7 +8,7 @@ import numpy as np
 
 from slider_resonator.fitting.result import Fit, FittedParameter
 from slider_resonator.fmu.provenance import Provenance, provenance_html
-from slider_resonator.output.atomic import write_csv, write_text
+from slider_resonator.output.files import write_csv, write_text
 from slider_resonator.output.html_page import rendered, write_page
 from slider_resonator.output.plot_style import png_data_uri, save
 from slider_resonator.output.table import Table, numbers, texts

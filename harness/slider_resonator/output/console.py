@@ -1,12 +1,18 @@
-"""Where results go: to stdout, whole or not at all."""
+"""Where results go: to stdout, as JSON or as text, whole or not at all."""
 
 import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import NoReturn
+from typing import Any, NoReturn
 
+import click
 from rich.console import Console
+
+from slider_resonator.output.json_output import to_json
+from slider_resonator.output.readable import escaped
+from slider_resonator.output.table import Table
+from slider_resonator.output.terminal import fitting, rendered, terminal_width
 
 LOG_WIDTH = 120
 """Columns of output that does not go to a terminal."""
@@ -56,3 +62,29 @@ def noting_on_interrupt(note: Callable[[], str] = lambda: "nothing is kept") -> 
     except KeyboardInterrupt as error:
         error.add_note(note())
         raise
+
+
+def print_result(result: Any, text: str, *, as_json: bool, provenance: Any) -> None:
+    """Print the result as JSON, with its provenance, or as text."""
+    if as_json:
+        print_json(result, provenance)
+    else:
+        print_text(text)
+
+
+def print_json(result: Any, provenance: Any = None) -> None:
+    """Print the result, and its provenance if it has one, as one JSON document."""
+    click.echo(to_json(result, provenance))
+
+
+def print_text(text: str, *, err: bool = False) -> None:
+    """Print text that may hold foreign parts, on standard error with `err`.
+
+    A terminal gets lines that fit it, a file or another program gets them as they are.
+    """
+    click.echo(fitting(escaped(text), terminal_width(err=err)), err=err)
+
+
+def print_table(table: Table) -> None:
+    """Print a table on the console for results."""
+    output().print(rendered(table))

@@ -8,7 +8,7 @@ from html import escape
 from importlib.resources import files
 from pathlib import Path
 
-from slider_resonator.output.atomic import replacing
+from slider_resonator.output.files import replacing
 from slider_resonator.output.readable import printable
 from slider_resonator.output.table import Cell, Column, Style, Table
 

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from slider_resonator.arrays import Array
-from slider_resonator.output.atomic import replacing
+from slider_resonator.output.files import replacing
 
 COLOURS: Mapping[str, str] = {
     "position": "#1f3b57",

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from slider_resonator.errors import HarnessError
+from slider_resonator.output.files import PICTURE_SUFFIXES, writable
 from slider_resonator.output.readable import one_line
-from slider_resonator.output.targets import PICTURE_SUFFIXES, writable
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.output.atomic import replacing, write_csv
-from slider_resonator.output.targets import writable
+from slider_resonator.output.files import replacing, writable, write_csv
 from slider_resonator.sweeping.measures import Row, Task
 
 SUFFIXES = (".parquet", ".csv")

@@ -6,7 +6,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from slider_resonator.output.atomic import write_csv
+from slider_resonator.output.files import write_csv
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.trading.solution import QUANTITIES

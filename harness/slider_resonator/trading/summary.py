@@ -7,7 +7,7 @@ from statistics import median
 
 from slider_resonator.device.model import LAWS
 from slider_resonator.output import html_page, markdown
-from slider_resonator.output.atomic import write_marked
+from slider_resonator.output.files import write_marked
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.trading.result import (
     AVERAGED,

@@ -8,18 +8,16 @@ import click
 import numpy as np
 
 from slider_resonator.commands.options import json_option, out_folder_option, time_limit_option
-from slider_resonator.commands.results import print_json, print_table, print_text
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, finished_path
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.atomic import write_csv
-from slider_resonator.output.console import noting_on_interrupt
+from slider_resonator.output.console import noting_on_interrupt, print_json, print_table, print_text
+from slider_resonator.output.files import make_folder, write_csv
 from slider_resonator.output.progress import counted, part_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
-from slider_resonator.output.targets import make_folder
 from studies.closed_loop.duty import Duty
 from studies.closed_loop.judge import Agreement, IntervalResult, judge_agreement, judge_intervals
 from studies.closed_loop.loop import HOSTS, LoopRecord, run_loop

@@ -11,8 +11,8 @@ from slider_resonator.commands.options import (
     out_folder_option,
     time_limit_option,
 )
-from slider_resonator.commands.results import print_result
 from slider_resonator.fmu.provenance import provenance_of
+from slider_resonator.output.console import print_result
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
 from studies.paper.listing import verdicts

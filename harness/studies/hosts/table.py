@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from slider_resonator.output import markdown
-from slider_resonator.output.atomic import write_marked
+from slider_resonator.output.files import write_marked
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
 from studies.hosts.runs import CASES, HostComparison, HostResult
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from slider_resonator.fmu.provenance import Provenance, provenance_html, provenance_markdown
 from slider_resonator.output import html_page, markdown
-from slider_resonator.output.atomic import write_text
+from slider_resonator.output.files import write_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
 from studies.paper.claim import Claim

@@ -11,12 +11,11 @@ from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.atomic import write_text
 from slider_resonator.output.console import noting_on_interrupt
+from slider_resonator.output.files import make_folder, write_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.plot_style import save, style
 from slider_resonator.output.progress import Progress, counted
-from slider_resonator.output.targets import make_folder
 from studies.paper import (
     average_error,
     claims_coulomb,

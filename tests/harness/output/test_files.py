@@ -8,9 +8,8 @@ from pathlib import Path
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.output import targets
-from slider_resonator.output.atomic import replacing, write_marked
-from slider_resonator.output.targets import distinct, make_folder, writable
+from slider_resonator.output import files
+from slider_resonator.output.files import distinct, make_folder, replacing, writable, write_marked
 
 
 def test_the_file_appears_whole_with_usual_rights(tmp_path: Path) -> None:
@@ -80,7 +79,7 @@ def test_read_only_folder_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyP
     def read_only(*_: object, **__: object) -> None:
         raise OSError(errno.EROFS, os.strerror(errno.EROFS))
 
-    monkeypatch.setattr(targets, "TemporaryFile", read_only)
+    monkeypatch.setattr(files, "TemporaryFile", read_only)
     with pytest.raises(HarnessError, match="cannot be written to: Read-only file system"):
         writable(str(tmp_path / "out.csv"))
 

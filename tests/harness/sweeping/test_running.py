@@ -6,7 +6,7 @@ import pytest
 
 from slider_resonator.fmu.isolation.tasks import LocalProcesses
 from slider_resonator.sweeping.measures import Row, Run, Task
-from slider_resonator.sweeping.running import run_points
+from slider_resonator.sweeping.sweeping import run_points
 from tests.harness.faulty_fmus import compiled
 
 pytestmark = pytest.mark.isolated
