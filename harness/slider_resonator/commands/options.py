@@ -219,24 +219,21 @@ def default_fmu(given: Path | None) -> Path:
 def _fmu_argument(
     command: Callable[..., Any], chosen: Callable[[Path | None], Path | None], default: str
 ) -> Callable[..., Any]:
+    text = "The FMU, instead of as an argument." + (f"  [default: {default}]" if default else "")
+
+    @click.argument("fmu", type=click.Path(path_type=Path), required=False)
+    @click.option("--fmu", "given", type=FMU_FILE, help=text)
     @wraps(command)
-    def with_fmu(fmu: Path | None, fmu_given: Path | None, **others: Any) -> Any:
+    def with_fmu(fmu: Path | None, given: Path | None, **others: Any) -> Any:
         scene = others.get("scene", "")
         if scene is None:  # one argument is the scene
             fmu, others["scene"] = _fmu_and_scene(fmu)
         fmu = fmu and _no_toml("FMU", str(fmu))
-        if fmu is not None and fmu_given is not None:
-            raise click.UsageError(f"{fmu} and --fmu {fmu_given}: must be one FMU")
-        return command(fmu=chosen(fmu or fmu_given), **others)
+        if fmu is not None and given is not None:
+            raise click.UsageError(f"{fmu} and --fmu {given}: must be one FMU")
+        return command(fmu=chosen(fmu or given), **others)
 
-    argument = click.argument("fmu", type=click.Path(path_type=Path), required=False)
-    option = click.option(
-        "--fmu",
-        "fmu_given",
-        type=FMU_FILE,
-        help="The FMU, instead of as an argument." + (f"  [default: {default}]" if default else ""),
-    )
-    return argument(option(with_fmu))
+    return with_fmu
 
 
 def _fmu_and_scene(argument: Path | None) -> tuple[Path | None, str]:
@@ -266,19 +263,19 @@ def other_fmu_argument(default: str) -> Callable[[Callable[..., Any]], Callable[
 def fmus_argument(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add any number of FMUs as arguments or as options --fmu; the command gets them as `fmus`."""
 
-    @wraps(command)
-    def with_fmus(fmus: tuple[Path, ...], fmus_given: tuple[Path, ...], **others: Any) -> Any:
-        return command(fmus=fmus + fmus_given, **others)
-
-    argument = click.argument("fmus", type=FMU_FILE, nargs=-1)
-    option = click.option(
+    @click.argument("fmus", type=FMU_FILE, nargs=-1)
+    @click.option(
         "--fmu",
-        "fmus_given",
+        "given",
         type=FMU_FILE,
         multiple=True,
         help="An FMU, instead of as an argument. Repeatable.",
     )
-    return argument(option(with_fmus))
+    @wraps(command)
+    def with_fmus(fmus: tuple[Path, ...], given: tuple[Path, ...], **others: Any) -> Any:
+        return command(fmus=fmus + given, **others)
+
+    return with_fmus
 
 
 jobs_option = click.option(

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import reduce, wraps
+from functools import wraps
 from pathlib import Path
 from typing import Any
 
@@ -65,22 +65,20 @@ class Reports:
 
 def report_options(title: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return what adds --junit, --html and --json to a command, which gets them as `reports`."""
-    options = (
-        click.option("--junit", type=target([".xml"]), help="JUnit XML for a CI server."),
-        click.option(
+
+    def add(command: Callable[..., Any]) -> Callable[..., Any]:
+        @click.option("--junit", type=target([".xml"]), help="JUnit XML for a CI server.")
+        @click.option(
             "--html", type=target([".html"]), help="One page with pictures of what differs."
-        ),
-        click.option(
+        )
+        @click.option(
             "--json",
             type=Parsed("FILE", lambda name: PRINTED if name == "-" else writable(name, [".json"])),
             is_flag=False,
             flag_value=str(PRINTED),
             metavar="[FILE.json]",
             help="Write one JSON document, or print it when no file is given.",
-        ),
-    )
-
-    def add(command: Callable[..., Any]) -> Callable[..., Any]:
+        )
         @wraps(command)
         def with_reports(
             junit: Path | None, html: Path | None, json: Path | None, **others: Any
@@ -89,7 +87,7 @@ def report_options(title: str) -> Callable[[Callable[..., Any]], Callable[..., A
             path = Path(summary) if summary else None
             return command(reports=Reports(title, junit, html, json, path), **others)
 
-        return reduce(lambda made, option: option(made), reversed(options), with_reports)
+        return with_reports
 
     return add
 

@@ -23,7 +23,11 @@ MIN_AGE = 30.0
 @contextmanager
 def temporary_folder() -> Iterator[Path]:
     """Yield a new folder, in the folder for temporary files, for the length of the block."""
-    clear_abandoned()
+    with suppress(OSError):
+        for other in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
+            with suppress(OSError):
+                if _abandoned(other):
+                    shutil.rmtree(other, ignore_errors=True)
     folder = Path(tempfile.mkdtemp(prefix=PREFIX))
     try:
         with (folder / OWNER).open("w", encoding="utf-8") as file:
@@ -36,16 +40,8 @@ def temporary_folder() -> Iterator[Path]:
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def clear_abandoned() -> None:
-    """Remove this user's folders whose process has ended without removing them."""
-    with suppress(OSError):
-        for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
-            with suppress(OSError):
-                if _abandoned(folder):
-                    shutil.rmtree(folder, ignore_errors=True)
-
-
 def _abandoned(folder: Path) -> bool:
+    """Whether a folder is this user's, and its process has ended without removing it."""
     status = folder.lstat()
     if not folder.is_dir() or folder.is_symlink() or time.time() - status.st_mtime < MIN_AGE:
         return False

@@ -84,27 +84,22 @@ def _measure(
     abscissa, groups = lines or (next(iter(variables)), [])
     x = variables[abscissa].values
 
-    def series(
-        label: str,
-        chosen: NDArray[np.intp],
-        up: Array | None,
-        colour: str,
-        marker: str,
-        **more: Any,
-    ) -> Series:
+    def series(label: str, chosen: NDArray[np.intp], up: Array | None, **looks: Any) -> Series:
         """Return a series of some points, those without an answer at no height."""
         heights = [None] * len(chosen) if up is None else up[chosen].tolist()
         own = [notes[point] for point in chosen]
-        return Series(label, x[chosen].tolist(), heights, colour, marker, notes=own, **more)
+        return Series(label, x[chosen].tolist(), heights, notes=own, **looks)
 
     all_series: list[Series] = []
     for index, (name, chosen) in enumerate(groups):
         label, (colour, marker, dash) = name or words, look(index)
         points = chosen[np.argsort(x[chosen], kind="stable")]
         none = np.isnan(y[points])
-        all_series.append(series(label, points[~none], y, colour, marker, width=1.4, dash=dash))
+        looks = {"colour": colour, "marker": marker, "width": 1.4, "dash": dash}
+        all_series.append(series(label, points[~none], y, **looks))
         if none.any():
-            all_series.append(series(f"{label}: {NO_ANSWER}", points[none], None, colour, "✖"))
+            missed = f"{label}: {NO_ANSWER}"
+            all_series.append(series(missed, points[none], None, colour=colour, marker="✖"))
     if lines is not None:
         plot = HoverPlot(words, axes[abscissa], Axis(answers.label), all_series)
         return [plot_html(plot)]
@@ -112,11 +107,10 @@ def _measure(
     found, missing = np.flatnonzero(np.isfinite(y)), np.flatnonzero(np.isnan(y))
     colours, scale = _coloured(answers)
     if found.size:
-        middle, cells = colours[len(found) // 2], sweep.is_grid
-        one = series(words, found, up.values, middle, "●", colours=colours, cells=cells)
-        all_series.append(one)
+        looks = {"colour": colours[len(found) // 2], "marker": "●", "colours": colours}
+        all_series.append(series(words, found, up.values, cells=sweep.is_grid, **looks))
     if missing.size:
-        all_series.append(series(NO_ANSWER, missing, up.values, GREY, "✖"))
+        all_series.append(series(NO_ANSWER, missing, up.values, colour=GREY, marker="✖"))
     return [plot_html(HoverPlot(words, across, up_axis, all_series)), scale]
 
 
