@@ -14,7 +14,7 @@ from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record, run
-from slider_resonator.steady.searches import SearchResult, find_blocking, find_steady
+from slider_resonator.steady.searches import SEARCHES
 
 SIGNALS = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
 WARM_UP = {"fidelity": 2.0, "friction_law": float(COULOMB)}
@@ -77,11 +77,9 @@ def find(
         with instance.explained():
             found = instance.value(name)
         return SteadyValue(found, "", 0, time.process_time() - began)
-    search: SearchResult
-    if name == "steady_velocity":
-        search = find_steady(instance, given)
-    else:
-        search = find_blocking(instance, {k: v for k, v in given.items() if k != "load"})
+    if name == "blocking_force":
+        given.pop("load", None)  # the search begins where the FMU predicts it
+    search = SEARCHES[name](instance, given)
     seconds = time.process_time() - began
     value: float | None = getattr(search, name) if search.status in EXISTS[name] else None
     return SteadyValue(value, f"{search.status}: {search.reason}", search.periods, seconds)

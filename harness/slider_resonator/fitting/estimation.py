@@ -18,7 +18,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fitting.measurements import Measurements, Point
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
-from slider_resonator.steady.searches import find_blocking, find_steady
+from slider_resonator.steady.searches import SEARCHES
 
 
 def predict(
@@ -65,11 +65,8 @@ def _steady(instance: Instance, parameters: Mapping[str, float], point: Point) -
     output = _output(instance, values, point)
     if output is not None:
         return output
-    if point.quantity == "steady_velocity":
-        found = find_steady(instance, values).steady_velocity
-    else:
-        found = find_blocking(instance, values).blocking_force
-    return float("nan") if found is None else found
+    found = getattr(SEARCHES[point.quantity](instance, values), point.quantity)
+    return float("nan") if found is None else float(found)
 
 
 NO_MOTION = 10.0
@@ -127,6 +124,11 @@ class Problem:
     parameters: Mapping[str, float]
     free: tuple[Free, ...]
     measurements: Measurements
+
+    @property
+    def start(self) -> Array:
+        """The internal parameters (p,) of the device before the fit."""
+        return np.array([one.internal(one.start) for one in self.free])
 
     def values(self, internal: Array) -> dict[str, float]:
         """Return all parameters in SI units, from the internal free ones (p,)."""

@@ -153,12 +153,12 @@ def fit(
     notes = data_notes(problem.measurements, problem.parameters)
     free, count = problem.free, len(measurements.measured)
     spare = count - len(free)
-    tasks = [partial(minimise, problem=problem, start=one) for one in _starts(free, starts)]
+    tasks = [partial(minimise, problem=problem, start=one) for one in _starts(problem, starts)]
     try:
         minima: list[Minimum] = run("searching", tasks)
     except FmuError as error:
         raise FmuError("; ".join([str(error), *notes])) from error
-    first, *others = _solutions(minima, free, 1e-16 * count if spare else MET**2 * count)
+    first, *others = _solutions(minima, problem.start, 1e-16 * count if spare else MET**2 * count)
     evaluations = sum(one.evaluations for one in minima)
     best = first
     if spare and not measurements.knows_deviations:
@@ -241,7 +241,7 @@ def _problem(
 
 def _supposed(problem: Problem, run: Runner) -> dict[str, Array]:
     """Return what the device before the fit predicts, as `miss_notes` has it; {} if it fails."""
-    start = problem.values(np.array([one.internal(one.start) for one in problem.free]))
+    start = problem.values(problem.start)
     meant = {"": problem.measurements}
     for what, (name, factor) in SUPPOSITIONS.items():
         meant[what] = problem.measurements.multiplied(name, factor)
@@ -299,7 +299,7 @@ def _estimates(
     return tuple(fitted)
 
 
-def _solutions(minima: Sequence[Minimum], free: Sequence[Free], rounding: float) -> list[Minimum]:
+def _solutions(minima: Sequence[Minimum], start: Array, rounding: float) -> list[Minimum]:
     """Return the different minima of least squares, up to a `rounding` of them, from the start on.
 
     The nearest to the values that the device has comes first.
@@ -310,7 +310,6 @@ def _solutions(minima: Sequence[Minimum], free: Sequence[Free], rounding: float)
     for one in minima:
         if one.sum_of_squares <= bound and min(_distance(one, other) for other in found) >= APART:
             found.append(one)
-    start = np.array([one.internal(one.start) for one in free])
     return sorted(found, key=lambda one: float(np.abs(one.internal - start).max()))
 
 
@@ -318,9 +317,9 @@ def _distance(one: Minimum, other: Minimum) -> float:
     return float(np.abs(one.internal - other.internal).max())
 
 
-def _starts(free: Sequence[Free], count: int) -> list[Array]:
+def _starts(problem: Problem, count: int) -> list[Array]:
     """Return internal starts: the device's own first, others at random beside it."""
-    first = np.array([one.internal(one.start) for one in free])
+    first, free = problem.start, problem.free
     factors = [REACH_OF_FREQUENCY if VARIABLES[one.name].unit == "rad/s" else REACH for one in free]
     reach = np.array(
         [np.log(f) if one.is_relative else f for f, one in zip(factors, free, strict=True)]

@@ -1,6 +1,6 @@
 """Find steady velocity and blocking force of an FMU by shooting, without a long run."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any, ClassVar
@@ -256,3 +256,10 @@ def find_blocking(
         **_cost(period_map, found),
         blocking_force=found.load,
     )
+
+
+SEARCHES: Mapping[str, Callable[..., SearchResult]] = {
+    "steady_velocity": find_steady,
+    "blocking_force": find_blocking,
+}
+"""The search for each steady quantity, which is an attribute of its result, None where none is."""

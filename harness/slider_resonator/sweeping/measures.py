@@ -16,7 +16,7 @@ from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
 from slider_resonator.steady.proved_predictions import QUANTITIES, proved_predictions
-from slider_resonator.steady.searches import find_blocking, find_steady
+from slider_resonator.steady.searches import SEARCHES
 
 Cell = float | str | None
 """An entry of the table; None where there is none."""
@@ -112,8 +112,7 @@ def measure(
         if name in proved:
             cells += [proved[name], STATUS[name]]
         elif name in SEARCHED:
-            find = find_steady if name == "steady_velocity" else find_blocking
-            found = find(instance, values, max_denominator=task.max_denominator)
+            found = SEARCHES[name](instance, values, max_denominator=task.max_denominator)
             cells += [getattr(found, name), found.status]
         else:
             cells.append(statistics[name])

@@ -13,7 +13,7 @@ import numpy as np
 from slider_resonator.device.model import LUGRE, Model
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record, run
-from slider_resonator.steady.searches import SearchResult, find_blocking, find_steady
+from slider_resonator.steady.searches import SEARCHES, SearchResult
 from slider_resonator.trading.method import STEADY, Method, SteadyAnswer, SteadyMethod
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import AVERAGED, RESOLVED, Label
@@ -160,13 +160,11 @@ class FmuMethods:
 
     def _search(self, quantity: str, model: Model) -> SteadyMethod:
         values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
-        search_for: Callable[..., SearchResult] = find_steady
         if quantity == "blocking_force":
-            search_for = find_blocking
-            del values["load"]  # the guess is the search's own
+            del values["load"]  # the search begins where the FMU predicts it
 
         def find(_: float) -> tuple[float, SteadyAnswer]:
-            taken, search = self._run(search_for, values=values)
+            taken, search = self._run(SEARCHES[quantity], values=values)
             return taken, SteadyAnswer(getattr(search, quantity), search.reason, search.periods)
 
         return SteadyMethod(self._label(model, USUAL_TOLERANCE, None), quantity, find)

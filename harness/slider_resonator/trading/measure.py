@@ -159,9 +159,11 @@ def measure_trade(
             for quantity in STEADY:
                 if quantity in method.missing:
                     notes.setdefault((method.label.method, quantity), method.missing[quantity])
-        turns = in_turn([min(repeats, int(budget / max(c.estimate, 1e-9))) for c in candidates])
+        # In rounds: in each of them every candidate with repeats left.
+        counts = [min(repeats, int(budget / max(one.estimate, 1e-9))) for one in candidates]
+        turns = sorted((turn, index) for index, n in enumerate(counts) for turn in range(n))
         taken: list[list[float]] = [[] for _ in candidates]
-        for done, index in enumerate(turns):
+        for done, (_, index) in enumerate(turns):
             candidate = candidates[index]
             report(candidate.row.method, done, len(turns), 0.6, 0.4)
             taken[index].append(candidate.seconds() / candidate.per)
@@ -178,12 +180,6 @@ def measure_trade(
         rows=tuple(rows),
         omissions=tuple(Omission(problem.name, *key, reason) for key, reason in notes.items()),
     )
-
-
-def in_turn(repeats: Sequence[int]) -> list[int]:
-    """Return the indices of works in rounds: in each of them every work with repeats left."""
-    turns = sorted((turn, index) for index, count in enumerate(repeats) for turn in range(count))
-    return [index for _, index in turns]
 
 
 def _follow(
