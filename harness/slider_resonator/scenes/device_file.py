@@ -165,39 +165,31 @@ def possible_slips(
     more than a turn; in um an amplitude that is faster than `FASTEST`. `where` says what to write,
     if not in [device].
     """
-    slips = []
+    suspects: list[tuple[str, float, str, str]] = []
     given, values = {}, []
     for name in FREQUENCIES:
         value = table.get(name, (beside or {}).get(name, VARIABLES[name].start))
         values.append(si_value(name, value) if isinstance(value, str) else float(value))
         if name in table and not isinstance(value, str | bool):
             given[name] = values[-1]
+    differing = {n: value for n, value in given.items() if value != VARIABLES[n].start}
     ratio = values[0] / values[1]
     apart = any(abs(r / (2.0 * pi) - 1.0) < 0.03 for r in (ratio, 1.0 / ratio))
-    is_round = any(
-        value != VARIABLES[name].start and float(f"{value:.2g}") == value
-        for name, value in given.items()
-    )
-    for name, value in given.items():
-        if value > 0.0 and value != VARIABLES[name].start and (is_round or apart):
-            slips.append(
-                f"{name} = {value:g} is in rad/s, which is {with_unit(name, value)}; "
-                f"if {value:g} Hz is meant, write " + (where or f'{name} = "{value:g} Hz"')
-            )
-    amplitude = table.get("base_amplitude")
+    is_round = any(float(f"{value:.2g}") == value for value in differing.values())
+    for name, value in differing.items():
+        if value > 0.0 and (is_round or apart):
+            suspects.append((name, value, f"is {with_unit(name, value)}", "Hz"))
+    amplitude, phase = table.get("base_amplitude"), table.get("phase")
     if isinstance(amplitude, float | int) and amplitude * values[0] > FASTEST:
-        slips.append(
-            f"base_amplitude = {amplitude:g} is in m, which at the drive's frequency is "
-            f"{amplitude * values[0]:.3g} m/s; if {amplitude:g} um is meant, write "
-            f'base_amplitude = "{amplitude:g} um"'
-        )
-    phase = table.get("phase")
+        velocity = f"at the drive's frequency is {amplitude * values[0]:.3g} m/s"
+        suspects.append(("base_amplitude", amplitude, velocity, "um"))
     if isinstance(phase, float | int) and abs(phase) > 2.0 * pi:
-        slips.append(
-            f"phase = {phase:g} is in rad, which is {with_unit('phase', phase)}; "
-            f"if {phase:g} deg is meant, write " + (where or f'phase = "{phase:g} deg"')
-        )
-    return slips
+        suspects.append(("phase", phase, f"is {with_unit('phase', phase)}", "deg"))
+    return [
+        f"{name} = {value:g} is in {VARIABLES[name].unit}, which {means}; "
+        f"if {value:g} {unit} is meant, write " + (where or f'{name} = "{value:g} {unit}"')
+        for name, value, means, unit in suspects
+    ]
 
 
 def without_drive(values: Mapping[str, float]) -> list[str]:

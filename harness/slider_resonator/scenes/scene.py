@@ -150,12 +150,11 @@ class Scene(Shown):
 
     def schedule(self) -> Schedule:
         """Return inputs and communication points; SceneError for a scene without a run."""
-        if self.stop_time is None or self.step_size is None:
+        if self.run is None or self.stop_time is None:
             raise SceneError(
                 f"{self.source}: scene {self.name} has no [run] and cannot be run; the command "
                 "scenes shows which can"
             )
-        assert self.run is not None
         plan = schedule(
             self.stop_time, self._steps, self.tuning, self.run.interpolate, **self.signals
         )
