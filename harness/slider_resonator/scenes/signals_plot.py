@@ -154,21 +154,13 @@ def plot_signals(
     for one in runs:
         if missing := [name for name in signals if name not in one.record.table()]:
             raise HarnessError(f"--signals: {', '.join(missing)}: {one.label} has no such output")
-    rows = [(name, False) for name in signals]
-    if differences and _same_times(runs):
-        rows = [
-            (name, below)
-            for name in signals
-            for below in (False, True)
-            if not below or name in ALL_OUTPUTS.keys() - {"contact_mode"}
-        ]
+    compared = ALL_OUTPUTS.keys() - {"contact_mode"} if differences and _same_times(runs) else ()
+    rows = [(n, below) for n in signals for below in (False, True) if not below or n in compared]
     heights = [1.2 if below else 1.9 for _, below in rows]
     with style():
         figure = Figure(figsize=(8.0, sum(heights) + 0.8), layout="constrained")
         figure.suptitle(scene.heading)
-        panels = figure.subplots(len(rows), 1, sharex=True, squeeze=False, height_ratios=heights)[
-            :, 0
-        ]
+        panels = np.atleast_1d(figure.subplots(len(rows), 1, sharex=True, height_ratios=heights))
         short = _periods_in(scene, window) <= BAND_PERIODS
         time_factor, time_unit = plot_unit("s", np.asarray(window))
         bands: dict[str, Patch] = {}
