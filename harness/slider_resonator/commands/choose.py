@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.choosing import Choice, choose
+from slider_resonator.choosing import choose
 from slider_resonator.choosing.choice import error_text
 from slider_resonator.choosing.choosing import TIME_LIMIT
 from slider_resonator.commands import options
@@ -63,18 +63,14 @@ def choose_command(
     if as_json:
         print_json(choice, provenance)
     else:
-        _print(choice)
+        print_text("\n".join(choice.sentences()))
+        needs = [
+            (name, error_text(error), f"{allowed:.3g}", unit)
+            for name, error, allowed, unit in zip(*choice.table().values(), strict=True)
+        ]
+        columns = (*texts("need"), *numbers("error", "allowed"), *texts("unit"))
+        print_table(Table(columns, needs))
+        others = [(ruled_out.model.name, ruled_out.why) for ruled_out in choice.ruled_out]
+        if others:
+            print_table(Table(texts("ruled out", "why"), others))
     return 0 if choice.meets else 1
-
-
-def _print(choice: Choice) -> None:
-    print_text("\n".join(choice.sentences()))
-    needs = [
-        (name, error_text(error), f"{allowed:.3g}", unit)
-        for name, error, allowed, unit in zip(*choice.table().values(), strict=True)
-    ]
-    columns = (*texts("need"), *numbers("error", "allowed"), *texts("unit"))
-    print_table(Table(columns, needs))
-    others = [(ruled_out.model.name, ruled_out.why) for ruled_out in choice.ruled_out]
-    if others:
-        print_table(Table(texts("ruled out", "why"), others))

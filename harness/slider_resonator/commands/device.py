@@ -59,14 +59,10 @@ def device_command(
     elif ssv is not None:
         raise click.UsageError(f"--ssv {ssv}: must be with a device file or an example")
     else:
-        _list(as_json)
-
-
-def _list(as_json: bool) -> None:
-    titles = {name: device_content(path)["title"] for name, path in example_devices().items()}
-    if as_json:
-        print_json({"devices": [{"name": n, "title": title} for n, title in titles.items()]})
-    else:
+        titles = {name: device_content(path)["title"] for name, path in example_devices().items()}
+        if as_json:
+            print_json({"devices": [{"name": n, "title": title} for n, title in titles.items()]})
+            return
         print_table(Table(texts("device", "what it is"), list(titles.items())))
         print_text("`slider-resonator device --example NAME > mine.toml` starts a file of your own")
 

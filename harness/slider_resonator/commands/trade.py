@@ -136,7 +136,13 @@ def trade_command(
         print_json(entries, provenance)
     else:
         for trade in trades:
-            _print(trade)
+            print_text(one_line(title(trade)))
+            for heading, sentences in comparisons(trade):
+                print_text(f"  {one_line(heading)}")
+                for line in sentences:
+                    print_text(f"    {one_line(line)}")
+            omitted = number_of(len(trade.omissions), "omission")
+            print_text(f"  {number_of(len(trade.rows), 'row')}, {omitted}")
         written = [*tables.values(), *([] if picture is None else [picture]), *pages]
         print_text(f"written {one_line(', '.join(map(str, written)))}")
 
@@ -146,14 +152,3 @@ def _kept(trades: Sequence[Trade], problems: Sequence[Problem], out: Path) -> st
         return "no scene is finished; nothing is kept"
     rest = ", ".join(dict.fromkeys(problem.name for problem in problems[len(trades) :]))
     return f"{len(trades)} of {len(problems)} scenes are kept in {out}; not measured: {rest}"
-
-
-def _print(trade: Trade) -> None:
-    print_text(one_line(title(trade)))
-    for heading, sentences in comparisons(trade):
-        print_text(f"  {one_line(heading)}")
-        for line in sentences:
-            print_text(f"    {one_line(line)}")
-    print_text(
-        f"  {number_of(len(trade.rows), 'row')}, {number_of(len(trade.omissions), 'omission')}"
-    )

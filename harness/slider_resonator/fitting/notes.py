@@ -103,7 +103,10 @@ def miss_notes(
             power = 3 * round(log10(abs(factor) or 1.0) / 3.0)
             parts = [what] if what else []
             if power:
-                parts.append(_other_unit(measurements, name, power))
+                prefix = _PREFIXES.get(round(log10(measurements.unit(name)[1])) - power)
+                unit = "another unit" if prefix is None else prefix + VARIABLES[name].unit
+                ratio = f"measured is 1e{power} of what the device predicts"
+                parts.append(f"{name} in {unit} ({ratio})")
             if factor < 0.0:
                 parts.append(f"the other sign of {name}")
             if rest < least:  # another meaning must halve what the data miss as they were read
@@ -125,14 +128,6 @@ def _proportion(measured: Array, predicted: Array) -> tuple[float, float]:
     factor = float(measured @ predicted) / max(float(predicted @ predicted), 1e-300)
     size, rest = float(np.linalg.norm(measured)), measured - factor * predicted
     return factor, float(np.linalg.norm(rest)) / size if size else 1.0
-
-
-def _other_unit(measurements: Measurements, name: str, power: int) -> str:
-    """Return in which unit numbers are that come out a power of ten of what is predicted."""
-    _, factor = measurements.unit(name)
-    prefix = _PREFIXES.get(round(log10(factor)) - power)
-    unit = "another unit" if prefix is None else prefix + VARIABLES[name].unit
-    return f"{name} in {unit} (measured is 1e{power} of what the device predicts)"
 
 
 def misfit_notes(measurements: Measurements, predicted: Array, jacobian: Array) -> list[str]:

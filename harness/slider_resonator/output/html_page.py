@@ -65,7 +65,10 @@ def write_page(
     those given.
     """
     images = "data: 'self' file:" if images_beside else "data:"
-    policy = f"default-src 'none'; img-src {images}; style-src 'unsafe-inline'{_allowed(scripts)}"
+    policy = f"default-src 'none'; img-src {images}; style-src 'unsafe-inline'"
+    if scripts:
+        digests = [base64.b64encode(sha256(one.encode()).digest()).decode() for one in scripts]
+        policy += "; script-src " + " ".join(f"'sha256-{digest}'" for digest in digests)
     own_style = (files("slider_resonator.output") / "page.css").read_text(encoding="utf-8")
     page = [
         '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
@@ -80,12 +83,6 @@ def write_page(
     ]
     with replacing(path) as temporary:
         temporary.write_text("\n".join(page) + "\n", encoding="utf-8", errors="replace")
-
-
-def _allowed(scripts: Sequence[str]) -> str:
-    """Return the part of a content security policy that allows these scripts."""
-    digests = [base64.b64encode(sha256(script.encode()).digest()).decode() for script in scripts]
-    return "; script-src " + " ".join(f"'sha256-{one}'" for one in digests) if digests else ""
 
 
 def _min_width(table: Table) -> int:

@@ -93,7 +93,11 @@ def _explanation(problem: ErrorDetails, content: Mapping[str, Any], top: type[Ba
     if kind == NAMED:
         return f"{key}.{problem['msg']}"
     if kind == "extra_forbidden":
-        return f"{key}: {_unknown_key(location, top)}"
+        name, fields = str(location[-1]), _table_at(location, top).model_fields
+        if top is SceneTable and name in PLACES and (len(location) > 1 or name not in fields):
+            return f"{key}: unknown key {name!r}; {PLACES[name]}"
+        known = [field.alias or other for other, field in fields.items()]
+        return f"{key}: {unknown_name('key', name, known)}"
     if kind == "missing" and isinstance(location[-1], int):
         return f"{_key_path(location[:-1])}: must be a pair [time (s), value]"
     field = _field_at(location, top)
@@ -122,15 +126,6 @@ def _explanation(problem: ErrorDetails, content: Mapping[str, Any], top: type[Ba
             "must be a number, or values over time such as { steps = [[0.0, 0.0], [0.05, 0.04]] }"
         )
     return f"{key}{shown}: {wrong}"
-
-
-def _unknown_key(location: tuple[int | str, ...], top: type[BaseModel]) -> str:
-    fields = _table_at(location, top).model_fields
-    name, known = str(location[-1]), [field.alias or key for key, field in fields.items()]
-    below_top = len(location) > 1
-    if top is SceneTable and name in PLACES and (below_top or name not in top.model_fields):
-        return f"unknown key {name!r}; {PLACES[name]}"
-    return unknown_name("key", name, known)
 
 
 def _in_unit(location: tuple[int | str, ...], field: Any) -> str:

@@ -172,13 +172,12 @@ def measure_point(instance: Instance, task: Task, point: Point, proved: Proved) 
         return failed_row(task, number, _text(error, instance.fmu.path))
 
 
-def proved_row(task: Task, point: Point, proved: Proved) -> Row | None:
-    """Return the row of a point of which all is proved, None where some is to be measured."""
-    try:
-        found = [(proved[name], STATUS[name]) for name in task.measures]
-    except KeyError:
-        return None
-    return point[0], [cell for pair in found for cell in pair], None
+def proved_row(task: Task, point: Point, proved: Proved) -> Row:
+    """Return the row of a point of which all is proved."""
+    cells: list[Cell] = []
+    for name in task.measures:
+        cells += [proved[name], STATUS[name]]
+    return point[0], cells, None
 
 
 def failed_row(task: Task, number: int, error: str) -> Row:

@@ -248,11 +248,10 @@ def _prove(
         proofs = outcome.value if error is None else [{}] * len(batch)
         done = []
         for point, proved in zip(batch, proofs, strict=True):
-            row = proved_row(task, point, proved)
-            if row is None:
-                left.append((point, proved))
+            if proved.keys() >= {*task.measures}:
+                done.append(proved_row(task, point, proved))
             else:
-                done.append(row)
+                left.append((point, proved))
         keep(done)
     return left, lost
 
