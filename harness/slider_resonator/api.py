@@ -52,11 +52,7 @@ from slider_resonator.fmu.run import Record
 from slider_resonator.fmu.run import run as run_schedule
 from slider_resonator.output.progress import no_progress
 from slider_resonator.output.shown import Drawable
-from slider_resonator.scenes.device_file import (
-    device_values,
-    possible_slips,
-    read_device_file,
-)
+from slider_resonator.scenes.device_file import device_values, possible_slips, read_device_file
 from slider_resonator.scenes.device_file import to_toml as device_text
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes

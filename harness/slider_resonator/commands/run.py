@@ -218,12 +218,7 @@ def run_command(
     return 0
 
 
-def _run(
-    isolated: IsolatedFmu,
-    scene: Scene,
-    schedule: Schedule,
-    progress: Progress,
-) -> Record:
+def _run(isolated: IsolatedFmu, scene: Scene, schedule: Schedule, progress: Progress) -> Record:
     task = partial(run, parameters=scene.parameters, schedule=schedule)
     record: Record = isolated.run(task, lambda _, share: progress(scene.name, share))
     return record

@@ -25,13 +25,7 @@ from slider_resonator.trading.method import STEADY, Method, SteadyMethod
 from slider_resonator.trading.peer_methods import peer_answers, peer_methods, shoot
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import Omission, Row, Trade
-from slider_resonator.trading.solution import (
-    QUANTITIES,
-    Readings,
-    errors,
-    solution_of,
-    windows,
-)
+from slider_resonator.trading.solution import QUANTITIES, Readings, errors, solution_of, windows
 
 BUDGET = 1.0
 """CPU time (s) for the longest run or search of a method, and as much again for repeats."""

@@ -9,14 +9,7 @@ from slider_resonator.device.model import LAWS
 from slider_resonator.output import html_page, markdown
 from slider_resonator.output.files import write_marked
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.trading.result import (
-    AVERAGED,
-    PEER,
-    RESOLVED,
-    Row,
-    Trade,
-    cheapest,
-)
+from slider_resonator.trading.result import AVERAGED, PEER, RESOLVED, Row, Trade, cheapest
 
 TARGETS = (("mean_velocity", 1e-2), ("position", 1e-9))
 """Quantity, and the error at which costs are compared."""
