@@ -16,10 +16,7 @@ from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.scenes.scene_files import find_scene
 
 
-@click.command(
-    "choose",
-    cls=options.SettingsCommand,
-)
+@click.command("choose", cls=options.SettingsCommand)
 @click.argument("scene")
 @options.fmu_option
 @options.device_options

@@ -19,14 +19,6 @@ MEMORY = 1e6
 """Time (s) over which the speed is averaged: tasks are few and long."""
 
 
-def shortened(label: str, room: int) -> str:
-    """Return a label that fits on its line: the middle of a longer one is replaced by dots."""
-    if len(label) <= room:
-        return label
-    end = room // 2
-    return f"{label[: room - end - 1]}\N{HORIZONTAL ELLIPSIS}{label[len(label) - end :]}"
-
-
 @contextmanager
 def progress_bar() -> Iterator[Progress]:
     """Yield a function that takes the current task and the share of the work done, 0 to 1."""
@@ -43,6 +35,12 @@ def progress_bar() -> Iterator[Progress]:
     room = console.width - TIMES - BAR
     with Bar(*columns, console=console, transient=True, speed_estimate_period=MEMORY) as shown:
         task = shown.add_task("", total=1.0)
-        yield lambda label, share: shown.update(
-            task, description=shortened(one_line(label), room), completed=share
-        )
+
+        def show(label: str, share: float) -> None:
+            text = one_line(label)
+            if len(text) > room:  # it fits on its line: dots replace the middle
+                end = room // 2
+                text = f"{text[: room - end - 1]}\N{HORIZONTAL ELLIPSIS}{text[len(text) - end :]}"
+            shown.update(task, description=text, completed=share)
+
+        yield show

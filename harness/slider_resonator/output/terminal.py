@@ -170,25 +170,21 @@ def _blocks(table: Table, width: int) -> Iterator[Text]:
         if len(row) < len(table.columns):
             blank = "\n" if row[0].style is Style.HEADING else ""
             yield Text(blank + words(row[0].text, width), STYLES[row[0].style])
-        else:
-            yield from _block(table.columns, row, width)
-
-
-def _block(columns: Sequence[Column], row: Sequence[Cell], width: int) -> Iterator[Text]:
-    bare = [c for c, column in zip(row[1:], columns[1:], strict=True) if not column.heading]
-    first = [_text(row[0]), *(_text(cell) for cell in bare if cell.text)]
-    yield Text("  ").join(first)
-    line = ""
-    for cell, column in zip(row[1:], columns[1:], strict=True):
-        if not column.heading or not cell.text:
             continue
-        pair = f"{column.heading} {' '.join(cell.text.split())}"
-        if line and cell_len(line) + len(INDENT) + cell_len(pair) + len(INDENT) > width:
+        others = [one for one in zip(table.columns[1:], row[1:], strict=True) if one[1].text]
+        bare = [_text(cell) for column, cell in others if not column.heading]
+        yield Text("  ").join([_text(row[0]), *bare])
+        line = ""
+        for column, cell in others:
+            if not column.heading:
+                continue
+            pair = f"{column.heading} {' '.join(cell.text.split())}"
+            if line and cell_len(line) + len(INDENT) + cell_len(pair) + len(INDENT) > width:
+                yield Text(words(INDENT + line, width, INDENT * 2))
+                line = ""
+            line += f"{INDENT if line else ''}{pair}"
+        if line:
             yield Text(words(INDENT + line, width, INDENT * 2))
-            line = ""
-        line += f"{INDENT if line else ''}{pair}"
-    if line:
-        yield Text(words(INDENT + line, width, INDENT * 2))
 
 
 def _text(cell: Cell) -> Text:

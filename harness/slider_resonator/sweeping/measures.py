@@ -3,7 +3,6 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import tau
-from pathlib import Path
 
 import numpy as np
 
@@ -169,7 +168,10 @@ def measure_point(instance: Instance, task: Task, point: Point, proved: Proved) 
         return number, measure(instance, task, values, proved), None
     except Exception as error:  # any error is the result of this point
         instance.recreate()
-        return failed_row(task, number, _text(error, instance.fmu.path))
+        fmu = instance.fmu.path
+        text = str(error).replace(str(fmu), fmu.name)  # not where this process has unpacked it
+        is_known = isinstance(error, HarnessError)
+        return failed_row(task, number, text if is_known else f"{type(error).__name__}: {text}")
 
 
 def proved_row(task: Task, point: Point, proved: Proved) -> Row:
@@ -184,9 +186,3 @@ def failed_row(task: Task, number: int, error: str) -> Row:
     """Return the row of a point without results."""
     results = len(task.columns) - len(task.names) - 2
     return number, [None] * results, error
-
-
-def _text(error: Exception, fmu: Path) -> str:
-    """Return a message without the folder of the FMU in this process."""
-    text = str(error).replace(str(fmu), fmu.name)
-    return text if isinstance(error, HarnessError) else f"{type(error).__name__}: {text}"
