@@ -13,7 +13,6 @@ from slider_resonator.output.console import print_json, print_table, print_text
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.device_file import DeviceFile
-from slider_resonator.scenes.scene_files import find_scene
 
 
 @click.command("choose", cls=options.SettingsCommand)
@@ -51,8 +50,7 @@ def choose_command(
       slider-resonator choose feed_forward --set friction_law=1 bristle_stiffness=1e6
     """
     options.check_left_to_choose(device, settings)
-    read = find_scene(scene, settings, device)
-    options.note_slips_of(read, scene, device)
+    read = options.scene_of(scene, settings, device)
     path = options.default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:

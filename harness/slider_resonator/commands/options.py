@@ -24,7 +24,7 @@ from slider_resonator.scenes.device_file import (
     without_drive,
 )
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.scenes.scene_files import built_in_scenes
+from slider_resonator.scenes.scene_files import FIRST, built_in_scenes, find_scene
 from slider_resonator.scenes.toml_file import read_toml
 
 SET = "--set"
@@ -85,13 +85,15 @@ def note(sentences: Sequence[str], source: str = "") -> None:
         )
 
 
-def note_slips_of(scene: Scene, name: str | None, device: DeviceFile | None) -> None:
-    """Print those of a scene of the user's own; those of a device file are printed as it is read.
+def scene_of(name: str, settings: Mapping[str, float], device: DeviceFile | None) -> Scene:
+    """Return the scene that the command line names, with --set and --device; note its slips.
 
-    `name` is what the command line calls the scene.
+    Only those of a scene of the user's own: those of a device file are noted as it is read.
     """
+    scene = find_scene(name, settings, device)
     if device is None and name not in built_in_scenes():
         note(scene.slips, scene.source)
+    return scene
 
 
 class SettingsCommand(click.Command):
@@ -238,9 +240,6 @@ def _fmu_argument(
 
 def _fmu_and_scene(argument: Path | None) -> tuple[Path | None, str]:
     """Return the FMU and the scene that one argument, or none, is; by default that of table 1."""
-    # Loading the schema of scenes takes as long as a search of a command without a scene.
-    from slider_resonator.scenes.scene_files import FIRST, find_scene
-
     if argument is None or argument.suffix == ".fmu":
         return argument, FIRST
     find_scene(str(argument))  # a wrong name is reported before a default FMU that is not built

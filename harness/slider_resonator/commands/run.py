@@ -28,7 +28,6 @@ from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.scenes.scene_files import find_scene
 
 if TYPE_CHECKING:
     from slider_resonator.choosing import Choice
@@ -158,8 +157,7 @@ def run_command(
       slider-resonator run my.fmu table_1 --plot a.png --window 0.1:0.11 --overlay fidelity=1
       slider-resonator run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
-    read = find_scene(scene, settings, device)
-    options.note_slips_of(read, scene, device)
+    read = options.scene_of(scene, settings, device)
     if stop_time is not None or step_size is not None:
         read = read.timed(stop_time=stop_time, step_size=step_size)
     if interpolate is not None:

@@ -13,7 +13,6 @@ from slider_resonator.output.files import PICTURE_SUFFIXES, distinct, make_folde
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.scenes.device_file import DeviceFile
-from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.trading.measure import BUDGET, REPEATS, TIME_LIMIT, measure_trades, opened
 from slider_resonator.trading.page import write_trades
 from slider_resonator.trading.plots import draw_picture
@@ -107,9 +106,7 @@ def trade_command(
     documents = {f"--page {number}": page for number, page in enumerate(pages, 1)}
     distinct({**tables, "--picture": picture, **documents}, {})
     names = scenes or ("table_1",)
-    read = [find_scene(name, settings, device) for name in names]
-    for scene, name in zip(read, names, strict=True):
-        options.note_slips_of(scene, name, device)
+    read = [options.scene_of(name, settings, device) for name in names]
     points = [point for scene in read for point in scene.points()]
     problems = [problem_of(point.scene, point.at, periods) for point in points]
     paths = fmus or options.default_fmus()
