@@ -29,11 +29,7 @@ from slider_resonator.errors import HarnessError, NotApplicable, SceneError, unk
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import digest_of, identity_of
-<<<<<<< HEAD
-from slider_resonator.output.atomic import write_text
-=======
-from slider_resonator.output.files import make_folder, replacing
->>>>>>> 72fe22e7 (Keep writing files, printing results and running sweeps in one module each)
+from slider_resonator.output.files import make_folder, write_text
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import built_in_scenes, find_scene

@@ -16,7 +16,10 @@ from slider_resonator.checks.period_means import (
     stick_fractions,
 )
 from slider_resonator.checks.reference_side import ReferenceSide
-from slider_resonator.errors import SceneError
+from slider_resonator.errors import HarnessError, SceneError
+from slider_resonator.fmu.isolation.process import FmuDied
+from slider_resonator.fmu.isolation.tasks import LocalProcesses
+from slider_resonator.scenes.scene import Scene, ScenePoint
 from slider_resonator.scenes.schema import ExpectTable
 from slider_resonator.scenes.vocabulary import QUANTITIES, RESOLVED
 

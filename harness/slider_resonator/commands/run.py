@@ -14,15 +14,9 @@ from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.values import si_number
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
-<<<<<<< HEAD
 from slider_resonator.fmu.run import Record, run
-from slider_resonator.output.atomic import write_csv
-=======
-from slider_resonator.fmu.record import Record
-from slider_resonator.fmu.run import run
 from slider_resonator.output.console import print_result
 from slider_resonator.output.files import PICTURE_SUFFIXES, distinct, write_csv
->>>>>>> 72fe22e7 (Keep writing files, printing results and running sweeps in one module each)
 from slider_resonator.output.progress import Progress
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line, readable

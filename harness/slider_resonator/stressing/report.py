@@ -7,7 +7,7 @@ from pathlib import Path
 
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.fmu.provenance import Provenance, provenance_html
-from slider_resonator.output.atomic import write_text
+from slider_resonator.output.files import write_text
 from slider_resonator.output.html_page import escaped, rendered, section, write_page
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.readable import number_of

@@ -12,7 +12,6 @@ from slider_resonator.choosing.reference import exact_schedule, must_hold
 from slider_resonator.choosing.steady_need import SteadyValue, steady_error
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record
-from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.schema import AllowedTable
 from tests.harness.scene_text import scene_of
 

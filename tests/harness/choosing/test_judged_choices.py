@@ -21,7 +21,7 @@ from slider_resonator.device.schedule import nearest
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record
-from slider_resonator.scenes.scene import Scene
+from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.schema import STEADY_NEEDS
 from tests.harness.choosing.generated_scenes import COUNT, generated_scene
 

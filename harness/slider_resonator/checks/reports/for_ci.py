@@ -9,7 +9,7 @@ from slider_resonator.checks.validate import RunFailure, Validation, provenance_
 from slider_resonator.checks.verdict import TITLE, measure_of, place, sentence, title
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.provenance import Provenance, provenance_markdown, provenance_properties
-from slider_resonator.output.atomic import replacing, write_text
+from slider_resonator.output.files import replacing, write_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.markdown import escaped, rendered
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
