@@ -124,7 +124,7 @@ static double reach_of(const Segment *segment) {
     return segment->kind == BENDS_AND_SLIDES ? segment->motion.panel.reach : INFINITY;
 }
 
-/* Ends sliding at a stop; sets `turns` if it moves in another direction than `before`. */
+/* Ends sliding or flight at a stop; sets `turns` if it slides in another direction than `before`. */
 static void follow_sliding(Segment *segment, double expected, int before) {
     Watch watch = watch_of(segment);
     double zero = first_zero(&watch, segment->t, segment->watched_from, expected);
@@ -132,7 +132,7 @@ static void follow_sliding(Segment *segment, double expected, int before) {
         segment->t = zero;
         segment->zero_of = 0;
     }
-    segment->turns = segment->direction != before &&
+    segment->turns = segment->mode != LIFTED && segment->direction != before &&
                  (segment->kind == BENDS_AND_SLIDES || moves(&watch, segment->t));
 }
 

@@ -137,7 +137,7 @@ class Resolved:
         now.velocity, now.displacement, now.rate, travelled = segment.at(t)
         if zero_of is not None and not segment.rests:
             now.velocity = 0.0
-        if direction not in (0, now.sliding) and watches:
+        if now.mode != LIFTED and direction not in (0, now.sliding) and watches:
             signal, noise, fastest = watches[0]
             # Most travel is far more than rounding; where it is not, the velocity in the middle
             # tells.

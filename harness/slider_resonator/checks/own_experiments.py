@@ -69,7 +69,7 @@ def own_experiments(fmu: Path) -> list[OwnExperiment]:
                 for entry in _root(file).iter("Experiment")
             ]
         except ValueError as error:  # of a number or a table
-            raise SceneError(str(error)) from error
+            raise SceneError(str(error).replace(f"{opened.folder}/", "")) from error
     if not found:
         raise SceneError(f"{fmu}: carries no experiments: {MANIFEST} names none")
     return found

@@ -130,7 +130,6 @@ class ModeSequence:
             result = self._pass(mode, inputs, now, elapsed, min(remaining, contact_span))
             if self._bends and result.duration:
                 # Of a start at rest the first instant only shows the direction.
-                self._recorder.slide(self._direction, began)
                 self._recorder.enter(mode, began)
             frequency = self._equations.drive_frequency
             elapsed.add(result.duration)

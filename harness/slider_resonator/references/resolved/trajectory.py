@@ -22,8 +22,7 @@ class Trajectory:
     ``reversal_times`` (s) are those of the reversals, NaN where they are not located.
 
     ``bristle_deflection`` is z of (8) in m, 0 with Coulomb friction. Bristles never stick: with
-    them ``contact_mode`` is the sign of the velocity (2 while lifted), and ``reversals`` counts
-    every change of sign of the velocity, those in flight too.
+    them ``contact_mode`` is the sign of the velocity (2 while lifted).
     """
 
     time: Array
@@ -97,10 +96,7 @@ class Recorder:
         self.modes.append(mode)
 
     def slide(self, direction: int, time: float = math.nan) -> None:
-        """Move in a direction (-1, 0 or 1) from a time in s on; the opposite of the last reverses.
-
-        Motion in flight counts too.
-        """
+        """Slide in a direction (-1, 0 or 1) from a time in s on; the opposite one reverses."""
         if direction * self._direction < 0:
             self.reversal_times.append(time)
         self._direction = direction or self._direction

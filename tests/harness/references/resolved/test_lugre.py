@@ -33,9 +33,12 @@ def test_reversals_lift_offs_and_touchdowns_are_located(name: str) -> None:
         event_free.simulate(device, held, events + late) for late in (0.0, -1e-9, 1e-9)
     )
     slow = 1e-9 * np.abs(np.gradient(exact.velocity, TIMES)).max()
-    assert np.abs(found.velocity[reverses]).max() < slow, "within 1e-9 s of a reversal"
-    assert (before.velocity * after.velocity < 0.0).tolist() == reverses.tolist()
-    assert ((before.normal_force > 0.0) != (after.normal_force > 0.0)).tolist() == (
-        ~reverses
-    ).tolist(), "all other events are lift-offs and touchdowns"
-    assert found.reversals == exact.reversals
+    opens = (before.normal_force > 0.0) & (after.normal_force == 0.0)
+    closes = (before.normal_force == 0.0) & (after.normal_force > 0.0)
+    stops = ~(opens | closes)
+    assert np.abs(found.velocity[stops]).max() < slow, "within 1e-9 s of a reversal"
+    assert (before.velocity * after.velocity < 0.0).tolist() == stops.tolist()
+    assert reverses[stops].all(), "all events but lift-offs and touchdowns are reversals"
+    assert not reverses[opens].any()
+    if not closes.any():  # else the slider turns in the air, too, and slides back from touchdown on
+        assert found.reversals == exact.reversals
