@@ -96,8 +96,13 @@ class Probe:
             why := self.no_beat or unseen_beat(seen["beat"], beat_frequency(self.scene))
         ):
             seen["beat"] = ErrorEstimate(inf, 0.0, why)
-        if stop < self.duration:
-            seen = self._grown(candidate.model, seen)
+        if stop < self.duration and candidate.model != self.reference_model:
+            why = "the scene is too long for a resolved run of all of it, and leaps do not serve"
+            seen = {name: replace(one, error=inf, reason=why) for name, one in seen.items()}
+        elif stop < self.duration:  # the errors of the resolved model grow up to the end
+            growth = CAUTION * self.duration / stop
+            for name in seen.keys() - {"beat"}:
+                seen[name] = replace(seen[name], error=growth * seen[name].error)
         return seen, seconds * self.duration / stop
 
     def cost(self, candidate: Candidate, stop: float = inf) -> float:
@@ -122,17 +127,6 @@ class Probe:
         if self.varying or "beat" in self.run_needs or self.duration <= MAX_STEPS * step:
             return 1
         return ceil(self.duration / step / MAX_STEPS) | 1
-
-    def _grown(self, model: Model, seen: Estimates) -> Estimates:
-        """Return the errors of the resolved model itself, extrapolated to the end of the scene."""
-        if model != self.reference_model:
-            reason = "the scene is too long for a resolved run of all of it, and leaps do not serve"
-            return {name: replace(e, error=inf, reason=reason) for name, e in seen.items()}
-        growth = CAUTION * self.duration / self._reference.stop
-        return {
-            name: estimate if name == "beat" else replace(estimate, error=growth * estimate.error)
-            for name, estimate in seen.items()
-        }
 
     @cached_property
     def no_beat(self) -> str:

@@ -227,23 +227,17 @@ def _fmu_argument(
     @click.option("--fmu", "given", type=FMU_FILE, help=text)
     @wraps(command)
     def with_fmu(fmu: Path | None, given: Path | None, **others: Any) -> Any:
-        scene = others.get("scene", "")
-        if scene is None:  # one argument is the scene
-            fmu, others["scene"] = _fmu_and_scene(fmu)
+        if others.get("scene", "") is None:  # the one argument, if any, is the FMU or the scene
+            others["scene"] = FIRST
+            if fmu is not None and fmu.suffix != ".fmu":
+                find_scene(str(fmu))  # a wrong name comes before a default FMU that is not built
+                fmu, others["scene"] = None, str(fmu)
         fmu = fmu and _no_toml("FMU", str(fmu))
         if fmu is not None and given is not None:
             raise click.UsageError(f"{fmu} and --fmu {given}: must be one FMU")
         return command(fmu=chosen(fmu or given), **others)
 
     return with_fmu
-
-
-def _fmu_and_scene(argument: Path | None) -> tuple[Path | None, str]:
-    """Return the FMU and the scene that one argument, or none, is; by default that of table 1."""
-    if argument is None or argument.suffix == ".fmu":
-        return argument, FIRST
-    find_scene(str(argument))  # a wrong name is reported before a default FMU that is not built
-    return None, str(argument)
 
 
 fmu_argument = partial(_fmu_argument, chosen=_must_be_given, default="")
