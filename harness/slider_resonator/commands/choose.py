@@ -1,5 +1,6 @@
 """`choose`: find the cheapest model that meets a scene's needs, by runs in the FMU."""
 
+from math import inf
 from pathlib import Path
 
 import click
@@ -8,21 +9,53 @@ from slider_resonator.choosing import choose
 from slider_resonator.choosing.choice import error_text
 from slider_resonator.choosing.choosing import TIME_LIMIT
 from slider_resonator.commands import options
+from slider_resonator.device.values import si_number
+from slider_resonator.errors import unknown_name
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import print_json, print_table, print_text
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.device_file import DeviceFile
+from slider_resonator.scenes.key_table import units_of
+from slider_resonator.scenes.schema import AllowedTable, NeedTable
+
+
+def _need(text: str) -> tuple[str, AllowedTable]:
+    """Return name and allowed error of NAME=ERROR, a share in % or a number; or ValueError."""
+    name, separator, error = text.partition("=")
+    units = units_of(NeedTable)
+    if not separator:
+        raise ValueError(f"{text!r} is not NAME=ERROR, such as mean_velocity='1 %'")
+    if name not in units:
+        raise ValueError(unknown_name("quantity", name, units))
+    if error.rstrip().endswith("%"):
+        allowed = {"rel": si_number(name, error, "1")}
+    else:
+        allowed = {"abs": si_number(name, error, units[name])}
+    if not 0.0 < min(allowed.values()) < inf:
+        raise ValueError(f"{name} = {error!r}: must be above 0, and finite")
+    return name, AllowedTable(**allowed)
 
 
 @click.command("choose", cls=options.SettingsCommand)
-@click.argument("scene")
+@click.argument("scene", default="table_1")
+@click.option(
+    "--need",
+    "needs",
+    type=options.Parsed("NAME=ERROR", _need),
+    multiple=True,
+    help="A quantity and its allowed error, as mean_velocity='1 %' or position='2 um', in place of "
+    "[need]. Repeatable.",
+)
+@options.stop_time_option
 @options.fmu_option
 @options.device_options
 @options.time_limit_option(TIME_LIMIT, "For the whole choice.")
 @options.json_option
 def choose_command(
     scene: str,
+    needs: tuple[tuple[str, AllowedTable], ...],
+    stop_time: float | None,
     fmu: Path | None,
     device: DeviceFile | None,
     settings: dict[str, float],
@@ -31,26 +64,31 @@ def choose_command(
 ) -> int:
     """Choose fidelity, friction law, tolerance and communication step for what a scene needs.
 
-    The scene, built in or from a file, states its needs in [need]: any of mean_velocity (at the
-    end), mean_velocity_throughout, position, velocity, steady_velocity, blocking_force, event_times
-    and beat, each with abs or rel, and friction_law = "free" if either law will do. Candidates are
-    run in the FMU, which gives their errors and their CPU times. The scene's own fidelity and
-    tolerance are ignored; its step, of several the largest, is the sampling step of signals. Inputs
-    are held over each step, or go on as straight lines where [run] says interpolate and the FMU
-    can; tuned parameters are held. A scene with a sweep stands for its unvaried device. The last
-    digits of the cost differ from call to call; where costs differ by less than 5 %, the model that
-    leaves out least is chosen. Exit code: 0 when a model meets
-    the needs, 1 when none does (then the nearest is shown), 2 when the scene could not run, the FMU
-    crashed or exceeded the time limit.
+    The scene, built in or from a file, by default table_1, states its needs in [need], or --need
+    does: any of mean_velocity (at the end), mean_velocity_throughout, position, velocity,
+    steady_velocity, blocking_force, event_times and beat, each with abs or rel; [need] may also
+    have friction_law = "free" if either law will do. Candidates are run in the FMU, which gives
+    their errors and their CPU times. The scene's own fidelity and tolerance are ignored; its step,
+    of several the largest, is the sampling step of signals. Inputs are held over each step, or go
+    on as straight lines where [run] says interpolate and the FMU can; tuned parameters are held. A
+    scene with a sweep stands for its unvaried device. The last digits of the cost differ from call
+    to call; where costs differ by less than 5 %, the model that leaves out least is chosen. Exit
+    code: 0 when a model meets the needs, 1 when none does (then the nearest is shown), 2 when the
+    scene could not run, the FMU crashed or exceeded the time limit.
 
     \b
     Examples:
+      slider-resonator choose --device mine.toml --time "200 ms" --need mean_velocity="1 %"
       slider-resonator choose feed_forward
       slider-resonator choose scenes/mine.toml --json
       slider-resonator choose feed_forward --set friction_law=1 bristle_stiffness=1e6
     """
     options.check_left_to_choose(device, settings)
     read = options.scene_of(scene, settings, device)
+    if stop_time is not None:
+        read = read.timed(stop_time=stop_time)
+    if needs:
+        read = read.needing(dict(needs))
     path = options.default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:
@@ -59,12 +97,12 @@ def choose_command(
         print_json(choice, provenance)
     else:
         print_text("\n".join(choice.sentences()))
-        needs = [
+        rows = [
             (name, error_text(error), f"{allowed:.3g}", unit)
             for name, error, allowed, unit in zip(*choice.table().values(), strict=True)
         ]
         columns = (*texts("need"), *numbers("error", "allowed"), *texts("unit"))
-        print_table(Table(columns, needs))
+        print_table(Table(columns, rows))
         others = [(ruled_out.model.name, ruled_out.why) for ruled_out in choice.ruled_out]
         if others:
             print_table(Table(texts("ruled out", "why"), others))

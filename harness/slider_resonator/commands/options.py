@@ -4,13 +4,14 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from functools import partial, wraps
+from math import inf
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
 from slider_resonator.device.interface import SETTABLE
-from slider_resonator.device.values import check_value, is_number, si_value
+from slider_resonator.device.values import check_value, is_number, si_number, si_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fmu import finished
 from slider_resonator.fmu.isolation.tasks import available_cores
@@ -55,6 +56,24 @@ class Parsed(click.ParamType[Value]):
             return self.read(value)
         except (ValueError, HarnessError) as error:
             self.fail(str(error), param, ctx)
+
+
+def _duration(text: str) -> float:
+    """Return a time in s above 0; ValueError for another text."""
+    seconds = si_number("time", text, "s")
+    if not 0.0 < seconds < inf:
+        raise ValueError(f"time = {text!r}: must be above 0 s, and finite")
+    return seconds
+
+
+DURATION = Parsed("TIME", _duration)
+"""A time above 0, in s or with a unit."""
+stop_time_option = click.option(
+    "--time",
+    "stop_time",
+    type=DURATION,
+    help="How long to run, in s or with a unit, in place of what the scene says.",
+)
 
 
 def target(suffixes: Sequence[str] = ()) -> Parsed[Path]:

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from functools import partial
-from math import inf
 from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -45,14 +44,6 @@ def _window(text: str) -> tuple[float, float]:
         raise ValueError(f"{text!r}: must be FROM:TO, two times in s, {example}") from error
 
 
-def _duration(text: str) -> float:
-    """Return a time in s above 0; ValueError for another text."""
-    seconds = si_number("time", text, "s")
-    if not 0.0 < seconds < inf:
-        raise ValueError(f"time = {text!r}: must be above 0 s, and finite")
-    return seconds
-
-
 def _overlay(text: str) -> tuple[str, float] | Path:
     """Return the setting NAME=VALUE, or the path of an FMU; ValueError for a wrong setting."""
     return options.setting(text) if "=" in text and not Path(text).is_file() else Path(text)
@@ -61,16 +52,11 @@ def _overlay(text: str) -> tuple[str, float] | Path:
 @click.command("run", cls=options.SettingsCommand)
 @options.native_fmu_argument
 @click.argument("scene", required=False)
-@click.option(
-    "--time",
-    "stop_time",
-    type=options.Parsed("TIME", _duration),
-    help="How long to run, in s or with a unit, in place of what the scene says.",
-)
+@options.stop_time_option
 @click.option(
     "--step",
     "step_size",
-    type=options.Parsed("TIME", _duration),
+    type=options.DURATION,
     help="The communication step, in s or with a unit, in place of what the scene says.",
 )
 @click.option("--out", type=options.target(), help="CSV file of the run.")

@@ -23,7 +23,16 @@ from slider_resonator.scenes.device_file import possible_slips, read_device_file
 from slider_resonator.scenes.expansion import variants
 from slider_resonator.scenes.explanations import explanations
 from slider_resonator.scenes.input_tables import InputTable
-from slider_resonator.scenes.schema import ExpectTable, NeedTable, RunTable, SceneTable, SweepTable
+from slider_resonator.scenes.schema import (
+    RUN_NEEDS,
+    STEADY_NEEDS,
+    AllowedTable,
+    ExpectTable,
+    NeedTable,
+    RunTable,
+    SceneTable,
+    SweepTable,
+)
 from slider_resonator.scenes.si_values import with_si_values
 from slider_resonator.scenes.toml_file import read_toml
 
@@ -211,6 +220,20 @@ class Scene(Shown):
         if step_size is not None:
             changed |= {"step_size": step_size, "steps_per_period": None, "step_sizes": None}
         return replace(self, source=self.name, run=self.run.model_copy(update=changed))
+
+    def needing(self, needs: Mapping[str, AllowedTable]) -> "Scene":
+        """Return the scene with other needs for the command choose.
+
+        Raises SceneError for one that needs a run, or constant inputs, where the scene has none.
+        """
+        changing = any(len(s.times) > 1 for s in (*self.signals.values(), *self.tuning.values()))
+        for name in needs:
+            need = f"{self.source}: need.{name}"
+            if name in RUN_NEEDS and self.run is None:
+                raise SceneError(f"{need} is measured in a run: [run] is missing")
+            if name in STEADY_NEEDS and changing:
+                raise SceneError(f"{need} needs constant inputs and parameters")
+        return replace(self, need=NeedTable.model_validate(needs))
 
     @property
     def interpolates(self) -> bool:

@@ -45,6 +45,23 @@ def test_a_choice_has_reasons_against_the_others(native_fmu: Path, tmp_path: Pat
     assert "fidelity 2, Coulomb friction" in printed
 
 
+def test_needs_and_time_need_no_scene_file(native_fmu: Path) -> None:
+    device = ("--device", "ultrasonic_slider", "--set", "phase=30 deg")
+    needs = ("--need", "mean_velocity=1 %", "--need", "position=2 um", "--time", "20 ms")
+    result = call("choose", "--fmu", native_fmu, *device, *needs, "--json")
+    answer = json.loads(result.stdout)
+    assert result.exit_code == 0
+    assert answer["allowed"]["position"] == 2e-6
+    assert answer["allowed"]["mean_velocity"] < 0.01
+    assert all(answer["error"][name] <= answer["allowed"][name] for name in answer["allowed"])
+
+
+def test_a_need_of_steady_motion_needs_constant_inputs(native_fmu: Path) -> None:
+    needs = ("--need", "steady_velocity=1 %")
+    text = refused("choose", "changing_inputs", "--fmu", native_fmu, *needs)
+    assert "need.steady_velocity needs constant inputs and parameters" in text
+
+
 def test_a_setting_changes_the_scene(native_fmu: Path, tmp_path: Path) -> None:
     scene = written(tmp_path, "position = { rel = 1e-5 }")
     law = ("--set", "friction_law=1", "bristle_stiffness=1e4")
