@@ -220,20 +220,23 @@ def read_scene(scene: SceneLike, **values: Value) -> Scene:
 @_plain_errors
 def validate(
     *fmus: str | Path,
-    scenes: str | Path | Sequence[str | Path] | None = None,
+    scenes: SceneLike | Sequence[SceneLike] | None = None,
     time_limit: float = TIME_LIMIT,
     jobs: int | None = None,
 ) -> tuple[Validation, ...]:
     """Compare FMUs with the references.
 
-    `scenes` is a name, a file or a folder, or several of these, by default all that are built in.
-    `jobs` processes compute the references and as many at most run an FMU, by default one for each
-    core. Raises SceneError where `scenes` is empty.
+    `scenes` is a name, a file, a folder or a scene as data, or several of these, by default all
+    that are built in. `time_limit` (s) is that of each point of a scene. `jobs` processes compute
+    the references and as many at most run an FMU, by default one for each core. Raises SceneError
+    where `scenes` is empty.
     """
-    named = [scenes] if isinstance(scenes, str | Path) else scenes
-    if named is not None and not named:
+    given = scenes if isinstance(scenes, Sequence) and not isinstance(scenes, str) else [scenes]
+    if not given:
         raise SceneError("scenes = []: must be at least one scene; leave it out to run all")
-    found = find_scenes([str(scene) for scene in named or ()])
+    named = [str(scene) for scene in given if isinstance(scene, str | Path)]
+    found = find_scenes(named) if named or scenes is None else []
+    found += [read_scene(scene) for scene in given if isinstance(scene, Mapping | Scene)]
     return validate_scenes(
         _fmus(fmus), found, time_limit=_seconds(time_limit), jobs=_processes("jobs", jobs)
     )

@@ -60,10 +60,15 @@ def test_scenes_are_names_files_and_data(native_fmu: Path, tmp_path: Path) -> No
     assert built_in.values["load"] == 0.01
     assert built_in.title == "The device of table 1, load replaced"
     assert sr.read_scene(built_in, load=0.02).values["load"] == 0.02
-    for scenes in ("blocking_force_table_1", ["blocking_force_table_1"]):
+    named = "blocking_force_table_1"
+    for scenes in (named, [named], sr.read_scene(named)):
         (validation,) = sr.validate(native_fmu, scenes=scenes)
         assert validation.passed
-        assert {check.scene for check in validation.checks} == {"blocking_force_table_1"}
+        assert {check.scene for check in validation.checks} == {named}
+    value = {"quantity": "steady_velocity", "value": STEADY_VELOCITY, "relative": 1e-6, "why": "-"}
+    inputs = {"phase": 0.4, "load": 0.05}
+    (validation,) = sr.validate(native_fmu, scenes=[{"inputs": inputs, "expect": [value]}])
+    assert validation.passed, "a scene as data"
     table = tmp_path / "table.csv"
     table.write_text("point,phase\n0,1.0\n")
     grid = {"measures": ["steady_velocity"], "list": {"phase": [0.0, 0.4]}}

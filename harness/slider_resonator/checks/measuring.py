@@ -31,7 +31,7 @@ from slider_resonator.errors import NotApplicable, SceneError
 from slider_resonator.fmu.interface_check import description_faults
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
-SHOWN = 3
+SHOWN = 12
 """Faults that a text names; the others are counted."""
 _ESTIMATE = "slow_motion_error"
 WITHIN = 0.1

@@ -56,7 +56,7 @@ def sizes(check: Check) -> tuple[float | None, float | None, str]:
 
 def place(at: Mapping[str, float], before: str = "") -> str:
     """Return `before` and the point of a sweep, such as "phase 0.4"; nothing without a sweep."""
-    values = ", ".join(f"{name} {value:g}" for name, value in at.items())
+    values = ", ".join(f"{name} {value:.10g}" for name, value in at.items())
     return before + values if at else ""
 
 
