@@ -9,7 +9,9 @@ from slider_resonator.choosing.candidate import Candidate, uses_tolerance
 from slider_resonator.choosing.errors import ErrorEstimate
 from slider_resonator.device.model import Model
 from slider_resonator.output.shown import Shown, Tabular
+from slider_resonator.scenes.key_table import units_of
 from slider_resonator.scenes.scene import Scene
+from slider_resonator.scenes.schema import NeedTable
 
 MARGIN = 0.99
 """Largest share of an allowed error that an estimate may take."""
@@ -30,18 +32,6 @@ PROBES = {
     "steady motion": "steady motion",
 }
 """What errors are against, in words."""
-
-UNITS: Mapping[str, str] = {
-    "mean_velocity": "m/s",
-    "mean_velocity_throughout": "m/s",
-    "position": "m",
-    "velocity": "m/s",
-    "steady_velocity": "m/s",
-    "blocking_force": "N",
-    "event_times": "s",
-    "beat": "Hz",
-}
-"""Units of the needs."""
 
 
 def error_text(error: float) -> str:
@@ -179,11 +169,12 @@ class Choice(Shown, Tabular):
 
     def table(self) -> dict[str, list[Any]]:
         """Return need, error, allowed error and unit, in columns."""
+        units = units_of(NeedTable)
         return {
             "need": list(self.error),
             "error": list(self.error.values()),
             "allowed": [self.allowed[name] for name in self.error],
-            "unit": [UNITS[name] for name in self.error],
+            "unit": [units[name] for name in self.error],
         }
 
     def describe(self) -> list[str]:

@@ -44,6 +44,7 @@ def _need(text: str) -> tuple[str, AllowedTable]:
     "needs",
     type=options.Parsed("NAME=ERROR", _need),
     multiple=True,
+    callback=options.each_once,
     help="A quantity and its allowed error, as mean_velocity='1 %' or position='2 um', in place of "
     "[need]. Repeatable.",
 )
@@ -54,7 +55,7 @@ def _need(text: str) -> tuple[str, AllowedTable]:
 @options.json_option
 def choose_command(
     scene: str,
-    needs: tuple[tuple[str, AllowedTable], ...],
+    needs: dict[str, AllowedTable],
     stop_time: float | None,
     fmu: Path | None,
     device: DeviceFile | None,
@@ -88,7 +89,7 @@ def choose_command(
     if stop_time is not None:
         read = read.timed(stop_time=stop_time)
     if needs:
-        read = read.needing(dict(needs))
+        read = read.needing(needs)
     path = options.default_fmu(fmu)
     provenance = provenance_of(path)
     with progress_bar() as progress:

@@ -161,14 +161,15 @@ def _is_unit_of(setting_before: str, argument: str) -> bool:
     return True
 
 
-def _each_once(
-    context: click.Context, option: click.Parameter, settings: Sequence[tuple[str, float]]
-) -> dict[str, float]:
-    given: dict[str, float] = {}
+def each_once(
+    context: click.Context, option: click.Parameter, settings: Sequence[tuple[str, Value]]
+) -> dict[str, Value]:
+    """Return repeated NAME=VALUE as a dictionary; BadParameter for a name that is given twice."""
+    given: dict[str, Value] = {}
     for name, value in settings:
         if name in given:
             raise click.BadParameter(
-                f"{name} = {given[name]!r} and {name} = {value!r}: must be one value",
+                f"{name} = {given[name]} and {name} = {value}: must be one value",
                 context,
                 option,
             )
@@ -311,7 +312,7 @@ _settings_option = click.option(
     "settings",
     type=Parsed("NAME=VALUE", setting),
     multiple=True,
-    callback=_each_once,
+    callback=each_once,
     help="Set a parameter or input, in SI units or with a unit, as 'load=50 mN'; more NAME=VALUE "
     "may follow. All others keep the value of the device. Repeatable.",
 )

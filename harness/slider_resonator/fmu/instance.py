@@ -206,9 +206,8 @@ class Instance:
     def set_input_rates(self, values: Sequence[float]) -> None:
         """Set the derivatives of phase (rad/s), load (N/s), frequency_ratio (1/s).
 
-        Raises NotApplicable for an FMU that takes none.
+        Only for an FMU with `canInterpolateInputs`.
         """
-        self.fmu.require("canInterpolateInputs")
         self._inputs.write_rates(values)
 
     def step_to(self, target: float) -> None:

@@ -229,6 +229,10 @@ class AllowedTable(KeyTable):
             raise ValueError("must be a table with abs or rel, such as { rel = 0.01 }")
         return value
 
+    def __str__(self) -> str:
+        share = None if self.rel is None else f"{100.0 * self.rel:.10g} %"
+        return " + ".join(str(part) for part in (self.abs, share) if part is not None)
+
     @model_validator(mode="after")
     def _some_tolerance(self) -> "AllowedTable":
         if self.abs is None and self.rel is None:
