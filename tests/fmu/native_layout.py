@@ -15,7 +15,8 @@ FIELDS = (
     *("sliding", "reversals", "sticks", "event_age"),
     *("travel", "work", "elapsed", "sticking", "complete"),
     *("mean_velocity", "friction_power", "stick_fraction", "bristle"),
-    *("backward_stop", "backward_drift", "forward_stop", "forward_drift"),
+    *("backward_stop", "backward_drift", "backward_curvature"),
+    *("forward_stop", "forward_drift", "forward_curvature"),
     "leap_error",
 )
 HEAD = 8 + 40

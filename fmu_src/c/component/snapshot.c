@@ -56,8 +56,10 @@ static const Field FIELDS[] = {
     FIELD(moment.bristle, FINITE, 0, 0),
     FIELD(moment.stops.backward.theta, FINITE, 0, 0),
     FIELD(moment.stops.backward.drift, FINITE, 0, 0),
+    FIELD(moment.stops.backward.curvature, FINITE, 0, 0),
     FIELD(moment.stops.forward.theta, FINITE, 0, 0),
     FIELD(moment.stops.forward.drift, FINITE, 0, 0),
+    FIELD(moment.stops.forward.curvature, FINITE, 0, 0),
     FIELD(moment.leap_error, FINITE, 0, 0),
 };
 

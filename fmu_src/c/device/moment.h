@@ -7,11 +7,11 @@
 /* Largest change of the phase of a stop [rad] in a turn that counts as a drift. */
 #define MAX_DRIFT 0.1
 
-/* Drive phase [rad] at which the slider last stopped after sliding in one direction, and its difference
- * from the stop before: the next stop is mostly near that phase one turn later. Before the first stop both are
+/* Drive phase [rad] at which the slider last stopped after sliding in one direction, and its first and second difference from
+ * the stops before (`drift`, `curvature`): extrapolated to the next turn they expect the next stop. Before the first stop all are
  * 0, an arbitrary guess. */
 typedef struct {
-    double theta, drift;
+    double theta, drift, curvature;
 } Stop;
 
 /* The last stop in each direction of sliding. */
@@ -26,13 +26,15 @@ static inline Stop *stop_after(Stops *stops, int direction) {
 /* Records a stop at drive phase `theta` [rad]. */
 static inline void stop_record(Stop *stop, double theta) {
     double drift = theta - stop->theta;
-    stop->drift = fabs(drift) < MAX_DRIFT ? drift : 0.0;
+    drift = fabs(drift) < MAX_DRIFT ? drift : 0.0;
+    stop->curvature = drift != 0.0 && stop->drift != 0.0 ? drift - stop->drift : 0.0;
+    stop->drift = drift;
     stop->theta = theta;
 }
 
-/* Time [s] from drive phase `theta` [rad] to the next stop if it drifts as much as before. */
+/* Time [s] from drive phase `theta` [rad] to the next stop, if that goes on as the last three. */
 static inline double stop_expected(const Stop *stop, double theta, double drive_frequency) {
-    return within_turn(stop->theta + stop->drift - theta) / drive_frequency;
+    return within_turn(stop->theta + stop->drift + stop->curvature - theta) / drive_frequency;
 }
 
 /* Events so far. Counts are doubles: exact for more events than any run has. */
