@@ -19,8 +19,7 @@ double next_slow_boundary(const Device *device, double ratio, double direction) 
     return direction * next;
 }
 
-/* Angle tau at which sliding turns forward [rad]; 0 or pi where it never reverses. */
-static double turning_at(double velocity, double fast_velocity) {
+double turning_at(double velocity, double fast_velocity) {
     if (fabs(velocity) >= fast_velocity) {
         return velocity > 0.0 ? 0.0 : PI;
     }

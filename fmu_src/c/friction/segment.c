@@ -41,7 +41,7 @@ void segment_begin_slide(Segment *segment, const System *system, const Moment *n
         return;
     }
     split_slide_begin(&segment->motion.slide, &system->split, plant, now, &segment->known.phasors, direction);
-    segment->motion.slide.works = segment->counts_work && now->mode != LIFTED;
+    segment->motion.slide.works = segment->counts_means && now->mode != LIFTED;
 }
 
 void segment_begin_bending(Segment *segment, const System *system, const Moment *now, int direction, double longest,
@@ -60,7 +60,7 @@ void segment_begin_bending(Segment *segment, const System *system, const Moment 
         return;
     case BY_PANEL:
         set_segment(segment, BENDS_AND_SLIDES, now->mode, direction, panel->length);
-        if (segment->counts_work) {
+        if (segment->counts_means) {
             bending_panel_weigh(panel);
         }
         return;
@@ -163,7 +163,7 @@ static Place place_of(const Segment *segment, double t) {
         return split_slide_place(&segment->motion.slide, t);
     case FOLLOWS_SERIES:
         place.state = taylor_slide_state(&segment->motion.series, t);
-        place.passed = taylor_slide_passage(&segment->motion.series, t, segment->counts_work);
+        place.passed = taylor_slide_passage(&segment->motion.series, t, segment->counts_means);
         return place;
     case BENDS_AND_SLIDES:
         return bending_panel_place(&segment->motion.panel, t);
@@ -182,8 +182,12 @@ void segment_finish(Segment *segment, const Plant *plant, Moment *now) {
     now->state = end.state;
     segment->known = end.known;
     segment->travelled = end.passed.travel;
-    Interval interval = {segment->t, end.state.velocity, end.passed, segment->kind == RESTS, passage_at, segment};
-    now->theta = period_advance(&now->means, &interval, now->theta, plant->drive_frequency);
+    if (segment->counts_means) {
+        Interval interval = {segment->t, end.state.velocity, end.passed, segment->kind == RESTS, passage_at, segment};
+        now->theta = period_advance(&now->means, &interval, now->theta, plant->drive_frequency);
+    } else {
+        now->theta = within_turn(now->theta + plant->drive_frequency * segment->t);
+    }
     now->psi = within_turn(now->psi + turned_by(plant, segment->t));
     now->position += segment->travelled;
     if (segment->turns) {

@@ -28,7 +28,7 @@ typedef struct Segment {
     int zero_of;         /* index of the watched signal whose zero ends it, or -1 */
     bool turns;          /* whether it slides, beyond rounding, in another direction than it slid before */
     bool departs;        /* set before: whether it starts from rest and not at a reversal */
-    bool counts_work;    /* set before: whether the work of friction is wanted; it is 0 otherwise */
+    bool counts_means;   /* set before: whether it counts in the means of a period; the work of friction is 0 otherwise */
     KnownPhasors known;  /* set before: the phasors of the start, if they are known; once finished, of the end */
 } Segment;
 

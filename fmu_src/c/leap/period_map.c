@@ -113,7 +113,7 @@ bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, 
     sections[0] = section_state(map, moment);
     for (int k = 1; k <= count; k++) {
         Moment before = *moment;
-        passed.works = k > 1 && k + 1 >= count; /* in the last whole turn, as far as a sequence has one */
+        passed.counts_means = k > 1 && k + 1 >= count; /* in the last whole turn, as far as a sequence has one */
         if (!events_advance(&later, &before, map->period, NULL, &passed, budget, moment,
                             &refusal)) {
             return false;

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "../averaged/slow_friction.h"
+
 /* Number of points of which the one in the widest gap is taken. */
 enum { CANDIDATES = 24 };
 
@@ -78,11 +80,22 @@ bool are_exact(const PeriodMap *map, const SlowRates *rates) {
     return rates->error <= map->share * map->tolerance * map->speed;
 }
 
+/* Where to expect stops at a slow velocity [m/s]: from the last ones they move with the angles at which the vibration alone would
+ * turn the direction of sliding. */
+static Stops stops_at(const SlowPath *path, double velocity) {
+    double speed = path->manifold.map->speed;
+    double turned = turning_at(velocity, speed) - turning_at(path->last.velocity, speed);
+    Stops stops = path->last.after.stops;
+    stops.backward.theta += turned;
+    stops.forward.theta -= turned;
+    return stops;
+}
+
 bool evaluate(SlowPath *path, double n, double velocity) {
     const PeriodMap *map = path->manifold.map;
     PathPoint point = {.n = n, .velocity = velocity, .moment = path->here.moment};
     double fast[MAX_FAST];
-    point.moment.stops = path->last.after.stops;
+    point.moment.stops = stops_at(path, velocity);
     guess_fast(path, n, velocity, fast);
     moment_place(map, velocity, fast, psi_after(map, path->psi, n), &point.moment);
     if (!slow_rates(&path->manifold, n, &point.moment, &point.after,

@@ -10,8 +10,8 @@
  * presliding on the hardest bristles takes. */
 enum { MAX_TURN_SEGMENTS = 20000 };
 
-/* Drive periods before the end of a motion from which the work of friction counts: its mean is that of the last
- * whole one, and the first that ends is counted in part. */
+/* Drive periods before the end of a motion from which it counts in means: they are those of the last whole one, and the first
+ * that ends is counted in part. */
 #define COUNTED 3.0
 
 /* Segments since a turn of the fastest oscillation began at `began` [s], and `all` segments, of which there may be
@@ -141,8 +141,8 @@ bool events_advance(const System *start, const Moment *moment, double duration, 
         if (search != NULL) {
             begin = *now;
         }
-        segment.counts_work = (search != NULL || remaining - fmin(remaining, system->arc) <= counted) &&
-                          (itinerary == NULL || itinerary->works);
+        segment.counts_means = (search != NULL || remaining - fmin(remaining, system->arc) <= counted) &&
+                          (itinerary == NULL || itinerary->counts_means);
         friction->begin(&segment, system, now, longest);
         segment_follow(&segment, plant, now, longest);
         if (itinerary != NULL) {

@@ -18,11 +18,11 @@ typedef struct {
 } EventSearch;
 
 /* A hash of the contact modes that follow each other: motions with one itinerary depend smoothly on where they begin. `last` is
- * the last of the modes. A motion that has one counts the work of friction only if that is `works`. */
+ * the last of the modes. A motion that has one counts in the means of periods only if it `counts_means`. */
 typedef struct {
     uint64_t hash;
     int last;
-    bool works;
+    bool counts_means;
 } Itinerary;
 
 /* The last mode of an itinerary that has none yet. */
