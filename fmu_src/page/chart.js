@@ -1,15 +1,16 @@
 /** How plots are drawn. A plot has `title`, `x` and `y` as `{label, unit}`, curves as
  * `{label, x, y, colour, dash}`, marks as `{label, x, y, colour}`, bands as `{label, from, to,
- * colour}`; a colour is a name in the style sheet. */
+ * colour}`; a colour is a name in the style sheet. `scale` is a size of y beside which less than a
+ * millionth is rounding. */
 const PLOT_HEIGHT = 190;
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 /** Return [low, high] with a margin; a width even for values that are equal to rounding, or none. */
-function rangeOf(values) {
+function rangeOf(values, scale = 0) {
   const found = values.filter((value) => value !== null);
   const [low, high] = found.length ? [Math.min(...found), Math.max(...found)] : [-1, 1];
-  const size = Math.max(Math.abs(low), Math.abs(high));
+  const size = Math.max(Math.abs(low), Math.abs(high), scale);
   const margin = high - low > 1e-6 * size ? 0.06 * (high - low) : 0.1 * size || 1;
   return [low - margin, high + margin];
 }
@@ -78,7 +79,7 @@ function dotOf({ label, colour: name }) {
 }
 
 /** Return the options of uPlot for a plot but its size. */
-function optionsOf({ x, y, curves, marks = [], bands = [], isLoop = false }) {
+function optionsOf({ x, y, curves, marks = [], bands = [], isLoop = false, scale }) {
   const drawn = [...curves, ...marks];
   const [xs, ys] = [drawn.flatMap((one) => one.x), drawn.flatMap((one) => one.y)];
   const ends = isLoop || marks.length ? rangeOf(xs) : [xs[0], xs.at(-1)];
@@ -87,7 +88,7 @@ function optionsOf({ x, y, curves, marks = [], bands = [], isLoop = false }) {
     legend: { show: false },
     padding: [8, 26, 0, 0],
     cursor: { points: { show: !isLoop }, y: false, drag: { x: false, y: false } },
-    scales: { x: { time: false, range: () => ends }, y: { range: () => rangeOf(ys) } },
+    scales: { x: { time: false, range: () => ends }, y: { range: () => rangeOf(ys, scale) } },
     axes: [axis(x, X_AXIS), axis(y, Y_AXIS)],
     series: isLoop ? [{}, {}] : [{}, ...curves.map(lineOf), ...marks.map(dotOf)],
     hooks: {

@@ -23,6 +23,11 @@ function element(tag, attributes = {}, ...children) {
   return made;
 }
 
+/** Return a name of which a line may end behind each underscore. */
+function breakable(name) {
+  return name.split(/(?<=_)/).flatMap((part) => [document.createElement("wbr"), part]);
+}
+
 /** A row of a setting. `onText(name, text)` is called with what is typed or chosen, a bare number
  * being in the unit that is shown; `onValue(name, value)` with the SI value of a slider. */
 class Control {
@@ -37,7 +42,7 @@ class Control {
       : element("input", { ...attributes, type: "text", autocomplete: "off" });
     this.field.addEventListener("change", () => onText(name, this.field.value));
     this.row = element("div", { class: "control", title: `${name}: ${description}` },
-      element("label", { for: attributes.id }, name), this.field);
+      element("label", { for: attributes.id }, ...breakable(name)), this.field);
     if (!choices) {
       this.row.append(element("span", { class: "unit" }, unit === "1" ? "" : unit));
     }

@@ -2,6 +2,11 @@
  * and in a line a name with a number or a text. */
 const DEVICE_LINE = /^\s*(?:\[\s*([^\]]*?)\s*\]|([\w-]+)\s*=\s*("(?:[^"\\]|\\.)*"|'[^']*'|[^\s#"']+))?\s*(?:#.*)?$/;
 const TEXTS = ["name", "title", "description"];
+/** What else a file may be, by the tables that it has. */
+const OTHER_FILES = [
+  [/^\s*\[+\s*(inputs|run|tuning|need|expect|sweep|beside)\b/m, "a scene: slider-resonator run FILE"],
+  [/^\s*\[\s*grid\b/m, "a grid: slider-resonator sweep FILE"],
+];
 
 /** Return the text within the quotes of a TOML string. */
 function unquoted(token) {
@@ -45,6 +50,10 @@ function deviceOf(text) {
   const seen = new Set();
   const plain = new Set();
   let isBelow = false;
+  const other = OTHER_FILES.find(([table]) => table.test(text));
+  if (other) {
+    throw new Refused(`the file refused: must be a device file; it is ${other[1]}`);
+  }
   text.replace(/^\uFEFF/, "").split(/\r?\n/).forEach((line, i) => {
     try {
       const [whole, table, name, token] = DEVICE_LINE.exec(line) ?? [];
@@ -83,9 +92,9 @@ function deviceOf(text) {
   return { ...device, slips: possibleSlips(device.values, plain) };
 }
 
-/** Return the text of a device file: what differs from the start, and the number of faces. */
-function deviceText(values) {
-  const lines = ["[device]"];
+/** Return the text of a device file: a title, what differs from the start, and the number of faces. */
+function deviceText(values, title) {
+  const lines = [...(title ? [`title = ${JSON.stringify(title)}`, ""] : []), "[device]"];
   for (const parameter of PARAMETERS) {
     const { name, start, unit } = parameter;
     const value = values.get(name) ?? start;

@@ -31,6 +31,12 @@ function showChanges(settings) {
     chip.addEventListener("click", () => edit((now) => change(now, name, unchanged(now, name))));
     return chip;
   });
+  if (settings.time !== null) {
+    const chip = element("button", { type: "button", title: "Let t follow the device" },
+      `t ${shownValue(TIME, settings.time)} ✕`);
+    chip.addEventListener("click", () => edit((now) => { now.time = null; }));
+    chips.push(chip);
+  }
   byId("changes").replaceChildren(...(chips.length ? ["changed:", ...chips] : ["unchanged"]));
 }
 
@@ -74,6 +80,7 @@ async function showAddress(isNew = false) {
     if (!isDone) {
       clearOutputs();
     }
+    byId("save").disabled = !isDone;
     document.body.dataset.state = isDone ? "done" : "refused";
   }
 }
@@ -117,7 +124,9 @@ byId("file").addEventListener("change", () => guarded(async () => {
   show(settingsFor(values), true);
 }));
 byId("save").addEventListener("click", () => {
-  download("device.toml", deviceText(valuesOf(settingsOf(location.hash))));
+  const settings = settingsOf(location.hash);
+  const { title } = DEVICES.get(settings.device);
+  download("device.toml", deviceText(valuesOf(settings), settings.changes.size ? "" : title));
 });
 byId("share").addEventListener("click", async () => {
   await navigator.clipboard.writeText(location.href);

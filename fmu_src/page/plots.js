@@ -51,6 +51,7 @@ function withRuns(plot, velocities) {
     const [{ x }] = plot.curves;
     plot.curves.push({ label: "ends of runs", x, y: scaled(velocities, 1e3), colour: "run", dash: [2, 3] });
     plot.note = "";
+    plot.title = "Velocity over phase";
   }
   return plot;
 }
@@ -97,15 +98,15 @@ const PLOTS = [
   (results) => {
     const x = afterEnd(results);
     return {
-      title: "Forces in the next periods", x: AFTER, y: { label: "force", unit: "N" },
+      title: "Forces in the next periods", scale: results.fullFriction, x: AFTER, y: { label: "force", unit: "N" },
       curves: [
         { label: "normal force of a face", x, y: results.closeUp.normal_force, colour: "normal" },
         { label: "friction of all faces", x, y: results.closeUp.friction_force, colour: "friction" },
       ],
     };
   },
-  ({ closeUp }) => ({
-    title: "Friction over normal force", isLoop: true,
+  ({ closeUp, fullFriction: scale }) => ({
+    title: "Friction over normal force", isLoop: true, scale,
     x: { label: "normal force", unit: "N" }, y: { label: "friction force", unit: "N" },
     curves: [{ label: "friction force", x: closeUp.normal_force, y: closeUp.friction_force, colour: "friction" }],
   }),

@@ -3,7 +3,7 @@ function addOutputs() {
   const body = document.querySelector("#outputs tbody");
   for (const { name, description } of OUTPUTS) {
     const value = element("td", { class: "value" }, element("output", { name }));
-    const head = element("th", { scope: "row" }, name);
+    const head = element("th", { scope: "row" }, ...breakable(name));
     body.append(element("tr", {}, head, value, element("td", {}, description)));
   }
 }
