@@ -215,8 +215,8 @@ def _draw_signals(
 ) -> None:
     """Run the scene, and again for each overlay, and draw a window (s); by default `SIGNALS`.
 
-    With an FMU among the overlays, differences are drawn, too. Raises HarnessError for a setting
-    that the scene refuses, and as `IsolatedFmu` does.
+    With overlays differences are drawn, too. Raises HarnessError for a setting that the scene
+    refuses, and as `IsolatedFmu` does.
     """
     from slider_resonator.scenes.signals_plot import SIGNALS, Run, plot_signals, schedule_for_window
 
@@ -233,8 +233,7 @@ def _draw_signals(
         else:
             name, value = overlay
             runs.append(drawn(isolated, f"{name} {value:g}", scene.with_values({name: value})))
-    differences = any(isinstance(overlay, Path) for overlay in overlays)
-    plot_signals(runs, scene, signals or SIGNALS, window, path, differences=differences)
+    plot_signals(runs, scene, signals or SIGNALS, window, path)
 
 
 def _summary(

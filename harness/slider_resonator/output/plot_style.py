@@ -158,7 +158,7 @@ def drawn(name: str, unit: str, values: Array) -> Drawn:
 
 START = 0.1
 """Share of the time of a curve that counts as its start."""
-FAR = 2.0
+FAR = 1.0
 """How far outside a start must be, in widths of the range that follows."""
 ROUNDING = 1e-6
 """Width below which what follows is no more than rest, as a share of the whole."""

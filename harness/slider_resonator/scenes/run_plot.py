@@ -102,7 +102,7 @@ def _velocity(axes: Axes, record: Record, times: Array, *, held: bool) -> None:
         )
     axes.set(ylabel=f"velocity [{unit}]")
     limit_to_later(axes, times, factor * mean, np.where(valid, factor * steady, 0.0))
-    axes.legend()
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 0.98), ncols=2)
 
 
 def _zoom(axes: Axes, record: Record, before: Array, label: str, names: Sequence[str]) -> None:

@@ -143,18 +143,17 @@ def plot_signals(
     signals: Sequence[str],
     window: tuple[float, float],
     path: Path,
-    *,
-    differences: bool = False,
 ) -> None:
     """Write a plot with a panel for each signal; each run has its own colour and dash.
 
-    With `differences` a panel below that of an output has the other runs less the first. Raises
+    With several runs a panel below that of an output has the others less the first. Raises
     HarnessError for a signal that a run does not have.
     """
     for one in runs:
         if missing := [name for name in signals if name not in one.record.table()]:
             raise HarnessError(f"--signals: {', '.join(missing)}: {one.label} has no such output")
-    compared = ALL_OUTPUTS.keys() - {"contact_mode"} if differences and _same_times(runs) else ()
+    are_compared = len(runs) > 1 and _same_times(runs)
+    compared = ALL_OUTPUTS.keys() - {"contact_mode"} if are_compared else ()
     rows = [(n, below) for n in signals for below in (False, True) if not below or n in compared]
     heights = [1.2 if below else 1.9 for _, below in rows]
     with style():

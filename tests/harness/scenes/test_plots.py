@@ -133,7 +133,7 @@ def test_differences_are_drawn(instance: Instance, tmp_path: Path, drawn: list[F
         records.append(run(instance, varied.parameters, schedule_for_window(varied, WINDOW)))
     runs = [Run("a", records[0]), Run("b", records[1])]
     signals = ("mean_velocity", "phase", "contact_mode")
-    plot_signals(runs, scene, signals, WINDOW, tmp_path / "a.png", differences=True)
+    plot_signals(runs, scene, signals, WINDOW, tmp_path / "a.png")
     labels = [axes.get_ylabel().split("\n")[0] for axes in drawn[0].axes]
     assert labels == ["mean velocity", "difference", "phase", "contact"]
     (line,) = drawn[0].axes[1].get_lines()
