@@ -12,27 +12,20 @@ harmonics, and counts with its phase near fractions too.
 The bristle follows the motion periodically; it has no state here.
 """
 
-from math import ceil, copysign, hypot, inf, isfinite, sin, tau
+from math import ceil, copysign, hypot, inf, pi, sin, tau
 
-from .budget import too_much_work
-from .constants import MAX_QUADRATURE_STEPS, MAX_SLOW_STEPS, PYTHON_SLOWDOWN
+from .budget import Budget
+from .constants import MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .contact import LIFTED, direction_of
 from .device import System, full_friction, vibration
-from .dormand_prince import Rates, dormand_prince, linear_step, simpson_error, step_growth
 from .mean_friction import MAX_WAVES, MeanFriction
 from .moment import Moment
-from .values import Refusal
+from .slow_equation import Rates, SlowEquation
 from .vibrating_load import VibratingLoad, max_turns, turns_to_repeat
 
 NEAR = 0.1
 """Largest distance of the frequency ratio from an integer at which the phase counts as slow. Under
 a lifting contact: largest distance of q times the ratio, times q, for q up to a few turns."""
-
-WAVES = 10.0
-"""Number of waves of the normal load over a turn that doubles the cost of a quadrature."""
-
-FEW_WAVES = 8.0
-"""Waves up to which a quadrature costs as much as without."""
 
 MIN_STEPS = 16
 """Lower limit of the number of steps that is accepted."""
@@ -43,20 +36,8 @@ MIN_SHARE = 1e-9
 TOLERANCE = 2e-10
 """Error per step of the slow motion, relative to the fast velocity."""
 
-FIRST_STEP = 0.1
-"""Step tried first, as a share of the time in which friction changes the fast velocity."""
-
-BEAT_SHARE = 0.125
-"""Part of a beat that a step may have: its stages then see all phases of the normal load."""
-
 PIECES = 256
 """Pieces of a beat, with constant friction in each, in motion without vibration."""
-
-LINEAR = 4e-6
-"""Change of the velocity up to which its rate may be linear, over the fast velocity."""
-
-SETTLED = 0.01
-"""Share of the tolerance for the error of the last step: no other one corrects it."""
 
 FIRST_ORDER = 2.0
 """Error in friction shares and v_q: of the average, and of what the average leaves out, the
@@ -76,16 +57,14 @@ class Averaged:
         device, ratio = system.device, system.inputs.frequency_ratio
         self.system, self.fast = system, vibration(device)
         self.law = MeanFriction(device, self.fast.velocity)
-        turns = turns_to_repeat(ratio, max_turns(device), NEAR)
+        turns = turns_to_repeat(ratio, max_turns(system.normal_load), NEAR)
         self.waves = round(turns * ratio) / turns if turns else ratio
         self.drift = (ratio - self.waves) * device.drive_frequency
         self.beat = tau / (turns * abs(self.drift)) if turns and self.drift else inf
         self.max_steps = MAX_SLOW_STEPS // PYTHON_SLOWDOWN
-        many = device.lifts or abs(self.waves) > FEW_WAVES
-        if self.law.is_expensive and many and turns and self.waves:
-            steps = MAX_QUADRATURE_STEPS // PYTHON_SLOWDOWN
+        if self.law.bends:  # Quadratures take longer the more waves the load has.
             waves = min(abs(self.waves), MAX_WAVES)
-            self.max_steps = max(MIN_STEPS, int(steps / (1.0 + waves / WAVES)))
+            self.max_steps = max(MIN_STEPS, int(self.max_steps / (1.0 + waves)))
 
     def start(self) -> Moment:
         """Initial velocities determine the momentum of the pair, not the vibration."""
@@ -133,8 +112,9 @@ class Averaged:
         """Mean power of friction [W] over a drive period, of slow motion and vibration."""
         if self.fast.velocity == 0.0:
             return self.friction_force(now) * self._slow_velocity(now)
-        load = VibratingLoad(self.system.device, self.waves, self._load_phase(now))
-        return self.system.device.friction_faces * self.law.power(load, self._slow_velocity(now))
+        system, phase = self.system, self._load_phase(now)
+        load = VibratingLoad(system.normal_load, self.waves, phase, MAX_WAVES)
+        return system.device.friction_faces * self.law.power(load, self._slow_velocity(now))
 
     def resonator(self, now: Moment) -> tuple[float, float]:
         """Displacement [m] and velocity [m/s] of the steady vibration."""
@@ -144,9 +124,11 @@ class Averaged:
         """The estimate of the error of the slow velocity [m/s].
 
         Averages expand by the velocity that friction changes in a radian of the drive, faces mu
-        N0 / (Mt w), over v_q; what bristles damp counts, too. What averages leave out lasts as long
-        as the slowest transient of resonator and bristle. Where nothing vibrates, friction is
-        constant and averages are exact.
+        N0 / (Mt w), over v_q; what bristles damp counts, too: they bend over a path of 2 mu/s0
+        after each of two reversals in a turn, and damp by the impulse of 2 mu s1/s0 per normal
+        load, but by no more than s1 v_q all the time. What averages leave out lasts as long as the
+        slowest transient of resonator and bristle. Where nothing vibrates, friction is constant and
+        averages are exact.
         """
         device, w, fast = self.system.device, self.system.drive_frequency, self.fast.velocity
         friction, decay = full_friction(device), inf
@@ -156,8 +138,12 @@ class Averaged:
         if device.resonator_mass > 0.0:
             decay = -self.system.slip.eigenvalues[0].real * tau / w
         if device.friction_law == 1:
-            friction *= hypot(1.0, self.law.damping_share)
-            bend_rate = device.bristle_stiffness / device.friction_coefficient
+            stiffness, damping = device.bristle_stiffness, device.bristle_damping
+            bend_rate = stiffness / device.friction_coefficient
+            damped = damping * fast / device.friction_coefficient
+            if stiffness and fast:
+                damped = min(damped, 2.0 / pi * damping / stiffness * w)
+            friction *= hypot(1.0, damped)
             decay = min(decay, bend_rate * 4.0 * fast / w)
         changed = friction / (device.total_mass * w)
         swing = 1.0 + (1.0 / decay if decay > 0.0 else inf)
@@ -172,86 +158,58 @@ class Averaged:
 
     def _mean_friction(self, phase: float, velocity: float) -> float:
         """Mean friction [N] of all faces at a phase of the load [rad] and a slow velocity [m/s]."""
-        device = self.system.device
-        load = VibratingLoad(device, self.waves, phase)
-        return device.friction_faces * self.law.mean(load, self.law.turning(velocity))
-
-    def _too_many_steps(self, duration: float, reached: float) -> Refusal:
-        return too_much_work(duration, reached, self.max_steps, "steps of averaged motion")
+        load = VibratingLoad(self.system.normal_load, self.waves, phase, self.law.max_waves)
+        return self.system.device.friction_faces * self.law.mean(load, self.law.turning(velocity))
 
     def _integrated(self, phase: float, velocity: float, duration: float) -> tuple[float, float]:
-        """Slow velocity [m/s] and displacement [m] after `duration` [s], by Dormand and Prince.
-
-        A velocity that settles takes few steps, however long the duration is.
-        """
+        """Slow velocity [m/s] and displacement [m] after `duration` [s]."""
         system, fast, drift = self.system, self.fast.velocity, self.drift
-        longest, max_change, tolerance = BEAT_SHARE * self.beat, LINEAR * fast, TOLERANCE * fast
         strongest = system.friction_preload + system.friction_amplitude + abs(system.load)
-        step = FIRST_STEP * fast * system.total_mass / strongest if strongest > 0.0 else duration
 
         def rates(t: float, v: float) -> Rates:
             friction = self._mean_friction(phase + drift * t, v)
             return -(friction + system.load) / system.total_mass, v
 
-        # No step is longer than a share of a beat: too many of them are refused before the first.
-        if duration > self.max_steps * longest:
-            raise self._too_many_steps(duration, self.max_steps * longest)
-        t, moved, tried, first, gain = 0.0, 0.0, 0, rates(0.0, velocity), 0.0
-        while t < duration and isfinite(velocity):
-            if tried == self.max_steps:
-                raise self._too_many_steps(duration, t)
-            h, to = duration - t, None
-            if drift == 0.0 and tried > 0:
-                to = linear_step(rates, t, velocity, h, first, gain, max_change)
-            if to is None or to.error > SETTLED * tolerance:
-                h = min(h, step, longest)
-                if not self.waves:
-                    # The load itself is slow, with kinks where the contact lifts or touches down.
-                    window, chi = system.window, phase + drift * t
-                    ahead = window.time_to_switch(chi, drift, window.is_lifted(chi, drift))
-                    h = min(h, max(ahead, MIN_SHARE * self.beat))
-                to = dormand_prince(rates, t, velocity, h, first)
-                if not to.error > tolerance:
-                    missed = simpson_error(rates, t, velocity, h, first, to)
-                    to = to._replace(error=max(to.error, missed))
-            tried += 1
-            if not to.error > tolerance:
-                velocity, moved, t = to.velocity, moved + to.travel, t + h
-                first, gain = to.rates, to.gain
-            step = h * step_growth(to.error, tolerance)
+        def longest(t: float, v: float, a: float) -> float:
+            if self.waves:
+                return inf
+            # The load itself is slow, with kinks where the contact lifts or touches down.
+            load, chi = system.normal_load, phase + drift * t
+            ahead = load.time_to_switch(chi, drift, load.is_lifted(chi, drift))
+            return max(ahead, MIN_SHARE * self.beat)
+
+        slow_time = fast * system.total_mass / strongest if strongest else inf
+        equation = SlowEquation(rates, fast, TOLERANCE, slow_time, self.beat, longest)
+        budget, t, moved = self._budget(duration), 0.0, 0.0
+        for to in equation.steps(velocity, rates(0.0, velocity), duration):
+            t, velocity, moved = t + to.length, to.velocity, moved + to.travel
+            budget.spend(t)
         return velocity, moved
 
     def _unshaken(self, phase: float, velocity: float, duration: float) -> tuple[float, float]:
         """The same without vibration, where friction is constant in pieces of a beat."""
-        system, longest = self.system, duration
-        if not self.waves:
-            longest = min(duration, self.beat / PIECES)
-        pieces = ceil(duration / longest)
-        if pieces > self.max_steps:
-            raise self._too_many_steps(duration, self.max_steps * longest)
-        moved, piece = 0.0, duration / pieces
+        longest = duration if self.waves else min(duration, self.beat / PIECES)
+        budget, pieces, moved = self._budget(duration), ceil(duration / longest), 0.0
+        piece = duration / pieces
         for k in range(pieces):
             friction = self._mean_friction(phase + self.drift * (k + 0.5) * piece, inf)
-            velocity, passed = _block(velocity, friction, system.load, system.total_mass, piece)
+            velocity, passed = self._block(velocity, friction, piece)
             moved += passed
+            budget.spend(k * piece)
         return velocity, moved
 
+    def _budget(self, duration: float) -> Budget:
+        return Budget(duration, self.max_steps, "steps of averaged motion")
 
-def _block(
-    velocity: float, friction: float, load: float, mass: float, duration: float
-) -> tuple[float, float]:
-    """Velocity [m/s] and displacement [m] of a block without vibration, under constant forces."""
-    moved = 0.0
-    if velocity != 0.0:
-        deceleration = (copysign(friction, velocity) + load) / mass
-        stop = velocity / deceleration if deceleration * velocity > 0.0 else inf
-        time = min(stop, duration)
-        moved = velocity * time - 0.5 * deceleration * time * time
-        if stop >= duration:
-            return velocity - deceleration * duration, moved
-        duration -= stop
-    spare = abs(load) - friction
-    if spare <= 0.0:
-        return 0.0, moved
-    acceleration = -copysign(spare, load) / mass
-    return acceleration * duration, moved + 0.5 * acceleration * duration * duration
+    def _block(self, velocity: float, friction: float, t: float) -> tuple[float, float]:
+        """Velocity [m/s] and displacement [m] after `t` [s] under constant friction and load."""
+        load = self.system.load
+        if velocity == 0.0 and abs(load) <= friction:
+            return 0.0, 0.0
+        resistance = copysign(friction, velocity or -load) + load
+        acceleration = -resistance / self.system.total_mass
+        stop = -velocity / acceleration if velocity * acceleration < 0.0 else inf
+        if stop >= t:
+            return velocity + acceleration * t, (velocity + 0.5 * acceleration * t) * t
+        later, moved = self._block(0.0, friction, t - stop)
+        return later, 0.5 * velocity * stop + moved

@@ -13,16 +13,13 @@ from .constants import MAX_TURNS, PYTHON_SLOWDOWN, STOP_TIME_SLACK, TIME_SLACK
 from .device import Device, System
 from .leap import Leaping
 from .moment import Moment
-from .outputs import OUTPUTS, View
+from .outputs import OUTPUTS, Motion
 from .parameters import Inputs
 from .prediction import theory_range
 from .resolved import Resolved
 from .snapshot import Lifecycle, State, from_plain, to_plain
 from .values import BY_NAME, SETTABLE, Refusal, checked
 from .variable import Variable
-
-Motion = Resolved | Averaged
-"""A device under held inputs; `Leaping` is one that is resolved."""
 
 
 class Component:
@@ -50,7 +47,7 @@ class Component:
             raise Refusal(refusal_texts.BAD_STOP_TIME, **times)
         if tolerance is not None and not (isfinite(tolerance) and tolerance > 0.0):
             raise Refusal(refusal_texts.BAD_TOLERANCE, tolerance=tolerance)
-        state.time = state.last_event_time = float(start_time)
+        state.time = float(start_time)
         state.stop_time = inf if stop_time is None else float(stop_time)
 
     def enter_initialization(self) -> None:
@@ -61,7 +58,7 @@ class Component:
     def exit_initialization(self) -> None:
         """Fix the parameters and the first moment."""
         state = self._required("exitInitializationMode", Lifecycle.INITIALIZATION)
-        state.moment = self._motion.start()
+        state.moment = self._present()
         state.lifecycle = Lifecycle.STEP_COMPLETE
 
     def terminate(self) -> None:
@@ -83,19 +80,14 @@ class Component:
                 text = refusal_texts.FIXED_WHILE_RUNNING
                 raise Refusal(text, name=name, value=repr(value))
             values[name] = checked(variable, value)
-        if values == state.values:
-            return
-        self._prepared = _prepare(values) if running else None
-        state.values = values
+        if values != state.values:
+            self._prepared = _prepare(values) if running else None
+            state.values = values
 
     def get(self, *names: str) -> list[float]:
         """Return values of any variables; outputs from initialization mode on."""
-        outputs = [name for name in names if name in OUTPUTS]
-        found = dict(self._state.values)
-        if outputs:
-            view = self._view(outputs[0])
-            found |= {name: _finite_output(name, view) for name in outputs}
-        return [found[name] for name in names]
+        values = self._state.values
+        return [values[name] if name in values else self._output(name) for name in names]
 
     def step(self, time: float, step_size: float) -> None:
         """Advance from the present `time` [s] by `step_size` > 0 [s], inputs held."""
@@ -114,18 +106,15 @@ class Component:
         if state.values["fidelity"] > 0 and step_size * frequency > tau * max_turns:
             limits = {"frequency": frequency, "max_turns": max_turns}
             raise Refusal(refusal_texts.TOO_MANY_TURNS, step_size=step_size, **limits)
-        age_before = self._present().event_age
-        moment = self._advanced(step_size)
-        # Without an event the age grows by the step size, up to rounding.
-        if moment.event_age < step_size + 0.5 * age_before:
-            state.last_event_time = time + max(0.0, step_size - moment.event_age)
-        state.moment, state.time = moment, end
+        now = self._advanced(step_size)
+        now.time = state.time = end
+        state.moment = now
 
     def snapshot(self) -> dict[str, Any]:
         """Return the complete state, of plain numbers and names."""
         return to_plain(self._state)
 
-    def restore(self, plain: object) -> None:
+    def restore(self, plain: Mapping[str, Any]) -> None:
         """Restore a snapshot, of this or another instance. Raises Refusal for anything else."""
         state = from_plain(plain)
         self._prepared = None if state.moment is None else _prepare(state.values)
@@ -138,11 +127,6 @@ class Component:
             raise Refusal(refusal_texts.WRONG_STATE, call=call, **names)
         return self._state
 
-    def _view(self, name: str) -> View:
-        if self._state.lifecycle == Lifecycle.INSTANTIATED:
-            self._required(f"reading {name}", Lifecycle.INITIALIZATION)
-        return View(self._motion, self._present(), self._state.last_event_time)
-
     @property
     def _motion(self) -> Motion:
         if self._prepared is None:
@@ -150,7 +134,11 @@ class Component:
         return self._prepared
 
     def _present(self) -> Moment:
-        return self._state.moment or self._motion.start()
+        now = self._state.moment
+        if now is None:
+            now = self._motion.start()
+            now.time = now.last_event_time = self._state.time
+        return now
 
     def _advanced(self, step_size: float) -> Moment:
         with suppress(ArithmeticError, ValueError):
@@ -159,6 +147,17 @@ class Component:
             if all(map(isfinite, numbers)):
                 return now
         raise Refusal(refusal_texts.INFINITE_MOTION, step_size=step_size)
+
+    def _output(self, name: str) -> float:
+        """Return an output. Raises Refusal for one that is not a finite number."""
+        if self._state.lifecycle == Lifecycle.INSTANTIATED:
+            self._required(f"reading {name}", Lifecycle.INITIALIZATION)
+        motion, now, value = self._motion, self._present(), nan
+        with suppress(ArithmeticError, ValueError):
+            value = OUTPUTS[name](motion, now)
+        if not isfinite(value):
+            raise Refusal(refusal_texts.INFINITE_OUTPUT, name=name, value=value)
+        return value
 
 
 def _prepare(values: Mapping[str, Any]) -> Motion:
@@ -208,16 +207,6 @@ def motion_of(device: Device, inputs: Inputs) -> Motion:
         return Leaping(System(replace(device, fidelity=2), inputs))
     system = System(device, inputs)
     return Resolved(system) if device.fidelity > 0 else Averaged(system)
-
-
-def _finite_output(name: str, view: View) -> float:
-    """Return an output. Raises Refusal for one that is not a finite number."""
-    value = nan
-    with suppress(ArithmeticError, ValueError):
-        value = OUTPUTS[name](view)
-    if not isfinite(value):
-        raise Refusal(refusal_texts.INFINITE_OUTPUT, name=name, value=value)
-    return value
 
 
 def _extreme(values: Mapping[str, Any]) -> Refusal:

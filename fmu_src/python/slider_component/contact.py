@@ -1,7 +1,6 @@
-"""When the contact lifts and touches down: N = max(0, N0 + dN sin(chi)) with dN > N0."""
+"""The contact and its normal load: when it lifts and touches down."""
 
-from math import inf, tau
-from typing import NamedTuple
+from math import asin, cos, floor, inf, pi, sin, tau
 
 BACKWARD, STICK, FORWARD, LIFTED = -1, 0, 1, 2
 """Contact modes: the direction of sliding, rest, or flight."""
@@ -16,39 +15,56 @@ def direction_of(velocity: float) -> int:
     return (velocity > 0.0) - (velocity < 0.0)
 
 
-class Window(NamedTuple):
-    """The range of chi [rad] in which the contact is lifted.
+class NormalLoad:
+    """N = max(0, preload + amplitude sin(chi)) [N].
 
-    Empty if it never is, a whole turn if there is no normal load at all.
+    If the amplitude is larger, it `lifts` the contact at chi = pi + `dip` and touches down at
+    2 pi - `dip`.
     """
 
-    first: float
-    last: float
+    def __init__(self, preload: float, amplitude: float) -> None:
+        self.preload, self.amplitude, self.lifts = preload, amplitude, amplitude > preload
+        self.dip = asin(preload / amplitude) if self.lifts else 0.5 * pi
+
+    def at(self, chi: float) -> float:
+        """The load [N] at phase `chi` [rad]."""
+        return max(0.0, self.preload + self.amplitude * sin(chi))
+
+    def integral(self, chi: float) -> float:
+        """Integral [N rad] from the touchdown at -`dip` up to `chi` [rad]."""
+        turns = floor((chi + self.dip) / tau)
+        within = min(chi + self.dip - turns * tau, pi + 2.0 * self.dip)
+        return turns * self._up_to(pi + 2.0 * self.dip) + self._up_to(within)
+
+    @property
+    def mean(self) -> float:
+        """Mean load [N]."""
+        return self._up_to(pi + 2.0 * self.dip) / tau
 
     def is_lifted(self, chi: float, frequency: float) -> bool:
-        """Whether the contact is lifted at normal phase `chi` [rad].
+        """Whether the contact is lifted at phase `chi` [rad]. With no load at all it always is.
 
         On a boundary this depends on the direction in which the phase moves: `frequency` [rad/s] is
         its rate. At rate 0 the contact is lifted where the normal load is 0.
         """
-        width = self.last - self.first
-        if width <= 0.0 or width >= tau:
-            return width > 0.0
-        inside = (chi - self.first) % tau
-        if tau - inside < REACHED:
-            inside -= tau
-        first = REACHED if frequency < 0.0 else -REACHED
-        last = width - REACHED if frequency > 0.0 else width + REACHED
-        return first < inside < last
+        if not self.lifts:
+            return self.preload == self.amplitude == 0.0
+        height, slope = self.preload + self.amplitude * sin(chi), self.amplitude * cos(chi)
+        if abs(height) <= REACHED * abs(slope):
+            return slope * frequency < 0.0 or frequency == 0.0
+        return height < 0.0
 
     def time_to_switch(self, chi: float, frequency: float, lifted: bool) -> float:
         """Time [s] until the contact lifts, or touches down when `lifted`; infinite if never.
 
         `frequency` [rad/s] is that of the normal load and may be negative.
         """
-        if frequency == 0.0 or not 0.0 < self.last - self.first < tau:
+        if frequency == 0.0 or not self.lifts:
             return inf
-        first, last = self if frequency > 0.0 else (self.last, self.first)
-        ahead = (last if lifted else first) - chi
-        ahead = (ahead if frequency > 0.0 else -ahead) % tau
+        boundary = -self.dip if lifted == (frequency > 0.0) else pi + self.dip
+        ahead = (boundary - chi if frequency > 0.0 else chi - boundary) % tau
         return 0.0 if tau - ahead < REACHED else ahead / abs(frequency)
+
+    def _up_to(self, angle: float) -> float:
+        sine = cos(self.dip) - cos(angle - self.dip)
+        return self.preload * angle + self.amplitude * sine

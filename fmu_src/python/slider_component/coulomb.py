@@ -66,7 +66,7 @@ def slide(system: System, now: Moment, direction: int) -> Segment:
 
 def _needed_force(system: System, now: Moment) -> float:
     """Friction force [N] that holds a slider at rest."""
-    direct, theta = system.holding_drive, now.theta
+    direct, theta = system.direct, now.theta
     needed = system.spring * now.displacement + system.damper * now.rate - system.load
     if not direct:
         return needed

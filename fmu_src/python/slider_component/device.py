@@ -11,12 +11,13 @@ where e = -i exp(i theta). At fidelity 1 the resonator acts through its steady f
 """
 
 from cmath import phase as argument
+from cmath import rect
 from dataclasses import dataclass
-from math import asin, cos, inf, pi, sin, tau
+from math import cos, inf, pi
 from typing import NamedTuple
 
 from . import refusal_texts
-from .contact import Window
+from .contact import NormalLoad
 from .oscillator import SLOW, Oscillator
 from .parameters import Inputs, Parameters
 from .values import Refusal
@@ -48,9 +49,9 @@ class Device(Parameters):
         return self.resonator_mass / self.total_mass
 
     @property
-    def lifts(self) -> bool:
-        """Whether the contact lifts at times."""
-        return self.normal_amplitude > self.normal_preload
+    def normal_load(self) -> NormalLoad:
+        """The normal load of each face."""
+        return NormalLoad(self.normal_preload, self.normal_amplitude)
 
     @property
     def slip_oscillator(self) -> Oscillator:
@@ -84,8 +85,8 @@ class Vibration(NamedTuple):
 
     def swing(self, theta: float) -> tuple[float, float]:
         """Displacement [m] and velocity [m/s] of the resonator at drive phase `theta` [rad]."""
-        real, imag, sine, cosine = self.resonator.real, self.resonator.imag, sin(theta), cos(theta)
-        return real * sine + imag * cosine, self.frequency * (real * cosine - imag * sine)
+        swung = self.resonator * rect(1.0, theta)
+        return swung.imag, self.frequency * swung.real
 
     def ahead(self, theta: float, rate: float) -> float:
         """By how much the slow velocity V is above that of the slider [m/s].
@@ -158,89 +159,75 @@ class System:
     """A device under held inputs (SI units; complex numbers are amplitudes of e).
 
     The full device (`is_full`) follows its resonator. At fidelity 1 this acts by its steady force
-    only: `slider_mass` is the total mass, `mass_fraction`, `spring` and `damper` are 0, and
-    it vibrates in a `steady` way. `holding_drive` is the part of the force
-    on a held slider that follows the drive directly [N], `drive` the force of the drive on the pair
-    per total mass [m/s^2]. `slide_split` and `rest_split` are None where splitting loses digits.
-    The contact lifts at times, or always, in the `window` of chi, which it enters and leaves where
-    it `switches`. `fastest` [rad/s] is the highest frequency, `arc` [s] the longest segment: after
-    it a motion begins anew from its state. Neither depends on `phase` and `load`.
+    only: `slider_mass` is the total mass, `mass_fraction`, `spring`, `damper` and the `coupling` of
+    accelerations to the resonator are 0, and it vibrates in a `steady` way. `direct` is the force
+    of the drive on the slider [N], `drive` that on the pair per total mass [m/s^2]. The splits are
+    None where splitting loses digits. `friction` is mu of all faces. `fastest` [rad/s] is the
+    highest frequency, `arc` [s] the longest segment: after it a motion begins anew from its state.
+    Neither depends on `phase` and `load`.
     """
 
     def __init__(self, device: Device, inputs: Inputs) -> None:
         """Raises Refusal at fidelity 1 where the steady force of the resonator is unbounded."""
         w, m, wn = device.drive_frequency, device.resonator_mass, device.resonator_frequency
-        faces_mu = device.friction_faces * device.friction_coefficient
         self.device, self.inputs = device, inputs
         self.phase, self.load = inputs.phase, inputs.load
         self.drive_frequency, self.normal_frequency = w, inputs.frequency_ratio * w
-        self.friction_preload = faces_mu * device.normal_preload
-        self.friction_amplitude = faces_mu * device.normal_amplitude
-        self.window = flight_window(device)
-        self.switches = device.lifts and self.normal_frequency != 0.0
+        self.normal_load = device.normal_load
+        self.friction = device.friction_faces * device.friction_coefficient
+        self.friction_preload = self.friction * device.normal_preload
+        self.friction_amplitude = self.friction * device.normal_amplitude
         self.total_mass, self.base_acceleration = device.total_mass, device.base_amplitude * w * w
         self.slip, self.stick = device.slip_oscillator, device.stick_oscillator
-        self.is_full = device.fidelity == 2
         self.fastest = max(w, abs(self.normal_frequency))
+        self.is_full = device.fidelity == 2
+        self.coupling = float(self.is_full)
         if self.is_full:
             self.slider_mass, self.mass_fraction = device.slider_mass, device.mass_fraction
             self.spring, self.damper = m * wn * wn, 2.0 * device.damping_ratio * m * wn
-            self.holding_drive = complex(device.tangential_force)
-            force = m * self.base_acceleration + self.holding_drive
+            self.direct = complex(device.tangential_force)
             swinging = [o.frequency for o in (self.slip, self.stick) if o.is_oscillatory]
             self.fastest = max([self.fastest, *swinging])
         else:
             self.slider_mass, self.mass_fraction = device.total_mass, 0.0
             self.spring = self.damper = 0.0
             self.steady = vibration(device)
-            force = self.holding_drive = self.steady.force
-        self.drive, self.arc = force / device.total_mass, LONGEST_ARC / self.fastest
+            self.direct = self.steady.force
+        self.drive = (self.coupling * m * self.base_acceleration + self.direct) / device.total_mass
+        self.arc = LONGEST_ARC / self.fastest
         self.slide_split, self.rest_split = self._slide_split(), self._rest_split()
 
     def _slide_split(self) -> Split | None:
-        w, q, slip = self.drive_frequency, self.normal_frequency, self.slip
+        w, q, slip, coupling = self.drive_frequency, self.normal_frequency, self.slip, self.coupling
         if 0.0 < abs(q) < SLOW * w or (self.is_full and not slip.splits(w, q)):
             return None
-        swing = swing_by_friction = 0j
-        if self.is_full:
-            base = self.base_acceleration - self.device.tangential_force / self.slider_mass
-            swing = base * slip.transfer(w)
-            swing_by_friction = self.friction_amplitude / self.slider_mass * slip.transfer(q)
-        pushed = self.drive + self.mass_fraction * w * w * swing
-        by_friction = self.mass_fraction * q * q * swing_by_friction
-        by_friction -= self.friction_amplitude / self.total_mass
-        slowed = -by_friction / q if q else 0j
-        return Split(
-            (complex(0.0, w), -pushed / w, -1j * swing),
-            (complex(0.0, q), slowed, -1j * swing_by_friction),
-            slip,
-            self.mass_fraction,
-            1.0 / (slip.stiffness * self.slider_mass) if self.is_full else 0.0,
-        )
+        friction = self.friction_amplitude
+        base = coupling * (self.base_acceleration - self.direct / self.slider_mass)
+        drive = self._term(w, slip, base, self.drive)
+        by_friction = coupling * friction / self.slider_mass
+        normal = self._term(q, slip, by_friction, -friction / self.total_mass)
+        compliance = coupling / (slip.stiffness * self.slider_mass)
+        return Split(drive, normal, slip, self.mass_fraction, compliance)
 
     def _rest_split(self) -> Split | None:
-        w, stick, swing = self.drive_frequency, self.stick, 0j
-        if self.is_full:
-            if not stick.splits(w):
-                return None
-            swing = self.base_acceleration * stick.transfer(w)
-        return Split((complex(0.0, w), 0j, -1j * swing), (0j, 0j, 0j), stick, 0.0, 0.0)
+        w, stick = self.drive_frequency, self.stick
+        if self.is_full and not stick.splits(w):
+            return None
+        z, _, swing = self._term(w, stick, self.coupling * self.base_acceleration, 0.0)
+        return Split((z, 0j, swing), (0j, 0j, 0j), stick, 0.0, 0.0)
+
+    def _term(self, f: float, oscillator: Oscillator, relative: complex, pair: complex) -> Term:
+        """Steady motion at `f` [rad/s].
+
+        By accelerations of the resonator relative to the slider, and of the pair.
+        """
+        z, swing = complex(0.0, f), -1j * relative * oscillator.transfer(f) if relative else 0j
+        return z, (-pair / f if f else 0j) - self.mass_fraction * z * swing, swing
 
     def friction_limit(self, psi: float) -> float:
         """Friction force [N] of all faces at normal phase `psi` [rad] when sliding, 0 in flight."""
-        limit = self.friction_preload + self.friction_amplitude * sin(psi + self.phase)
-        return limit if limit > 0.0 else 0.0
+        return self.friction * self.normal_load.at(psi + self.phase)
 
     def is_lifted(self, psi: float) -> bool:
         """Whether the contact is lifted at normal phase `psi` [rad]."""
-        return self.window.is_lifted(psi + self.phase, self.normal_frequency)
-
-
-def flight_window(device: Device) -> Window:
-    """The range of chi in which the contact of `device` is lifted."""
-    if device.normal_preload == device.normal_amplitude == 0.0:
-        return Window(0.0, tau)
-    if not device.lifts:
-        return Window(0.0, 0.0)
-    dip = asin(device.normal_preload / device.normal_amplitude)
-    return Window(pi + dip, tau - dip)
+        return self.normal_load.is_lifted(psi + self.phase, self.normal_frequency)

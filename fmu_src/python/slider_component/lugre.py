@@ -63,7 +63,7 @@ class LuGre:
         now.bristle += (limit - now.bristle) * bent
         now.mode = LIFTED if lifted else direction_of(now.velocity)
         if switches:
-            now.event_age = 0.0
+            now.last_event_time = now.time
 
 
 def _segment(system: System, now: Moment, direction: int) -> Segment:

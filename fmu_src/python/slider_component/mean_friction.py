@@ -8,7 +8,7 @@ quadrature. Soft bristles give the paper's slow manifold (17), hard ones Coulomb
 """
 
 from itertools import pairwise
-from math import acos, cos, exp, expm1, hypot, pi, sin, sqrt, tau
+from math import acos, cos, exp, expm1, inf, pi, sin, sqrt, tau
 from typing import NamedTuple
 
 from .device import EPSILON, Device
@@ -25,59 +25,35 @@ BENT = 37.0
 
 MAX_WAVES = 1000
 """Waves of the normal load over a turn of the drive beyond which only its mean counts: what they
-add to the mean friction falls with their number, to less than 1e-3 of full friction."""
-
-MAX_POWER_WAVES = 10_000
-"""The same for the mean power: friction times velocity has no jump, so that what waves add falls
-with the square of their number, to less than 1e-8 of full power."""
+add to mean friction and power falls with their number, to less than 1e-3 of full friction."""
 
 SHORTEST_ARC = 1e-12
 HALVINGS = 12
 """Halvings, on a logarithmic scale from the shortest part of an arc on, that find where it ends."""
 
-SERIES = 1.0
-"""Angle [rad] up to which x - sin(x) is summed up as a series."""
+Node = tuple[float, float, float]
+"""Weight with the normal load [N rad], velocity over v_q beyond that where the slider turns, and
+friction per unit normal load or the path since then [m]."""
 
 
 class MeanFriction:
     """Friction of a device under a fast motion of amplitude `fast` [m/s].
 
-    Of its friction `coefficient`, the `stiffness` sigma_0 [1/m] of its bristles, 0 for Coulomb
-    friction, and their `drag`, the largest friction per unit load beyond mu: above mu, friction may
-    rise with Theta. Where it `is_expensive` each mean costs a quadrature.
+    It has a friction `coefficient`. Where a bristle `bends`, each mean costs a quadrature: one of
+    some `stiffness` sigma_0 [1/m] and `damping` sigma_1 [s/m]. Its `drag` is the largest friction
+    per unit load beyond mu: above mu, friction may rise with Theta. A mean takes a load of up to
+    `max_waves`, the power one of up to MAX_WAVES.
     """
 
     def __init__(self, device: Device, fast: float) -> None:
         """Without vibration a bristle is always fully bent: friction is Coulomb's."""
         self.fast, self._frequency = fast, device.drive_frequency
         self.coefficient = device.friction_coefficient
-        self.is_expensive = device.friction_law == 1 and fast > 0.0
-        self.stiffness = device.bristle_stiffness if self.is_expensive else 0.0
-        self.damping = device.bristle_damping if self.is_expensive else 0.0
+        self.bends = device.friction_law == 1 and fast > 0.0
+        self.stiffness = device.bristle_stiffness if self.bends else 0.0
+        self.damping = device.bristle_damping if self.bends else 0.0
         self.drag = self.damping * fast
-
-    @property
-    def grip(self) -> float:
-        """Largest friction per unit load that resists the vibration about rest.
-
-        A vibration far shorter than mu / sigma_0 only bends the bristle.
-        """
-        if not self.is_expensive:
-            return self.coefficient
-        bend = hypot(self.stiffness, self._frequency * self.damping)
-        return min(self.coefficient, self.fast / self._frequency * bend)
-
-    @property
-    def damping_share(self) -> float:
-        """What bristles damp, over mu.
-
-        They bend over a path of 2 mu/s0 after each of two reversals in a turn, and damp by the
-        impulse of 2 mu s1/s0 per normal load; but by no more than s1 v_q all the time.
-        """
-        share = self.drag / self.coefficient if self.drag else 0.0
-        if self.stiffness:
-            share = min(share, 2.0 / pi * self.damping / self.stiffness * self._frequency)
-        return share
+        self.max_waves = MAX_WAVES if self.bends else inf
 
     def turning(self, velocity: float) -> float:
         """Theta [rad] at a slow velocity [m/s]; 0 or pi where the slider never reverses."""
@@ -87,21 +63,15 @@ class MeanFriction:
 
     def mean(self, load: VibratingLoad, turning: float) -> float:
         """Mean friction [N] of one face when sliding turns forward at tau = `turning` [rad]."""
-        if self.is_expensive and abs(load.waves) > MAX_WAVES:
-            load = load.flattened()
+        nodes = self._bending(turning, load) if self.bends else []
         total = load.integral(turning, tau - turning) - load.integral(-turning, turning)
-        total *= self.coefficient
-        if self.is_expensive:
-            total += sum(weight * force for weight, _, force in self._bending(turning, load))
-        return total / tau
+        return (self.coefficient * total + sum(w * force for w, _, force in nodes)) / tau
 
     def power(self, load: VibratingLoad, velocity: float) -> float:
         """Mean power of friction [W] of one face at a slow velocity [m/s]."""
-        if abs(load.waves) > (MAX_WAVES if self.is_expensive else MAX_POWER_WAVES):
-            load = load.flattened()
         turning = self.turning(velocity)
         beyond = velocity - self.fast * cos(turning)
-        nodes = self._bending(turning, load) if self.is_expensive else []
+        nodes = self._bending(turning, load) if self.bends else []
         for arc in self._arcs(turning):
             full = arc.direction * self.coefficient
             nodes += [(w, swing, full) for w, swing, _ in arc.nodes(arc.length, load)]
@@ -109,20 +79,20 @@ class MeanFriction:
 
     def _arcs(self, turning: float) -> list["_Arc"]:
         """Sliding forward and backward."""
-        reach, slope, height = self.fast / self._frequency, sin(turning), cos(turning)
-        forward = _Arc(reach, 1, turning, slope, height, tau - 2.0 * turning)
-        return [forward, _Arc(reach, -1, -turning, -slope, height, 2.0 * turning)]
+        reach = self.fast / self._frequency
+        forward = _Arc(reach, 1, turning, tau - 2.0 * turning)
+        return [forward, _Arc(reach, -1, -turning, 2.0 * turning)]
 
-    def _bending(self, turning: float, load: VibratingLoad) -> list[tuple[float, float, float]]:
-        """Quadrature over both arcs of what the bristle still lacks of being fully bent.
-
-        Weights with the load [N rad], velocities over v_q beyond that where the slider turns, and
-        friction per unit load beyond Coulomb's.
-        """
+    def _bending(self, turning: float, load: VibratingLoad) -> list[Node]:
+        """Quadrature over both arcs of the friction that a bristle lacks before it is bent."""
         mu, stiffness, arcs = self.coefficient, self.stiffness, self._arcs(turning)
-        bent = (-expm1(-stiffness * arc.way(arc.length)[1] / mu) for arc in arcs)
+        forward, backward = (-expm1(-stiffness * arc.way(arc.length)[1] / mu) for arc in arcs)
+        # By the share of the bend that it makes up over each arc, friction where they begin.
+        made_up = forward + backward - forward * backward
+        first = mu * (forward * (1.0 - backward) - backward) / made_up if made_up else 0.0
+        second = first + (mu - first) * forward
         nodes = []
-        for arc, friction in zip(arcs, _periodic_friction(mu, *bent), strict=True):
+        for arc, friction in zip(arcs, (first, second), strict=True):
             unbent, drag = friction - arc.direction * mu, arc.direction * self.drag
             if abs(unbent) > EPSILON * mu:
                 for w, swing, path in arc.nodes(arc.bent_after(BENT * mu, stiffness), load):
@@ -134,23 +104,19 @@ class MeanFriction:
 class _Arc(NamedTuple):
     """A part of the turn with one direction of sliding, from `begin` on for `length` [rad].
 
-    The velocity is v_q (cos(begin) - cos(begin + ahead)); differences of nearly equal numbers are
-    taken in closed form, for hard bristles see short paths. `reach` is v_q / w [m]; `sine` and
-    `cosine` are those of `begin`.
+    The velocity is v_q (cos(begin) - cos(begin + ahead)); `reach` is v_q / w [m].
     """
 
     reach: float
     direction: int
     begin: float
-    sine: float
-    cosine: float
     length: float
 
     def way(self, ahead: float) -> tuple[float, float]:
         """Velocity over v_q, and path [m], `ahead` [rad] of where the arc begins."""
         half = 0.5 * ahead
         rise = 2.0 * sin(half)
-        moved = self.cosine * _beyond_sine(ahead) + 0.5 * self.sine * rise * rise
+        moved = cos(self.begin) * (ahead - sin(ahead)) + 0.5 * sin(self.begin) * rise * rise
         return rise * sin(self.begin + half), self.direction * self.reach * moved
 
     def bent_after(self, full: float, stiffness: float) -> float:
@@ -164,8 +130,8 @@ class _Arc(NamedTuple):
             low, high = (low, middle) if bent else (middle, high)
         return high
 
-    def nodes(self, last: float, load: VibratingLoad) -> list[tuple[float, float, float]]:
-        """Quadrature up to `last` [rad] ahead: weights with the load [N rad], and the way.
+    def nodes(self, last: float, load: VibratingLoad) -> list[Node]:
+        """Quadrature up to `last` [rad] ahead: weights with the load, velocities and paths.
 
         Panels part at kinks of the load, and none is wider than WIDEST of it.
         """
@@ -179,27 +145,6 @@ class _Arc(NamedTuple):
                     ahead = low + half * (2 * i + 1 + node)
                     found.append((weight * half * load.at(self.begin + ahead), *self.way(ahead)))
         return found
-
-
-def _beyond_sine(x: float) -> float:
-    """x - sin(x) for x >= 0, without cancellation."""
-    if x > SERIES:
-        return x - sin(x)
-    s = x * x
-    beyond_third = 1 - s / 72 * (1 - s / 110 * (1 - s / 156 * (1 - s / 210 * (1 - s / 272))))
-    return x * s / 6 * (1 - s / 20 * (1 - s / 42 * beyond_third))
-
-
-def _periodic_friction(mu: float, forward: float, backward: float) -> tuple[float, float]:
-    """sigma_0 z where the forward and the backward arc begin.
-
-    By the share of its bend that a bristle makes up over each.
-    """
-    bent = forward + backward - forward * backward
-    if bent == 0.0:
-        return 0.0, 0.0
-    at_forward = mu * (forward * (1.0 - backward) - backward) / bent
-    return at_forward, at_forward + (mu - at_forward) * forward
 
 
 def _gauss_legendre(count: int) -> tuple[tuple[float, float], ...]:

@@ -1,7 +1,6 @@
 """A moment of a motion: all that the motion carries from one step to the next."""
 
 from dataclasses import dataclass
-from math import inf
 from operator import attrgetter
 
 from .contact import STICK
@@ -17,9 +16,8 @@ class Moment:
 
     Slider `velocity` [m/s] and `position` [m], resonator `displacement` [m] and `rate` [m/s], and
     the friction sigma_0 z of the `bristle` per unit normal load, 0 with Coulomb friction. Phases of
-    the drive `theta` and of the normal load `psi` [rad]. `event_age` is the time since the last
-    event [s], infinite before any; `sliding` the direction of the last sliding, 0 before any;
-    `reversals` and `sticks` count.
+    the drive `theta` and of the normal load `psi` [rad]. The `time` and `last_event_time` [s];
+    `sliding` is the direction of the last sliding, 0 before any; `reversals` and `sticks` count.
     `travel` [m], `work` of friction [J], `elapsed` [s] and `sticking` [s] are sums since the last
     drive period ended (or the start), `mean_velocity` [m/s], `friction_power` [W] and
     `stick_fraction` the means of the last whole one once it is `complete`. `leap_error` [m/s] is
@@ -38,7 +36,8 @@ class Moment:
     sliding: int = 0
     reversals: int = 0
     sticks: int = 0
-    event_age: float = inf
+    time: float = 0.0
+    last_event_time: float = 0.0
     bristle: float = 0.0
     travel: float = 0.0
     work: float = 0.0
@@ -57,13 +56,22 @@ class Moment:
     def enter(self, mode: int) -> None:
         """Change to contact mode `mode`; that is an event unless it is the present mode."""
         if mode != self.mode:
-            self.mode, self.event_age = mode, 0.0
+            self.mode, self.last_event_time = mode, self.time
             self.sticks += mode == STICK
 
     def turn(self, direction: int) -> None:
         """Begin to slide in another direction than before: an event."""
         self.reversals += self.sliding == -direction
-        self.sliding, self.event_age = direction, 0.0
+        self.sliding, self.last_event_time = direction, self.time
+
+    def end_period(self) -> None:
+        """End a drive period: the sums give its means, and begin anew."""
+        if self.elapsed > 0.0:
+            self.mean_velocity = self.travel / self.elapsed
+            self.friction_power = self.work / self.elapsed
+            self.stick_fraction = min(self.sticking / self.elapsed, 1.0)
+            self.complete = True
+        self.travel = self.work = self.sticking = self.elapsed = 0.0
 
     def mean(self, whole: float, so_far: float, momentary: float) -> float:
         """Mean of the last `whole` period, or of the sum `so_far`, or at the start `momentary`."""

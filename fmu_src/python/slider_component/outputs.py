@@ -1,8 +1,7 @@
-"""The outputs of the interface, each from the present moment and the present inputs."""
+"""The outputs of the interface, each from the motion under the present inputs and the moment."""
 
 from collections.abc import Callable
-from math import remainder, sin, tau
-from typing import NamedTuple
+from math import remainder, tau
 
 from .averaged import Averaged
 from .contact import STICK
@@ -14,50 +13,35 @@ LEAD_DIGITS = 12
 """Decimals to which leads of the normal load [rad] are rounded: without the rounding errors of
 phases, predictions are the same from one period to the next."""
 
-
-class View(NamedTuple):
-    """What outputs are read from."""
-
-    motion: Resolved | Averaged
-    now: Moment
-    last_event_time: float
+Motion = Resolved | Averaged
+"""A device under held inputs; `Leaping` is one that is resolved."""
 
 
-def _normal_force(view: View) -> float:
-    device, chi = view.motion.system.device, view.now.psi + view.motion.system.phase
-    return max(0.0, device.normal_preload + device.normal_amplitude * sin(chi))
-
-
-def _stick_fraction(view: View) -> float:
-    now, sticks = view.now, view.motion.mode(view.now) == STICK
-    return min(now.mean(now.stick_fraction, now.sticking, float(sticks)), 1.0)
-
-
-def _theory(view: View) -> Prediction:
-    device, inputs = view.motion.system.device, view.motion.system.inputs
+def _theory(motion: Motion, now: Moment) -> Prediction:
+    device, inputs = motion.system.device, motion.system.inputs
     ratio = inputs.frequency_ratio
     turns = turns_of_load(device, ratio)
-    lead = remainder(view.now.psi - ratio * view.now.theta, tau / turns) if turns else 0.0
+    lead = remainder(now.psi - ratio * now.theta, tau / turns) if turns else 0.0
     return prediction(device, inputs, round(lead, LEAD_DIGITS))
 
 
-OUTPUTS: dict[str, Callable[[View], float]] = {
-    "position": lambda view: view.now.position,
-    "velocity": lambda view: view.now.velocity,
-    "mean_velocity": lambda view: view.now.mean(
-        view.now.mean_velocity, view.now.travel, view.now.velocity
+OUTPUTS: dict[str, Callable[[Motion, Moment], float]] = {
+    "position": lambda motion, now: now.position,
+    "velocity": lambda motion, now: now.velocity,
+    "mean_velocity": lambda motion, now: now.mean(now.mean_velocity, now.travel, now.velocity),
+    "resonator_displacement": lambda motion, now: motion.resonator(now)[0],
+    "resonator_velocity": lambda motion, now: motion.resonator(now)[1],
+    "normal_force": lambda motion, now: motion.system.normal_load.at(now.psi + motion.system.phase),
+    "friction_force": lambda motion, now: motion.friction_force(now),
+    "contact_mode": lambda motion, now: float(motion.mode(now)),
+    "reversals": lambda motion, now: float(now.reversals),
+    "stick_fraction": lambda motion, now: now.mean(
+        now.stick_fraction, now.sticking, float(motion.mode(now) == STICK)
     ),
-    "resonator_displacement": lambda view: view.motion.resonator(view.now)[0],
-    "resonator_velocity": lambda view: view.motion.resonator(view.now)[1],
-    "normal_force": _normal_force,
-    "friction_force": lambda view: view.motion.friction_force(view.now),
-    "contact_mode": lambda view: float(view.motion.mode(view.now)),
-    "reversals": lambda view: float(view.now.reversals),
-    "stick_fraction": _stick_fraction,
-    "last_event_time": lambda view: view.last_event_time,
-    "steady_velocity": lambda view: _theory(view).steady_velocity,
-    "blocking_force": lambda view: _theory(view).blocking_force,
-    "prediction_valid": lambda view: float(_theory(view).valid),
-    "friction_power": lambda view: view.motion.friction_power(view.now),
-    "slow_motion_error": lambda view: view.motion.slow_motion_error(view.now),
+    "last_event_time": lambda motion, now: now.last_event_time,
+    "steady_velocity": lambda motion, now: _theory(motion, now).steady_velocity,
+    "blocking_force": lambda motion, now: _theory(motion, now).blocking_force,
+    "prediction_valid": lambda motion, now: float(_theory(motion, now).valid),
+    "friction_power": lambda motion, now: motion.friction_power(now),
+    "slow_motion_error": lambda motion, now: motion.slow_motion_error(now),
 }

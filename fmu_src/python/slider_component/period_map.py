@@ -17,6 +17,7 @@ from .contact import LIFTED, STICK
 from .device import System, full_friction, vibration
 from .moment import Moment
 from .resolved import Resolved
+from .slow_equation import NoRatesError
 from .vibrating_load import turns_to_repeat
 
 NEAR = 0.014
@@ -34,10 +35,6 @@ Fast = Sequence[float]
 """The three fast states of these."""
 
 
-class NoMapError(ArithmeticError):
-    """There is no period map, or no slow manifold, or the motion leaves it."""
-
-
 class PeriodMap:
     """The period map of a system of the full device under held inputs.
 
@@ -49,7 +46,7 @@ class PeriodMap:
     """
 
     def __init__(self, system: System, max_turns: int) -> None:
-        """Raises NoMapError where there is none.
+        """Raises NoRatesError where there is none.
 
         That is without vibration, where transients do not decay, and where the load is far from
         repeating after up to `max_turns` turns of the drive. Raises Refusal where undamped
@@ -57,13 +54,13 @@ class PeriodMap:
         """
         device, w = system.device, system.drive_frequency
         self.vibration = fast = vibration(device)
-        self.tolerance = device.tolerance
+        self.tolerance, self.speed = device.tolerance, fast.velocity
         tight = replace(device, tolerance=min(device.tolerance, MAP_TOLERANCE))
         self.motion = Resolved(System(tight, system.inputs))
         ratio = system.inputs.frequency_ratio if device.normal_amplitude > 0.0 else 0.0
-        turns, self.speed = turns_to_repeat(ratio, max_turns, NEAR), fast.velocity
+        turns = turns_to_repeat(ratio, max_turns, NEAR)
         if turns is None or not self.speed > 0.0:
-            raise NoMapError
+            raise NoRatesError
         self.drift = tau * (turns * ratio - round(turns * ratio))
         self.period, self.section = tau * turns / w, (fast.lag + pi) % tau
         self.share = full_friction(device) * self.period / (device.total_mass * self.speed)
@@ -78,7 +75,7 @@ class PeriodMap:
         self._determinant = (a - 1.0) * (d - 1.0) - b * c
         decay = max(self._kept, exp(system.slip.eigenvalues[0].real * self.period))
         if not (decay < 1.0 and self._determinant != 0.0):
-            raise NoMapError
+            raise NoRatesError
 
     def under_load(self, load: float) -> "PeriodMap":
         """The same under another load [N]."""
@@ -105,8 +102,8 @@ class PeriodMap:
     def sections(self, now: Moment, count: int, budget: Budget) -> tuple[list[Moment], list[int]]:
         """The moments at the section in `count` periods, `now` first, and all contact modes.
 
-        Raises NoMapError where the motion leaves the range of floating point, and Refusal where the
-        budget is spent.
+        Raises NoRatesError where the motion leaves the range of floating point, and Refusal where
+        the budget is spent.
         """
         sections, modes = [now], [now.mode]
         for _ in range(count):
@@ -114,7 +111,7 @@ class PeriodMap:
             now.theta = self.section
             sections.append(now)
         if not all(map(isfinite, self.numbers(now))):
-            raise NoMapError
+            raise NoRatesError
         return sections, modes
 
     def resolvent(self, times: int, change: Fast) -> Fast:

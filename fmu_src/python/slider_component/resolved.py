@@ -5,28 +5,19 @@ of what it watches (a stop of the slider, or a release), at the latest where the
 touches down. Another contact mode succeeds it. There is no step size.
 """
 
-from math import inf, tau
+from math import tau
 
-from .budget import Budget, Clock, too_much_work
+from .budget import Budget
 from .contact import LIFTED
 from .coulomb import Coulomb
-from .device import LONGEST_ARC, System
+from .device import System
 from .first_zero import first_zero
 from .lugre import LuGre
 from .moment import Moment
-from .sliding import Segment
-
-MAX_TURN_SEGMENTS = 20_000
-"""Largest number of segments accepted in a turn of the fastest oscillation: several times as many
-as presliding on the hardest bristles takes."""
-
-MOVES = 64.0
-"""Travel beyond which a slider has surely moved, in rounding errors of its velocity times the time
-in which the fastest oscillation advances by a radian: more than a segment can add up."""
 
 COUNTED = 3.0
 """Drive periods before the end of a motion from which outputs count: means are those of the last
-whole one, and the first that ends is counted in part."""
+whole one. These periods end segments, too."""
 
 PERIOD_END_TOLERANCE = 1e-7
 """Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps
@@ -93,41 +84,39 @@ class Resolved:
     ) -> Moment:
         """The moment `duration` > 0 [s] later; `modes` collects changes of contact mode.
 
-        Raises Refusal for more segments than the budget has, or for too many in a turn.
+        Raises Refusal for more segments than the budget has.
         """
-        system, arc = self.system, self.system.arc
-        if duration > budget.left * arc:
-            raise budget.refusal(budget.left * arc)
-        clock, remaining, in_turn, turn_began = Clock(duration), duration, 0, 0.0
-        turn, period = tau / LONGEST_ARC * arc, tau / system.drive_frequency
-        now = moment.copied()
+        w, now = self.system.drive_frequency, moment.copied()
         now.enter(self.mode(now))
+        remaining, lost = duration, 0.0
         while remaining > 0.0:
-            if clock.elapsed - turn_began > turn:
-                in_turn, turn_began = 0, clock.elapsed
-            if in_turn == MAX_TURN_SEGMENTS:
-                what = "segments in a turn of the fastest oscillation"
-                raise too_much_work(budget.step_size, clock.elapsed, MAX_TURN_SEGMENTS, what)
-            if budget.left == 0:
-                raise budget.refusal(clock.elapsed)
-            in_turn += 1
-            budget.left -= 1
-            longest = min(remaining, arc)
-            counts = remaining - longest <= COUNTED * period
-            t = self._follow(now, min(longest, period) if counts else longest, counts)
+            budget.spend(duration - remaining)
+            longest = min(remaining, self.system.arc)
+            counts = (remaining - longest) * w <= COUNTED * tau
+            if counts:
+                longest = min(longest, (tau - now.theta) / w)
+            t = self._follow(now, longest, counts)
+            if not counts:
+                now.theta %= tau
+            elif now.theta + PERIOD_END_TOLERANCE >= tau:
+                now.theta -= tau
+                now.end_period()
             if modes is not None and modes[-1] != now.mode:
                 modes.append(now.mode)
-            remaining = clock.advance(t) if t != remaining else 0.0
+            # With the rounding errors of the differences (fast two-sum).
+            rest = remaining - t
+            lost += (remaining - rest) - t
+            remaining = rest + lost if rest else 0.0
+            lost -= remaining - rest
         return now
 
     def _follow(self, now: Moment, longest: float, counts: bool) -> float:
         """Advance `now` by one segment of up to `longest` [s], and return its time [s]."""
-        system, w, switching = self.system, self.system.drive_frequency, inf
-        if system.switches:
-            chi, lifted = now.psi + system.phase, now.mode == LIFTED
-            switching = system.window.time_to_switch(chi, system.normal_frequency, lifted)
+        system = self.system
+        switching = system.normal_load.time_to_switch(
+            now.psi + system.phase, system.normal_frequency, now.mode == LIFTED
+        )
         segment = self.law.begin(system, now)
-        direction = segment.direction
         t, zero_of = min(longest, switching, segment.reach), None
         watches = segment.watches(t) if t > 0.0 else ()
         for index, watch in enumerate(watches):
@@ -137,44 +126,19 @@ class Resolved:
         now.velocity, now.displacement, now.rate, travelled = segment.at(t)
         if zero_of is not None and not segment.rests:
             now.velocity = 0.0
-        if now.mode != LIFTED and direction not in (0, now.sliding) and watches:
-            signal, noise, fastest = watches[0]
-            # Most travel is far more than rounding; where it is not, the velocity in the middle
-            # tells.
-            if direction * travelled * fastest > MOVES * noise or signal(0.5 * t)[0] > noise:
-                now.turn(direction)
+        if watches and now.mode != LIFTED and segment.direction not in (0, now.sliding):
+            signal, noise, _ = watches[0]
+            if signal(0.5 * t)[0] > noise:  # It moves beyond rounding.
+                now.turn(segment.direction)
         if counts:
-            _count(now, segment, t, travelled, w)
-        else:
-            now.theta = (now.theta + w * t) % tau
+            now.travel += travelled
+            now.work += segment.work(t, travelled)
+            now.sticking += t if segment.rests else 0.0
+            now.elapsed += t
+        now.theta += system.drive_frequency * t
         now.psi = (now.psi + system.normal_frequency * t) % tau
         now.position += travelled
-        now.event_age += t
-        self.law.enter_next_mode(
-            system, now, travelled, zero_of, zero_of is None and t == switching
-        )
+        now.time += t
+        switches = zero_of is None and t == switching
+        self.law.enter_next_mode(system, now, travelled, zero_of, switches)
         return t
-
-
-def _count(now: Moment, segment: Segment, t: float, travelled: float, frequency: float) -> None:
-    """Advance drive phase and sums over the first `t` [s] of a segment, at most a period.
-
-    Where a drive period ends in it, the sums give the means. The drive has `frequency` [rad/s].
-    """
-    end, rests = now.theta + frequency * t, segment.rests
-    work = segment.work(t, travelled)
-    if end + PERIOD_END_TOLERANCE >= tau:
-        last = (tau - now.theta) / frequency
-        passed, stuck = segment.at(last)[3], last if rests else 0.0
-        worked, length = segment.work(last, passed), now.elapsed + last
-        now.mean_velocity = (now.travel + passed) / length
-        now.friction_power = (now.work + worked) / length
-        now.stick_fraction = min(max((now.sticking + stuck) / length, 0.0), 1.0)
-        now.complete = True
-        now.travel, now.work, now.sticking, now.elapsed = -passed, -worked, -stuck, -last
-        end -= tau
-    now.travel += travelled
-    now.work += work
-    now.sticking += t if rests else 0.0
-    now.elapsed += t
-    now.theta = end

@@ -61,10 +61,10 @@ class Series:
     ) -> None:
         w, q, mass = system.drive_frequency, system.normal_frequency, system.slider_mass
         sign, is_full = 0 if now.mode == LIFTED else direction, system.is_full
-        spring, damper, coupling = system.spring, system.damper, float(is_full)
+        spring, damper, coupling = system.spring, system.damper, system.coupling
         stiffness, damping = system.stick.stiffness, 2.0 * system.stick.decay
         drive, chi = -1j * rect(1.0, now.theta), now.psi + system.phase
-        pulls = _sinusoid(system.holding_drive * drive, w)
+        pulls = _sinusoid(system.direct * drive, w)
         pulls[0] -= system.load
         bases = _sinusoid(coupling * system.base_acceleration * drive, w)
         limit = _sinusoid(-1j * system.friction_amplitude * rect(1.0, chi), q)

@@ -9,7 +9,7 @@ of drive, normal load and free resonator, and friction s (F0 + F1 sin(chi)),
 """
 
 from cmath import exp, rect, sinh
-from math import inf, sin
+from math import inf
 from typing import Protocol
 
 from .contact import LIFTED
@@ -78,29 +78,28 @@ class Exponentials:
     def __init__(self, system: System, now: Moment, direction: int, rests: bool = False) -> None:
         split = system.rest_split if rests else system.slide_split
         assert split is not None
-        sign = 0 if now.mode == LIFTED else direction
-        constant, swinging = sign * system.friction_preload, 0j
-        turn, chi = rect(1.0, now.theta), now.psi + system.phase
+        sign, chi = 0 if now.mode == LIFTED else direction, now.psi + system.phase
+        turn, turned = rect(1.0, now.theta), rect(sign, chi)
+        constant, swinging = sign * system.friction_preload, system.friction_amplitude * turned
+        if not system.normal_frequency:
+            constant, swinging = constant + swinging.imag, 0j
         z, v, y = split.drive
-        v, y = v * turn, y * turn
-        terms = [(z, v, y)]
-        k0, displacement, rate = now.velocity - v.real, now.displacement - y.real, z.imag * y.imag
-        z, v, y = split.normal
-        if not z:
-            constant += sign * system.friction_amplitude * sin(chi)
-        elif sign:
-            turned = rect(sign, chi)
-            swinging = system.friction_amplitude * turned
-            v, y = v * turned, y * turned
-            k0, displacement, rate = k0 - v.real, displacement - y.real, rate + z.imag * y.imag
-            if z == terms[0][0]:
-                terms = [(z, v + terms[0][1], y + terms[0][2])]
+        terms = [(z, v * turn, y * turn)]
+        if swinging:
+            q, w, x = split.normal
+            if q == z:
+                terms = [(z, v * turn + w * turned, y * turn + x * turned)]
             else:
-                terms.append((z, v, y))
+                terms.append((q, w * turned, x * turned))
         resisting = 0.0 if rests else constant + system.load
         offset = resisting * split.compliance
+        k0, displacement, rate = now.velocity, now.displacement - offset, now.rate
+        for z, v, y in terms:
+            k0 -= v.real
+            displacement -= y.real
+            rate += z.imag * y.imag
         if system.is_full:
-            for z, y in split.oscillator.free(displacement - offset, now.rate + rate):
+            for z, y in split.oscillator.free(displacement, rate):
                 v = -split.mass_fraction * z * y
                 k0 -= v.real
                 terms.append((z, v, y))
@@ -148,7 +147,7 @@ class Exponentials:
     def _margins(self) -> tuple[Watch, ...]:
         system, load = self._system, self._system.load
         w, q = system.drive_frequency, system.normal_frequency
-        needed = [(complex(0.0, w), -1j * system.holding_drive * self._turn, 0j)]
+        needed = [(complex(0.0, w), -1j * system.direct * self._turn, 0j)]
         needed += [(z, (system.spring + system.damper * z) * y, 0j) for z, _, y in self._terms]
         pull = abs(load) + sum(abs(a) for _, a, _ in needed)
         if pull == 0.0 or pull < SURE * (system.friction_preload - system.friction_amplitude):

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fmu_src.python.slider_component import mean_friction
-from fmu_src.python.slider_component.contact import BACKWARD, FORWARD, LIFTED, STICK, Window
-from fmu_src.python.slider_component.device import Device, System, flight_window
+from fmu_src.python.slider_component.contact import BACKWARD, FORWARD, LIFTED, STICK, NormalLoad
+from fmu_src.python.slider_component.device import Device, System
 from fmu_src.python.slider_component.mean_friction import (
     MAX_WAVES,
     NODES,
@@ -55,16 +55,11 @@ def test_exponentials_and_series_agree(ratio: float, mode: int, damping: float) 
             assert abs(slope - before) <= 1.001 * a.signal(0.9 * t)[2] * 0.1 * t + 1e-9 * bound
 
 
-def window_of(preload: float, amplitude: float) -> Window:
-    device = Device(normal_preload=preload, normal_amplitude=amplitude)
-    return flight_window(device)
-
-
 @given(st.floats(0.0, 0.999999), st.floats(-20.0, 20.0))
-def test_window_is_where_the_load_would_be_negative(share: float, chi: float) -> None:
+def test_contact_lifts_where_the_load_would_be_negative(share: float, chi: float) -> None:
     load = share + math.sin(chi)
     if abs(load) > 1e-12:
-        assert window_of(share, 1.0).is_lifted(chi, 1.0) == (load < 0.0)
+        assert NormalLoad(share, 1.0).is_lifted(chi, 1.0) == (load < 0.0)
 
 
 @given(
@@ -73,26 +68,26 @@ def test_window_is_where_the_load_would_be_negative(share: float, chi: float) ->
     st.one_of(st.floats(0.1, 50.0), st.floats(-50.0, -0.1)),
 )
 def test_load_is_zero_at_the_next_switch(share: float, chi: float, frequency: float) -> None:
-    window = window_of(share, 1.0)
-    lifted = window.is_lifted(chi, frequency)
-    time = window.time_to_switch(chi, frequency, lifted)
+    contact = NormalLoad(share, 1.0)
+    lifted = contact.is_lifted(chi, frequency)
+    time = contact.time_to_switch(chi, frequency, lifted)
     assert 0.0 <= time <= math.tau / abs(frequency)
     assert share + math.sin(chi + frequency * time) == pytest.approx(0.0, abs=2e-12)
     for part in (0.1, 0.5, 0.9):
         between = chi + frequency * time * part
         if abs(share + math.sin(between)) > 1e-12:
-            assert window.is_lifted(between, frequency) == lifted, "a switch was passed over"
+            assert contact.is_lifted(between, frequency) == lifted, "a switch was passed over"
 
 
 @pytest.mark.parametrize("share", [0.0, 0.5])
 @pytest.mark.parametrize("past", [-4e-16, 0.0, 4e-16])
 def test_on_a_boundary_the_direction_decides(share: float, past: float) -> None:
-    window = window_of(share, 1.0)
-    first, last = window
-    assert window.is_lifted(first + past, 1.0)
-    assert not window.is_lifted(last + past, 1.0)
-    assert not window.is_lifted(first + past, -1.0)
-    assert window.is_lifted(last + past, -1.0)
+    contact = NormalLoad(share, 1.0)
+    first, last = math.pi + contact.dip, math.tau - contact.dip
+    assert contact.is_lifted(first + past, 1.0)
+    assert not contact.is_lifted(last + past, 1.0)
+    assert not contact.is_lifted(first + past, -1.0)
+    assert contact.is_lifted(last + past, -1.0)
 
 
 @pytest.mark.parametrize("stiffness", [1e2, 1e6, 1e10])
@@ -102,7 +97,7 @@ def test_twice_the_nodes_change_no_mean(
 ) -> None:
     device = Device(friction_law=1, bristle_stiffness=stiffness, bristle_damping=0.01)
     friction = MeanFriction(device, 0.2366)
-    load = VibratingLoad(Device(normal_amplitude=1.5), n, 0.7)
+    load = VibratingLoad(NormalLoad(1.0, 1.5), n, 0.7)
     turnings = (1e-3, 0.3, 1.1, 2.0, 3.1)
     means = [friction.mean(load, turning) for turning in turnings]
     monkeypatch.setattr(mean_friction, "_RULE", _gauss_legendre(2 * NODES))
@@ -112,20 +107,24 @@ def test_twice_the_nodes_change_no_mean(
 
 def test_beyond_a_thousand_waves_only_the_mean_counts() -> None:
     friction = MeanFriction(Device(friction_law=1, bristle_stiffness=1e4), 0.2366)
-    waves = [VibratingLoad(Device(), float(MAX_WAVES + more), 0.4) for more in (0, 1)]
-    counted, beyond = (friction.mean(load, 1.1) for load in waves)
-    assert beyond == pytest.approx(friction.mean(waves[0].flattened(), 1.1), abs=1e-13)
+    contact, most = NormalLoad(1.0, 1.0), friction.max_waves
+    counted, beyond = (
+        friction.mean(VibratingLoad(contact, float(MAX_WAVES + more), 0.4, most), 1.1)
+        for more in (0, 1)
+    )
+    constant = VibratingLoad(NormalLoad(contact.mean, 0.0), 1.0, 0.0)
+    assert beyond == pytest.approx(friction.mean(constant, 1.1), abs=1e-13)
     assert 0.0 < abs(counted - beyond) < 1e-3 * friction.coefficient
 
 
 def test_constant_load_never_switches() -> None:
-    assert window_of(0.5, 1.0).time_to_switch(4.0, 0.0, lifted=True) == math.inf
-    assert window_of(0.0, 1.0).is_lifted(0.0, 0.0), "a load of zero is flight"
-    assert not window_of(0.0, 1.0).is_lifted(0.5, 0.0)
+    assert NormalLoad(0.5, 1.0).time_to_switch(4.0, 0.0, lifted=True) == math.inf
+    assert NormalLoad(0.0, 1.0).is_lifted(0.0, 0.0), "a load of zero is flight"
+    assert not NormalLoad(0.0, 1.0).is_lifted(0.5, 0.0)
 
 
 def test_no_normal_load_at_all_is_flight() -> None:
-    window = window_of(0.0, 0.0)
+    contact = NormalLoad(0.0, 0.0)
     for chi in (0.0, 1.0, 5.0):
-        assert window.is_lifted(chi, 1.0)
-        assert window.time_to_switch(chi, 1.0, lifted=True) == math.inf
+        assert contact.is_lifted(chi, 1.0)
+        assert contact.time_to_switch(chi, 1.0, lifted=True) == math.inf
