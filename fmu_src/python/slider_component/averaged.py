@@ -27,9 +27,6 @@ NEAR = 0.1
 """Largest distance of the frequency ratio from an integer at which the phase counts as slow. Under
 a lifting contact: largest distance of q times the ratio, times q, for q up to a few turns."""
 
-MIN_STEPS = 16
-"""Lower limit of the number of steps that is accepted."""
-
 MIN_SHARE = 1e-9
 """Part of a beat up to which a kink ahead counts as the one just passed."""
 
@@ -63,8 +60,7 @@ class Averaged:
         self.beat = tau / (turns * abs(self.drift)) if turns and self.drift else inf
         self.max_steps = MAX_SLOW_STEPS // PYTHON_SLOWDOWN
         if self.law.bends:  # Quadratures take longer the more waves the load has.
-            waves = min(abs(self.waves), MAX_WAVES)
-            self.max_steps = max(MIN_STEPS, int(self.max_steps / (1.0 + waves)))
+            self.max_steps = int(self.max_steps / (1.0 + min(abs(self.waves), MAX_WAVES)))
 
     def start(self) -> Moment:
         """Initial velocities determine the momentum of the pair, not the vibration."""
@@ -199,7 +195,7 @@ class Averaged:
         return velocity, moved
 
     def _budget(self, duration: float) -> Budget:
-        return Budget(duration, self.max_steps, "steps of averaged motion")
+        return Budget(duration, 0.0, self.max_steps, "steps of averaged motion")
 
     def _block(self, velocity: float, friction: float, t: float) -> tuple[float, float]:
         """Velocity [m/s] and displacement [m] after `t` [s] under constant friction and load."""

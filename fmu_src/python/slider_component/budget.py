@@ -13,18 +13,20 @@ MAX_SEGMENTS = MAX_STEP_SEGMENTS // PYTHON_SLOWDOWN
 
 @dataclass(slots=True)
 class Budget:
-    """The work of a step of `step_size` [s]: all its parts spend from the same `limit`."""
+    """The work of a step of `step_size` [s] from a start [s] on: all its parts share a `limit`."""
 
     step_size: float
+    start: float
     limit: int = MAX_SEGMENTS
     what: str = "segments of motion"
     spent: int = 0
 
-    def spend(self, reached: float) -> None:
-        """Spend one more. Raises Refusal beyond the limit; a step up to `reached` [s] takes less.
+    def spend(self, time: float) -> None:
+        """Spend one more at a time [s]. Raises Refusal beyond the limit.
 
-        The text names the power of ten below it.
+        A step up to that time takes less: the text names the power of ten below it.
         """
+        reached = time - self.start
         self.spent += 1
         if self.spent > self.limit:
             work = {"step_size": self.step_size, "max_count": self.limit, "what": self.what}

@@ -4,13 +4,16 @@ Events are a stop of the slider (then it sticks if friction can hold it, and rev
 release, and the lift-off and touchdown of the contact.
 """
 
-from math import cos, sin
+from cmath import rect
 
 from .contact import BACKWARD, FORWARD, LIFTED, STICK, direction_of
 from .device import System
 from .moment import Moment
 from .series import Series
-from .sliding import Exponentials, Segment
+from .sliding import Exponentials
+
+Segment = Exponentials | Series
+"""Motion from a moment on, inputs held, contact mode unchanged."""
 
 BALANCED = 1e-12
 """Relative difference of the forces on a slider up to which they count as balanced."""
@@ -66,11 +69,8 @@ def slide(system: System, now: Moment, direction: int) -> Segment:
 
 def _needed_force(system: System, now: Moment) -> float:
     """Friction force [N] that holds a slider at rest."""
-    direct, theta = system.direct, now.theta
-    needed = system.spring * now.displacement + system.damper * now.rate - system.load
-    if not direct:
-        return needed
-    return needed + direct.real * sin(theta) + direct.imag * cos(theta)
+    held = system.spring * now.displacement + system.damper * now.rate - system.load
+    return held + (system.direct * rect(1.0, now.theta)).imag
 
 
 def _just_released(system: System, now: Moment) -> bool:
@@ -89,11 +89,7 @@ def _just_released(system: System, now: Moment) -> bool:
 def _mode_in_contact(system: System, now: Moment) -> int:
     if now.velocity != 0.0:
         return direction_of(now.velocity)
-    needed = _needed_force(system, now)
-    # In most cases the largest limit decides, without a sine.
-    limit = system.friction_preload + system.friction_amplitude
-    if -limit <= needed <= limit:
-        limit = system.friction_limit(now.psi)
+    needed, limit = _needed_force(system, now), system.friction_limit(now.psi)
     if needed > limit:
         return FORWARD
     return BACKWARD if needed < -limit else STICK

@@ -43,9 +43,9 @@ SHORTEST_LEAP = 64.0
 TO_GRAZING = 0.5
 """Part of the way to a grazing velocity that a step may pass: there rates are singular."""
 
-PAUSE = 8.0
+PAUSE = 12.0
 """Periods that are resolved after an attempt, by period mapped in vain, or by that of one sequence:
-attempts cost an eighth of resolved motion at most. In them kinks pass and transients decay."""
+attempts cost a twelfth of resolved motion at most. In them kinks pass and transients decay."""
 
 
 class Point(NamedTuple):
@@ -185,7 +185,7 @@ class Leaping(Resolved):
 
     def advance(self, moment: Moment, duration: float) -> Moment:
         """As of `Resolved`."""
-        budget, now, left, pause = Budget(duration), moment, duration, 0.0
+        budget, now, left, pause = Budget(duration, moment.time), moment, duration, 0.0
         period_map, w = self._map, self.system.drive_frequency
         while period_map is not None and left > (SHORTEST_LEAP + pause) * period_map.period:
             wait = pause * period_map.period + (period_map.section - now.theta) % tau / w

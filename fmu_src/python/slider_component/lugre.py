@@ -13,11 +13,10 @@ There is no sticking: presliding is resolved as an oscillation on the bristles.
 from math import copysign, expm1
 
 from .contact import FORWARD, LIFTED, direction_of
-from .coulomb import slide
+from .coulomb import Segment, slide
 from .device import System
 from .moment import Moment
 from .series import Series
-from .sliding import Segment
 
 TOLERANCE_SHARE = 0.01
 """Share of the tolerance for the error of one series, and for the bend that a bristle still lacks

@@ -8,13 +8,13 @@ quadrature. Soft bristles give the paper's slow manifold (17), hard ones Coulomb
 """
 
 from itertools import pairwise
-from math import acos, cos, exp, expm1, inf, pi, sin, sqrt, tau
+from math import acos, cos, exp, expm1, inf, pi, sin, tau
 from typing import NamedTuple
 
 from .device import EPSILON, Device
 from .vibrating_load import VibratingLoad
 
-NODES = 28
+NODES = 32
 """Nodes of the quadrature: they follow exp(-BENT x^2) over an arc to 1e-13."""
 
 WIDEST = 18.0
@@ -26,10 +26,6 @@ BENT = 37.0
 MAX_WAVES = 1000
 """Waves of the normal load over a turn of the drive beyond which only its mean counts: what they
 add to mean friction and power falls with their number, to less than 1e-3 of full friction."""
-
-SHORTEST_ARC = 1e-12
-HALVINGS = 12
-"""Halvings, on a logarithmic scale from the shortest part of an arc on, that find where it ends."""
 
 Node = tuple[float, float, float]
 """Weight with the normal load [N rad], velocity over v_q beyond that where the slider turns, and
@@ -120,15 +116,11 @@ class _Arc(NamedTuple):
         return rise * sin(self.begin + half), self.direction * self.reach * moved
 
     def bent_after(self, full: float, stiffness: float) -> float:
-        """How far ahead in the arc [rad] the path times `stiffness` [1/m] is `full`."""
-        if stiffness * self.way(self.length)[1] <= full:
-            return self.length
-        low, high = SHORTEST_ARC * self.length, self.length
-        for _ in range(HALVINGS):
-            middle = sqrt(low * high)
-            bent = stiffness * self.way(middle)[1] >= full
-            low, high = (low, middle) if bent else (middle, high)
-        return high
+        """How far ahead [rad] the path times `stiffness` [1/m] is `full`, or a little farther."""
+        ahead = self.length
+        while stiffness * self.way(0.9 * ahead)[1] > full:
+            ahead *= 0.9
+        return ahead
 
     def nodes(self, last: float, load: VibratingLoad) -> list[Node]:
         """Quadrature up to `last` [rad] ahead: weights with the load, velocities and paths.

@@ -16,7 +16,7 @@ from .device import EPSILON, Device, System, held_amplitude, vibration
 from .mean_friction import MeanFriction
 from .parameters import Inputs
 from .period_map import PeriodMap
-from .steady_motion import PeriodicMotion
+from .steady_motion import periodic_motion
 from .values import Refusal
 from .vibrating_load import VibratingLoad, turns_to_repeat
 
@@ -65,9 +65,9 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
     with suppress(ArithmeticError, ValueError, Refusal):
         period_map = PeriodMap(System(full, inputs), turns)
         psi = (normal_lead + inputs.frequency_ratio * period_map.section) % tau
-        steady = PeriodicMotion(period_map, psi, inputs.load, blocked=False)
-        blocked = PeriodicMotion(period_map, psi, first.blocking_force, blocked=True)
-        velocity, force = steady.found(first.steady_velocity), blocked.found(0.0)
+        start = first.steady_velocity, inputs.load
+        velocity = periodic_motion(period_map, psi, *start, blocked=False)
+        force = periodic_motion(period_map, psi, 0.0, first.blocking_force, blocked=True)
         return Prediction(velocity, force, holds=True, valid=True)
     return first._replace(valid=False)
 
@@ -80,21 +80,18 @@ def turns_of_load(device: Device, ratio: float) -> int | None:
 def theory_range(device: Device) -> tuple[float, ...]:
     """Return numbers that are all finite where motion stays in the range of floating point.
 
-    The square of the fast velocity [m^2/s^2]; the drag over mu at the fast or the initial velocity,
-    whichever is larger; and a bound on integrals of load and friction [N], with the initial bristle
-    deflection.
+    The square of the fast velocity, the drag over mu, and a bound on integrals of load and friction
+    at the fast and the initial velocity and the initial bristle deflection.
     """
     velocity = 0.0
     with suppress(Refusal):
         velocity = vibration(device).velocity
     mu, drag, bent = device.friction_coefficient, 0.0, 0.0
     if device.friction_law == 1:
-        drag = device.bristle_damping * max(velocity, abs(device.initial_velocity))
-        bent = abs(device.bristle_stiffness * device.initial_bristle_deflection)
-        bent *= 1.0 + drag / mu
+        drag = device.bristle_damping * max(velocity, abs(device.initial_velocity)) / mu
+        bent = abs(device.bristle_stiffness * device.initial_bristle_deflection) * (1.0 + drag)
     normal = device.normal_preload + device.normal_amplitude
-    strongest = tau * normal * (1.0 + device.friction_faces * (mu + drag + bent))
-    return velocity * velocity, drag / mu if drag else 0.0, strongest
+    return velocity**2, drag, tau * normal * (1.0 + 2.0 * (mu * (1.0 + drag) + bent))
 
 
 def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Prediction:

@@ -77,7 +77,7 @@ class Resolved:
 
         Raises Refusal for more work than a step may take.
         """
-        return self.resolve(moment, duration, Budget(duration))
+        return self.resolve(moment, duration, Budget(duration, moment.time))
 
     def resolve(
         self, moment: Moment, duration: float, budget: Budget, modes: list[int] | None = None
@@ -90,7 +90,7 @@ class Resolved:
         now.enter(self.mode(now))
         remaining, lost = duration, 0.0
         while remaining > 0.0:
-            budget.spend(duration - remaining)
+            budget.spend(now.time)
             longest = min(remaining, self.system.arc)
             counts = (remaining - longest) * w <= COUNTED * tau
             if counts:

@@ -24,18 +24,11 @@ _COUNT = range(1, ORDER + 2)
 _STEPS = tuple(1.0 / count for count in range(1, ORDER + 1))
 """By which integration multiplies each coefficient."""
 
-MUCH_SMALLER = 0.1
-"""Share of the scale of velocities below which a velocity is measured by itself: its series is cut
-shorter to keep the tolerance relative to it."""
-
 FIRST_TERMS = 5
 """Terms of a series by which its velocity is measured."""
 
 NEGLIGIBLE_MOTION = 1e-200
-"""Motion [m/s] below which a series is not cut shorter."""
-
-MAX_SHRINKS = 10
-"""How often a series is cut shorter."""
+"""Motion [m/s] that is not measured."""
 
 ROUNDING = 2.0 * EPSILON
 """Tolerance of a series of Coulomb friction."""
@@ -46,8 +39,8 @@ class Series:
 
     Friction is that of a bristle that `bends` (eq. 8), or else Coulomb's. With s the direction and
     g = sigma_0 z the former is F = faces N (g + sigma_1 z'), z' = v (1 - s g / mu). At its `reach`
-    [s] the last terms are `tolerance` times the scale of velocities or, if that is much less, times
-    the velocity itself.
+    [s] the last terms are `tolerance` times the scale of velocities or, if that is less, times ten
+    times the velocity itself.
     """
 
     def __init__(
@@ -60,8 +53,7 @@ class Series:
         rests: bool = False,
     ) -> None:
         w, q, mass = system.drive_frequency, system.normal_frequency, system.slider_mass
-        sign, is_full = 0 if now.mode == LIFTED else direction, system.is_full
-        spring, damper, coupling = system.spring, system.damper, system.coupling
+        sign, coupling = 0 if now.mode == LIFTED else direction, system.coupling
         stiffness, damping = system.stick.stiffness, 2.0 * system.stick.decay
         drive, chi = -1j * rect(1.0, now.theta), now.psi + system.phase
         pulls = _sinusoid(system.direct * drive, w)
@@ -69,19 +61,14 @@ class Series:
         bases = _sinusoid(coupling * system.base_acceleration * drive, w)
         limit = _sinusoid(-1j * system.friction_amplitude * rect(1.0, chi), q)
         limit[0] += system.friction_preload
-        displacement, rate = (now.displacement, now.rate) if is_full else (0.0, 0.0)
-        v, y, u, needed, force = (
-            [now.velocity],
-            [displacement],
-            [rate],
-            list[float](),
-            list[float](),
-        )
+        displacement, rate = coupling * now.displacement, coupling * now.rate
+        v, y, u = [now.velocity], [displacement], [rate]
+        needed, force, shares = list[float](), list[float](), list[float]()
         mu, bristle = system.device.friction_coefficient, now.bristle
         hardness, drag = system.device.bristle_stiffness, system.device.bristle_damping
-        unbent, shares = [(mu - direction * bristle) / mu] if bends else [], list[float]()
+        unbent = [(mu - direction * bristle) / mu] if bends else []
         for k, step in enumerate(_STEPS):
-            pull = pulls[k] + damper * rate + spring * displacement
+            pull = pulls[k] + system.damper * rate + system.spring * displacement
             needed.append(pull)
             friction = sign * limit[k]
             if bends:
@@ -99,22 +86,21 @@ class Series:
             u.append(rate)
         self._velocity, self._displacement, self._rate, self._force = v, y, u, force
         self._position = [0.0, *map(truediv, v, _COUNT)]
+        self.direction, self.rests, self._limit, self._needed = direction, rests, limit, needed
         # The scale of velocities [m/s] is the sum of that of the drive, of what friction and load
         # change in a radian of it, and of those of slider and resonator.
         forces = system.friction_preload + system.friction_amplitude + abs(system.load)
         swing = hypot(now.rate, system.stick.frequency * now.displacement)
         scale = abs(system.drive) / w + forces / (system.total_mass * w)
         scale += abs(now.velocity) + system.mass_fraction * swing
-        self.reach = min(
-            _reach(v, tolerance, scale), _reach(u, tolerance, scale / (system.mass_fraction or 1.0))
-        )
-        self.direction, self.rests, self._limit, self._needed = direction, rests, limit, needed
+        of_rate = scale / (system.mass_fraction or 1.0)
+        self.reach = min(_reach(v, tolerance, scale), _reach(u, tolerance, of_rate))
         if rests:
             scale *= tolerance * system.total_mass * w
             self.reach = min(self.reach, *(_reach_of_last(c, scale) for c in (limit, needed)))
 
     def watches(self, horizon: float) -> tuple[Watch, ...]:
-        """See Segment."""
+        """As of `Exponentials`."""
         if self.rests:
             pairs = list(zip(self._limit, self._needed, strict=False))
             sizes = [abs(limit) + abs(needed) for limit, needed in pairs]
@@ -126,13 +112,13 @@ class Series:
         return (_watch(watched, list(map(abs, watched)), horizon),)
 
     def at(self, t: float) -> Place:
-        """See Segment."""
+        """As of `Exponentials`."""
         series = self._velocity, self._displacement, self._rate, self._position
         velocity, displacement, rate, travelled = (_value(c, t) for c in series)
         return velocity, displacement, rate, travelled
 
     def work(self, t: float, travelled: float) -> float:
-        """See Segment."""
+        """As of `Exponentials`."""
         return _value(self._work, t)
 
     @cached_property
@@ -151,9 +137,8 @@ def _sinusoid(amplitude: complex, frequency: float) -> list[float]:
 @lru_cache(maxsize=64)
 def _powers(frequency: float) -> list[complex]:
     """The series of exp(i frequency t)."""
-    return list(
-        accumulate(_STEPS, lambda c, step: c * complex(0.0, frequency * step), initial=1 + 0j)
-    )
+    z = complex(0.0, frequency)
+    return list(accumulate(_STEPS, lambda c, step: c * z * step, initial=1 + 0j))
 
 
 def _watch(coefficients: list[float], sizes: list[float], horizon: float) -> Watch:
@@ -176,13 +161,9 @@ def _value(coefficients: list[float], t: float) -> float:
 
 def _reach(coefficients: list[float], tolerance: float, scale: float) -> float:
     """How far the series of a velocity holds [s]; see Series."""
-    for _ in range(MAX_SHRINKS):
-        reach = _reach_of_last(coefficients, tolerance * scale)
-        size = _value(list(map(abs, coefficients[:FIRST_TERMS])), reach)
-        if not NEGLIGIBLE_MOTION < size < MUCH_SMALLER * scale:
-            break
-        scale = size
-    return reach
+    reach = _reach_of_last(coefficients, tolerance * scale)
+    size = _value(list(map(abs, coefficients[:FIRST_TERMS])), reach)
+    return _reach_of_last(coefficients, tolerance * min(scale, 10.0 * max(size, NEGLIGIBLE_MOTION)))
 
 
 def _reach_of_last(coefficients: list[float], tolerance: float) -> float:

@@ -10,7 +10,6 @@ of drive, normal load and free resonator, and friction s (F0 + F1 sin(chi)),
 
 from cmath import exp, rect, sinh
 from math import inf
-from typing import Protocol
 
 from .contact import LIFTED
 from .device import EPSILON, System, Term
@@ -22,32 +21,6 @@ SURE = 0.999999
 
 SMALL = 0.1
 """Growth below which an exponential less 1 would lose digits."""
-
-
-class Segment(Protocol):
-    """Motion from a given moment on, inputs held, contact mode unchanged.
-
-    It holds up to its `reach` [s]; its velocity is watched in `direction` unless that is 0.
-    """
-
-    reach: float
-    direction: int
-    rests: bool
-
-    def watches(self, horizon: float) -> tuple[Watch, ...]:
-        """Signals that are positive while the mode lasts, up to `horizon` [s].
-
-        The velocity in the direction of sliding; at rest the spare friction forwards and backwards.
-        """
-        ...
-
-    def at(self, t: float) -> Place:
-        """Where the motion is after `t` [s]."""
-        ...
-
-    def work(self, t: float, travelled: float) -> float:
-        """Work of friction [J] in the first `t` [s], in which the slider has `travelled` [m]."""
-        ...
 
 
 def watch_of(side: int, k0: float, k1: float, terms: list[Term], fastest: float) -> Watch:
@@ -71,7 +44,10 @@ def watch_of(side: int, k0: float, k1: float, terms: list[Term], fastest: float)
 
 
 class Exponentials:
-    """Rest, sliding in `direction` under full friction, or flight (methods as of `Segment`)."""
+    """Motion from `now` on: rest, sliding in `direction` under full friction, or flight.
+
+    It holds up to its `reach` [s]; its velocity is watched in `direction` unless that is 0.
+    """
 
     reach = inf
 
@@ -109,7 +85,7 @@ class Exponentials:
         self._constant, self._swinging = constant, swinging
 
     def at(self, t: float) -> Place:
-        """See Segment."""
+        """Where the motion is after `t` [s]."""
         k0, k1 = self._k0, self._k1
         swing = passed = moved = turning = 0j
         for z, v, y in self._terms:
@@ -123,7 +99,10 @@ class Exponentials:
         return k0 + k1 * t + swing.real, self._offset + moved.real, turning.real, travelled
 
     def work(self, t: float, travelled: float) -> float:
-        """See Segment. The friction is constant + Im(swinging exp(i q t)), q that of the load."""
+        """Work of friction [J] in the first `t` [s], in which the slider has `travelled` [m].
+
+        The friction is constant + Im(swinging exp(i q t)), q being the frequency of the load.
+        """
         work = self._constant * travelled
         if self._swinging:
             z = complex(0.0, self._system.normal_frequency)
@@ -136,7 +115,11 @@ class Exponentials:
         return work
 
     def watches(self, horizon: float) -> tuple[Watch, ...]:
-        """See Segment. None where the forces on a slider at rest stay below the smallest limit."""
+        """Signals that are positive while the mode lasts, up to `horizon` [s].
+
+        The velocity in the direction of sliding; at rest the spare friction forwards and backwards,
+        unless forces stay below its smallest limit.
+        """
         if self.rests:
             return self._margins()
         if self.direction == 0:

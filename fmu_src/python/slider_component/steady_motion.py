@@ -1,9 +1,6 @@
-"""Periodic motion of the full device as a fixed point of the period map, by Newton's method.
+"""Periodic motion of the full device as a fixed point of the period map, by Newton's method."""
 
-Steady motion is one under the given load, blocked motion one without travel under a load that is
-looked for.
-"""
-
+from collections.abc import Callable
 from math import inf
 
 from .budget import MAX_SEGMENTS, Budget
@@ -44,82 +41,68 @@ DECAYED = 0.5
 of its derivatives could make it."""
 
 
-class PeriodicMotion:
-    """A periodic motion that is looked for, at normal phase `psi` [rad] at the section.
+def periodic_motion(
+    period_map: PeriodMap, psi: float, velocity: float, load: float, blocked: bool
+) -> float:
+    """The mean velocity [m/s] of the steady motion under a load [N], or the load that blocks it.
 
-    Unknowns are the slow velocity, the load and the fast states, all over their scales. Periodic
-    motion is free under a given load, or else `blocked`: without travel. All maps of the search
-    draw from one budget.
+    Blocked motion has no travel; the given load is a guess. The search begins at a slow velocity
+    [m/s], the steady vibration without friction, and normal phase `psi` [rad] at the section. All
+    its maps draw from one budget. Raises NoRatesError where none is found, where it is not stable,
+    and where the blocked slider never reverses: it sticks, under other loads, too.
     """
+    device, speed = period_map.motion.system.device, period_map.speed
+    budget = Budget(period_map.period, 0.0, int(SHARE_OF_STEP * MAX_SEGMENTS))
+    # The slow velocity, the load, by the force that stops v_q in a period, and the fast states.
+    force = device.total_mass * speed / period_map.period
+    scales = [speed, force, *period_map.scale[2:]]
 
-    def __init__(self, period_map: PeriodMap, psi: float, load: float, blocked: bool) -> None:
-        self._map, self._psi, self._blocked = period_map, psi, blocked
-        self._budget = Budget(period_map.period, int(SHARE_OF_STEP * MAX_SEGMENTS))
-        # The force that stops v_q in a period [N].
-        force = period_map.motion.system.total_mass * period_map.speed / period_map.period
-        speed, _, *fast = period_map.scale
-        self._scale, self._load = [speed, force, *fast], load / force
+    def excess(unknowns: Vector) -> tuple[Vector, Moment]:
+        """What a period changes that periodic motion leaves, over the scales; and its end."""
+        slow, pull, *fast = (u * s for u, s in zip(unknowns, scales, strict=True))
+        loaded = period_map.under_load(pull)
+        begin = loaded.place(Moment(0.0, 0.0, 0.0, 0.0, psi=psi), slow, fast)
+        (_, end), _ = loaded.sections(begin, 1, budget)
+        first, last = loaded.numbers(begin), loaded.numbers(end)
+        changed = [(b - a) / s for a, b, s in zip(first, last, period_map.scale, strict=True)]
+        if not blocked:
+            changed[1] = load / force - unknowns[1]
+        if device.friction_law == 0:
+            changed[-1] = -unknowns[-1]
+        return changed, end
 
-    def found(self, velocity: float) -> float:
-        """The mean velocity [m/s] of the steady motion, or the load [N] that blocks it.
-
-        From a slow velocity [m/s] and the steady vibration without friction on. Raises NoRatesError
-        where none is found, where it is not stable, and where the blocked slider never reverses:
-        it sticks, under other loads, too.
-        """
-        period_map, device = self._map, self._map.motion.system.device
-        swing = period_map.vibration.swing(period_map.section)
-        bristle = device.friction_coefficient if device.friction_law == 1 else 0.0
-        fast = [x / s for x, s in zip((*swing, bristle), self._scale[2:], strict=True)]
-        unknowns = [velocity / period_map.speed, self._load, *fast]
-        for _ in range(LEAD_IN):
-            (first, travelled, *others), _ = self._excess(unknowns)
-            changes = [first - travelled * self._blocked, 0.0, *others]
-            unknowns = [u + c for u, c in zip(unknowns, changes, strict=True)]
-        largest = inf
-        for _ in range(MAX_ITERATIONS):
-            excess, end = self._excess(unknowns)
-            if largest <= CONVERGED:
-                break
-            if largest > NEAR:
-                jacobian = self._jacobian(unknowns, excess)
-            step = solved(jacobian, [-e for e in excess])
-            largest = max(map(abs, step))
-            share = min(1.0, MAX_CHANGE / largest) if largest > 0.0 else 1.0
-            unknowns = [u + share * s for u, s in zip(unknowns, step, strict=True)]
-        else:
-            raise NoRatesError
-        if not self._blocked and _is_stable(jacobian):
+    swing = period_map.vibration.swing(period_map.section)
+    bristle = device.friction_coefficient if device.friction_law == 1 else 0.0
+    start = velocity, load, *swing, bristle
+    unknowns = [x / s for x, s in zip(start, scales, strict=True)]
+    for _ in range(LEAD_IN):
+        (first, travelled, *others), _ = excess(unknowns)
+        changes = [first - travelled * blocked, 0.0, *others]
+        unknowns = [u + c for u, c in zip(unknowns, changes, strict=True)]
+    largest = inf
+    for _ in range(MAX_ITERATIONS):
+        now, end = excess(unknowns)
+        if largest > NEAR:
+            jacobian = _jacobian(lambda beside: excess(beside)[0], unknowns, now)
+        elif largest <= CONVERGED and blocked and end.reversals > 0:
+            return unknowns[1] * force
+        elif largest <= CONVERGED and not blocked and _is_stable(jacobian):
             return end.position / period_map.period
-        if self._blocked and end.reversals > 0:
-            return unknowns[1] * self._scale[1]
-        raise NoRatesError
+        step = solved(jacobian, [-e for e in now])
+        largest = max(map(abs, step))
+        share = min(1.0, MAX_CHANGE / largest) if largest > 0.0 else 1.0
+        unknowns = [u + share * s for u, s in zip(unknowns, step, strict=True)]
+    raise NoRatesError
 
-    def _excess(self, unknowns: Vector) -> tuple[Vector, Moment]:
-        """What a period changes that periodic motion leaves, over the scales; and its end.
 
-        The position counts in blocked motion only, otherwise what the load is beyond the given one.
-        """
-        velocity, load, *fast = (u * s for u, s in zip(unknowns, self._scale, strict=True))
-        period_map = self._map.under_load(load)
-        begin = period_map.place(Moment(0.0, 0.0, 0.0, 0.0, psi=self._psi), velocity, fast)
-        (_, end), _ = period_map.sections(begin, 1, self._budget)
-        first, last = period_map.numbers(begin), period_map.numbers(end)
-        excess = [(b - a) / s for a, b, s in zip(first, last, period_map.scale, strict=True)]
-        if not self._blocked:
-            excess[1] = self._load - unknowns[1]
-        if period_map.motion.system.device.friction_law == 0:
-            excess[-1] = -unknowns[-1]
-        return excess, end
-
-    def _jacobian(self, unknowns: Vector, excess: Vector) -> Matrix:
-        columns = []
-        for j in range(len(unknowns)):
-            beside = list(unknowns)
-            beside[j] += BESIDE
-            changed, _ = self._excess(beside)
-            columns.append([(b - e) / BESIDE for b, e in zip(changed, excess, strict=True)])
-        return [list(row) for row in zip(*columns, strict=True)]
+def _jacobian(function: Callable[[Vector], Vector], at: Vector, value: Vector) -> Matrix:
+    columns = []
+    for j in range(len(at)):
+        beside = list(at)
+        beside[j] += BESIDE
+        changed = function(beside)
+        columns.append([(b - e) / BESIDE for b, e in zip(changed, value, strict=True)])
+    return [list(row) for row in zip(*columns, strict=True)]
 
 
 def solved(matrix: Matrix, right: Vector) -> Vector:
