@@ -20,12 +20,13 @@ from .contact import LIFTED, direction_of
 from .device import System, full_friction, vibration
 from .mean_friction import MAX_WAVES, MeanFriction
 from .moment import Moment
+from .resolved import initial_moment
 from .slow_equation import Rates, SlowEquation
 from .vibrating_load import VibratingLoad, max_turns, turns_to_repeat
 
 NEAR = 0.1
-"""Largest distance of the frequency ratio from an integer at which the phase counts as slow. Under
-a lifting contact: largest distance of q times the ratio, times q, for q up to a few turns."""
+"""Largest distance of the frequency ratio from an integer at which the phase counts as slow; under
+a lifting contact, of q times the ratio, times q."""
 
 MIN_SHARE = 1e-9
 """Part of a beat up to which a kink ahead counts as the one just passed."""
@@ -37,16 +38,15 @@ PIECES = 256
 """Pieces of a beat, with constant friction in each, in motion without vibration."""
 
 FIRST_ORDER = 2.0
-"""Error in friction shares and v_q: of the average, and of what the average leaves out, the
-resonator's first swing and the first bend of bristles."""
+"""Error of averages, and of what they leave out, in friction shares and v_q."""
 
 
 class Averaged:
     """Motion averaged to first order (methods as of `Resolved`).
 
     The normal load has `waves` waves in a turn of the drive. Their phase drifts by `drift` [rad/s]
-    and repeats after `beat` [s], which is infinite if it does not drift. One communication step may
-    take `max_steps` steps.
+    and repeats after `beat` [s], which may be infinite. A communication step takes up to
+    `max_steps` steps.
     """
 
     def __init__(self, system: System) -> None:
@@ -65,12 +65,7 @@ class Averaged:
     def start(self) -> Moment:
         """Initial velocities determine the momentum of the pair, not the vibration."""
         device = self.system.device
-        now = Moment(
-            device.initial_velocity,
-            device.initial_resonator_displacement,
-            device.initial_resonator_velocity,
-            device.initial_position,
-        )
+        now = initial_moment(device)
         now.mode, now.complete = self.mode(now), True
         now.mean_velocity = self._slow_velocity(now)
         return now
@@ -120,11 +115,9 @@ class Averaged:
         """The estimate of the error of the slow velocity [m/s].
 
         Averages expand by the velocity that friction changes in a radian of the drive, faces mu
-        N0 / (Mt w), over v_q; what bristles damp counts, too: they bend over a path of 2 mu/s0
-        after each of two reversals in a turn, and damp by the impulse of 2 mu s1/s0 per normal
-        load, but by no more than s1 v_q all the time. What averages leave out lasts as long as the
-        slowest transient of resonator and bristle. Where nothing vibrates, friction is constant and
-        averages are exact.
+        N0 / (Mt w), over v_q. Bristles damp by the impulse of 2 mu s1/s0 per normal load at each of
+        two reversals in a turn, but by no more than s1 v_q all the time. What averages leave out
+        lasts as long as the slowest transient of resonator and bristle.
         """
         device, w, fast = self.system.device, self.system.drive_frequency, self.fast.velocity
         friction, decay = full_friction(device), inf

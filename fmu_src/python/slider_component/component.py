@@ -89,8 +89,8 @@ class Component:
         values = self._state.values
         return [values[name] if name in values else self._output(name) for name in names]
 
-    def step(self, time: float, step_size: float) -> None:
-        """Advance from the present `time` [s] by `step_size` > 0 [s], inputs held."""
+    def step(self, time: float, step_size: float) -> bool:
+        """Advance from the present `time` [s] by `step_size` > 0 [s], inputs held; return True."""
         state = self._required("doStep", Lifecycle.STEP_COMPLETE)
         if not (isfinite(step_size) and step_size > 0.0):
             raise Refusal(refusal_texts.BAD_STEP_SIZE, step_size=step_size)
@@ -106,9 +106,14 @@ class Component:
         if state.values["fidelity"] > 0 and step_size * frequency > tau * max_turns:
             limits = {"frequency": frequency, "max_turns": max_turns}
             raise Refusal(refusal_texts.TOO_MANY_TURNS, step_size=step_size, **limits)
-        now = self._advanced(step_size)
-        now.time = state.time = end
-        state.moment = now
+        with suppress(ArithmeticError, ValueError):
+            now = self._motion.advance(self._present(), step_size)
+            numbers = now.position, now.velocity, now.displacement, now.rate, now.psi, now.theta
+            if all(map(isfinite, numbers)):
+                now.time = state.time = end
+                state.moment = now
+                return True
+        raise Refusal(refusal_texts.INFINITE_MOTION, step_size=step_size)
 
     def snapshot(self) -> dict[str, Any]:
         """Return the complete state, of plain numbers and names."""
@@ -139,14 +144,6 @@ class Component:
             now = self._motion.start()
             now.time = now.last_event_time = self._state.time
         return now
-
-    def _advanced(self, step_size: float) -> Moment:
-        with suppress(ArithmeticError, ValueError):
-            now = self._motion.advance(self._present(), step_size)
-            numbers = now.position, now.velocity, now.displacement, now.rate, now.psi, now.theta
-            if all(map(isfinite, numbers)):
-                return now
-        raise Refusal(refusal_texts.INFINITE_MOTION, step_size=step_size)
 
     def _output(self, name: str) -> float:
         """Return an output. Raises Refusal for one that is not a finite number."""

@@ -113,10 +113,7 @@ def vibration(device: Device) -> Vibration:
 
 
 def held_amplitude(device: Device) -> float:
-    """Amplitude of the steady force of resonator and direct drive on a held slider [N].
-
-    Infinite where undamped resonance leaves no steady vibration.
-    """
+    """Amplitude of the steady force of resonator and direct drive on a held slider [N]."""
     w, oscillator = device.drive_frequency, device.stick_oscillator
     if _is_unbounded(device, oscillator):
         return inf
@@ -186,7 +183,7 @@ class System:
             self.slider_mass, self.mass_fraction = device.slider_mass, device.mass_fraction
             self.spring, self.damper = m * wn * wn, 2.0 * device.damping_ratio * m * wn
             self.direct = complex(device.tangential_force)
-            swinging = [o.frequency for o in (self.slip, self.stick) if o.is_oscillatory]
+            swinging = [o.frequency for o in (self.slip, self.stick) if o.decay < o.frequency]
             self.fastest = max([self.fastest, *swinging])
         else:
             self.slider_mass, self.mass_fraction = device.total_mass, 0.0

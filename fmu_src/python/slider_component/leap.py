@@ -49,19 +49,16 @@ attempts cost a twelfth of resolved motion at most. In them kinks pass and trans
 
 
 class Point(NamedTuple):
-    """A point of the slow manifold, `n` periods after the start of a leap.
+    """A point of the slow manifold, after a number of periods.
 
-    The slow `velocity` [m/s] and the fast states; their rates by period (`acceleration` that of V)
-    and that of the position, `travel`; the estimated `error` of the acceleration; the contact
-    `modes` of the sequence and the moments at the `sections`.
+    The slow `velocity` [m/s] and the fast states; the rates of V and of the position by period, and
+    the error of the former; the contact `modes` over a sequence and the moments at its `sections`.
     """
 
-    n: float
     velocity: float
     fast: Fast
     acceleration: float
     travel: float
-    fast_rate: Fast
     error: float
     modes: list[int]
     sections: list[Moment]
@@ -115,24 +112,16 @@ class SlowMotion:
         error += period_map.share * period_map.speed * size
         if error > period_map.share * period_map.speed * period_map.tolerance:
             raise NoRatesError
-        acceleration, travel, *fast_rate = (_rate(*of) for of in numbers)
-        return Point(n, a, fast, acceleration, travel, fast_rate, error, modes, sections)
+        return Point(a, fast, _rate(*numbers[0]), _rate(*numbers[1]), error, modes, sections)
 
     def rates(self, n: float, velocity: float) -> Rates:
         """The rates at `n` periods and V [m/s].
 
-        Fast states are guessed along the tangent of the last point: by n where rates depend on
-        that or are no larger than their error, by V elsewhere. Raises NoRatesError where contact
-        modes do not repeat as they did at the start of the step: the rates have a kink in between.
+        Raises NoRatesError where contact modes do not repeat as they did at the start of the step:
+        the rates have a kink in between.
         """
-        last = self.last
-        if self.map.drift or abs(last.acceleration) <= last.error:
-            way = n - last.n
-        else:
-            way = (velocity - last.velocity) / last.acceleration
-        guess = [y + way * rate for y, rate in zip(last.fast, last.fast_rate, strict=True)]
         try:
-            found = self.point(n, velocity, guess)
+            found = self.point(n, velocity, self.last.fast)
         except (ArithmeticError, ValueError, Refusal):
             raise NoRatesError from None
         if found.modes != self.here.modes:
@@ -141,11 +130,7 @@ class SlowMotion:
         return found.acceleration, found.travel
 
     def integrate(self, longest: float, error: float) -> tuple[float, float, float]:
-        """Integrate over at most `longest` periods, as far as that goes.
-
-        Returns the periods passed, the travel [m], and the error of the slow velocity [m/s], which
-        is `error` before.
-        """
+        """Return up to `longest` periods that a leap passes, the travel [m], and the error of V."""
         speed, drift, n, travel = self.map.speed, self.map.drift, 0.0, 0.0
 
         def longest_step(n: float, velocity: float, acceleration: float) -> float:

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import sqrt
 
-OSCILLATORY, OVERDAMPED = 0.9, 1.1
-"""Damping ratios below and above which the eigenvalues are well apart."""
+APART = 0.87
+"""Distance of the eigenvalues, over the undamped frequency, from which on they are well apart: at
+damping ratios below 0.9 and above 1.1."""
 
 SLOW = 0.02
 """Share of the drive frequency below which an oscillator or a forcing counts as slow: its steady
@@ -30,11 +31,6 @@ class Oscillator:
         """Undamped angular frequency [rad/s]."""
         return sqrt(self.stiffness)
 
-    @property
-    def is_oscillatory(self) -> bool:
-        """Whether the damping ratio is below OSCILLATORY: it then sets the pace of a motion."""
-        return self.decay < OSCILLATORY * self.frequency
-
     @cached_property
     def eigenvalues(self) -> tuple[complex, complex]:
         """Both eigenvalues [1/s]: conjugate with the upper one first, or the slow one first."""
@@ -44,12 +40,11 @@ class Oscillator:
 
     def splits(self, *frequencies: float) -> bool:
         """Whether free motion and steady responses at `frequencies` [rad/s] lose few digits."""
-        free = self.eigenvalues[0]
+        slow, fast = self.eigenvalues
         if self.frequency < SLOW * max(map(abs, frequencies)):
             return False
-        if not self.is_oscillatory:
-            return self.decay > OVERDAMPED * self.frequency
-        return all(abs(free - complex(0.0, abs(f))) > RESONANT * abs(free) for f in frequencies)
+        resonant = (abs(slow - complex(0.0, abs(f))) < RESONANT * abs(slow) for f in frequencies)
+        return abs(slow - fast) > APART * self.frequency and not any(resonant)
 
     def transfer(self, frequency: float) -> complex:
         """Steady response to exp(i frequency t), as a complex amplitude [s^2]."""

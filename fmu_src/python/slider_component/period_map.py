@@ -40,17 +40,15 @@ class PeriodMap:
 
     The normal load repeats after some turns of the drive, in `period` [s], but for a `drift` [rad]
     of its phase. `section` is the drive phase of the section [rad], `speed` the fast velocity v_q
-    [m/s], `share` the change of V by full friction in a period, over v_q. `scale` are those of the
-    numbers at a section: an error of that size in a fast state is as large as the vibration, or
-    changes V by v_q times `share`.
+    [m/s], `share` the change of V by full friction in a period, over v_q. By its `scale` an error
+    of a fast state is as large as the vibration, or changes V by v_q times `share`.
     """
 
     def __init__(self, system: System, max_turns: int) -> None:
-        """Raises NoRatesError where there is none.
+        """Raises NoRatesError without vibration, where transients do not decay, and where the load
+        is far from repeating after up to `max_turns` turns of the drive.
 
-        That is without vibration, where transients do not decay, and where the load is far from
-        repeating after up to `max_turns` turns of the drive. Raises Refusal where undamped
-        resonance leaves no steady vibration.
+        Raises Refusal where undamped resonance leaves no steady vibration.
         """
         device, w = system.device, system.drive_frequency
         self.vibration = fast = vibration(device)
@@ -102,8 +100,7 @@ class PeriodMap:
     def sections(self, now: Moment, count: int, budget: Budget) -> tuple[list[Moment], list[int]]:
         """The moments at the section in `count` periods, `now` first, and all contact modes.
 
-        Raises NoRatesError where the motion leaves the range of floating point, and Refusal where
-        the budget is spent.
+        Raises NoRatesError beyond the range of floating point, and Refusal beyond the budget.
         """
         sections, modes = [now], [now.mode]
         for _ in range(count):

@@ -10,7 +10,7 @@ from math import tau
 from .budget import Budget
 from .contact import LIFTED
 from .coulomb import Coulomb
-from .device import System
+from .device import Device, System
 from .first_zero import first_zero
 from .lugre import LuGre
 from .moment import Moment
@@ -27,6 +27,12 @@ FRICTION_LAWS: tuple[Coulomb | LuGre, ...] = (Coulomb(), LuGre())
 """In the order of `friction_law`."""
 
 
+def initial_moment(device: Device) -> Moment:
+    """The initial values, at drive and normal phase 0."""
+    velocity, rate = device.initial_velocity, device.initial_resonator_velocity
+    return Moment(velocity, device.initial_resonator_displacement, rate, device.initial_position)
+
+
 class Resolved:
     """Resolved motion with one or two degrees of freedom; other motions have the same methods."""
 
@@ -34,16 +40,15 @@ class Resolved:
         self.system, self.law = system, FRICTION_LAWS[system.device.friction_law]
 
     def start(self) -> Moment:
-        """The first moment, at drive and normal phase 0: the initial values.
+        """The first moment: the initial values.
 
         A resonator that is not resolved vibrates steadily at once; the velocity is chosen so that
         the momentum of the pair is that of the initial values.
         """
         device, system = self.system.device, self.system
-        velocity, rate = device.initial_velocity, device.initial_resonator_velocity
+        now = initial_moment(device)
         if not system.is_full:
-            velocity += device.mass_fraction * (rate - system.steady.swing(0.0)[1])
-        now = Moment(velocity, device.initial_resonator_displacement, rate, device.initial_position)
+            now.velocity += device.mass_fraction * (now.rate - system.steady.swing(0.0)[1])
         if device.friction_law == 1:
             now.bristle = device.bristle_stiffness * device.initial_bristle_deflection
         now.mode = self.mode(now)
@@ -73,19 +78,13 @@ class Resolved:
         return now.leap_error
 
     def advance(self, moment: Moment, duration: float) -> Moment:
-        """The moment after a communication step of `duration` > 0 [s].
-
-        Raises Refusal for more work than a step may take.
-        """
+        """The moment `duration` > 0 [s] later. Raises Refusal for too much work."""
         return self.resolve(moment, duration, Budget(duration, moment.time))
 
     def resolve(
         self, moment: Moment, duration: float, budget: Budget, modes: list[int] | None = None
     ) -> Moment:
-        """The moment `duration` > 0 [s] later; `modes` collects changes of contact mode.
-
-        Raises Refusal for more segments than the budget has.
-        """
+        """As `advance`, within a budget; `modes` collects changes of contact mode."""
         w, now = self.system.drive_frequency, moment.copied()
         now.enter(self.mode(now))
         remaining, lost = duration, 0.0

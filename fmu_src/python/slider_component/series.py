@@ -5,7 +5,6 @@ near resonance without damping, near critical damping, on soft resonators, under
 """
 
 from cmath import rect
-from functools import cached_property, lru_cache
 from itertools import accumulate
 from math import hypot, inf
 from operator import mul, truediv
@@ -119,26 +118,16 @@ class Series:
 
     def work(self, t: float, travelled: float) -> float:
         """As of `Exponentials`."""
-        return _value(self._work, t)
-
-    @cached_property
-    def _work(self) -> list[float]:
-        """The series of the work of friction [J]."""
         force, velocity = self._force, self._velocity
         powers = (sum(map(mul, force, reversed(velocity[: k + 1]))) for k in range(ORDER))
-        return [0.0, *map(truediv, powers, _COUNT)]
+        return _value([0.0, *map(truediv, powers, _COUNT)], t)
 
 
 def _sinusoid(amplitude: complex, frequency: float) -> list[float]:
     """The series of Re(amplitude exp(i frequency t))."""
-    return [(amplitude * power).real for power in _powers(frequency)]
-
-
-@lru_cache(maxsize=64)
-def _powers(frequency: float) -> list[complex]:
-    """The series of exp(i frequency t)."""
     z = complex(0.0, frequency)
-    return list(accumulate(_STEPS, lambda c, step: c * z * step, initial=1 + 0j))
+    terms = accumulate(_STEPS, lambda c, step: c * z * step, initial=amplitude)
+    return [term.real for term in terms]
 
 
 def _watch(coefficients: list[float], sizes: list[float], horizon: float) -> Watch:

@@ -12,7 +12,7 @@ from cmath import exp, rect, sinh
 from math import inf
 
 from .contact import LIFTED
-from .device import EPSILON, System, Term
+from .device import EPSILON, System
 from .first_zero import Watch
 from .moment import Moment, Place
 
@@ -23,13 +23,10 @@ SMALL = 0.1
 """Growth below which an exponential less 1 would lose digits."""
 
 
-def watch_of(side: int, k0: float, k1: float, terms: list[Term], fastest: float) -> Watch:
-    """A watch of `side` (k0 + k1 t + sum of Re(v_z exp(z t))), of frequencies up to `fastest`."""
-    parts, size, k0, k1 = [], abs(k0), side * k0, side * k1
-    for z, v, _ in terms:
-        amplitude = abs(v)
-        size += amplitude
-        parts.append((z, side * v, side * z * v, amplitude * abs(z * z)))
+def _watch(k0: float, k1: float, terms: list[tuple[complex, complex]], fastest: float) -> Watch:
+    """A watch of k0 + k1 t + sum of Re(v exp(z t)), of frequencies up to `fastest`."""
+    size = abs(k0) + sum(abs(v) for _, v in terms)
+    parts = [(z, v, z * v, abs(z * z * v)) for z, v in terms]
 
     def signal(t: float) -> tuple[float, float, float]:
         value, slope, bound = k0 + k1 * t, k1, 0.0
@@ -124,23 +121,24 @@ class Exponentials:
             return self._margins()
         if self.direction == 0:
             return ()
-        fastest = self._system.fastest
-        return (watch_of(self.direction, self._k0, self._k1, self._terms, fastest),)
+        side, fastest = self.direction, self._system.fastest
+        terms = [(z, side * v) for z, v, _ in self._terms]
+        return (_watch(side * self._k0, side * self._k1, terms, fastest),)
 
     def _margins(self) -> tuple[Watch, ...]:
         system, load = self._system, self._system.load
         w, q = system.drive_frequency, system.normal_frequency
-        needed = [(complex(0.0, w), -1j * system.direct * self._turn, 0j)]
-        needed += [(z, (system.spring + system.damper * z) * y, 0j) for z, _, y in self._terms]
-        pull = abs(load) + sum(abs(a) for _, a, _ in needed)
+        needed = [(complex(0.0, w), -1j * system.direct * self._turn)]
+        needed += [(z, (system.spring + system.damper * z) * y) for z, _, y in self._terms]
+        pull = abs(load) + sum(abs(a) for _, a in needed)
         if pull == 0.0 or pull < SURE * (system.friction_preload - system.friction_amplitude):
             return ()
         fastest = max(w, abs(q), system.stick.frequency)
-        limit = (complex(0.0, q), -1j * system.friction_amplitude * rect(1.0, self._chi), 0j)
-        forward = [limit, *((z, -a, y) for z, a, y in needed)]
+        limit = complex(0.0, q), -1j * system.friction_amplitude * rect(1.0, self._chi)
+        forward = [limit, *((z, -a) for z, a in needed)]
         return (
-            watch_of(1, system.friction_preload + load, 0.0, forward, fastest),
-            watch_of(1, system.friction_preload - load, 0.0, [limit, *needed], fastest),
+            _watch(system.friction_preload + load, 0.0, forward, fastest),
+            _watch(system.friction_preload - load, 0.0, [limit, *needed], fastest),
         )
 
 
