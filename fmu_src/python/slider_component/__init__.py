@@ -12,9 +12,10 @@ the next. There are three motions.
   segment, on `device` and `oscillator`. Where these lose digits, and while bristles bend, `series`
   follows it.
 - `averaged` to first order, under the `mean_friction` of a `vibrating_load`.
-- `leap`: over periods, by the `period_map` of resolved motion.
+- `leap`: over periods, by the `period_map` of resolved motion. It solves a `slow_equation`, as
+  averages do.
 
 `prediction` balances mean friction and load, then refines both by `steady_motion`. The interface is
 `variables`; `values`, `outputs` and `budget` keep its promises. `snapshot` has the state of the
-component, and what a stored one must be.
+component.
 """

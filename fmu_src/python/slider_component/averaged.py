@@ -12,15 +12,16 @@ harmonics, and counts with its phase near fractions too.
 The bristle follows the motion periodically; it has no state here.
 """
 
-from math import ceil, copysign, hypot, inf, pi, sin, tau
+from dataclasses import replace
+from math import hypot, inf, pi, sin, tau
 
 from .budget import Budget
 from .constants import MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .contact import LIFTED, direction_of
-from .device import System, full_friction, vibration
+from .device import System, Vibration, full_friction
 from .mean_friction import MAX_WAVES, MeanFriction
 from .moment import Moment
-from .resolved import initial_moment
+from .resolved import Resolved, initial_moment
 from .slow_equation import Rates, SlowEquation
 from .vibrating_load import VibratingLoad, max_turns, turns_to_repeat
 
@@ -28,14 +29,11 @@ NEAR = 0.1
 """Largest distance of the frequency ratio from an integer at which the phase counts as slow; under
 a lifting contact, of q times the ratio, times q."""
 
-MIN_SHARE = 1e-9
-"""Part of a beat up to which a kink ahead counts as the one just passed."""
-
 TOLERANCE = 2e-10
 """Error per step of the slow motion, relative to the fast velocity."""
 
-PIECES = 256
-"""Pieces of a beat, with constant friction in each, in motion without vibration."""
+STILL = 1e-6
+"""Frequency [rad/s] of a drive that moves nothing, so low that it ends no segment."""
 
 FIRST_ORDER = 2.0
 """Error of averages, and of what they leave out, in friction shares and v_q."""
@@ -52,7 +50,7 @@ class Averaged:
     def __init__(self, system: System) -> None:
         """Raises Refusal where undamped resonance leaves no steady vibration."""
         device, ratio = system.device, system.inputs.frequency_ratio
-        self.system, self.fast = system, vibration(device)
+        self.system, self.fast = system, Vibration(device)
         self.law = MeanFriction(device, self.fast.velocity)
         turns = turns_to_repeat(ratio, max_turns(system.normal_load), NEAR)
         self.waves = round(turns * ratio) / turns if turns else ratio
@@ -77,8 +75,11 @@ class Averaged:
         reach = fast.pair_velocity / w
         slow = self._slow_velocity(now)
         centre = now.position + share * now.displacement + reach * sin(now.theta)
-        passed = self._integrated if fast.velocity > 0.0 else self._unshaken
-        slow, moved = passed(self._load_phase(now), slow, duration)
+        if fast.velocity > 0.0:
+            slow, moved = self._integrated(self._load_phase(now), slow, duration)
+        else:
+            later = self._still().advance(Moment(slow, 0.0, 0.0, 0.0, psi=now.psi), duration)
+            slow, moved = later.velocity, later.position
         now.theta = (now.theta + w * duration) % tau
         now.psi = (now.psi + system.normal_frequency * duration) % tau
         now.displacement, now.rate = fast.swing(now.theta)
@@ -93,11 +94,10 @@ class Averaged:
 
     def friction_force(self, now: Moment) -> float:
         """Mean friction force [N] over a drive period, positive against +X."""
-        velocity, phase = self._slow_velocity(now), self._load_phase(now)
-        if self.fast.velocity == 0.0 and velocity == 0.0:
-            full = self._mean_friction(phase, inf)
-            return max(-full, min(full, -self.system.load))
-        return self._mean_friction(phase, velocity)
+        velocity = self._slow_velocity(now)
+        if self.fast.velocity == 0.0:
+            return self._still().friction_force(Moment(velocity, 0.0, 0.0, 0.0, psi=now.psi))
+        return self._mean_friction(self._load_phase(now), velocity)
 
     def friction_power(self, now: Moment) -> float:
         """Mean power of friction [W] over a drive period, of slow motion and vibration."""
@@ -138,6 +138,19 @@ class Averaged:
         swing = 1.0 + (1.0 / decay if decay > 0.0 else inf)
         return min(FIRST_ORDER * changed * swing, max(fast, changed))
 
+    def _still(self) -> Resolved:
+        """The pair without vibration: only the load is averaged, unless it is slow itself."""
+        device, inputs, w = self.system.device, self.system.inputs, STILL
+        if self.waves:
+            mean = device.normal_load.mean
+            device = replace(device, normal_preload=mean, normal_amplitude=0.0)
+        else:
+            w = abs(self.drift) or w
+            inputs = replace(inputs, frequency_ratio=self.drift / w)
+        return Resolved(
+            System(replace(device, fidelity=1, friction_law=0, drive_frequency=w), inputs)
+        )
+
     def _slow_velocity(self, now: Moment) -> float:
         return now.velocity + self.fast.ahead(now.theta, now.rate)
 
@@ -159,46 +172,11 @@ class Averaged:
             friction = self._mean_friction(phase + drift * t, v)
             return -(friction + system.load) / system.total_mass, v
 
-        def longest(t: float, v: float, a: float) -> float:
-            if self.waves:
-                return inf
-            # The load itself is slow, with kinks where the contact lifts or touches down.
-            load, chi = system.normal_load, phase + drift * t
-            ahead = load.time_to_switch(chi, drift, load.is_lifted(chi, drift))
-            return max(ahead, MIN_SHARE * self.beat)
-
         slow_time = fast * system.total_mass / strongest if strongest else inf
-        equation = SlowEquation(rates, fast, TOLERANCE, slow_time, self.beat, longest)
-        budget, t, moved = self._budget(duration), 0.0, 0.0
+        equation = SlowEquation(rates, fast, TOLERANCE, slow_time, self.beat)
+        budget = Budget(duration, 0.0, self.max_steps, "steps of averaged motion")
+        t, moved = 0.0, 0.0
         for to in equation.steps(velocity, rates(0.0, velocity), duration):
             t, velocity, moved = t + to.length, to.velocity, moved + to.travel
             budget.spend(t)
         return velocity, moved
-
-    def _unshaken(self, phase: float, velocity: float, duration: float) -> tuple[float, float]:
-        """The same without vibration, where friction is constant in pieces of a beat."""
-        longest = duration if self.waves else min(duration, self.beat / PIECES)
-        budget, pieces, moved = self._budget(duration), ceil(duration / longest), 0.0
-        piece = duration / pieces
-        for k in range(pieces):
-            friction = self._mean_friction(phase + self.drift * (k + 0.5) * piece, inf)
-            velocity, passed = self._block(velocity, friction, piece)
-            moved += passed
-            budget.spend(k * piece)
-        return velocity, moved
-
-    def _budget(self, duration: float) -> Budget:
-        return Budget(duration, 0.0, self.max_steps, "steps of averaged motion")
-
-    def _block(self, velocity: float, friction: float, t: float) -> tuple[float, float]:
-        """Velocity [m/s] and displacement [m] after `t` [s] under constant friction and load."""
-        load = self.system.load
-        if velocity == 0.0 and abs(load) <= friction:
-            return 0.0, 0.0
-        resistance = copysign(friction, velocity or -load) + load
-        acceleration = -resistance / self.system.total_mass
-        stop = -velocity / acceleration if velocity * acceleration < 0.0 else inf
-        if stop >= t:
-            return velocity + acceleration * t, (velocity + 0.5 * acceleration * t) * t
-        later, moved = self._block(0.0, friction, t - stop)
-        return later, 0.5 * velocity * stop + moved

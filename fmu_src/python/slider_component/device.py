@@ -66,7 +66,7 @@ class Device(Parameters):
         return Oscillator(self.damping_ratio * wn, wn * wn)
 
 
-class Vibration(NamedTuple):
+class Vibration:
     """The steady vibration without friction or load, in closed form (31)-(34), with direct drive.
 
     Its `frequency` [rad/s], velocity amplitudes [m/s], `lag` theta_1 [rad], and complex amplitudes
@@ -75,13 +75,19 @@ class Vibration(NamedTuple):
     gives to the pair, of which the resonator has the `mass_fraction`.
     """
 
-    frequency: float
-    velocity: float
-    pair_velocity: float
-    lag: float
-    force: complex
-    resonator: complex
-    mass_fraction: float
+    def __init__(self, device: Device) -> None:
+        """Raises Refusal where undamped resonance leaves no steady vibration."""
+        w, m, direct = device.drive_frequency, device.resonator_mass, device.tangential_force
+        if _is_unbounded(device, device.slip_oscillator):
+            shown = {"damping_ratio": device.damping_ratio, "drive_frequency": w}
+            raise Refusal(refusal_texts.UNBOUNDED_RESONANCE, **shown)
+        base, inertia = device.base_amplitude * w * w, device.total_mass * w
+        self.frequency, self.mass_fraction = w, device.mass_fraction
+        relative = base - direct / device.slider_mass
+        self.resonator = relative * device.slip_oscillator.transfer(w)
+        self.force = m * (w * w) * (device.base_amplitude + self.resonator) + direct
+        self.velocity, self.lag = abs(self.force) / inertia, -argument(self.force)
+        self.pair_velocity = (m * base + direct) / inertia
 
     def swing(self, theta: float) -> tuple[float, float]:
         """Displacement [m] and velocity [m/s] of the resonator at drive phase `theta` [rad]."""
@@ -95,21 +101,6 @@ class Vibration(NamedTuple):
         what the drive force gives to it: V' is due to friction and load alone.
         """
         return self.mass_fraction * rate + self.pair_velocity * cos(theta)
-
-
-def vibration(device: Device) -> Vibration:
-    """Raises Refusal where undamped resonance leaves no steady vibration."""
-    w, m, direct = device.drive_frequency, device.resonator_mass, device.tangential_force
-    if _is_unbounded(device, device.slip_oscillator):
-        shown = {"damping_ratio": device.damping_ratio, "drive_frequency": w}
-        raise Refusal(refusal_texts.UNBOUNDED_RESONANCE, **shown)
-    base = device.base_amplitude * w * w - direct / device.slider_mass
-    resonator = base * device.slip_oscillator.transfer(w)
-    force = m * (w * w) * (device.base_amplitude + resonator) + direct
-    inertia = device.total_mass * w
-    pair = m * device.base_amplitude * w * w + direct
-    velocities, lag = (abs(force) / inertia, pair / inertia), -argument(force)
-    return Vibration(w, *velocities, lag, force, resonator, device.mass_fraction)
 
 
 def held_amplitude(device: Device) -> float:
@@ -188,7 +179,7 @@ class System:
         else:
             self.slider_mass, self.mass_fraction = device.total_mass, 0.0
             self.spring = self.damper = 0.0
-            self.steady = vibration(device)
+            self.steady = Vibration(device)
             self.direct = self.steady.force
         self.drive = (self.coupling * m * self.base_acceleration + self.direct) / device.total_mass
         self.arc = LONGEST_ARC / self.fastest

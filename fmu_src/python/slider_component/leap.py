@@ -133,7 +133,7 @@ class SlowMotion:
         """Return up to `longest` periods that a leap passes, the travel [m], and the error of V."""
         speed, drift, n, travel = self.map.speed, self.map.drift, 0.0, 0.0
 
-        def longest_step(n: float, velocity: float, acceleration: float) -> float:
+        def longest_step(velocity: float, acceleration: float) -> float:
             to_grazing = TO_GRAZING * abs(abs(velocity) - speed)
             return to_grazing / abs(acceleration) if acceleration else inf
 

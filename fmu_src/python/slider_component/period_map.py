@@ -14,7 +14,7 @@ from math import exp, isfinite, pi, remainder, tau
 
 from .budget import Budget
 from .contact import LIFTED, STICK
-from .device import System, full_friction, vibration
+from .device import System, Vibration, full_friction
 from .moment import Moment
 from .resolved import Resolved
 from .slow_equation import NoRatesError
@@ -51,7 +51,7 @@ class PeriodMap:
         Raises Refusal where undamped resonance leaves no steady vibration.
         """
         device, w = system.device, system.drive_frequency
-        self.vibration = fast = vibration(device)
+        self.vibration = fast = Vibration(device)
         self.tolerance, self.speed = device.tolerance, fast.velocity
         tight = replace(device, tolerance=min(device.tolerance, MAP_TOLERANCE))
         self.motion = Resolved(System(tight, system.inputs))

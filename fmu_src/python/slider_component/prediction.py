@@ -12,7 +12,7 @@ from functools import lru_cache
 from math import copysign, cos, pi, tau
 from typing import NamedTuple
 
-from .device import EPSILON, Device, System, held_amplitude, vibration
+from .device import EPSILON, Device, System, Vibration, held_amplitude
 from .mean_friction import MeanFriction
 from .parameters import Inputs
 from .period_map import PeriodMap
@@ -85,7 +85,7 @@ def theory_range(device: Device) -> tuple[float, ...]:
     """
     velocity = 0.0
     with suppress(Refusal):
-        velocity = vibration(device).velocity
+        velocity = Vibration(device).velocity
     mu, drag, bent = device.friction_coefficient, 0.0, 0.0
     if device.friction_law == 1:
         drag = device.bristle_damping * max(velocity, abs(device.initial_velocity)) / mu
@@ -103,7 +103,7 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
     """
     fast, none = None, Prediction(0.0, 0.0, holds=False, valid=False)
     with suppress(Refusal):
-        fast = vibration(device)
+        fast = Vibration(device)
     if fast is None or fast.velocity == 0.0:
         return none
     w, faces, mu = device.drive_frequency, device.friction_faces, device.friction_coefficient

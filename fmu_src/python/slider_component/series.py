@@ -23,9 +23,6 @@ _COUNT = range(1, ORDER + 2)
 _STEPS = tuple(1.0 / count for count in range(1, ORDER + 1))
 """By which integration multiplies each coefficient."""
 
-FIRST_TERMS = 5
-"""Terms of a series by which its velocity is measured."""
-
 NEGLIGIBLE_MOTION = 1e-200
 """Motion [m/s] that is not measured."""
 
@@ -151,7 +148,7 @@ def _value(coefficients: list[float], t: float) -> float:
 def _reach(coefficients: list[float], tolerance: float, scale: float) -> float:
     """How far the series of a velocity holds [s]; see Series."""
     reach = _reach_of_last(coefficients, tolerance * scale)
-    size = _value(list(map(abs, coefficients[:FIRST_TERMS])), reach)
+    size = _value(list(map(abs, coefficients)), reach)
     return _reach_of_last(coefficients, tolerance * min(scale, 10.0 * max(size, NEGLIGIBLE_MOTION)))
 
 

@@ -19,9 +19,6 @@ from .moment import Moment, Place
 SURE = 0.999999
 """Share of the smallest limit of friction below which forces cannot reach it, beyond rounding."""
 
-SMALL = 0.1
-"""Growth below which an exponential less 1 would lose digits."""
-
 
 def _watch(k0: float, k1: float, terms: list[tuple[complex, complex]], fastest: float) -> Watch:
     """A watch of k0 + k1 t + sum of Re(v exp(z t)), of frequencies up to `fastest`."""
@@ -144,7 +141,5 @@ class Exponentials:
 
 def _integral(z: complex, t: float) -> complex:
     """Integral of exp(z t) from 0 to `t`."""
-    if abs(z) * t > SMALL:
-        return (exp(z * t) - 1.0) / z
     half = 0.5 * t * z
     return t * exp(half) * sinh(half) / half if half else complex(t)

@@ -45,8 +45,8 @@ class SlowEquation:
 
     `rates` at a time and V raises NoRatesError where there are none. Steps may err by the
     `tolerance`, over the `speed`; in the `slow_time` rates may change V by that. Rates repeat after
-    a `beat`; if that is infinite they depend on V alone. `longest` limits steps, by the time, V and
-    its rate. Steps are whole numbers of at least `shortest`, unless that is 0.
+    a `beat`; if that is infinite they depend on V alone. `longest` limits steps, by V and its rate.
+    Steps are whole numbers of at least `shortest`, unless that is 0.
     """
 
     rates: Callable[[float, float], Rates]
@@ -54,7 +54,7 @@ class SlowEquation:
     tolerance: float
     slow_time: float
     beat: float
-    longest: Callable[[float, float, float], float]
+    longest: Callable[[float, float], float] = lambda velocity, acceleration: inf
     shortest: float = 0.0
 
     def steps(self, velocity: float, here: Rates, duration: float) -> Iterator[Step]:
@@ -67,7 +67,7 @@ class SlowEquation:
                 with suppress(NoRatesError):
                     to = self._to_balance(t, velocity, duration - t, here, gain)
             if to is None:
-                longest = min(BEAT_SHARE * self.beat, self.longest(t, velocity, here[0]))
+                longest = min(BEAT_SHARE * self.beat, self.longest(velocity, here[0]))
                 size = min(size, duration - t, longest)
                 if self.shortest:
                     size = float(floor(size))

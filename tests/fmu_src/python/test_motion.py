@@ -13,7 +13,7 @@ from fmu_src.python.slider_component.mean_friction import (
     MAX_WAVES,
     NODES,
     MeanFriction,
-    _gauss_legendre,
+    fejer,
 )
 from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.oscillator import Oscillator
@@ -100,7 +100,7 @@ def test_twice_the_nodes_change_no_mean(
     load = VibratingLoad(NormalLoad(1.0, 1.5), n, 0.7)
     turnings = (1e-3, 0.3, 1.1, 2.0, 3.1)
     means = [friction.mean(load, turning) for turning in turnings]
-    monkeypatch.setattr(mean_friction, "_RULE", _gauss_legendre(2 * NODES))
+    monkeypatch.setattr(mean_friction, "_RULE", fejer(2 * NODES))
     finer = [friction.mean(load, turning) for turning in turnings]
     assert means == pytest.approx(finer, abs=1e-12 * 0.1)
 
