@@ -145,7 +145,7 @@ class Averaged:
             mean = device.normal_load.mean
             device = replace(device, normal_preload=mean, normal_amplitude=0.0)
         else:
-            w = abs(self.drift) or w
+            w = max(abs(self.drift), w)
             inputs = replace(inputs, frequency_ratio=self.drift / w)
         return Resolved(
             System(replace(device, fidelity=1, friction_law=0, drive_frequency=w), inputs)
