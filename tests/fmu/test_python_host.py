@@ -39,7 +39,7 @@ for folder in ("first", "second"):
     unpacked = unpack(Path(sys.argv[1]), Path(sys.argv[2], folder))
     for _ in range(3):
         Instance(unpacked).initialize().free()
-print(asked.count("_release_interpreter"))
+print(asked.count("release_interpreter"))
 """
 
 

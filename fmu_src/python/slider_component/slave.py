@@ -112,12 +112,12 @@ def _release_interpreter_at_exit(unpacked: Path) -> None:
     """
     binary = unpacked / "binaries" / "linux64" / f"{SliderResonatorPy.__name__}.so"
 
-    def release() -> None:
+    def release_interpreter() -> None:
         # Only if the host still has it loaded: keeping it loaded costs 0.3 MB per unpacked FMU.
         with contextlib.suppress(OSError):
             ctypes.CDLL(str(binary), mode=os.RTLD_NOLOAD | os.RTLD_NOW).finalizePythonInterpreter()
 
-    atexit.register(release)
+    atexit.register(release_interpreter)
 
 
 def _names(kind: str, references: list[int]) -> list[str]:
