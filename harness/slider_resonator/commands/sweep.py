@@ -13,14 +13,14 @@ from slider_resonator.device.values import si_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import print_result, print_text
+from slider_resonator.output.console import print_result
 from slider_resonator.output.files import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
 from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.sweeping.grid import grid_from, read_grid
 from slider_resonator.sweeping.sweeping import run_sweep
-from slider_resonator.sweeping.table import SUFFIXES, journal_path
+from slider_resonator.sweeping.table import SUFFIXES
 
 
 def _axis(text: str) -> tuple[str, dict[str, float]]:
@@ -158,10 +158,6 @@ def sweep_command(
         result.plot(plot)
     if html is not None:
         write_sweep_page(html, sweep, result.columns, provenance)
-    for number in result.damaged:
-        print_text(
-            f"{journal_path(out)} entry {number}: damaged; its points were computed again", err=True
-        )
     facts = {"points": result.points, "found": result.found, "failed": result.failed}
     facts["unanswered"] = result.unanswered
     document = {"out": str(out), **facts, "first_error": result.first_error}

@@ -19,7 +19,7 @@ from slider_resonator.device.interface import FIRST, SETTABLE, VARIABLES
 from slider_resonator.errors import FmuError, HarnessError, NotApplicable, unknown_name
 from slider_resonator.fmu.interface_check import interface_problems
 from slider_resonator.fmu.limits import MAX_ENTRIES, UNPACKED, max_bytes
-from slider_resonator.output.temporary import temporary_folder
+from slider_resonator.output.files import temporary_folder
 
 _TYPES_OF_FMI_3 = {"Float64": "Real", "Int32": "Integer"}
 """Type of FMI 3.0 to that of FMI 2.0, which the harness speaks of."""

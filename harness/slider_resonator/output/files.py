@@ -5,7 +5,7 @@ import stat
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryFile
+from tempfile import TemporaryDirectory, TemporaryFile
 from typing import Any
 from uuid import uuid4
 
@@ -77,6 +77,13 @@ def distinct(targets: Mapping[str, Path | None], sources: Mapping[str, Path]) ->
             if path.samefile(other) if there else path.resolve() == other.resolve():
                 raise HarnessError(f"{option} {path} is {name}; must be a file of its own")
         taken[f"the file of {option}"] = path
+
+
+@contextmanager
+def temporary_folder() -> Iterator[Path]:
+    """Yield a new folder, in the folder for temporary files, for the length of the block."""
+    with TemporaryDirectory(prefix="slider-resonator-", ignore_cleanup_errors=True) as folder:
+        yield Path(folder)
 
 
 @contextmanager

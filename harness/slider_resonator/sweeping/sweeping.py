@@ -64,14 +64,12 @@ class SweepResult(Shown, Tabular, Drawable):
     """A finished sweep: `found` points were finished before it began, `failed` have an error.
 
     `unanswered` have no error, but a measure that does not exist there, such as a steady velocity.
-    `damaged` are the entries of the journal that were dropped, and their points computed again.
     """
 
     points: int
     found: int
     failed: int
     unanswered: int
-    damaged: Sequence[int]
     first_error: str | None
     columns: Columns
     sweep: Sweep
@@ -156,7 +154,7 @@ def run_sweep(
     with Journal(journal_path(out), "sweep", digest, remedy, restart=restart) as journal:
         rows: dict[int, Row] = {
             number: (number, cells, error)
-            for kept in journal.entries.values()
+            for kept in journal.entries
             for number, cells, error in kept
         }
         found = len(rows)
@@ -204,7 +202,6 @@ def run_sweep(
                 columns["error"], *(columns[name] for name in sweep.task.measures), strict=True
             )
         ),
-        damaged=journal.damaged,
         first_error=errors[0] if errors else None,
         columns=columns,
         sweep=sweep,

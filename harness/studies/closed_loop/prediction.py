@@ -16,7 +16,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.opening import check_unpacked_size
-from slider_resonator.output.temporary import temporary_folder
+from slider_resonator.output.files import temporary_folder
 from slider_resonator.scenes.scene import Scene, scene_from
 from studies.closed_loop.duty import Duty, LoadInterval
 from studies.closed_loop.loop import DESIGN, FIDELITY, LoopRecord, parameters

@@ -10,7 +10,7 @@ import numpy as np
 
 from slider_resonator.device.interface import OUTPUTS
 from slider_resonator.errors import HarnessError
-from slider_resonator.output.temporary import temporary_folder
+from slider_resonator.output.files import temporary_folder
 from studies.hosts.hosts import Host
 from studies.hosts.job import HostAnswer, Job, Rows, read_answers, write_jobs
 from studies.hosts.program import run_program

@@ -10,9 +10,9 @@ from contextlib import ExitStack
 from dataclasses import astuple
 from pathlib import Path
 
+from slider_resonator.output.files import temporary_folder
 from slider_resonator.output.journal import Journal
 from slider_resonator.output.progress import counted
-from slider_resonator.output.temporary import temporary_folder
 from studies.mutants.bench import Judging, bench_of
 from studies.mutants.trial import BenchPoint, point_name, trial
 from studies.mutants.verdict import EQUIVALENT, REJECTED, STATUSES, SURVIVED, Variant, Verdict
@@ -37,7 +37,7 @@ def judge_variants(
         bench = bench_of(original, judging)
         journal = _journal(judging.journal or folder / "kept", original, bench)
         kept_in = resources.enter_context(journal)
-        kept = {mark: parts for mark, *parts in kept_in.entries.values()}
+        kept = {mark: parts for mark, *parts in kept_in.entries}
 
         def judged(variant: Variant) -> Verdict[Variant]:
             if _mark(variant) in kept:

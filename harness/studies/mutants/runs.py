@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from slider_resonator.output.temporary import temporary_folder
+from slider_resonator.output.files import temporary_folder
 from studies.mutants.archive import PythonFmu
 from studies.mutants.bench import Judging
 from studies.mutants.changes import Change

@@ -23,8 +23,8 @@ from slider_resonator.fmu.isolation.messages import (
     Started,
 )
 from slider_resonator.fmu.isolation.supervised import Supervised
+from slider_resonator.output.files import temporary_folder
 from slider_resonator.output.progress import Progress as ReportProgress
-from slider_resonator.output.temporary import temporary_folder
 
 PRINTED = "printed.txt"
 """File with what the FMU has printed."""
