@@ -37,9 +37,8 @@ from slider_resonator.choosing import Choice
 from slider_resonator.choosing import choose as choose_model
 from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import MAX_DENOMINATOR
-from slider_resonator.device.interface import SETTABLE
-from slider_resonator.device.values import check_value, si_value
-from slider_resonator.errors import HarnessError, SceneError, unknown_name
+from slider_resonator.device.values import settable_value
+from slider_resonator.errors import HarnessError, SceneError
 from slider_resonator.fitting.fit import STARTS, isolated
 from slider_resonator.fitting.fit import fit as fit_parameters
 from slider_resonator.fitting.measurements import Measurements
@@ -52,7 +51,7 @@ from slider_resonator.fmu.run import Record
 from slider_resonator.fmu.run import run as run_schedule
 from slider_resonator.output.progress import no_progress
 from slider_resonator.output.shown import Drawable
-from slider_resonator.scenes.device_file import device_values, possible_slips, read_device_file
+from slider_resonator.scenes.device_file import checked_device, possible_slips, read_device_file
 from slider_resonator.scenes.device_file import to_toml as device_text
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes
@@ -406,7 +405,7 @@ def _stated(device: DeviceLike | None) -> dict[str, float]:
         start = vars(Device())
         return {n: value for n, value in _checked(vars(device)).items() if value != start[n]}
     if isinstance(device, Mapping):
-        values = device_values({"device": _plain(device)}, "device")
+        values = checked_device(_plain(device), "device")
         _warn(possible_slips(device))
         return values
     read = read_device_file(str(device))
@@ -432,15 +431,10 @@ def _fmu(fmu: str | Path | None) -> Path:
 
 
 def _checked(values: Mapping[str, Value]) -> dict[str, float]:
-    checked: dict[str, float] = {}
-    for name, value in values.items():
-        if name not in SETTABLE:
-            raise SceneError(unknown_name("parameter or input", name, SETTABLE))
-        try:
-            checked[name] = si_value(name, value) if isinstance(value, str) else _plain(value)
-            check_value(name, checked[name])
-        except ValueError as error:
-            raise SceneError(str(error)) from error
+    try:
+        checked = {name: settable_value(name, value) for name, value in _plain(values).items()}
+    except ValueError as error:
+        raise SceneError(str(error)) from error
     _warn(possible_slips(values))
     return checked
 

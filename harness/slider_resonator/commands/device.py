@@ -13,7 +13,6 @@ from slider_resonator.output.files import distinct, write_text
 from slider_resonator.output.readable import escaped, number_of, one_line
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.device_file import (
-    device_content,
     example_devices,
     find_device,
     read_device_file,
@@ -59,7 +58,7 @@ def device_command(
     elif ssv is not None:
         raise click.UsageError(f"--ssv {ssv}: must be with a device file or an example")
     else:
-        titles = {name: device_content(path)["title"] for name, path in example_devices().items()}
+        titles = {name: read_device_file(name).title for name in example_devices()}
         if as_json:
             print_json({"devices": [{"name": n, "title": title} for n, title in titles.items()]})
             return

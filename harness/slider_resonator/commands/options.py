@@ -11,8 +11,8 @@ from typing import Any, TypeVar
 import click
 
 from slider_resonator.device.interface import SETTABLE
-from slider_resonator.device.values import check_value, is_number, si_number, si_value
-from slider_resonator.errors import FmuError, HarnessError, unknown_name
+from slider_resonator.device.values import is_number, settable_value, si_number, si_value
+from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.fmu import finished
 from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.output.files import writable
@@ -87,10 +87,7 @@ def setting(text: str) -> tuple[str, float]:
     name = name.strip()
     if not separator:
         raise ValueError(f"{text!r} is not NAME=VALUE, such as phase=0.4")
-    if name not in SETTABLE:
-        raise ValueError(unknown_name("parameter or input", name, SETTABLE))
-    value = si_value(name, number)
-    check_value(name, value)
+    value = settable_value(name, number)
     if is_number(number):
         note(possible_slips({name: value}))
     return name, value

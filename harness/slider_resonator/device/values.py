@@ -7,7 +7,8 @@ from math import isclose, isfinite
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
-from slider_resonator.device.interface import VARIABLES
+from slider_resonator.device.interface import SETTABLE, VARIABLES
+from slider_resonator.errors import unknown_name
 
 LARGEST = sys.float_info.max
 LARGEST_INTEGER = 2**31 - 1
@@ -92,9 +93,20 @@ def si_value(name: str, text: str) -> float:
     """Return the value of a parameter or input in its SI unit, as `si_number` does."""
     variable = VARIABLES[name]
     if variable.kind == "Integer" and not is_number(text):
-        allowed = f"{variable.minimum:.0f} to {variable.maximum:.0f}"
-        raise ValueError(f"{name} = {text!r}: must be an integer, {allowed}")
+        raise ValueError(f"{name} = {text!r}: must be {variable.requirement}")
     return si_number(name, text, variable.unit)
+
+
+def settable_value(name: str, value: Any) -> float:
+    """Return a value of a parameter or input, a number or text, in its SI unit.
+
+    Raises ValueError, with name, value and requirement, for one that the interface does not have.
+    """
+    if name not in SETTABLE:
+        raise ValueError(unknown_name("parameter or input", name, SETTABLE))
+    number = si_value(name, value) if isinstance(value, str) else value
+    check_value(name, number)
+    return float(number)
 
 
 def si_number(name: str, text: str, unit: str) -> float:

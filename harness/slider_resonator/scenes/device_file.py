@@ -9,13 +9,13 @@ from typing import Any
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.interface import INPUTS, PARAMETERS, VARIABLES
-from slider_resonator.device.values import check_value, si_number, si_value, with_unit
+from slider_resonator.device.interface import VARIABLES
+from slider_resonator.device.values import si_value, with_unit
 from slider_resonator.errors import SceneError, unknown_name
-from slider_resonator.scenes.key_table import PARAMETER_MEANINGS
+from slider_resonator.scenes.explanations import table_from
+from slider_resonator.scenes.schema import DeviceFileTable
 from slider_resonator.scenes.toml_file import read_toml, toml_value
 
-_TEXTS = ("name", "title", "description")
 _MARKS: Mapping[str, tuple[str, ...]] = {
     "grid": ("grid", "list", "random", "measures"),
     "scene": ("run", "expect", "inputs", "tuning", "beside", "need", "sweep"),
@@ -81,71 +81,11 @@ def read_device_file(name_or_file: str, folder: Path = Path()) -> DeviceFile:
     Raises SceneError with file, key, value and requirement.
     """
     path = find_device(name_or_file, folder)
-    content = device_content(path)
-    return DeviceFile(
-        path,
-        str(content.get("title", name_or_file)),
-        device_values(content, str(path)),
-        possible_slips(content["device"]),
-    )
-
-
-def device_content(path: Path) -> dict[str, Any]:
-    """Return the parsed text of a device file; SceneError for a file of another kind."""
     content = read_toml(path)
     refuse_other_kinds(content, str(path), "device")
-    for key in content:
-        if key not in (*_TEXTS, "device"):
-            where = f"a parameter must be below [device]: {key} = {content[key]!r}"
-            known = key in PARAMETERS
-            raise SceneError(
-                f"{path}: {where if known else unknown_name('key', key, (*_TEXTS, 'device'))}"
-            )
-    if not isinstance(content.get("device"), dict):
-        raise SceneError(f"{path}: must have a table headed [device]")
-    return content
-
-
-def device_values(content: Mapping[str, Any], source: str) -> dict[str, float]:
-    """Return the parameters below [device] in SI units.
-
-    Raises SceneError with a line for each mistake: key, value and requirement.
-    """
-    values: dict[str, float] = {}
-    mistakes = []
-    for name, value in content.get("device", {}).items():
-        try:
-            values[name] = _value(name, value)
-        except ValueError as error:
-            mistakes.append(f"{source}: {error}")
-    if mistakes:
-        raise SceneError("\n".join(mistakes))
-    return values
-
-
-def _value(name: str, value: Any) -> Any:
-    """Return the value of a parameter in its SI unit; ValueError with key, value, requirement."""
-    key = f"device.{name}"
-    if name in INPUTS:
-        must = "must be given by --set, or in [inputs] of a scene"
-        raise ValueError(f"device: {name} is an input; {must}")
-    if name in _TEXTS:
-        raise ValueError(f"device: {name} must be above [device]")
-    if name not in PARAMETERS:
-        raise ValueError(f"device: {unknown_name('parameter', name, PARAMETERS)}")
-    if isinstance(value, bool):
-        raise ValueError(f"{key} = {str(value).lower()}: must be a number")
-    variable = VARIABLES[name]
-    if isinstance(value, str) and variable.kind == "Integer":
-        must = f"{variable.requirement}: {PARAMETER_MEANINGS[name]}"
-        raise ValueError(f"{key} = {value!r}: must be {must}")
-    if isinstance(value, str):
-        value = si_number(key, value, variable.unit)
-    try:
-        check_value(name, value)
-    except ValueError as error:
-        raise ValueError(f"device.{error}") from error
-    return value
+    table = table_from(DeviceFileTable, content, str(path))
+    slips = possible_slips(content["device"])
+    return DeviceFile(path, table.title or name_or_file, table.device.stated, slips)
 
 
 FREQUENCIES = ("drive_frequency", "resonator_frequency")
@@ -212,21 +152,20 @@ def to_ssv(device: Device, name: str) -> str:
 
     Raises SceneError as `to_toml` does.
     """
-    device = _plain_device(device)
+    values = checked_device(vars(device), "the device")
     space = "http://ssp-standard.org/SSP1/SystemStructureParameterValues"
     root = Element("ssv:ParameterSet", {"xmlns:ssv": space, "version": "1.0", "name": name})
     parameters = SubElement(root, "ssv:Parameters")
-    for key in PARAMETERS:
-        value = getattr(device, key)
+    for key, value in values.items():
         parameter = SubElement(parameters, "ssv:Parameter", name=key)
         SubElement(parameter, f"ssv:{VARIABLES[key].kind}", value=repr(value))
     indent(root)
     return tostring(root, encoding="unicode", xml_declaration=True) + "\n"
 
 
-def _plain_device(device: Device) -> Device:
-    """Return a device of plain numbers in SI units, from one of any numbers or texts."""
-    return Device.from_mapping(device_values({"device": vars(device)}, "the device"))
+def checked_device(device: Mapping[str, Any], source: str) -> dict[str, float]:
+    """Return parameters, numbers or texts with a unit, in SI units; SceneError as for a file."""
+    return table_from(DeviceFileTable, {"device": device}, source).device.stated
 
 
 def to_toml(device: Device, title: str = "") -> str:
@@ -234,12 +173,11 @@ def to_toml(device: Device, title: str = "") -> str:
 
     Raises SceneError for a device that no device file could state.
     """
-    device, start = _plain_device(device), Device()
+    start = vars(Device())
     lines = [f"title = {toml_value(title)}", ""] if title else []
     lines.append("[device]")
-    for name in PARAMETERS:
-        value = getattr(device, name)
-        if value != getattr(start, name) or name == "friction_faces":
+    for name, value in checked_device(vars(device), "the device").items():
+        if value != start[name] or name == "friction_faces":
             unit = VARIABLES[name].unit
             said = "" if unit == "1" else f"  # {unit}, {with_unit(name, value)}"
             lines.append(f"{name} = {value!r}{said}")

@@ -2,25 +2,20 @@
 
 from collections.abc import Mapping
 from datetime import date, time
-from typing import Any, get_args
+from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from slider_resonator.device.device import DEVIATIONS
-from slider_resonator.device.interface import (
-    INPUTS,
-    INTEGERS,
-    OUTPUTS,
-    PARAMETERS,
-    TUNABLES,
-    VARIABLES,
-)
-from slider_resonator.errors import unknown_name
+from slider_resonator.device.interface import INPUTS, OUTPUTS, PARAMETERS, TUNABLES
+from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.scenes.expansion import with_bundles
-from slider_resonator.scenes.key_table import NAMED, PARAMETER_MEANINGS
-from slider_resonator.scenes.schema import RunTable, SceneTable
+from slider_resonator.scenes.schema import DeviceFileTable, RunTable, SceneTable
+from slider_resonator.scenes.si_values import with_si_values
 from slider_resonator.scenes.toml_file import toml_value
+
+TableT = TypeVar("TableT", bound=BaseModel)
 
 _REQUIREMENTS: Mapping[str, str] = {
     "dict_type": "a table of keys and values",
@@ -48,94 +43,83 @@ _NUMBERS = ("finite_number", "float_type", "greater_than", "greater_than_equal",
 """Types of error whose explanation names the unit of the key."""
 
 
+_NO_UNITS = ("1", "unit of the quantity")
+
+
 PLACES: Mapping[str, str] = {
     **dict.fromkeys(OUTPUTS, "an output cannot be set"),
     **dict.fromkeys(PARAMETERS, "a parameter must be in [device]"),
     **dict.fromkeys(TUNABLES, "a tunable parameter must be in [device] or in [tuning]"),
-    **dict.fromkeys((*INPUTS, *DEVIATIONS), "an input must be in [inputs]"),
+    **dict.fromkeys((*INPUTS, *DEVIATIONS), "an input must be given by --set, or in [inputs]"),
     **dict.fromkeys(RunTable.model_fields, "must be in [run]"),
     **dict.fromkeys(SceneTable.model_fields, "must be above the first heading"),
 }
 """The table to which a key belongs that was found in another table."""
 
 
-_TABLES = {("beside",), ("device",), ("inputs",), ("need",), ("run",), ("sweep",), ("tuning",)}
-
-
 AXIS = ("<values>", "<range>")
 """Tags of the two forms of an axis of a grid; like that of a constant input they are no keys."""
 
 
-def explanations(
-    source: str,
-    error: ValidationError,
-    content: Mapping[str, Any],
-    top: type[BaseModel] = SceneTable,
-) -> list[str]:
-    """Return one line per error in the content of a file: key path, value and requirement.
+def table_from(table: type[TableT], content: Mapping[str, Any], source: str) -> TableT:
+    """Return the content of a file as a table of a schema, texts with units in SI units.
 
-    `top` is the schema of the file. Of the errors of one kind in a list only the first is reported.
+    Raises SceneError with a line for each mistake: `source`, key path, value and requirement. Of
+    the mistakes of one kind in a list only the first is reported.
     """
-    first: dict[tuple[object, ...], ErrorDetails] = {}
-    for problem in error.errors():
-        place = problem["loc"]
-        in_list = bool(place) and isinstance(place[-1], int)
-        first.setdefault((problem["type"], *(place[:-1] if in_list else place)), problem)
-    return [f"{source}: {_explanation(problem, content, top)}" for problem in first.values()]
+    content = with_si_values(content, source)
+    try:
+        return table.model_validate(content)
+    except ValidationError as error:
+        first: dict[tuple[object, ...], ErrorDetails] = {}
+        for problem in error.errors():
+            place = problem["loc"]
+            in_list = bool(place) and isinstance(place[-1], int)
+            first.setdefault((problem["type"], *(place[:-1] if in_list else place)), problem)
+        lines = [f"{source}: {_explanation(one, content, table)}" for one in first.values()]
+        raise SceneError("\n".join(lines)) from error
 
 
 def _explanation(problem: ErrorDetails, content: Mapping[str, Any], top: type[BaseModel]) -> str:
     """Return key path, value and requirement of an error."""
     location = tuple(part for part in problem["loc"] if part not in ("constant", *AXIS))
-    key, kind = _key_path(_named(location, content)), problem["type"]
+    kind, value = problem["type"], problem["input"]
+    wrong = problem["msg"].removeprefix("Value error, ")
     if not location:
-        return problem["msg"].removeprefix("Value error, ")
-    if kind == NAMED:
-        return f"{key}.{problem['msg']}"
-    if kind == "extra_forbidden":
-        name, fields = str(location[-1]), _table_at(location, top).model_fields
-        if top is SceneTable and name in PLACES and (len(location) > 1 or name not in fields):
-            return f"{key}: unknown key {name!r}; {PLACES[name]}"
-        known = [field.alias or other for other, field in fields.items()]
-        return f"{key}: {unknown_name('key', name, known)}"
+        return wrong
     if kind == "missing" and isinstance(location[-1], int):
-        return f"{_key_path(location[:-1])}: must be a pair [time (s), value]"
+        location = location[:-1]  # a pair of one number
+    name, key = location[-1], _key_path(_named(location, content))
+    if wrong.startswith(f"{name} = "):
+        return key.removesuffix(str(name)) + wrong
+    if kind == "extra_forbidden":
+        fields = _table_at(location, top).model_fields
+        if name in PLACES and top in (SceneTable, DeviceFileTable):
+            return f"{key}: unknown key {name!r}; {PLACES[str(name)]}"
+        known = [field.alias or other for other, field in fields.items()]
+        return f"{key}: {unknown_name('key', str(name), known)}"
+    if len(location) > 1 and location[-2] in ("steps", "ramp"):
+        wrong, kind = "must be a pair [time (s), value]", ""
     field = _field_at(location, top)
     if kind == "missing":
         examples = field.examples if field else None
-        example = f"; add {location[-1]} = {toml_value(examples[0])}" if examples else ""
+        example = f"; add {name} = {toml_value(examples[0])}" if examples else ""
         return f"{key}: is missing{example}"
-    value = problem["input"]
-    text = str(value) if isinstance(value, date | time) else repr(value)
-    shown = "" if isinstance(value, dict) else f" = {text}"
-    wrong = problem["msg"].removeprefix("Value error, ")
     if kind in _REQUIREMENTS:
         wrong = "must be " + _REQUIREMENTS[kind].format(**problem.get("ctx", {}))
-        wrong += _in_unit(location, field) if kind in _NUMBERS else ""
+        unit = (field.json_schema_extra or {}).get("unit", "1") if field else "1"
+        wrong += f", in {unit}" if kind in _NUMBERS and unit not in _NO_UNITS else ""
     if location == ("expect",):
         wrong = "must be a list of tables, each headed [[expect]]"
-    in_points = len(location) > 1 and location[-2] in ("steps", "ramp")
-    if in_points and isinstance(location[-1], int):
-        wrong = "must be a pair [time (s), value]"
-    if location in _TABLES and isinstance(value, list):
+    elif kind == "model_type" and isinstance(value, list):
         wrong = f"must be one table, headed [{key}]"
     if problem["loc"][-1] == "constant" and str(value).lower().endswith(".csv"):
         wrong = f"must be a number, or a file such as {{ csv = {toml_value(value)} }}"
-    if problem["loc"][-1] == "constant" and isinstance(value, list):
-        wrong = (
-            "must be a number, or values over time such as { steps = [[0.0, 0.0], [0.05, 0.04]] }"
-        )
+    elif problem["loc"][-1] == "constant" and isinstance(value, list):
+        wrong = "must be a number, or values over time such as { steps = [[0, 0], [0.05, 0.04]] }"
+    text = str(value) if isinstance(value, date | time) else repr(value)
+    shown = "" if isinstance(value, dict) else f" = {text}"
     return f"{key}{shown}: {wrong}"
-
-
-def _in_unit(location: tuple[int | str, ...], field: Any) -> str:
-    name = str(location[-1])
-    if "device" in location and name in INTEGERS:
-        return f": {PARAMETER_MEANINGS[name]}"
-    unit = (field.json_schema_extra or {}).get("unit", "1") if field else "1"
-    if "device" in location and name in PARAMETERS:
-        unit = VARIABLES[name].unit or "1"
-    return f", in {unit}" if unit not in ("1", "unit of the quantity") else ""
 
 
 def _key_path(location: tuple[int | str, ...]) -> str:

@@ -7,9 +7,8 @@ from pydantic import model_validator
 from slider_resonator.scenes.key_table import (
     KeyTable,
     Number,
-    Parameters,
+    ParametersTable,
     Point,
-    device_schema,
     exactly_one,
     key,
 )
@@ -133,11 +132,10 @@ class BesideTable(KeyTable):
         "Needed by the quantity `beside_differences` alone: the two instances step in turn.",
     )
 
-    device: Parameters = key(
+    device: ParametersTable = key(
         "parameters of the second instance that differ from table 1",
         {"damping_ratio": 0.02},
-        default={},
-        **device_schema(),
+        default=ParametersTable(),
     )
     inputs: InputsTable = key(
         "inputs of the second instance", {"phase": 1.0}, default=InputsTable()

@@ -4,6 +4,9 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
+from pydantic_core import core_schema
+
 from slider_resonator.scenes.expansion import bundles
 from slider_resonator.scenes.key_table import NUMBER_OR_TEXT
 from slider_resonator.scenes.schema import SceneTable
@@ -27,10 +30,14 @@ def scene_schema() -> dict[str, Any]:
 
     Of a file with variants or bundles, which give what a table leaves out, any part is accepted.
     """
-    scene: dict[str, Any] = _with_units(_without_null(SceneTable.model_json_schema()))
+    scene = SceneTable.model_json_schema(schema_generator=_InEditors)
     tables = scene.pop("$defs")
-    scene["properties"]["expect_bundles"]["items"] = {"enum": list(bundles())}
-    scene["properties"]["device"]["type"] = ["object", "string"]  # or a name or file of a device
+    properties = scene["properties"]
+    properties["expect_bundles"]["items"] = {"enum": list(bundles())}
+    device = {"$ref": properties["device"].pop("$ref")}
+    properties["device"]["anyOf"] = [device, {"type": "string"}]  # or its name or file
+    for name in _WITHOUT_UNIT:
+        tables["RunTable"]["properties"][name]["type"] = "number"
     for name, groups in _ONE_OF.items():
         tables[name]["allOf"] = [
             {"oneOf": [{"required": [key]} for key in group]} for group in groups
@@ -70,31 +77,22 @@ def _part(table: Mapping[str, Any]) -> dict[str, Any]:
     return part
 
 
-def _with_units(schema: Any) -> Any:
-    """Return a schema that takes a text with a unit in place of each number that may have one."""
-    if isinstance(schema, list):
-        return [_with_units(entry) for entry in schema]
-    if not isinstance(schema, dict):
-        return schema
-    kept = ("examples", "default", *_WITHOUT_UNIT)
-    found = {key: value if key in kept else _with_units(value) for key, value in schema.items()}
-    return {**found, **NUMBER_OR_TEXT} if found.get("type") == "number" else found
+class _InEditors(GenerateJsonSchema):
+    """What an editor needs: no null for a key that is left out, no defaults of whole tables."""
 
+    def nullable_schema(self, schema: core_schema.NullableSchema) -> JsonSchemaValue:
+        """Return what a key has that is not left out."""
+        return self.generate_inner(schema["schema"])
 
-def _without_null(schema: Any) -> Any:
-    """Return a schema without what only Python knows: null, titles, defaults of whole tables."""
-    if isinstance(schema, list):
-        return [_without_null(entry) for entry in schema if entry != {"type": "null"}]
-    if not isinstance(schema, dict):
-        return schema
-    short = {
-        name: value if name == "examples" else _without_null(value)
-        for name, value in schema.items()
-        if not (name == "title" and isinstance(value, str))
-        and not (name == "default" and (value is None or isinstance(value, dict | list)))
-    }
-    choices = short.get("anyOf", ())
-    if len(choices) != 1:
-        return short
-    del short["anyOf"]
-    return {**choices[0], **short}
+    def default_schema(self, schema: core_schema.WithDefaultSchema) -> JsonSchemaValue:
+        """Return a value with its default, if that is a number or a text."""
+        inner, default = self.generate_inner(schema["schema"]), schema.get("default")
+        return {**inner, "default": default} if isinstance(default, str | float) else inner
+
+    def float_schema(self, schema: core_schema.FloatSchema) -> JsonSchemaValue:
+        """Return a number, or a text with a unit."""
+        return {**super().float_schema(schema), **NUMBER_OR_TEXT}
+
+    def field_title_should_be_set(self, schema: Any) -> bool:
+        """Return False: keys are titles enough."""
+        return False

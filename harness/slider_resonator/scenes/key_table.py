@@ -1,15 +1,13 @@
 """What all tables of a scene file have in common: keys, numbers, devices."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Annotated, Any, ClassVar
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field
-from pydantic_core import PydanticCustomError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, create_model
 
-from slider_resonator.device.device import DEVIATIONS
-from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS, VARIABLES
-from slider_resonator.device.values import check_value
-from slider_resonator.errors import unknown_name
+from slider_resonator.device.interface import INTEGERS, VARIABLES
+from slider_resonator.device.values import settable_value
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
@@ -52,26 +50,6 @@ PARAMETER_MEANINGS: Mapping[str, str] = {
 """The meaning of each parameter, in the order of the interface."""
 
 
-def device_schema() -> dict[str, Any]:
-    """Return what the JSON schema of a table of parameters has beyond that of a mapping."""
-    properties = {}
-    for name, meaning in PARAMETER_MEANINGS.items():
-        one = VARIABLES[name]
-        bounds = {"minimum": one.minimum, "maximum": one.maximum}
-        properties[name] = {
-            **({"type": "integer"} if one.kind == "Integer" else NUMBER_OR_TEXT),
-            "description": meaning,
-            "unit": one.unit,
-            "default": one.start,
-            **{bound: value for bound, value in bounds.items() if value is not None},
-        }
-    return {"properties": properties, "additionalProperties": False}
-
-
-NAMED = "named"
-"""The type of an error whose text begins with the key in the table where it is found."""
-
-
 class KeyTable(BaseModel):
     """A table of a scene file; a key that it does not list is refused.
 
@@ -80,6 +58,11 @@ class KeyTable(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     rules: ClassVar[tuple[str, ...]] = ()
+
+    @property
+    def stated(self) -> dict[str, Any]:
+        """The values of the keys that the table has."""
+        return self.model_dump(exclude_unset=True)
 
     def given(self, names: Iterable[str]) -> dict[str, Any]:
         """Return the values of those of these keys that have one, by name."""
@@ -116,20 +99,31 @@ def exactly_one(table: str, given: Sequence[str], choices: str) -> None:
         raise ValueError(f"{table} needs exactly one of {choices}, has {given or 'none'}")
 
 
-def checked_device(device: dict[str, float]) -> dict[str, float]:
-    """Return the parameters; an error of kind `NAMED` for an unknown name or impossible value."""
-    for name, value in device.items():
-        try:
-            if name in (*INPUTS, *DEVIATIONS):
-                raise ValueError(f"{name}: is an input: must be in [inputs]")
-            if name not in PARAMETERS:
-                raise ValueError(f"{name}: {unknown_name('parameter', name, PARAMETERS)}")
-            check_value(name, value)
-        except ValueError as error:
-            text = f"{error} ({PARAMETER_MEANINGS[name]})" if name in INTEGERS else str(error)
-            raise PydanticCustomError(NAMED, "{text}", {"text": text}) from error
-    return device
+def _parameter(value: object, name: str) -> float:
+    """Return the value of a parameter in its SI unit; ValueError says what an Integer means."""
+    try:
+        return settable_value(name, value)
+    except ValueError as error:
+        meaning = f" ({PARAMETER_MEANINGS[name]})" if name in INTEGERS else ""
+        raise ValueError(f"{error}{meaning}") from error
 
 
-Parameters = Annotated[dict[str, Number], AfterValidator(checked_device)]
-"""Device parameters by name."""
+def _field(name: str) -> Any:
+    """Return the field of a parameter, which may be left out."""
+    one = VARIABLES[name]
+    about = {"default": one.start, "minimum": one.minimum, "maximum": one.maximum}
+    given = {key: value for key, value in about.items() if value is not None}
+    kind = int if name in INTEGERS else float
+    return (
+        Annotated[kind, BeforeValidator(partial(_parameter, name=name))],
+        key(PARAMETER_MEANINGS[name], one.start, unit=one.unit, **given),
+    )
+
+
+if TYPE_CHECKING:
+    ParametersTable = KeyTable
+else:
+    ParametersTable = create_model(
+        "ParametersTable", __base__=KeyTable, **{name: _field(name) for name in PARAMETER_MEANINGS}
+    )
+"""Device parameters, in SI units or with a unit."""

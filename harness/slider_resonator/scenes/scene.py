@@ -7,8 +7,6 @@ from math import pi
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
 from slider_resonator.device.device import DEVIATIONS, Device
 from slider_resonator.device.drive_periods import DrivePeriods, drive_periods
 from slider_resonator.device.interface import INPUTS, TUNABLES
@@ -21,7 +19,7 @@ from slider_resonator.output.shown import Shown
 from slider_resonator.scenes.csv_signal import csv_signal
 from slider_resonator.scenes.device_file import possible_slips, read_device_file, refuse_other_kinds
 from slider_resonator.scenes.expansion import variants
-from slider_resonator.scenes.explanations import explanations
+from slider_resonator.scenes.explanations import table_from
 from slider_resonator.scenes.input_tables import InputTable
 from slider_resonator.scenes.schema import (
     RUN_NEEDS,
@@ -33,7 +31,6 @@ from slider_resonator.scenes.schema import (
     SceneTable,
     SweepTable,
 )
-from slider_resonator.scenes.si_values import with_si_values
 from slider_resonator.scenes.toml_file import read_toml
 
 
@@ -320,11 +317,7 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
         except SceneError as error:
             raise SceneError(f"{source}: device: {error}") from error
         stated, files = {**content, "device": read.values}, [read.path]
-    content = with_si_values(stated, source)
-    try:
-        table = SceneTable.model_validate(content)
-    except ValidationError as error:
-        raise SceneError("\n".join(explanations(source, error, content))) from error
+    table = table_from(SceneTable, stated, source)
 
     def signals(tables: Mapping[str, InputTable], where: str) -> dict[str, Signal]:
         files.extend(folder / table.csv for table in tables.values() if table.csv)
@@ -341,13 +334,13 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
     beside = None
     if table.beside:
         given = signals(table.beside.inputs.given(INPUTS), "beside.inputs")
-        beside = Beside(table.beside.device, given)
+        beside = Beside(table.beside.device.stated, given)
     return Scene(
         name=table.name,
         title=table.title,
         description=table.description.strip(),
         source=source,
-        parameters={**table.device, **starts},
+        parameters={**table.device.stated, **starts},
         signals=inputs,
         run=table.run,
         expect=table.expect,

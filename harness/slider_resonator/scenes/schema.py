@@ -17,9 +17,8 @@ from slider_resonator.scenes.key_table import (
     Line,
     NotNegative,
     Number,
-    Parameters,
+    ParametersTable,
     Positive,
-    device_schema,
     exactly_one,
     key,
     required,
@@ -294,6 +293,17 @@ class NeedTable(KeyTable):
         return self.given((*STEADY_NEEDS, *RUN_NEEDS))
 
 
+class DeviceFileTable(KeyTable):
+    """A whole device file."""
+
+    name: str = ""
+    title: str = ""
+    description: str = ""
+    device: ParametersTable = required(
+        "parameters that differ from table 1", {"friction_coefficient": 0.12}
+    )
+
+
 class SceneTable(KeyTable):
     """A whole scene file."""
 
@@ -313,11 +323,10 @@ class SceneTable(KeyTable):
     )
     title: Line = required("one line for lists and plots", "The load steps up")
     description: str = key("what the scene shows, and why", "A step of load.", default="")
-    device: Parameters = key(
+    device: ParametersTable = key(
         "parameters that differ from table 1",
         {"friction_coefficient": 0.12},
-        default={},
-        **device_schema(),
+        default=ParametersTable(),
     )
     inputs: AllInputsTable = key("inputs over time", {"phase": 0.4}, default=AllInputsTable())
     tuning: TuningTable = key(
@@ -357,7 +366,7 @@ class SceneTable(KeyTable):
     @model_validator(mode="after")
     def _runnable(self) -> "SceneTable":
         for name in self.tuning.given(TUNABLES):
-            if name in self.device:
+            if name in self.device.model_fields_set:
                 raise ValueError(
                     f"tuning.{name} is in [device] and in [tuning]; must be in one of them"
                 )

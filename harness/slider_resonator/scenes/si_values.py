@@ -36,13 +36,16 @@ def with_si_values(content: Mapping[str, Any], source: str) -> dict[str, Any]:
     and requirement for a unit that does not fit.
     """
     try:
-        return {key: _in_si(value, key, _UNITS.get(key, "")) for key, value in content.items()}
+        found: dict[str, Any] = _in_si(content, "", "")
+        return found
     except ValueError as error:
         raise SceneError(f"{source}: {error}") from error
 
 
 def _in_si(value: Any, path: str, unit: str) -> Any:
     """Return a value, list or table; `unit` is that of its values, empty for what has none."""
+    if path.endswith("device"):
+        return value  # its schema reads units
     if isinstance(value, str):
         if _NEED.fullmatch(path):
             return value  # it must be a table
@@ -52,15 +55,16 @@ def _in_si(value: Any, path: str, unit: str) -> Any:
         about = QUANTITIES.get(str(value.get("quantity")))
         own = about.unit if about else _UNITS.get(str(value.get("variable")), "")
         own = own if own in _UNITS.values() else unit
+        units = {**dict.fromkeys(_INHERITED, own), **_UNITS}
         return {
-            key: _in_si(one, f"{path}.{key}", _UNITS.get(key, own if key in _INHERITED else ""))
+            key: _in_si(one, f"{path}.{key}".lstrip("."), units.get(key, ""))
             for key, one in value.items()
         }
     if not isinstance(value, list | tuple):
         return value
-    units = ("s", unit) if _POINT.search(path) else (unit,)
+    first = "s" if _POINT.search(path) else unit
     return [
-        _in_si(one, f"{path}[{k + 1}]", units[min(k, len(units) - 1)])
+        _in_si(one, f"{path}[{k + 1}]", unit if k else first)
         if isinstance(one, str | Mapping | list | tuple)
         else one
         for k, one in enumerate(value)

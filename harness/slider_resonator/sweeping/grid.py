@@ -13,7 +13,6 @@ from pydantic import (
     Discriminator,
     Field,
     Tag,
-    ValidationError,
     field_validator,
     model_validator,
 )
@@ -22,11 +21,10 @@ from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import HarnessError, unknown_name
-from slider_resonator.scenes.device_file import device_values, possible_slips, refuse_other_kinds
-from slider_resonator.scenes.explanations import AXIS, explanations
-from slider_resonator.scenes.key_table import KeyTable, Number
+from slider_resonator.scenes.device_file import possible_slips, refuse_other_kinds
+from slider_resonator.scenes.explanations import AXIS, table_from
+from slider_resonator.scenes.key_table import KeyTable, Number, ParametersTable
 from slider_resonator.scenes.scene_files import built_in_scenes
-from slider_resonator.scenes.si_values import with_si_values
 from slider_resonator.scenes.toml_file import read_toml
 from slider_resonator.sweeping.measures import Run, Task, check_measure
 
@@ -124,7 +122,7 @@ class GridTable(KeyTable):
     title: str = ""
     measures: tuple[str, ...] = ("steady_velocity",)
     max_denominator: Counted = MAX_DENOMINATOR
-    device: dict[str, Any] = Field(default={})
+    device: ParametersTable = ParametersTable()
     fixed: dict[str, Number] = Field(default={})
     grid: dict[str, Axis] = Field(default={})
     parallel: dict[str, Values] = Field(default={}, alias="list")
@@ -230,12 +228,7 @@ def grid_from(
 
     Raises HarnessError with `source`.
     """
-    stated, content = content, with_si_values(content, source)
-    try:
-        table = GridTable.model_validate(content)
-    except ValidationError as error:
-        lines = explanations(source, error, content, GridTable)
-        raise HarnessError("\n".join(lines)) from error
+    table = table_from(GridTable, content, source)
     points = table.points
     settings = settings or {}
     for name in table.names:
@@ -243,7 +236,7 @@ def grid_from(
             raise HarnessError(
                 f"--set {name}={settings[name]:g}: {source} varies {name}; must be one of the two"
             )
-    own = {**(device or {}), **device_values(content, source)}
+    own = {**(device or {}), **table.device.stated}
     fixed = {name: value for name, value in own.items() if name not in table.names} | table.fixed
     fixed |= settings
     columns = dict(zip(table.names, map(set, zip(*points, strict=True)), strict=True))
@@ -262,7 +255,7 @@ def grid_from(
         run=Run(**table.run.model_dump()),
     )
     is_grid = not table.parallel and table.random is None
-    plain = {**stated.get("device", {}), **stated.get("fixed", {})}
+    plain = {**content.get("device", {}), **content.get("fixed", {})}
     plain |= {name: max(values, key=abs) for name, values in columns.items()}
     slips = possible_slips(plain, own)
     return Sweep(table.title, task, points, is_grid, table.logarithmic, slips)

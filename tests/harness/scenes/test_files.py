@@ -8,7 +8,6 @@ from slider_resonator.device.device import Device
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.csv_signal import csv_signal
 from slider_resonator.scenes.device_file import (
-    device_content,
     example_devices,
     possible_slips,
     read_device_file,
@@ -28,7 +27,7 @@ def written(folder: Path, text: str) -> str:
 
 @pytest.mark.parametrize("name", list(example_devices()))
 def test_examples_state_faces_and_where_numbers_come_from(name: str) -> None:
-    content = device_content(example_devices()[name])
+    content = read_toml(example_devices()[name])
     assert content["device"]["friction_faces"] in (1, 2)
     assert "Numbers: " in content["description"]
     assert not possible_slips(content["device"])
