@@ -18,18 +18,16 @@ The `repr` of a result says what was found, on a screen at most. `to_pandas()` g
 `plot()` its picture, where it has one.
 """
 
-import inspect
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from functools import partial, wraps
-from itertools import takewhile
-from numbers import Integral, Real
+from functools import partial
+from inspect import currentframe
+from numbers import Real
 from pathlib import Path
 from traceback import walk_stack
-from typing import TYPE_CHECKING, Any, Literal, ParamSpec, Protocol, TypeVar, runtime_checkable
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, SupportsFloat
 
 from slider_resonator.checks.validate import Validation
 from slider_resonator.checks.validate import validate as validate_scenes
@@ -42,14 +40,13 @@ from slider_resonator.errors import HarnessError, SceneError
 from slider_resonator.fitting.fit import STARTS, isolated
 from slider_resonator.fitting.fit import fit as fit_parameters
 from slider_resonator.fitting.measurements import Measurements
-from slider_resonator.fitting.reading import measurements_from, read_measurements
+from slider_resonator.fitting.reading import measurements_of
 from slider_resonator.fitting.result import Fit
 from slider_resonator.fmu.finished import fmu_path
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.run import Record
 from slider_resonator.fmu.run import run as run_schedule
-from slider_resonator.output.progress import no_progress
 from slider_resonator.output.shown import Drawable
 from slider_resonator.scenes.device_file import checked_device, possible_slips, read_device_file
 from slider_resonator.scenes.device_file import to_toml as device_text
@@ -76,24 +73,9 @@ __all__ += ["choose", "fit", "fmu_path", "open_fmu", "read_device", "read_scene"
 __all__ += ["sweep", "to_toml", "trade", "validate"]
 
 SceneLike = str | Path | Mapping[str, Any] | Scene
-Value = float | np.number[Any] | str
+Value = SupportsFloat | str
 """A number in SI units, or a text with a unit."""
 DeviceLike = str | Path | Device | Mapping[str, Value]
-P = ParamSpec("P")
-R = TypeVar("R")
-
-
-def _plain_errors(function: Callable[P, R]) -> Callable[P, R]:
-    """Raise a HarnessError without the errors of other libraries that it was made from."""
-
-    @wraps(function)
-    def call(*args: P.args, **kwargs: P.kwargs) -> R:
-        try:
-            return function(*args, **kwargs)
-        except HarnessError as error:
-            raise error from None
-
-    return call
 
 
 @dataclass(frozen=True, repr=False)
@@ -113,21 +95,25 @@ class SceneRecord(Record, Drawable):
         return run_figure(self, self.scene)
 
 
-class OpenFmu:
+class OpenFmu(AbstractContextManager["OpenFmu"]):
     """An FMU that runs in a process of its own: it may crash or hang and the script goes on.
 
-    Use it in a `with` block, or `close` it. Every method may take the `time_limit` (s) that it was
-    opened with, and raises HarnessError where the FMU refuses, crashes or exceeds that.
+    Use it in a `with` block, or `close` it. What it computes is for `device` unless values say
+    else. Every method may take the `time_limit` (s), and raises HarnessError where the FMU refuses,
+    crashes or exceeds that.
     """
 
-    def __init__(self, fmu: Path, time_limit: float, parameters: Mapping[str, float]) -> None:
-        self.path = fmu
-        self._device = parameters
-        self._isolated = IsolatedFmu(fmu, time_limit)
-
-    def __enter__(self) -> "OpenFmu":
-        """Return the open FMU."""
-        return self
+    def __init__(
+        self,
+        fmu: str | Path | None = None,
+        *,
+        device: DeviceLike | None = None,
+        time_limit: float = TIME_LIMIT,
+    ) -> None:
+        _check_positive(time_limit=time_limit)
+        self.path = _fmu(fmu)
+        self._device = _stated(device)
+        self._isolated = IsolatedFmu(self.path, time_limit)
 
     def __exit__(self, kind: type[BaseException] | None, error: Any, trace: Any) -> None:
         """Free the FMU and end its process."""
@@ -142,7 +128,6 @@ class OpenFmu:
         stated = ", ".join(f"{name}={value:g}" for name, value in self._device.items())
         return f"OpenFmu({str(self.path)!r}{', ' if stated else ''}{stated})"
 
-    @_plain_errors
     def run(self, scene: SceneLike, **values: Value) -> SceneRecord:
         """Run a scene and return inputs and outputs at all its communication points.
 
@@ -154,36 +139,26 @@ class OpenFmu:
         record: Record = self._isolated.run(task)
         return SceneRecord(**vars(record), scene=read)
 
-    @_plain_errors
     def steady(self, *, max_denominator: int = MAX_DENOMINATOR, **values: Value) -> SteadyMotion:
         """Find the steady motion by shooting; its `status` says why there is none."""
         motion: SteadyMotion = self._search(find_steady, max_denominator, values)
         return motion
 
-    @_plain_errors
     def blocking(self, *, max_denominator: int = MAX_DENOMINATOR, **values: Value) -> Blocking:
         """Find the load that stops the slider; its `status` says why there is none."""
         blocking: Blocking = self._search(find_blocking, max_denominator, values)
         return blocking
 
     def _search(self, find: Any, max_denominator: int, values: Mapping[str, Value]) -> Any:
+        _check_positive(max_denominator=max_denominator)
         checked = {**self._device, **_checked(values)}
-        largest = _whole("max_denominator", max_denominator)
-        return self._isolated.run(partial(find, values=checked, max_denominator=largest))
+        return self._isolated.run(partial(find, values=checked, max_denominator=max_denominator))
 
 
-@_plain_errors
-def open_fmu(
-    fmu: str | Path | None = None,
-    *,
-    device: DeviceLike | None = None,
-    time_limit: float = TIME_LIMIT,
-) -> OpenFmu:
-    """Open an FMU for a `with` block; what it computes is for `device` unless values say else."""
-    return OpenFmu(_fmu(fmu), _seconds(time_limit), _stated(device))
+open_fmu = OpenFmu
+"""Open an FMU for a `with` block."""
 
 
-@_plain_errors
 def read_device(device: DeviceLike) -> Device:
     """Return a device: of a file, of an example by name, of parameters, or as it is.
 
@@ -192,7 +167,6 @@ def read_device(device: DeviceLike) -> Device:
     return Device.from_mapping(_stated(device))
 
 
-@_plain_errors
 def to_toml(device: DeviceLike, title: str = "") -> str:
     """Return the text of a device file: what differs from table 1, and the number of faces.
 
@@ -201,7 +175,6 @@ def to_toml(device: DeviceLike, title: str = "") -> str:
     return device_text(read_device(device), title)
 
 
-@_plain_errors
 def read_scene(scene: SceneLike, **values: Value) -> Scene:
     """Return a scene, its parameters and inputs replaced by `values`.
 
@@ -216,7 +189,6 @@ def read_scene(scene: SceneLike, **values: Value) -> Scene:
     return find_scene(str(scene), checked)
 
 
-@_plain_errors
 def validate(
     *fmus: str | Path,
     scenes: SceneLike | Sequence[SceneLike] | None = None,
@@ -236,12 +208,11 @@ def validate(
     named = [str(scene) for scene in given if isinstance(scene, str | Path)]
     found = find_scenes(named) if named or scenes is None else []
     found += [read_scene(scene) for scene in given if isinstance(scene, Mapping | Scene)]
-    return validate_scenes(
-        _fmus(fmus), found, time_limit=_seconds(time_limit), jobs=_processes("jobs", jobs)
-    )
+    _check_positive(time_limit=time_limit, jobs=jobs)
+    processes = jobs or available_cores()
+    return validate_scenes(_fmus(fmus), found, time_limit=time_limit, jobs=processes)
 
 
-@_plain_errors
 def choose(
     scene: SceneLike,
     fmu: str | Path | None = None,
@@ -256,7 +227,6 @@ def choose(
     return choose_model(_scene_of(scene, _stated(device), values), _fmu(fmu))
 
 
-@_plain_errors
 def sweep(
     grid: str | Path | Mapping[str, Any],
     out: str | Path,
@@ -274,32 +244,20 @@ def sweep(
     the table. Finished points are kept beside `out` until it is written; `restart` discards them. A
     table of another grid is replaced only with `overwrite`.
     """
+    _check_positive(workers=workers)
+    count = workers or available_cores()
     stated = _stated(device)
     if isinstance(grid, Mapping):
         read = grid_from(_plain(grid), "grid", stated)
     else:
         read = read_grid(Path(grid), stated)
     return run_sweep(
-        read,
-        _fmu(fmu),
-        Path(out),
-        workers=_processes("workers", workers),
-        restart=restart,
-        overwrite=overwrite,
+        read, _fmu(fmu), Path(out), workers=count, restart=restart, overwrite=overwrite
     )
 
 
-@runtime_checkable
-class Frame(Protocol):
-    """A DataFrame of pandas."""
-
-    def to_dict(self, orient: Literal["list"]) -> Mapping[str, Any]:
-        """Return the columns as lists by heading."""
-
-
-@_plain_errors
 def fit(
-    data: str | Path | Mapping[str, Any] | Frame | Measurements | Sequence[str | Path],
+    data: str | Path | Mapping[str, Any] | Measurements | Sequence[str | Path] | Any,
     free: str | Sequence[str],
     fmu: str | Path | None = None,
     *,
@@ -317,26 +275,16 @@ def fit(
     `values` are parameters and inputs that are not in the data. The result has `parameters`, and
     the `device` to go on with.
     """
-    if isinstance(data, Frame):
-        data = data.to_dict("list")
-    if isinstance(data, Mapping):
-        data = measurements_from(_plain(data))
-    elif not isinstance(data, Measurements):
-        files = [data] if isinstance(data, str | Path) else data
-        data = sum((read_measurements(Path(one)) for one in files), Measurements())
+    _check_positive(starts=starts, jobs=jobs, time_limit=time_limit)
+    measurements = measurements_of(data)
+    names = [free] if isinstance(free, str) else free
     checked = {**_stated(device), **_checked(values)}
-    with isolated(_fmu(fmu), _processes("jobs", jobs), _seconds(time_limit)) as run:
+    with isolated(_fmu(fmu), jobs or available_cores(), time_limit) as run:
         return fit_parameters(
-            data,
-            [free] if isinstance(free, str) else free,
-            checked,
-            run,
-            bounds=_plain(bounds),
-            starts=_whole("starts", starts),
+            measurements, names, checked, run, bounds=_plain(bounds), starts=starts
         )
 
 
-@_plain_errors
 def stress(
     *fmus: str | Path,
     random: int | None = None,
@@ -350,20 +298,20 @@ def stress(
     The cases are those of the axes, or `random` devices drawn from `seed`, or several inputs and
     steps of `device`. A case that exceeds the `time_limit` (s) fails.
     """
+    _check_positive(random=random, jobs=jobs, time_limit=time_limit)
     if random is not None and device is not None:
         raise HarnessError(f"random = {random!r} and device = {device!r}: must be only one")
     if device is not None:
         name = str(device) if isinstance(device, str | Path) else "mine"
         cases = device_cases(name, _stated(device))
     elif random is not None:
-        cases = [random_case(seed, number) for number in range(_whole("random", random))]
+        cases = [random_case(seed, number) for number in range(random)]
     else:
         cases = axis_cases()
-    limit, processes = _seconds(time_limit), _processes("jobs", jobs)
-    return tuple(run_cases(fmu, cases, no_progress, limit, jobs=processes) for fmu in _fmus(fmus))
+    run = partial(run_cases, cases=cases, time_limit=time_limit, jobs=jobs or available_cores())
+    return tuple(run(fmu) for fmu in _fmus(fmus))
 
 
-@_plain_errors
 def trade(
     scene: SceneLike,
     *fmus: str | Path,
@@ -380,14 +328,11 @@ def trade(
     periods; each method is repeated `repeats` times, or as often as the `budget` (s of CPU time)
     allows. The peer that needs heyoka is left out without it.
     """
+    _check_positive(periods=periods, repeats=repeats, budget=budget, time_limit=time_limit)
     read = _scene_of(scene, _stated(device), values)
-    shorter = None if periods is None else _whole("periods", periods)
-    problems = [problem_of(point.scene, point.at, shorter) for point in read.points()]
-    with opened(_fmus(fmus), _seconds(time_limit)) as instances:
-        measured = measure_trades(
-            problems, instances, repeats=_whole("repeats", repeats), budget=budget
-        )
-        return tuple(measured)
+    problems = [problem_of(point.scene, point.at, periods) for point in read.points()]
+    with opened(_fmus(fmus), time_limit) as instances:
+        return tuple(measure_trades(problems, instances, repeats=repeats, budget=budget))
 
 
 def _scene_of(
@@ -403,7 +348,7 @@ def _stated(device: DeviceLike | None) -> dict[str, float]:
         return {}
     if isinstance(device, Device):
         start = vars(Device())
-        return {n: value for n, value in _checked(vars(device)).items() if value != start[n]}
+        device = {name: value for name, value in vars(device).items() if value != start[name]}
     if isinstance(device, Mapping):
         values = checked_device(_plain(device), "device")
         _warn(possible_slips(device))
@@ -415,26 +360,25 @@ def _stated(device: DeviceLike | None) -> dict[str, float]:
 
 def _warn(slips: Sequence[str]) -> None:
     """Warn of numbers that may be meant in another unit, where this package was called."""
-    frames = (frame for frame, _ in walk_stack(inspect.currentframe()))
-    modules = (frame.f_globals.get("__name__", "") for frame in frames)
-    inside = list(takewhile(lambda name: name.startswith("slider_resonator."), modules))
+    modules = [frame.f_globals.get("__name__", "") for frame, _ in walk_stack(currentframe())]
+    inside = sum(name.startswith("slider_resonator.") for name in modules)
     for slip in slips:
-        warnings.warn(slip, stacklevel=1 + len(inside))
+        warnings.warn(slip, stacklevel=1 + inside)
 
 
 def _fmus(fmus: Sequence[str | Path]) -> list[Path]:
-    return [Path(fmu) for fmu in fmus] or [fmu_path("native")]
+    return [Path(fmu) for fmu in fmus] or [fmu_path()]
 
 
 def _fmu(fmu: str | Path | None) -> Path:
-    return fmu_path("native") if fmu is None else Path(fmu)
+    return fmu_path() if fmu is None else Path(fmu)
 
 
 def _checked(values: Mapping[str, Value]) -> dict[str, float]:
     try:
         checked = {name: settable_value(name, value) for name, value in _plain(values).items()}
     except ValueError as error:
-        raise SceneError(str(error)) from error
+        raise SceneError(str(error)) from None
     _warn(possible_slips(values))
     return checked
 
@@ -448,17 +392,8 @@ def _plain(data: Any) -> Any:
     return [_plain(entry) for entry in data] if isinstance(data, list | tuple | range) else data
 
 
-def _processes(name: str, count: int | None) -> int:
-    return available_cores() if count is None else _whole(name, count)
-
-
-def _whole(name: str, value: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, Integral) or value < 1:
-        raise HarnessError(f"{name} = {value!r}: must be a whole number of at least 1")
-    return int(value)
-
-
-def _seconds(time_limit: float) -> float:
-    if isinstance(time_limit, bool) or not isinstance(time_limit, Real) or not time_limit > 0.0:
-        raise HarnessError(f"time_limit = {time_limit!r}: must be a number above 0, in s")
-    return float(time_limit)
+def _check_positive(**arguments: float | None) -> None:
+    """Raise HarnessError for an argument that is given and is no number above 0."""
+    for name, value in arguments.items():
+        if value is not None and not (isinstance(value, Real) and value > 0):
+            raise HarnessError(f"{name} = {value!r}: must be a number above 0")

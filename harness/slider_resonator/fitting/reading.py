@@ -56,6 +56,21 @@ def read_measurements(path: Path) -> Measurements:
     return _measurements(_columns(path))
 
 
+def measurements_of(data: Any) -> Measurements:
+    """Return measurements as they are, of a DataFrame or columns by heading, of a file or several.
+
+    Raises HarnessError as `read_measurements` and `measurements_from` do.
+    """
+    if isinstance(data, Measurements):
+        return data
+    if hasattr(data, "to_dict"):
+        data = data.to_dict("list")
+    if isinstance(data, Mapping):
+        return measurements_from(data)
+    files = [data] if isinstance(data, str | Path) else data
+    return sum((read_measurements(Path(one)) for one in files), Measurements())
+
+
 def measurements_from(table: Mapping[str, Any]) -> Measurements:
     """Return measurements from columns of numbers by heading, as `read_measurements` has them.
 

@@ -77,7 +77,7 @@ def table_from(table: type[TableT], content: Mapping[str, Any], source: str) -> 
             in_list = bool(place) and isinstance(place[-1], int)
             first.setdefault((problem["type"], *(place[:-1] if in_list else place)), problem)
         lines = [f"{source}: {_explanation(one, content, table)}" for one in first.values()]
-        raise SceneError("\n".join(lines)) from error
+        raise SceneError("\n".join(lines)) from None
 
 
 def _explanation(problem: ErrorDetails, content: Mapping[str, Any], top: type[BaseModel]) -> str:

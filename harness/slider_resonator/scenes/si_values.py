@@ -39,7 +39,7 @@ def with_si_values(content: Mapping[str, Any], source: str) -> dict[str, Any]:
         found: dict[str, Any] = _in_si(content, "", "")
         return found
     except ValueError as error:
-        raise SceneError(f"{source}: {error}") from error
+        raise SceneError(f"{source}: {error}") from None
 
 
 def _in_si(value: Any, path: str, unit: str) -> Any:

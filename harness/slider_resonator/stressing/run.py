@@ -12,7 +12,7 @@ from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks
 from slider_resonator.fmu.opening import open_fmu
-from slider_resonator.output.progress import Progress, counted
+from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.stressing.case import RANDOM, Case
@@ -201,7 +201,7 @@ def applicable(fmu: Path, cases: Sequence[Case]) -> list[Case]:
 def run_cases(
     fmu: Path,
     cases: Sequence[Case],
-    progress: Progress,
+    progress: Progress = no_progress,
     time_limit: float = TIME_LIMIT,
     *,
     jobs: int = 1,
