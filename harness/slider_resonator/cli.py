@@ -5,7 +5,7 @@ import os
 import signal
 import sys
 import traceback
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from io import StringIO
 from itertools import pairwise
@@ -17,7 +17,6 @@ from slider_resonator import __version__
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.limits import DEFAULTS, MEMORY, UNPACKED
 from slider_resonator.output.console import exit_with, open_closed_streams
-from slider_resonator.output.fitting_help import FittingHelp
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.readable import escaped, indented
 from slider_resonator.output.terminal import fitting, terminal_width
@@ -50,7 +49,30 @@ RENAMED: Mapping[str, tuple[Sequence[str], Mapping[str, str]]] = {
 """Old names of commands: the words in their place, and of their options that have other names."""
 
 
-click.Context.formatter_class = FittingHelp
+_WHOLE = "\N{NON-BREAKING HYPHEN}"
+"""Stands for a hyphen while click wraps: it would split names there."""
+
+
+class WholeNames(click.HelpFormatter):
+    """A help formatter that splits no name at its hyphens."""
+
+    def write(self, string: str) -> None:
+        """Write what is wrapped."""
+        super().write(string.replace(_WHOLE, "-"))
+
+    def write_text(self, text: str) -> None:
+        """Write a text."""
+        super().write_text(text.replace("-", _WHOLE))
+
+    def write_dl(
+        self, rows: Iterable[tuple[str, str]], col_max: int = 30, col_spacing: int = 2
+    ) -> None:
+        """Write a list of names with their texts."""
+        whole = [(name, text.replace("-", _WHOLE)) for name, text in rows]
+        super().write_dl(whole, col_max, col_spacing)
+
+
+click.Context.formatter_class = WholeNames
 """Of every command: click takes it from the class."""
 
 

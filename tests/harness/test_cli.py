@@ -18,7 +18,7 @@ from tests.harness.public_json import assert_public_keys
     [
         ([], "Commands:\n  baseline  "),
         (["baseline"], "Commands:\n  accept  "),
-        (["baseline", "record", "--dir", "x"], "Missing argument 'FMU'"),
+        (["baseline", "record"], "Missing option '--dir'"),
     ],
 )
 def test_without_what_it_needs_a_command_shows_its_help(arguments: list[str], shown: str) -> None:

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from copy import copy
 from functools import partial, wraps
 from math import inf
 from pathlib import Path
@@ -12,7 +11,7 @@ import click
 
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.device.values import is_number, settable_value, si_number, si_value
-from slider_resonator.errors import FmuError, HarnessError
+from slider_resonator.errors import HarnessError
 from slider_resonator.fmu import finished
 from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.output.files import writable
@@ -197,26 +196,6 @@ DATA_FILE = Parsed("path", partial(_no_toml, "CSV"))
 """Files in whose place a file of another kind is named as what it is."""
 
 
-class Renamed(click.Option):
-    """An option whose help shows its first name only; the others are those that it once had."""
-
-    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
-        """Return the help with the first name."""
-        shown = copy(self)
-        shown.opts = self.opts[:1]
-        return super(Renamed, shown).get_help_record(ctx)
-
-
-def _must_be_given(fmu: Path | None) -> Path:
-    if fmu is not None:
-        return fmu
-    try:
-        native = finished.finished_path(finished.FMUS["native"], finished.COMMANDS_LOOK_IN)
-    except FmuError:
-        raise click.UsageError("Missing argument 'FMU'.") from None
-    raise click.UsageError(f"Missing argument 'FMU'. The native one is {native}")
-
-
 def default_fmus() -> tuple[Path, ...]:
     """Return the FMUs built in the folder `dist` here, or else finished ones, the native one first.
 
@@ -235,39 +214,41 @@ def default_fmu(given: Path | None) -> Path:
     return given if given is not None else default_fmus()[0]
 
 
-def _fmu_argument(
-    command: Callable[..., Any], chosen: Callable[[Path | None], Path | None], default: str
-) -> Callable[..., Any]:
-    text = "The FMU, instead of as an argument." + (f"  [default: {default}]" if default else "")
+def other_fmu_argument(
+    default: str, chosen: Callable[[Path | None], Path | None] = lambda given: given
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return what adds an FMU as an argument or as the option --fmu; the command gets it as `fmu`.
 
-    @click.argument("fmu", type=click.Path(path_type=Path), required=False)
-    @click.option("--fmu", "given", type=FMU_FILE, help=text)
-    @wraps(command)
-    def with_fmu(fmu: Path | None, given: Path | None, **others: Any) -> Any:
-        if others.get("scene", "") is None:  # the one argument, if any, is the FMU or the scene
-            others["scene"] = FIRST
-            if fmu is not None and fmu.suffix != ".fmu":
-                find_scene(str(fmu))  # a wrong name comes before a default FMU that is not built
-                fmu, others["scene"] = None, str(fmu)
-        fmu = fmu and _no_toml("FMU", str(fmu))
-        if fmu is not None and given is not None:
-            raise click.UsageError(f"{fmu} and --fmu {given}: must be one FMU")
-        return command(fmu=chosen(fmu or given), **others)
+    Without one the command gets what is `chosen`; `default` is the text about that.
+    """
 
-    return with_fmu
+    def add(command: Callable[..., Any]) -> Callable[..., Any]:
+        @click.argument("fmu", type=click.Path(path_type=Path), required=False)
+        @click.option(
+            "--fmu",
+            "given",
+            type=FMU_FILE,
+            help=f"The FMU, instead of as an argument.  [default: {default}]",
+        )
+        @wraps(command)
+        def with_fmu(fmu: Path | None, given: Path | None, **others: Any) -> Any:
+            if others.get("scene", "") is None:  # the one argument, if any, is the FMU or the scene
+                others["scene"] = FIRST
+                if fmu is not None and fmu.suffix != ".fmu":
+                    find_scene(str(fmu))  # a wrong name comes before a default FMU not built
+                    fmu, others["scene"] = None, str(fmu)
+            fmu = fmu and _no_toml("FMU", str(fmu))
+            if fmu is not None and given is not None:
+                raise click.UsageError(f"{fmu} and --fmu {given}: must be one FMU")
+            return command(fmu=chosen(fmu or given), **others)
+
+        return with_fmu
+
+    return add
 
 
-fmu_argument = partial(_fmu_argument, chosen=_must_be_given, default="")
-"""Adds an FMU as an argument or as the option --fmu; the command gets it as `fmu`."""
-native_fmu_argument = partial(
-    _fmu_argument, chosen=default_fmu, default="the native one, in dist or installed"
-)
-"""The same; the default is that of `default_fmu`."""
-
-
-def other_fmu_argument(default: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return what adds an FMU as `fmu_argument`, or None; `default` is the text about that."""
-    return partial(_fmu_argument, chosen=lambda given: given, default=default)
+fmu_argument = other_fmu_argument("the native one, in dist or installed", default_fmu)
+"""Adds an FMU as an argument or as the option --fmu, by default that of `default_fmu`."""
 
 
 def fmus_argument(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -292,7 +273,6 @@ jobs_option = click.option(
     "--jobs",
     "--workers",
     "jobs",
-    cls=Renamed,
     type=click.IntRange(min=1),
     callback=lambda _, __, jobs: jobs or available_cores(),
     help="Processes.  [default: one per core]",

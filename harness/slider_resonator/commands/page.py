@@ -23,7 +23,7 @@ _DEVICES = re.compile(r'(?<=<script type="application/json" id="devices">).*?(?=
 
 
 @click.command("page", cls=options.SettingsCommand)
-@options.native_fmu_argument
+@options.fmu_argument
 @options.device_options
 @click.option("--out", type=options.target((".html",)), required=True, help="The page to write.")
 @options.json_option

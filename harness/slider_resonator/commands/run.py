@@ -50,7 +50,7 @@ def _overlay(text: str) -> tuple[str, float] | Path:
 
 
 @click.command("run", cls=options.SettingsCommand)
-@options.native_fmu_argument
+@options.fmu_argument
 @click.argument("scene", required=False)
 @options.stop_time_option
 @click.option(

@@ -53,7 +53,7 @@ def _search_command(
     """Return the command that searches something of an FMU by shooting."""
 
     @click.command(name, cls=options.SettingsCommand, help=help_text)
-    @options.native_fmu_argument
+    @options.fmu_argument
     @options.device_options
     @click.option(
         "--max-denominator",

@@ -1,6 +1,6 @@
 """Scenes as data: what is run and what is expected; read from TOML files."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import pi
@@ -32,6 +32,7 @@ from slider_resonator.scenes.schema import (
     SweepTable,
 )
 from slider_resonator.scenes.toml_file import read_toml
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 
 @dataclass(frozen=True)
@@ -71,16 +72,46 @@ class Scene(Shown):
     slips: Sequence[str] = ()
 
     def __post_init__(self) -> None:
-        if self.stop_time is not None:
-            try:
+        try:
+            if self.stop_time is not None:
                 step_count(self.stop_time, self._steps)
-            except ValueError as error:
-                raise SceneError(f"{self.source}: run: {error}") from error
+        except ValueError as error:
+            raise SceneError(f"{self.source}: run: {error}") from error
         for key, signal in self._all_signals.items():
             try:
                 signal.check_covers(self.stop_time or 0.0)
             except ValueError as error:
                 raise SceneError(f"{self.source}: {key}: {error}") from error
+        for mistake in self._mistakes():
+            raise SceneError(f"{self.source}: {mistake}")
+
+    def _mistakes(self) -> Iterator[str]:
+        """Yield what asks for a run, for constant values or for a second instance in vain."""
+        # Deviations of a drive that is tuned change with it.
+        signals = {**self.signals, **self.tuning}
+        changing = [n for n, s in signals.items() if len(s.times) > 1]
+        changing += [name for name in DEVIATIONS if name in self.tuning]
+        if self.run is None:
+            tuned = [name for name in TUNABLES if name in self.tuning]
+            yield from (f"tuning.{name} is for a run: [run] is missing" for name in tuned)
+        if self.sweep and self.sweep.variable in changing:
+            yield (
+                f"sweep.variable = {self.sweep.variable!r}: changes in the run; must be one whose "
+                "value is constant"
+            )
+        asked = [(f"expect: {one.quantity}", QUANTITIES[one.quantity]) for one in self.expect]
+        for key, quantity in asked:
+            if quantity.needs_beside and self.beside is None:
+                yield f"{key} needs a second instance: [beside] is missing"
+        in_run = [key for key, quantity in asked if quantity.needs_run]
+        constant = [key for key, quantity in asked if quantity.needs_constants]
+        needs = self.need.needs if self.need else ()
+        in_run += [f"need.{name}" for name in needs if name in RUN_NEEDS]
+        constant += [f"need.{name}" for name in needs if name in STEADY_NEEDS]
+        if self.run is None:
+            yield from (f"{key} is measured in a run: [run] is missing" for key in in_run)
+        if changing:
+            yield from (f"{key} needs constant inputs and parameters" for key in constant)
 
     @property
     def _all_signals(self) -> dict[str, Signal]:
@@ -223,13 +254,6 @@ class Scene(Shown):
 
         Raises SceneError for one that needs a run, or constant inputs, where the scene has none.
         """
-        changing = any(len(s.times) > 1 for s in (*self.signals.values(), *self.tuning.values()))
-        for name in needs:
-            need = f"{self.source}: need.{name}"
-            if name in RUN_NEEDS and self.run is None:
-                raise SceneError(f"{need} is measured in a run: [run] is missing")
-            if name in STEADY_NEEDS and changing:
-                raise SceneError(f"{need} needs constant inputs and parameters")
         return replace(self, need=NeedTable.model_validate(needs))
 
     @property
@@ -331,6 +355,7 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
         tuning |= deviating
     else:
         starts |= {name: signal.at(0.0) for name, signal in deviating.items()}
+    plain = {**stated.get("device", {}), "phase": stated.get("inputs", {}).get("phase")}
     beside = None
     if table.beside:
         given = signals(table.beside.inputs.given(INPUTS), "beside.inputs")
@@ -349,18 +374,8 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
         files=tuple(files),
         tuning=tuning,
         beside=beside,
-        slips=read.slips if isinstance(name, str) else possible_slips(_plain_numbers(stated)),
+        slips=read.slips if isinstance(name, str) else possible_slips(plain),
     )
-
-
-def _plain_numbers(stated: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what a scene says of its device, and its largest phase, as they are written."""
-    phase = stated.get("inputs", {}).get("phase")
-    if isinstance(phase, Mapping):
-        points = phase.get("steps") or phase.get("ramp") or [(0.0, phase.get("constant"))]
-        numbers = [value for _, value in points if isinstance(value, float | int)]
-        phase = max(numbers, key=abs, default=None)
-    return {**stated.get("device", {}), "phase": phase}
 
 
 def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:

@@ -6,8 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from slider_resonator.device.device import DEVIATIONS
-from slider_resonator.device.interface import INPUTS, SETTABLE, TUNABLES
+from slider_resonator.device.interface import SETTABLE, TUNABLES
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.expansion import with_bundles
@@ -364,40 +363,10 @@ class SceneTable(KeyTable):
         return with_bundles(content)
 
     @model_validator(mode="after")
-    def _runnable(self) -> "SceneTable":
+    def _tuned_once(self) -> "SceneTable":
         for name in self.tuning.given(TUNABLES):
             if name in self.device.model_fields_set:
                 raise ValueError(
                     f"tuning.{name} is in [device] and in [tuning]; must be in one of them"
                 )
-            if self.run is None:
-                raise ValueError(f"tuning.{name} is for a run: [run] is missing")
-        if self.sweep and self.sweep.variable in self._changing():
-            raise ValueError(
-                f"sweep.variable = {self.sweep.variable!r}: changes in the run; must be one whose "
-                "value is constant"
-            )
-        for expect in self.expect:
-            quantity, key = QUANTITIES[expect.quantity], f"expect: {expect.quantity}"
-            if quantity.needs_run and self.run is None:
-                raise ValueError(f"{key} is measured in a run: [run] is missing")
-            if quantity.needs_constants and self._changing():
-                raise ValueError(f"{key} needs constant inputs and parameters")
-            if quantity.needs_beside and self.beside is None:
-                raise ValueError(f"{key} needs a second instance: [beside] is missing")
-        for need in self.need.needs if self.need else ():
-            if need in RUN_NEEDS and self.run is None:
-                raise ValueError(f"need.{need} is measured in a run: [run] is missing")
-            if need in STEADY_NEEDS and self._changing():
-                raise ValueError(f"need.{need} needs constant inputs and parameters")
         return self
-
-    def _changing(self) -> list[str]:
-        """Return the names of the inputs and parameters that change in the run.
-
-        Deviations of a drive that is tuned count as such: they are applied to what it is tuned to.
-        """
-        tuned, deviations = self.tuning.given(TUNABLES), self.inputs.given(DEVIATIONS)
-        tables = self.inputs.given(INPUTS) | tuned | deviations
-        combined = deviations if tuned else {}
-        return [n for n, table in tables.items() if table.constant is None or n in combined]

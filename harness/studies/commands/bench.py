@@ -6,9 +6,8 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import (
-    default_fmu,
+    fmu_argument,
     json_option,
-    other_fmu_argument,
     time_limit_option,
 )
 from slider_resonator.errors import FmuError
@@ -23,7 +22,7 @@ from studies.hosts.step_cost import StepCost, measure_steps, short_step_ratio
 
 
 @click.command("bench")
-@other_fmu_argument("the native one, in dist or installed")
+@fmu_argument
 @click.option(
     "--repeats",
     type=click.IntRange(min=1),
@@ -33,7 +32,7 @@ from studies.hosts.step_cost import StepCost, measure_steps, short_step_ratio
 )
 @time_limit_option(TIME_LIMIT, "For each run of the driver.")
 @json_option
-def bench_command(fmu: Path | None, repeats: int, time_limit: float, as_json: bool) -> None:
+def bench_command(fmu: Path, repeats: int, time_limit: float, as_json: bool) -> None:
     """Measure what a communication step costs in a C host: set an input, step, get outputs.
 
     Needs a C compiler, and an FMU that runs without Python; without FMU: the one in dist. `trade`
@@ -44,9 +43,8 @@ def bench_command(fmu: Path | None, repeats: int, time_limit: float, as_json: bo
       python -m harness bench
       python -m harness bench my.fmu --repeats 11 --json
     """
-    path = default_fmu(fmu)
-    provenance = provenance_of(path)
-    with noting_on_interrupt(), progress_bar() as progress, open_fmu(path) as opened:
+    provenance = provenance_of(fmu)
+    with noting_on_interrupt(), progress_bar() as progress, open_fmu(fmu) as opened:
         if not opened.runs_without_python:
             raise FmuError(f"{opened.path}: needs a Python interpreter, which a C host lacks")
         costs = measure_steps(opened.path, repeats, progress, time_limit)

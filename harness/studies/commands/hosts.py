@@ -6,8 +6,8 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import (
+    fmu_argument,
     json_option,
-    native_fmu_argument,
     target,
     time_limit_option,
 )
@@ -27,7 +27,7 @@ NAMES = [host.name for host in hosts()]
 
 
 @click.command("hosts")
-@native_fmu_argument
+@fmu_argument
 @click.option(
     "--python-fmu",
     type=click.Path(path_type=Path, exists=True, dir_okay=False),

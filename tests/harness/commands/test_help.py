@@ -30,17 +30,19 @@ def commands() -> Iterator[tuple[str, click.Command]]:
 
 
 EVERY = dict(commands())
+PROGRAMS = ("slider-resonator", "python", "pip")
 OPTIONS = {
     name: {opt for p in command.params if isinstance(p, click.Option) for opt in p.opts}
     for name, command in EVERY.items()
 }
 
 
-@pytest.mark.parametrize("width", [60, 80, 120])
-def test_no_help_is_wider_than_the_terminal(width: int) -> None:
+@pytest.mark.parametrize("width", [80, 120])
+def test_no_help_but_examples_is_wider_than_the_terminal(width: int) -> None:
     for name, command in EVERY.items():
         context = click.Context(command, info_name=name, terminal_width=width - 2)
         lines = command.get_help(context).splitlines()
+        lines = [line for line in lines if not line.lstrip().startswith(PROGRAMS)]  # to be copied
         assert not [line for line in lines if len(line) > width], name
         assert not [line for line in lines if re.search(r"\w-$", line)], name
 
@@ -58,12 +60,6 @@ def test_options_have_the_same_name_in_every_command() -> None:
     having = {name: [one for one, options in OPTIONS.items() if name in options] for name in names}
     lines = [f"{option}: {', '.join(commands)}\n" for option, commands in having.items()]
     assert_as_before("options.txt", "".join(lines))
-
-
-def test_old_names_of_options_are_not_in_the_help() -> None:
-    printed = call("sweep", "--help").stdout
-    assert "--jobs " in printed
-    assert "--workers " not in printed
 
 
 @pytest.mark.parametrize("arguments", [("steady",), ("blocking",), ("run", "table_1")])
