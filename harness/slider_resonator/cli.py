@@ -16,10 +16,9 @@ import click
 from slider_resonator import __version__
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.limits import DEFAULTS, MEMORY, UNPACKED
-from slider_resonator.output.console import exit_with, open_closed_streams
+from slider_resonator.output.console import exit_with, open_closed_streams, print_text
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.readable import escaped, indented
-from slider_resonator.output.terminal import fitting, terminal_width
 
 COULD_NOT_RUN = 2
 INTERRUPTED = 130
@@ -161,7 +160,7 @@ def _with_current_names(arguments: list[str]) -> list[str]:
     if arguments[0] not in RENAMED:
         return arguments
     words, options = RENAMED[arguments[0]]
-    _echo(f"note: {arguments[0]} is now {' '.join(words)}")
+    print_text(f"note: {arguments[0]} is now {' '.join(words)}", err=True)
     parts = (argument.partition("=") for argument in arguments[1:])
     return [*words, *(options.get(name, name) + equals + value for name, equals, value in parts)]
 
@@ -174,17 +173,12 @@ def _prints_json(arguments: Sequence[str]) -> bool:
     )
 
 
-def _echo(message: str) -> None:
-    """Print a message on stderr, wrapped where that is a terminal."""
-    click.echo(fitting(message, terminal_width(err=True)).rstrip("\n"), err=True)
-
-
 def _report(error: BaseException) -> str:
     """Print the error message on stderr and return it."""
     if isinstance(error, click.ClickException):
         shown = StringIO()
         error.show(shown)
-        _echo(escaped(shown.getvalue()))
+        print_text(shown.getvalue().rstrip("\n"), err=True)
         return error.format_message()
     if isinstance(error, KeyboardInterrupt):
         message = "\n".join(["interrupted", *getattr(error, "__notes__", [])])
@@ -196,7 +190,7 @@ def _report(error: BaseException) -> str:
     else:
         click.echo(escaped("".join(traceback.format_exception(error))), err=True, nl=False)
         return f"internal error: {error!r}"
-    _echo(indented(message))
+    print_text(indented(message), err=True)
     return message.removeprefix("error: ")
 
 

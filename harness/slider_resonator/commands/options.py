@@ -14,8 +14,8 @@ from slider_resonator.device.values import is_number, settable_value, si_number,
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu import finished
 from slider_resonator.fmu.isolation.tasks import available_cores
+from slider_resonator.output.console import print_text
 from slider_resonator.output.files import writable
-from slider_resonator.output.readable import escaped
 from slider_resonator.scenes.device_file import (
     DeviceFile,
     possible_slips,
@@ -95,9 +95,7 @@ def setting(text: str) -> tuple[str, float]:
 def note(sentences: Sequence[str], source: str = "") -> None:
     """Print notes, such as what may be meant in another unit in a file or option."""
     for sentence in sentences:
-        click.echo(
-            escaped(f"note: {source}: {sentence}" if source else f"note: {sentence}"), err=True
-        )
+        print_text(f"note: {source}: {sentence}" if source else f"note: {sentence}", err=True)
 
 
 def scene_of(name: str, settings: Mapping[str, float], device: DeviceFile | None) -> Scene:

@@ -19,10 +19,9 @@ from slider_resonator.checks.reports.for_ci import (
 from slider_resonator.checks.reports.terminal import print_validation
 from slider_resonator.checks.validate import RunFailure, Validation
 from slider_resonator.commands.options import Parsed, target
-from slider_resonator.output.console import output
+from slider_resonator.output.console import output, print_text
 from slider_resonator.output.files import distinct, writable
 from slider_resonator.output.readable import indented
-from slider_resonator.output.terminal import fitting, terminal_width
 
 PRINTED = Path("-")
 """The value of `--json` without a file."""
@@ -108,5 +107,4 @@ def print_run_failures(fmu: str, run_failures: Sequence[RunFailure]) -> None:
     """Print the run failures on standard error."""
     for failure in run_failures:
         where = f"{fmu}: scene {failure.where}" if failure.scene else ""
-        message = indented(f"error: {where}{failure.reason}")
-        click.echo(fitting(message, terminal_width(err=True)), err=True)
+        print_text(indented(f"error: {where}{failure.reason}"), err=True)

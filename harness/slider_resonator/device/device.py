@@ -64,21 +64,12 @@ class Device:
     def from_mapping(cls, values: Mapping[str, float]) -> "Device":
         """Return table 1 with the given parameters replaced, its drive under given deviations.
 
-        Raises ValueError naming an unknown parameter, or an Integer parameter that got a fraction.
+        The values are those that `check_value` accepts.
         """
-        known = {field.name: field.type for field in fields(cls)}
-        arguments: dict[str, Any] = {}
-        for name, value in values.items():
-            if name in DEVIATIONS:
-                continue
-            if name not in known:
-                raise ValueError(
-                    f"unknown device parameter {name!r} = {value!r}; "
-                    f"must be one of {', '.join(sorted(known))}"
-                )
-            if known[name] is int and not float(value).is_integer():
-                raise ValueError(f"device parameter {name} = {value!r} must be an integer")
-            arguments[name] = int(value) if known[name] is int else float(value)
+        kinds = {field.name: field.type for field in fields(cls)}
+        given = {name: value for name, value in values.items() if name not in DEVIATIONS}
+        arguments: dict[str, Any]
+        arguments = {n: int(v) if kinds[n] is int else float(v) for n, v in given.items()}
         return cls(**arguments).deviating(values)
 
     def deviating(self, values: Mapping[str, float]) -> "Device":

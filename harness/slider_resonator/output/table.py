@@ -40,18 +40,10 @@ Row = Sequence[str | Cell]
 
 @dataclass(frozen=True)
 class Table:
-    """Columns, and rows of one cell for each of them, or only the first one.
-
-    Raises ValueError for a row of any other length.
-    """
+    """Columns, and rows of one cell for each of them, or only the first one."""
 
     columns: Sequence[Column]
     rows: Sequence[Row]
-
-    def __post_init__(self) -> None:
-        for row in self.rows:
-            if len(row) not in (1, len(self.columns)):
-                raise ValueError(f"{len(row)} cells in a table of {len(self.columns)} columns")
 
     @property
     def cells(self) -> list[list[Cell]]:

@@ -5,6 +5,7 @@ from datetime import date, time
 from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from slider_resonator.device.device import DEVIATIONS
@@ -37,10 +38,6 @@ _REQUIREMENTS: Mapping[str, str] = {
     "tuple_type": "a list in brackets",
 }
 """What a value must be, by the type of error that pydantic finds."""
-
-
-_NUMBERS = ("finite_number", "float_type", "greater_than", "greater_than_equal", "less_than")
-"""Types of error whose explanation names the unit of the key."""
 
 
 _NO_UNITS = ("1", "unit of the quantity")
@@ -93,22 +90,21 @@ def _explanation(problem: ErrorDetails, content: Mapping[str, Any], top: type[Ba
     if wrong.startswith(f"{name} = "):
         return key.removesuffix(str(name)) + wrong
     if kind == "extra_forbidden":
-        fields = _table_at(location, top).model_fields
         if name in PLACES and top in (SceneTable, DeviceFileTable):
             return f"{key}: unknown key {name!r}; {PLACES[str(name)]}"
-        known = [field.alias or other for other, field in fields.items()]
-        return f"{key}: {unknown_name('key', str(name), known)}"
+        return f"{key}: {unknown_name('key', str(name), map(str, _fields_at(location, top)))}"
     if len(location) > 1 and location[-2] in ("steps", "ramp"):
         wrong, kind = "must be a pair [time (s), value]", ""
-    field = _field_at(location, top)
+    field = _fields_at(location, top).get(name)
     if kind == "missing":
         examples = field.examples if field else None
         example = f"; add {name} = {toml_value(examples[0])}" if examples else ""
         return f"{key}: is missing{example}"
     if kind in _REQUIREMENTS:
         wrong = "must be " + _REQUIREMENTS[kind].format(**problem.get("ctx", {}))
-        unit = (field.json_schema_extra or {}).get("unit", "1") if field else "1"
-        wrong += f", in {unit}" if kind in _NUMBERS and unit not in _NO_UNITS else ""
+        about = field.json_schema_extra if field else None
+        unit = str(about.get("unit", "1")) if isinstance(about, dict) else "1"
+        wrong += f", in {unit}" if "number" in wrong and unit not in _NO_UNITS else ""
     if location == ("expect",):
         wrong = "must be a list of tables, each headed [[expect]]"
     elif kind == "model_type" and isinstance(value, list):
@@ -138,25 +134,16 @@ def _named(location: tuple[int | str, ...], content: Mapping[str, Any]) -> tuple
     return (f"expect[{', '.join(known)}]", *location[2:]) if known else location
 
 
-def _field_at(location: tuple[int | str, ...], top: type[BaseModel]) -> Any:
-    """Return the field of the key at a location of the schema, None inside a list or mapping."""
-    name = location[-1]
-    if isinstance(name, int):
-        return None
-    try:
-        fields = _table_at(location, top).model_fields
-        return next((one for key, one in fields.items() if name in (key, one.alias)), None)
-    except (AttributeError, IndexError, KeyError):
-        return None  # below a mapping of names, such as [device]
-
-
-def _table_at(location: tuple[int | str, ...], top: type[BaseModel]) -> type[BaseModel]:
-    """Return the table of the schema that has the last key of a location."""
+def _fields_at(location: tuple[int | str, ...], top: type[BaseModel]) -> dict[int | str, FieldInfo]:
+    """Return the fields, by key, of the table that has the last key of a location."""
     model = top
     for part in location[:-1]:
         if part in model.model_fields:
-            model = _tables_in(model.model_fields[str(part)].annotation)[-1]
-    return model
+            tables = _tables_in(model.model_fields[str(part)].annotation)
+            if not tables:
+                return {}  # below a mapping of names, such as [fixed] of a grid
+            model = tables[-1]
+    return {field.alias or name: field for name, field in model.model_fields.items()}
 
 
 def _tables_in(annotation: Any) -> list[type[BaseModel]]:

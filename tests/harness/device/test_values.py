@@ -101,19 +101,6 @@ def test_starts_are_table_1() -> None:
     assert factor == pytest.approx(0.05), "table 1 gives 0.5 c / (k m)^(1/2) = 0.05"
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "message"),
-    [
-        ("slider_mas", 0.5, r"slider_mas.*0\.5.*slider_mass"),
-        ("friction_faces", 1.5, r"friction_faces = 1\.5 must be an integer"),
-        ("friction_faces", math.nan, "friction_faces"),
-    ],
-)
-def test_wrong_parameter_is_refused_by_name(name: str, value: float, message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        Device.from_mapping({name: value})
-
-
 def test_fmu_has_this_interface_and_these_starts(fmu: Fmu) -> None:
     """The interface is written down twice, in the harness and in the component: both must agree."""
     assert {*fmu.variables, *fmu.lacks} == set(VARIABLES)

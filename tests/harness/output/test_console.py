@@ -35,7 +35,7 @@ def test_progress_stays_on_one_line(width: int, monkeypatch: pytest.MonkeyPatch)
     )
     shown = [line for line in lines if "3 of 33" in line]
     assert shown
-    assert all("set or get" in line and "0:00:0" in line for line in shown)
+    assert all("C host" in line and "0:00:0" in line for line in shown)
     assert max(map(cell_len, lines)) <= width
 
 

@@ -23,11 +23,6 @@ TABLE = Table(
 )
 
 
-def test_a_row_of_another_length_is_refused() -> None:
-    with pytest.raises(ValueError, match="2 cells in a table of 3 columns"):
-        Table(texts("a", "b", "c"), [["1", "2"]])
-
-
 @pytest.mark.parametrize(
     ("text", "shown"),
     [
