@@ -111,7 +111,16 @@ def check(
         if now is None:
             continue
         try:
-            found = _compare(scene, before, now, tolerance)
+            if before.provenance.get(SCENE_DIGEST) != scene_digest(scene):
+                raise SceneError(
+                    f"{scene.source}: no longer runs the recorded content of {scene.name}; record "
+                    "it again with --replace"
+                )
+            found: list[tuple[Check, Curves | None]] = []
+            for point in scene.points():
+                at = key(point.at)
+                recorded = before.points.get(at, {})
+                found += compare_golden(point, recorded, now.points[at], tolerance)
         except SceneError as error:
             run_failures.append(RunFailure(scene.name, str(error), {}))
             continue
@@ -225,20 +234,3 @@ def _measure(
     whole = [source for source in points if len(found[source]) == len(points[source])]
     recorded = {source: Recorded(found[source], origins[source]) for source in whole}
     return recorded, run_failures, not_applied
-
-
-def _compare(
-    scene: Scene, golden: Recorded, now: Recorded, tolerance: float
-) -> list[tuple[Check, Curves | None]]:
-    if golden.provenance.get(SCENE_DIGEST) != scene_digest(scene):
-        raise SceneError(
-            f"{scene.source}: no longer runs the recorded content of {scene.name}; record it again "
-            "with --replace"
-        )
-    return [
-        one
-        for point in scene.points()
-        for one in compare_golden(
-            point, golden.points.get(key(point.at), {}), now.points[key(point.at)], tolerance
-        )
-    ]

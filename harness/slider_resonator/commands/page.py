@@ -13,7 +13,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.errors import FmuError
 from slider_resonator.output.console import print_json, print_text
-from slider_resonator.output.files import replacing
+from slider_resonator.output.files import write_text
 from slider_resonator.output.readable import one_line
 from slider_resonator.scenes.device_file import DeviceFile, to_toml
 
@@ -41,8 +41,7 @@ def page_command(
     """
     values = options.values_of(device, settings)
     page = started_at(page_of(fmu), values, device.title if device else "Your device")
-    with replacing(out) as temporary:
-        temporary.write_text(page, encoding="utf-8")
+    write_text(out, page)
     if as_json:
         print_json({"page": str(out)})
     else:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import resources
-from math import pi
+from math import tau
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
@@ -105,31 +105,38 @@ def possible_slips(
     more than a turn; in um an amplitude that is faster than `FASTEST`. `where` says what to write,
     if not in [device].
     """
-    suspects: list[tuple[str, float, str, str]] = []
-    given, values = {}, []
-    for name in FREQUENCIES:
+
+    def frequency(name: str) -> float:
         value = table.get(name, (beside or {}).get(name, VARIABLES[name].start))
-        values.append(si_value(name, value) if isinstance(value, str) else float(value))
-        if name in table and not isinstance(value, str | bool):
-            given[name] = values[-1]
-    differing = {n: value for n, value in given.items() if value != VARIABLES[n].start}
-    ratio = values[0] / values[1]
-    apart = any(abs(r / (2.0 * pi) - 1.0) < 0.03 for r in (ratio, 1.0 / ratio))
-    is_round = any(float(f"{value:.2g}") == value for value in differing.values())
-    for name, value in differing.items():
-        if value > 0.0 and (is_round or apart):
-            suspects.append((name, value, f"is {with_unit(name, value)}", "Hz"))
-    amplitude, phase = table.get("base_amplitude"), table.get("phase")
-    if isinstance(amplitude, float | int) and amplitude * values[0] > FASTEST:
-        velocity = f"at the drive's frequency is {amplitude * values[0]:.3g} m/s"
-        suspects.append(("base_amplitude", amplitude, velocity, "um"))
-    if isinstance(phase, float | int) and abs(phase) > 2.0 * pi:
-        suspects.append(("phase", phase, f"is {with_unit('phase', phase)}", "deg"))
-    return [
-        f"{name} = {value:g} is in {VARIABLES[name].unit}, which {means}; "
-        f"if {value:g} {unit} is meant, write " + (where or f'{name} = "{value:g} {unit}"')
-        for name, value, means, unit in suspects
-    ]
+        return si_value(name, value) if isinstance(value, str) else float(value)
+
+    numbers = {
+        name: value
+        for name, value in table.items()
+        if isinstance(value, float | int) and not isinstance(value, bool)
+    }
+    given = [n for n in FREQUENCIES if n in numbers and numbers[n] != VARIABLES[n].start]
+    drive, resonator = map(frequency, FREQUENCIES)
+    apart = any(abs(r / tau - 1.0) < 0.03 for r in (drive / resonator, resonator / drive))
+    is_round = any(float(f"{numbers[name]:.2g}") == numbers[name] for name in given)
+    meant = {n: "Hz" for n in given if numbers[n] > 0.0 and (is_round or apart)}
+    velocity = numbers.get("base_amplitude", 0.0) * drive
+    if velocity > FASTEST:
+        meant["base_amplitude"] = "um"
+    if abs(numbers.get("phase", 0.0)) > tau:
+        meant["phase"] = "deg"
+    slips = []
+    for name, unit in meant.items():
+        shown, other = f"{numbers[name]:g}", f"{numbers[name]:g} {unit}"
+        means = f"is {with_unit(name, numbers[name])}"
+        if name == "base_amplitude":
+            means = f"at the drive's frequency is {velocity:.3g} m/s"
+        write = where or f'{name} = "{other}"'
+        slips.append(
+            f"{name} = {shown} is in {VARIABLES[name].unit}, which {means}; if {other} is meant, "
+            f"write {write}"
+        )
+    return slips
 
 
 def without_drive(values: Mapping[str, float]) -> list[str]:

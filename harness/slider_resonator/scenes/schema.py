@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field, field_validator, model_validator
 
 from slider_resonator.device.interface import SETTABLE, TUNABLES
-from slider_resonator.device.values import check_value
+from slider_resonator.device.values import settable_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.expansion import with_bundles
 from slider_resonator.scenes.input_tables import AllInputsTable, BesideTable, TuningTable
@@ -122,13 +122,6 @@ class ExpectTable(KeyTable):
         "the reason for the expectation, for the report", "the step must arrive when it is due"
     )
 
-    @field_validator("quantity")
-    @classmethod
-    def _known_quantity(cls, name: str) -> str:
-        if name not in QUANTITIES:
-            raise ValueError(unknown_name("quantity", name, QUANTITIES))
-        return name
-
     @field_validator("value", mode="before")
     @classmethod
     def _number_or_word(cls, value: object) -> object:
@@ -139,6 +132,8 @@ class ExpectTable(KeyTable):
 
     @model_validator(mode="after")
     def _comparable(self) -> "ExpectTable":
+        if self.quantity not in QUANTITIES:
+            raise ValueError(unknown_name("quantity", self.quantity, QUANTITIES))
         kinds = ("reference", "value", "at_most", "at_least")
         given = [*self.given(kinds)]
         exactly_one("expect", given, ", ".join(kinds))
@@ -189,17 +184,10 @@ class SweepTable(KeyTable):
         "its values", [0.0, 0.02, 0.04]
     )
 
-    @field_validator("variable")
-    @classmethod
-    def _known_variable(cls, name: str) -> str:
-        if name not in SETTABLE:
-            raise ValueError(unknown_name("parameter or input", name, SETTABLE))
-        return name
-
     @model_validator(mode="after")
     def _possible(self) -> "SweepTable":
         for value in self.values:
-            check_value(self.variable, value)
+            settable_value(self.variable, value)
         return self
 
 

@@ -3,7 +3,7 @@
 import json
 import re
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 from zipfile import is_zipfile
@@ -37,8 +37,6 @@ _LINE = re.compile(r"\(at line (\d+), column \d+\)$")
 
 MAX_SHOWN = 60
 """Characters of the line that are shown."""
-
-_NAME_AND_VALUE = "must be key = value, or a heading such as [run]"
 
 _NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
 _HABITS: tuple[tuple[str, str], ...] = (
@@ -82,7 +80,7 @@ def toml_mistake(text: str, error: str) -> str:
     """Return where and what is wrong in `text`, and the remedy, for the error of `tomllib`."""
     lines = text.splitlines() or [""]
     found = _LINE.search(error)
-    opening = [n for n, line in enumerate(lines, 1) if _opened(line) > 0] or [len(lines)]
+    opening = [n for n, line in enumerate(lines, 1) if re.search(_OPEN, line)] or [len(lines)]
     number = min(int(found[1]), len(lines)) if found else opening[-1]
     line = lines[number - 1].strip()
     shown = line if len(line) <= MAX_SHOWN else f"{line[:MAX_SHOWN]}..."
@@ -90,41 +88,33 @@ def toml_mistake(text: str, error: str) -> str:
     return f"line {number}: {shown}: not TOML: {wrong}; {_remedy(error, line)}"
 
 
-def _opened(line: str) -> int:
-    return sum(line.count(c) for c in "[{") - sum(line.count(c) for c in "]}")
-
-
-_REMEDIES: tuple[tuple[Callable[[str, str], bool], str], ...] = (
-    (
-        lambda error, _: "overwrite" in error or "twice" in error or "mutate" in error,
-        "must be there once: delete one",
-    ),
-    (lambda error, _: "declaration" in error, "close the bracket, as in [run] or [[expect]]"),
-    (
-        lambda error, line: "\\" in line and ("hex value" in error or "Unescaped" in error),
-        "a path in quotes is written with /",
-    ),
-    (lambda error, _: "Unclosed inline table" in error, "close the brace with }"),
-    (lambda error, line: "Unclosed" in error or _opened(line) > 0, "close the bracket"),
-    (
-        lambda error, line: "Illegal character" in error or line.count('"') % 2 == 1,
-        "close the quotes",
-    ),
-    (
-        lambda error, line: "Invalid value" in error and bool(re.search(r"=\s*[A-Za-z]", line)),
-        'a text needs quotes, as in "my_step"',
-    ),
-    (lambda error, _: "Invalid value" in error, "must be a number, a text in quotes or a list"),
+_OPEN = r"[\[{][^\]}]*$"
+_ODD_QUOTES = r'^[^"]*"(?:[^"]*"[^"]*")*[^"]*$'
+_REMEDIES: tuple[tuple[str, str, str], ...] = (
+    ("overwrite|twice|mutate", "", "must be there once: delete one"),
+    ("declaration", "", "close the bracket, as in [run] or [[expect]]"),
+    ("hex value|Unescaped", r"\\", "a path in quotes is written with /"),
+    ("Unclosed inline table", "", "close the brace with }"),
+    ("Unclosed", "", "close the bracket"),
+    ("", _OPEN, "close the bracket"),
+    ("Illegal character", "", "close the quotes"),
+    ("", _ODD_QUOTES, "close the quotes"),
+    ("Invalid value", r"=\s*[A-Za-z]", 'a text needs quotes, as in "my_step"'),
+    ("Invalid value", "", "must be a number, a text in quotes or a list"),
+    ("", "", "must be key = value, or a heading such as [run]"),
 )
-"""Whether a remedy is the one for an error and its line."""
+"""The remedy for an error of a line, as patterns of both; the first that fits."""
 
 
 def _remedy(error: str, line: str) -> str:
     for habit, remedy in _HABITS:
-        found = re.search(habit, line)
-        if found:
+        if found := re.search(habit, line):
             return found.expand(remedy)
-    return next((text for fits, text in _REMEDIES if fits(error, line)), _NAME_AND_VALUE)
+    return next(
+        remedy
+        for of_error, of_line, remedy in _REMEDIES
+        if re.search(of_error, error) and re.search(of_line, line)
+    )
 
 
 def read_toml(path: Path) -> dict[str, Any]:
