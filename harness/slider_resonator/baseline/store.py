@@ -18,6 +18,7 @@ from slider_resonator.checks.compare import Value
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.provenance import FmuIdentity, provenance_of, provenance_properties
+from slider_resonator.scenes.csv_signal import csv_rows
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import built_in_scenes
 from slider_resonator.scenes.schema import RunTable
@@ -202,23 +203,20 @@ def _write(path: Path, rows: Iterable[Sequence[str]]) -> None:
 
 def _read(path: Path, parsed: Callable[[list[str]], T]) -> Iterator[T]:
     """Yield the parsed cells of each line after the header; HarnessError with file and line."""
-    try:
-        with path.open(newline="", encoding="utf-8") as file:
-            found, *rows = list(csv.reader(file)) or [[]]
-    except OSError as error:
-        raise HarnessError(f"{path}: cannot be read: {error.strerror}") from error
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise HarnessError(f"{path}: cannot be read: {error}") from error
     header = list(HEADERS[path.name])
-    if found != header:
-        raise HarnessError(f"{path} line 1: {','.join(found)!r}; must be {','.join(header)!r}")
-    for line, row in enumerate(rows, start=2):
-        if len(row) != len(header):
-            raise HarnessError(f"{path} line {line}: {len(row)} cells; must be {len(header)}")
-        try:
-            yield parsed(row)
-        except ValueError as error:
-            raise HarnessError(f"{path} line {line}: {error}") from error
+    try:
+        found, rows = csv_rows(path)
+        if found != header:
+            raise ValueError(f"{path} line 1: {','.join(found)!r}; must be {','.join(header)!r}")
+        for line, row in rows:
+            if len(row) != len(header):
+                raise ValueError(f"{path} line {line}: {len(row)} cells; must be {len(header)}")
+            try:
+                yield parsed(row)
+            except ValueError as error:
+                raise ValueError(f"{path} line {line}: {error}") from error
+    except ValueError as error:
+        raise HarnessError(str(error)) from error
 
 
 def _text(value: Value) -> str:

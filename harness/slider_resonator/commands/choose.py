@@ -57,7 +57,7 @@ def choose_command(
     scene: str,
     needs: dict[str, AllowedTable],
     stop_time: float | None,
-    fmu: Path | None,
+    fmu: Path,
     device: DeviceFile | None,
     settings: dict[str, float],
     time_limit: float,
@@ -90,10 +90,9 @@ def choose_command(
         read = read.timed(stop_time=stop_time)
     if needs:
         read = read.needing(needs)
-    path = options.default_fmu(fmu)
-    provenance = provenance_of(path)
+    provenance = provenance_of(fmu)
     with progress_bar() as progress:
-        choice = choose(read, path, time_limit, progress)
+        choice = choose(read, fmu, time_limit, progress)
     if as_json:
         print_json(choice, provenance)
     else:

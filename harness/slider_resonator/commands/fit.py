@@ -67,6 +67,7 @@ _FORCE = options.Parsed("N", partial(_finite, "blocking_force"))
     "--bounds",
     type=options.Parsed("NAME=LOW:HIGH", _bounds),
     multiple=True,
+    callback=options.each_once,
     help="Bounds of one. Repeatable.",
 )
 @click.option("--velocity", type=_VELOCITY, help="Velocity without load.")
@@ -94,7 +95,7 @@ _FORCE = options.Parsed("N", partial(_finite, "blocking_force"))
 def fit_command(
     data: tuple[Path, ...],
     free: Sequence[str],
-    bounds: Sequence[tuple[str, tuple[float, float]]],
+    bounds: dict[str, tuple[float, float]],
     velocity: float | None,
     blocking: float | None,
     loaded: Sequence[tuple[float, float]],
@@ -102,7 +103,7 @@ def fit_command(
     out: Path | None,
     device: DeviceFile | None,
     settings: dict[str, float],
-    fmu: Path | None,
+    fmu: Path,
     jobs: int,
     time_limit: float,
     as_json: bool,
@@ -144,15 +145,14 @@ def fit_command(
             raise click.UsageError(
                 f"--out {out}: has a device.toml that no fit has written; must be another folder"
             )
-    path = options.default_fmu(fmu)
-    provenance = provenance_of(path)
-    with progress_bar() as progress, isolated(path, jobs, time_limit, progress) as run:
+    provenance = provenance_of(fmu)
+    with progress_bar() as progress, isolated(fmu, jobs, time_limit, progress) as run:
         found = fit(
             measurements,
             [name.strip() for names in free for name in names.split(",") if name.strip()],
             options.values_of(device, settings),
             run,
-            bounds=dict(bounds),
+            bounds=bounds,
             starts=starts,
         )
     title = f"Fit to {', '.join(one.name for one in data) or 'a datasheet'}"

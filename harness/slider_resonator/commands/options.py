@@ -279,6 +279,7 @@ jobs_option = click.option(
 fmu_option = click.option(
     "--fmu",
     type=FMU_FILE,
+    callback=lambda _, __, fmu: default_fmu(fmu),
     help="FMU to run.  [default: the native one, in dist or installed]",
 )
 

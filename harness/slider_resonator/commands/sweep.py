@@ -41,6 +41,7 @@ def _axis(text: str) -> tuple[str, dict[str, float]]:
     "axes",
     type=options.Parsed("NAME=FROM:TO:COUNT", _axis),
     multiple=True,
+    callback=options.each_once,
     help="In place of GRID: a range of a parameter or input, in SI units or with units. "
     "Repeatable.",
 )
@@ -68,14 +69,14 @@ def _axis(text: str) -> tuple[str, dict[str, float]]:
 @options.json_option
 def sweep_command(
     grid: Path | None,
-    axes: Sequence[tuple[str, dict[str, float]]],
+    axes: dict[str, dict[str, float]],
     measures: Sequence[str],
     out: Path,
     plot: Path | None,
     html: Path | None,
     device: DeviceFile | None,
     settings: dict[str, float],
-    fmu: Path | None,
+    fmu: Path,
     jobs: int,
     dask: str | None,
     restart: bool,
@@ -118,15 +119,11 @@ def sweep_command(
     sources = {"the grid": grid, "the FMU": fmu}
     given = {name: path for name, path in sources.items() if path is not None}
     distinct({"--out": out, "--plot": plot, "--html": html}, given)
-    names = [name for name, _ in axes]
-    for name in names:
-        if names.count(name) > 1:
-            raise click.UsageError(f"--over {name}: given twice; must be once")
     own = device.values if device else {}
     if grid is not None:
         sweep = read_grid(grid, own, settings)
     else:
-        content = {"grid": dict(axes), **({"measures": list(measures)} if measures else {})}
+        content = {"grid": axes, **({"measures": list(measures)} if measures else {})}
         sweep = grid_from(content, "--over", own, settings)
     options.note(sweep.slips, str(grid or "--over"))
     if device and not sweep.title:
@@ -140,12 +137,11 @@ def sweep_command(
         from slider_resonator.sweeping.page import check_page, write_sweep_page
 
         check_page(sweep, "--html")
-    path = options.default_fmu(fmu)
-    provenance = provenance_of(path)
+    provenance = provenance_of(fmu)
     with progress_bar() as progress:
         result = run_sweep(
             sweep,
-            path,
+            fmu,
             out,
             workers=jobs,
             dask=dask,

@@ -178,8 +178,8 @@ function tellPoints(plot, spec, tip) {
   over.append(tip);
 }
 
-function scaleOf({ log, range }) {
-  return { time: false, ...(log ? { distr: 3 } : {}), ...(range ? { range: () => range } : {}) };
+function scaleOf({ log }) {
+  return { time: false, ...(log ? { distr: 3 } : {}) };
 }
 
 /** Return how a series looks, for the legend: its marker, on its line. */

@@ -27,14 +27,10 @@ DIGITS = 9
 
 @dataclass(frozen=True)
 class Axis:
-    """An axis with its unit in the label; a logarithmic one is for positive values only.
-
-    `range` are its ends, by default those of the data.
-    """
+    """An axis with its unit in the label; a logarithmic one is for positive values only."""
 
     label: str
     log: bool = False
-    range: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,6 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands.options import (
-    default_fmu,
     fmu_option,
     json_option,
     out_folder_option,
@@ -36,7 +35,7 @@ def paper_command(
     context: click.Context,
     out: Path,
     only: tuple[str, ...],
-    fmu: Path | None,
+    fmu: Path,
     time_limit: float,
     as_json: bool,
 ) -> None:
@@ -52,10 +51,9 @@ def paper_command(
       python -m harness paper --out paper
       python -m harness paper --out paper --only figure_8 --only claims --json
     """
-    path = default_fmu(fmu)
-    provenance = provenance_of(path)
+    provenance = provenance_of(fmu)
     with progress_bar() as progress:
-        outcome = reproduce(path, out, only, progress, time_limit)
+        outcome = reproduce(fmu, out, only, progress, time_limit)
     print_result(outcome, _sentences(outcome), as_json=as_json, provenance=provenance)
     context.exit(0 if outcome.confirmed else 1)
 

@@ -161,9 +161,9 @@ def test_writing_again_replaces_everything_and_leaves_nothing_behind(tmp_path: P
 @pytest.mark.parametrize(
     ("name", "row", "reason"),
     [
-        ("numbers.csv", "one,two,three", "3 cells; must be 4"),
-        ("trajectory.csv", "one,two,three", "3 cells; must be 10"),
-        ("provenance.csv", "one,two,three", "3 cells; must be 2"),
+        ("numbers.csv", "one,two,three", "3 cells"),
+        ("trajectory.csv", "one,two,three", "3 cells"),
+        ("provenance.csv", "one,two,three", "3 cells"),
         ("numbers.csv", ",reversals,1,many", "'many': must be a number"),
         ("numbers.csv", ",reversals,1,", "'': must be a number"),
         ("numbers.csv", ",reversal,1,3", "did you mean 'reversals'"),
@@ -184,7 +184,7 @@ def test_a_line_without_sense_is_named(tmp_path: Path, name: str, row: str, reas
     with pytest.raises(HarnessError, match=rf"{name} line 1: ''; must be '(at|what),"):
         read_recorded(tmp_path / "mine")
     (tmp_path / "mine" / "numbers.csv").unlink()
-    with pytest.raises(HarnessError, match=r"numbers.csv: cannot be read"):
+    with pytest.raises(HarnessError, match=r"numbers.csv cannot be read"):
         read_recorded(tmp_path / "mine")
 
 

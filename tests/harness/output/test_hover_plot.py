@@ -38,7 +38,7 @@ def test_a_page_has_its_data_and_allows_its_own_scripts_only(tmp_path: Path) -> 
     text, page = written(tmp_path, PLOT)
     assert page.loaded == ["data:,"]
     (data,) = page.plots
-    assert data["y"] == {"label": "velocity [m/s]", "log": True, "range": None}
+    assert data["y"] == {"label": "velocity [m/s]", "log": True}
     (series,) = data["series"]
     assert (series["x"], series["y"]) == ([1.0, 2.0], [0.5, None])
     assert series["notes"] == ["one", "two"]
