@@ -15,7 +15,6 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import print_json, print_table, print_text
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.scenes.key_table import units_of
 from slider_resonator.scenes.schema import AllowedTable, NeedTable
 
@@ -58,8 +57,7 @@ def choose_command(
     needs: dict[str, AllowedTable],
     stop_time: float | None,
     fmu: Path,
-    device: DeviceFile | None,
-    settings: dict[str, float],
+    given: options.Given,
     time_limit: float,
     as_json: bool,
 ) -> int:
@@ -84,8 +82,8 @@ def choose_command(
       slider-resonator choose scenes/mine.toml --json
       slider-resonator choose feed_forward --set friction_law=1 bristle_stiffness=1e6
     """
-    options.check_left_to_choose(device, settings)
-    read = options.scene_of(scene, settings, device)
+    given.check_left_to_choose()
+    read = given.scene(scene)
     if stop_time is not None:
         read = read.timed(stop_time=stop_time)
     if needs:

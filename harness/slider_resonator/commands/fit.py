@@ -20,7 +20,6 @@ from slider_resonator.output.console import print_json, print_table, print_text
 from slider_resonator.output.files import distinct, make_folder
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
-from slider_resonator.scenes.device_file import DeviceFile
 
 
 def _finite(variable: str, text: str) -> float:
@@ -101,8 +100,7 @@ def fit_command(
     loaded: Sequence[tuple[float, float]],
     starts: int,
     out: Path | None,
-    device: DeviceFile | None,
-    settings: dict[str, float],
+    given: options.Given,
     fmu: Path,
     jobs: int,
     time_limit: float,
@@ -137,9 +135,7 @@ def fit_command(
         raise click.UsageError("no measurements: must be CSV files, --velocity or --blocking")
     if out is not None:
         make_folder(out)
-        sources = {f"the data {path.name}": path for path in data}
-        if device is not None:
-            sources["the device"] = device.path
+        sources = {f"the data {path.name}": path for path in data} | given.sources
         distinct({f"{name} of --out": out / name for name in FILES}, sources)
         if (out / "device.toml").exists() and not (out / "fit.html").exists():
             raise click.UsageError(
@@ -150,7 +146,7 @@ def fit_command(
         found = fit(
             measurements,
             [name.strip() for names in free for name in names.split(",") if name.strip()],
-            options.values_of(device, settings),
+            given.values,
             run,
             bounds=bounds,
             starts=starts,

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial, wraps
 from math import inf
 from pathlib import Path
@@ -98,15 +99,40 @@ def note(sentences: Sequence[str], source: str = "") -> None:
         print_text(f"note: {source}: {sentence}" if source else f"note: {sentence}", err=True)
 
 
-def scene_of(name: str, settings: Mapping[str, float], device: DeviceFile | None) -> Scene:
-    """Return the scene that the command line names, with --set and --device; note its slips.
+@dataclass(frozen=True)
+class Given:
+    """What --device and --set say: a device file or None, and parameters and inputs."""
 
-    Only those of a scene of the user's own: those of a device file are noted as it is read.
-    """
-    scene = find_scene(name, settings, device)
-    if device is None and name not in built_in_scenes():
-        note(scene.slips, scene.source)
-    return scene
+    device: DeviceFile | None
+    settings: Mapping[str, float]
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The values of both; where both set one, that of --set."""
+        return {**(self.device.values if self.device else {}), **self.settings}
+
+    @property
+    def sources(self) -> dict[str, Path]:
+        """The device file, which no result may replace, by what it is."""
+        return {"the device": self.device.path} if self.device else {}
+
+    def scene(self, name: str) -> Scene:
+        """Return the scene of a name or file with the values; note its slips.
+
+        Only those of a scene of the user's own: those of a device file are noted as it is read.
+        """
+        scene = find_scene(name, self.settings, self.device)
+        if self.device is None and name not in built_in_scenes():
+            note(scene.slips, scene.source)
+        return scene
+
+    def check_left_to_choose(self) -> None:
+        """Raise UsageError for a fidelity or tolerance, which are to be chosen."""
+        given = [f"{n} = {self.values[n]:g}" for n in ("fidelity", "tolerance") if n in self.values]
+        if given:
+            raise click.UsageError(
+                f"'--set': {', '.join(given)}: it is chosen; must be another parameter or input"
+            )
 
 
 class SettingsCommand(click.Command):
@@ -162,23 +188,9 @@ def each_once(
     given: dict[str, Value] = {}
     for name, value in settings:
         if name in given:
-            raise click.BadParameter(
-                f"{name} = {given[name]} and {name} = {value}: must be one value",
-                context,
-                option,
-            )
+            raise click.BadParameter(f"{name} is given twice; must be once", context, option)
         given[name] = value
     return given
-
-
-def check_left_to_choose(device: DeviceFile | None, settings: Mapping[str, float]) -> None:
-    """Raise UsageError for a fidelity or tolerance in either, which are to be chosen."""
-    all_given = values_of(device, settings)
-    given = [f"{n} = {all_given[n]:g}" for n in ("fidelity", "tolerance") if n in all_given]
-    if given:
-        raise click.UsageError(
-            f"'--set': {', '.join(given)}: it is chosen; must be another parameter or input"
-        )
 
 
 def _no_toml(kind: str, text: str) -> Path:
@@ -312,18 +324,14 @@ device_option = click.option(
 
 
 def device_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add --device and --set: the command gets a `device`, as it was read, and `settings`."""
+    """Add --device and --set: the command gets what they say as `given`."""
 
     @wraps(command)
-    def with_device(device: str | None, **others: Any) -> Any:
-        return command(device=None if device is None else device_file(device), **others)
+    def with_device(device: str | None, settings: dict[str, float], **others: Any) -> Any:
+        read = None if device is None else device_file(device)
+        return command(given=Given(read, settings), **others)
 
     return device_option(_settings_option(with_device))
-
-
-def values_of(device: DeviceFile | None, settings: Mapping[str, float]) -> dict[str, float]:
-    """Return the values of --device and of --set; where both set one, that of --set."""
-    return {**(device.values if device else {}), **settings}
 
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")

@@ -15,7 +15,7 @@ from slider_resonator.errors import FmuError
 from slider_resonator.output.console import print_json, print_text
 from slider_resonator.output.files import write_text
 from slider_resonator.output.readable import one_line
-from slider_resonator.scenes.device_file import DeviceFile, to_toml
+from slider_resonator.scenes.device_file import to_toml
 
 PAGE = "documentation/slider-resonator.html"
 """The page in a native FMU that was built for all platforms; it is beside such an FMU, too."""
@@ -27,9 +27,7 @@ _DEVICES = re.compile(r'(?<=<script type="application/json" id="devices">).*?(?=
 @options.device_options
 @click.option("--out", type=options.target((".html",)), required=True, help="The page to write.")
 @options.json_option
-def page_command(
-    fmu: Path, device: DeviceFile | None, settings: dict[str, float], out: Path, as_json: bool
-) -> None:
+def page_command(fmu: Path, given: options.Given, out: Path, as_json: bool) -> None:
     """Write a page that runs the component in a browser, started at your device.
 
     One file without a network. The page is that of the native FMU, from its documentation.
@@ -39,8 +37,9 @@ def page_command(
       slider-resonator page --out slider.html
       slider-resonator page --device mine.toml --set phase="30 deg" --out mine.html
     """
-    values = options.values_of(device, settings)
-    page = started_at(page_of(fmu), values, device.title if device else "Your device")
+    page = started_at(
+        page_of(fmu), given.values, given.device.title if given.device else "Your device"
+    )
     write_text(out, page)
     if as_json:
         print_json({"page": str(out)})

@@ -19,7 +19,6 @@ from slider_resonator.output.files import PICTURE_SUFFIXES, distinct, write_csv
 from slider_resonator.output.progress import Progress
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line, readable
-from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.scenes.scene import Scene
 
 if TYPE_CHECKING:
@@ -114,8 +113,7 @@ def run_command(
     overlays: tuple[tuple[str, float] | Path, ...],
     auto: bool,
     interpolate: bool | None,
-    device: DeviceFile | None,
-    settings: dict[str, float],
+    given: options.Given,
     time_limit: float,
     as_json: bool,
 ) -> int:
@@ -137,23 +135,21 @@ def run_command(
       slider-resonator run my.fmu table_1 --plot a.png --window 0.1:0.11 --overlay fidelity=1
       slider-resonator run my.fmu scenes/mine.toml --set load=0.05 phase=0.4 --json
     """
-    read = options.scene_of(scene, settings, device)
+    read = given.scene(scene)
     if stop_time is not None or step_size is not None:
         read = read.timed(stop_time=stop_time, step_size=step_size)
     if interpolate is not None:
         read = read.interpolating(interpolate)
     files = {f"the scene's file {file}": file for file in read.files}
-    if device is not None:
-        files["the device"] = device.path
     others = {f"the FMU {one}": one for one in overlays if isinstance(one, Path)}
-    distinct({"--out": out, "--plot": plot}, {"the FMU": fmu, **others, **files})
+    distinct({"--out": out, "--plot": plot}, {"the FMU": fmu, **others, **files, **given.sources})
     is_chosen = bool(signals is not None or window or overlays)
     if plot is None and is_chosen:
         raise click.UsageError("--signals, --window and --overlay need --plot")
     if auto and step_size is not None:
         raise click.UsageError("--step and --auto exclude each other: --auto chooses the step")
     if auto:
-        options.check_left_to_choose(device, settings)
+        given.check_left_to_choose()
     choice: Choice | None = None
     provenance = provenance_of(fmu, *others.values())
     names = [name.strip() for name in signals.split(",")] if signals is not None else None

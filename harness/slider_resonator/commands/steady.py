@@ -13,7 +13,6 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import print_result
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
-from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.steady.searches import SearchResult, find_blocking, find_steady
 
 STEADY = """\
@@ -66,15 +65,13 @@ def _search_command(
     @options.json_option
     def command(
         fmu: Path,
-        device: DeviceFile | None,
-        settings: dict[str, float],
+        given: options.Given,
         max_denominator: int,
         time_limit: float,
         as_json: bool,
     ) -> int:
         provenance = provenance_of(fmu)
-        values = options.values_of(device, settings)
-        search = partial(find, values=values, max_denominator=max_denominator)
+        search = partial(find, values=given.values, max_denominator=max_denominator)
         with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
             progress(f"searching the {what}", 0.0)
             result: SearchResult = isolated.run(search, progress)

@@ -17,7 +17,6 @@ from slider_resonator.output.console import print_result
 from slider_resonator.output.files import PICTURE_SUFFIXES, distinct
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import one_line
-from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.sweeping.grid import grid_from, read_grid
 from slider_resonator.sweeping.sweeping import run_sweep
 from slider_resonator.sweeping.table import SUFFIXES
@@ -74,8 +73,7 @@ def sweep_command(
     out: Path,
     plot: Path | None,
     html: Path | None,
-    device: DeviceFile | None,
-    settings: dict[str, float],
+    given: options.Given,
     fmu: Path,
     jobs: int,
     dask: str | None,
@@ -117,14 +115,15 @@ def sweep_command(
     if (grid is None) == (not axes) or (measures and not axes):
         raise click.UsageError("must have either GRID or --over, and --measure with that only")
     sources = {"the grid": grid, "the FMU": fmu}
-    given = {name: path for name, path in sources.items() if path is not None}
-    distinct({"--out": out, "--plot": plot, "--html": html}, given)
+    read = {name: path for name, path in sources.items() if path is not None}
+    distinct({"--out": out, "--plot": plot, "--html": html}, read)
+    device = given.device
     own = device.values if device else {}
     if grid is not None:
-        sweep = read_grid(grid, own, settings)
+        sweep = read_grid(grid, own, given.settings)
     else:
         content = {"grid": axes, **({"measures": list(measures)} if measures else {})}
-        sweep = grid_from(content, "--over", own, settings)
+        sweep = grid_from(content, "--over", own, given.settings)
     options.note(sweep.slips, str(grid or "--over"))
     if device and not sweep.title:
         sweep = replace(sweep, title=device.title)

@@ -12,7 +12,6 @@ from slider_resonator.output.console import noting_on_interrupt, print_json, pri
 from slider_resonator.output.files import PICTURE_SUFFIXES, distinct, make_folder
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line
-from slider_resonator.scenes.device_file import DeviceFile
 from slider_resonator.trading.measure import BUDGET, REPEATS, TIME_LIMIT, measure_trades, opened
 from slider_resonator.trading.page import write_trades
 from slider_resonator.trading.plots import draw_picture
@@ -71,8 +70,7 @@ TABLES = ("index.html", "trade.csv", "omissions.csv")
 @options.json_option
 def trade_command(
     scenes: Sequence[str],
-    device: DeviceFile | None,
-    settings: dict[str, float],
+    given: options.Given,
     out: Path,
     fmus: Sequence[Path],
     repeats: int,
@@ -106,7 +104,7 @@ def trade_command(
     documents = {f"--page {number}": page for number, page in enumerate(pages, 1)}
     distinct({**tables, "--picture": picture, **documents}, {})
     names = scenes or ("table_1",)
-    read = [options.scene_of(name, settings, device) for name in names]
+    read = [given.scene(name) for name in names]
     points = [point for scene in read for point in scene.points()]
     problems = [problem_of(point.scene, point.at, periods) for point in points]
     paths = fmus or options.default_fmus()

@@ -105,9 +105,9 @@ def test_fmus_built_here_are_preferred(tmp_path: Path, monkeypatch: pytest.Monke
 @click.argument("names", nargs=-1)
 @options.device_options
 @options.json_option
-def echo(names: tuple[str, ...], device: None, settings: dict[str, float], as_json: bool) -> None:
+def echo(names: tuple[str, ...], given: options.Given, as_json: bool) -> None:
     """Print what was given."""
-    click.echo((names, settings, as_json))
+    click.echo((names, given.settings, as_json))
 
 
 @pytest.mark.parametrize(
