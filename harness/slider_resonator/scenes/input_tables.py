@@ -9,7 +9,6 @@ from slider_resonator.scenes.key_table import (
     Number,
     ParametersTable,
     Point,
-    exactly_one,
     key,
 )
 
@@ -29,6 +28,8 @@ class InputTable(KeyTable):
         "Straight lines are sampled at communication points and held until the next, unless [run] "
         "says `interpolate`.",
     )
+
+    one_of = (("constant", "steps", "ramp", "csv"),)
 
     constant: Number | None = key("value throughout the run", 0.4)
     steps: tuple[Point, ...] | None = key(
@@ -51,9 +52,7 @@ class InputTable(KeyTable):
         return value if isinstance(value, dict) else {"constant": value}
 
     @model_validator(mode="after")
-    def _one_kind(self) -> "InputTable":
-        kinds = ("constant", "steps", "ramp", "csv")
-        exactly_one("an input", [*self.given(kinds)], "a number, steps, ramp, csv")
+    def _only_of_a_csv(self) -> "InputTable":
         if self.csv is None and self.model_fields_set & {"column", "between"}:
             raise ValueError("column and between belong to a csv")
         return self

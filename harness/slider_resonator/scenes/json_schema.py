@@ -8,19 +8,11 @@ from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 from pydantic_core import core_schema
 
 from slider_resonator.scenes.expansion import bundles
+from slider_resonator.scenes.input_tables import InputTable
 from slider_resonator.scenes.key_table import NUMBER_OR_TEXT
-from slider_resonator.scenes.schema import SceneTable
+from slider_resonator.scenes.schema import ExpectTable, RunTable, SceneTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
-_ONE_OF: Mapping[str, tuple[tuple[str, ...], ...]] = {
-    "InputTable": (("constant", "steps", "ramp", "csv"),),
-    "RunTable": (
-        ("stop_time", "drive_periods"),
-        ("step_size", "steps_per_period", "step_sizes"),
-    ),
-    "ExpectTable": (("reference", "value", "at_most", "at_least"),),
-}
-"""Keys of a table of which there must be exactly one."""
 _WITHOUT_UNIT = ("drive_periods", "steps_per_period")
 """Numbers that are counts; any other may be a text with a unit."""
 
@@ -38,9 +30,9 @@ def scene_schema() -> dict[str, Any]:
     properties["device"]["anyOf"] = [device, {"type": "string"}]  # or its name or file
     for name in _WITHOUT_UNIT:
         tables["RunTable"]["properties"][name]["type"] = "number"
-    for name, groups in _ONE_OF.items():
-        tables[name]["allOf"] = [
-            {"oneOf": [{"required": [key]} for key in group]} for group in groups
+    for table in (InputTable, RunTable, ExpectTable):
+        tables[table.__name__]["allOf"] = [
+            {"oneOf": [{"required": [key]} for key in group]} for group in table.one_of
         ]
     tables["ExpectTable"]["allOf"] += [
         {

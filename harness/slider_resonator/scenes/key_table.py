@@ -1,10 +1,10 @@
 """What all tables of a scene file have in common: keys, numbers, devices."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from functools import partial
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, create_model
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, create_model, model_validator
 
 from slider_resonator.device.interface import INTEGERS, VARIABLES
 from slider_resonator.device.values import settable_value
@@ -53,11 +53,20 @@ PARAMETER_MEANINGS: Mapping[str, str] = {
 class KeyTable(BaseModel):
     """A table of a scene file; a key that it does not list is refused.
 
-    `rules` are those that hold between its keys.
+    `rules` are those that hold between its keys. Of each group of `one_of` exactly one is given.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     rules: ClassVar[tuple[str, ...]] = ()
+    one_of: ClassVar[tuple[tuple[str, ...], ...]] = ()
+
+    @model_validator(mode="after")
+    def _exactly_one(self) -> Self:
+        for group in self.one_of:
+            given = ", ".join(self.given(group))
+            if len(self.given(group)) != 1:
+                raise ValueError(f"needs exactly one of {', '.join(group)}; has {given or 'none'}")
+        return self
 
     @property
     def stated(self) -> dict[str, Any]:
@@ -91,12 +100,6 @@ def units_of(table: type[KeyTable]) -> dict[str, str]:
         for n, extra in extras.items()
         if isinstance(extra, dict) and "unit" in extra
     }
-
-
-def exactly_one(table: str, given: Sequence[str], choices: str) -> None:
-    """Raise ValueError unless one key is given of those that exclude each other."""
-    if len(given) != 1:
-        raise ValueError(f"{table} needs exactly one of {choices}, has {given or 'none'}")
 
 
 def _parameter(value: object, name: str) -> float:

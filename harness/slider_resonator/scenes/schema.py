@@ -18,7 +18,6 @@ from slider_resonator.scenes.key_table import (
     Number,
     ParametersTable,
     Positive,
-    exactly_one,
     key,
     required,
 )
@@ -48,6 +47,11 @@ class RunTable(KeyTable):
         "Without [run] only quantities of the steady motion can be expected.",
     )
 
+    one_of = (
+        ("stop_time", "drive_periods"),
+        ("step_size", "steps_per_period", "step_sizes"),
+    )
+
     stop_time: Positive | None = key("length of the run", 0.1, unit="s")
     drive_periods: Positive | None = key("length of the run", 100.0, unit="drive periods")
     step_size: Positive | None = key("communication step", 1e-3, unit="s")
@@ -75,13 +79,6 @@ class RunTable(KeyTable):
         default=False,
     )
 
-    @model_validator(mode="after")
-    def _one_of_each(self) -> "RunTable":
-        lengths = ("stop_time", "drive_periods")
-        for names in (lengths, ("step_size", "steps_per_period", "step_sizes")):
-            exactly_one("run", [*self.given(names)], " or ".join(names))
-        return self
-
 
 class ExpectTable(KeyTable):
     """One expectation: a quantity of the FMU against a reference, a value or a bound."""
@@ -101,6 +98,8 @@ class ExpectTable(KeyTable):
         "`absolute = 0.001` with a unit of m means 1 mm: all values are in the unit of the "
         "quantity.",
     )
+
+    one_of = (("reference", "value", "at_most", "at_least"),)
 
     quantity: str = required(
         "what is compared; the list is below", "position", enum=list(QUANTITIES)
@@ -122,6 +121,13 @@ class ExpectTable(KeyTable):
         "the reason for the expectation, for the report", "the step must arrive when it is due"
     )
 
+    @field_validator("quantity")
+    @classmethod
+    def _known_quantity(cls, name: str) -> str:
+        if name not in QUANTITIES:
+            raise ValueError(unknown_name("quantity", name, QUANTITIES))
+        return name
+
     @field_validator("value", mode="before")
     @classmethod
     def _number_or_word(cls, value: object) -> object:
@@ -132,11 +138,7 @@ class ExpectTable(KeyTable):
 
     @model_validator(mode="after")
     def _comparable(self) -> "ExpectTable":
-        if self.quantity not in QUANTITIES:
-            raise ValueError(unknown_name("quantity", self.quantity, QUANTITIES))
-        kinds = ("reference", "value", "at_most", "at_least")
-        given = [*self.given(kinds)]
-        exactly_one("expect", given, ", ".join(kinds))
+        given = [*self.given(self.one_of[0])]
         quantity = QUANTITIES[self.quantity]
         if self.reference is not None and self.reference not in quantity.references:
             name = f"reference for {self.quantity}"
