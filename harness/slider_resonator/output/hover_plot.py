@@ -12,6 +12,7 @@ from pathlib import Path
 
 from slider_resonator.output.html_page import escaped, write_page
 from slider_resonator.output.json_output import plain
+from slider_resonator.output.readable import printable
 
 COLOURS = (
     *("#1f5f8b", "#c8553d", "#2e7d32", "#8e24aa", "#b8860b", "#00838f", "#5d4037", "#ad1457"),
@@ -27,10 +28,14 @@ DIGITS = 9
 
 @dataclass(frozen=True)
 class Axis:
-    """An axis with its unit in the label; a logarithmic one is for positive values only."""
+    """An axis with its unit in the label; a logarithmic one is for positive values only.
+
+    `range` are its ends, by default those of the data.
+    """
 
     label: str
     log: bool = False
+    range: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -72,9 +77,7 @@ def look(index: int) -> tuple[str, str, tuple[int, ...]]:
 
 def plot_html(plot: HoverPlot) -> str:
     """Return the plot as HTML for a page of `write_plot_page`."""
-    exact = json.dumps(plain(plot))
-    short = json.loads(exact, parse_float=lambda digits: float(f"{float(digits):.{DIGITS}g}"))
-    text = json.dumps(short, separators=(",", ":"))
+    text = json.dumps(_printable(plain(plot)), separators=(",", ":"), ensure_ascii=True)
     # "<" could end the script element; in JSON it occurs in strings only.
     data = text.replace("<", "\\u003c")
     return (
@@ -95,3 +98,13 @@ def _texts(*names: str) -> list[str]:
     """Return the texts of files of this package."""
     folder = files("slider_resonator.output")
     return [(folder / name).read_text(encoding="utf-8") for name in names]
+
+
+def _printable(value: object) -> object:
+    if isinstance(value, str):
+        return printable(value)
+    if isinstance(value, float):
+        return float(f"{value:.{DIGITS}g}")
+    if isinstance(value, dict):
+        return {key: _printable(item) for key, item in value.items()}
+    return [_printable(item) for item in value] if isinstance(value, list) else value

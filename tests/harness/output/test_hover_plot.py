@@ -38,7 +38,7 @@ def test_a_page_has_its_data_and_allows_its_own_scripts_only(tmp_path: Path) -> 
     text, page = written(tmp_path, PLOT)
     assert page.loaded == ["data:,"]
     (data,) = page.plots
-    assert data["y"] == {"label": "velocity [m/s]", "log": True}
+    assert data["y"] == {"label": "velocity [m/s]", "log": True, "range": None}
     (series,) = data["series"]
     assert (series["x"], series["y"]) == ([1.0, 2.0], [0.5, None])
     assert series["notes"] == ["one", "two"]
@@ -58,7 +58,7 @@ def test_hostile_text_stays_text(tmp_path: Path) -> None:
     assert page.tags.count("script") == 3
     assert "img" not in page.tags
     assert "\x1b" not in text
-    assert page.plots[0]["x"]["label"] == HOSTILE
+    assert page.plots[0]["x"]["label"] == HOSTILE.replace("\x1b", "\ufffd")
 
 
 def test_series_differ_in_colour_marker_or_dash() -> None:
