@@ -152,22 +152,23 @@ def run_sweep(
     digest = hashlib.sha256(content.encode()).hexdigest()
     remedy = "move the file away, or discard it with --restart"
     with Journal(journal_path(out), "sweep", digest, remedy, restart=restart) as journal:
-        rows: dict[int, Row] = {
-            number: (number, cells, error)
+        found: list[Row] = [
+            (number, cells, error)
             for kept in journal.entries
             for number, cells, error in kept
-        }
-        found = len(rows)
-        left = [(n, point) for n, point in enumerate(sweep.points) if n not in rows]
+        ]
+        rows: dict[int, Row] = {}
 
-        def keep(new: Sequence[Row]) -> None:
-            try:
-                check_nothing_lost(out, before, sweep.task, sweep.points, new)
-            except HarnessError:
-                if not found:
-                    journal.remove()  # which would keep the sweep that made `out` from going on
-                raise
-            if new:
+        def keep(new: Sequence[Row], *, is_kept: bool = False) -> None:
+            if before and new:
+                try:
+                    columns = table_columns(sweep.task, sweep.points, new)
+                    check_nothing_lost(out, before, columns)
+                except HarnessError:
+                    if not found:
+                        journal.remove()  # else the sweep that made `out` could not go on
+                    raise
+            if new and not is_kept:
                 journal.add([new])
             rows.update((row[0], row) for row in new)
             progress(f"point {len(rows)} of {len(sweep.points)}", len(rows) / len(sweep.points))
@@ -176,8 +177,8 @@ def run_sweep(
             points = f"{len(rows)} of {len(sweep.points)} points"
             return f"{points} are kept in {journal.path}; the same command goes on from there"
 
-        check_nothing_lost(out, before, sweep.task, sweep.points, [*rows.values()])
-        keep([])
+        keep(found, is_kept=True)
+        left = [(n, point) for n, point in enumerate(sweep.points) if n not in rows]
         if left:
             processes: AbstractContextManager[Processes]
             if dask is None:
@@ -188,13 +189,13 @@ def run_sweep(
                 processes = dask_processes(fmu_digest, fmu, dask, time_limit)
             with noting_on_interrupt(note), processes as at_work:
                 run_points(at_work, sweep.task, left, keep)
-        columns = table_columns(sweep.task, sweep.points, rows)
+        columns = table_columns(sweep.task, sweep.points, map(rows.__getitem__, sorted(rows)))
         write_table(out, sweep.task, columns)
         journal.remove()
     errors = [error for error in columns["error"] if error is not None]
     return SweepResult(
         points=len(sweep.points),
-        found=found,
+        found=len(found),
         failed=len(errors),
         unanswered=sum(
             error is None and None in values

@@ -4,7 +4,7 @@ A journal beside it keeps the finished points until it is written.
 """
 
 import csv
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -29,21 +29,11 @@ def check_writer(path: Path) -> None:
         )
 
 
-def table_columns(
-    task: Task, points: Sequence[tuple[float, ...]], rows: Mapping[int, Row]
-) -> Columns:
-    """Return the columns of the table, ordered by the number of the point."""
-    lines = [_line(task, points, rows[number]) for number in range(len(points))]
-    names = [name for name, _ in task.columns]
-    return dict(zip(names, map(list, zip(*lines, strict=True)), strict=True))
-
-
-def _line(task: Task, points: Sequence[tuple[float, ...]], row: Row) -> list[Any]:
-    """Return the entries of a point, one for each column."""
-    number, cells, error = row
-    kinds = [kind for _, kind in task.columns]
-    entries: list[Any] = [number, *points[number], *cells, error]
-    return [int(e) if kind is int else e for kind, e in zip(kinds, entries, strict=True)]
+def table_columns(task: Task, points: Sequence[tuple[float, ...]], rows: Iterable[Row]) -> Columns:
+    """Return the columns of the table that these rows make, some or all of the points."""
+    lines = ((number, *points[number], *cells, error) for number, cells, error in rows)
+    columns = zip(task.columns, zip(*lines, strict=True), strict=True)
+    return {name: [*map(int, one)] if kind is int else [*one] for (name, kind), one in columns}
 
 
 def replaceable(path: Path, task: Task, points: Sequence[tuple[float, ...]]) -> Columns:
@@ -81,26 +71,18 @@ def _read(path: Path) -> Columns:
     return {name: [row[index] for row in rows] for index, name in enumerate(names)}
 
 
-def check_nothing_lost(
-    path: Path,
-    before: Columns,
-    task: Task,
-    points: Sequence[tuple[float, ...]],
-    rows: Sequence[Row],
-) -> None:
+def check_nothing_lost(path: Path, before: Columns, now: Columns) -> None:
     """Raise HarnessError where the table at `path`, of columns `before`, has other results.
 
-    They can be of another device: a table does not tell.
+    `now` are some rows of the table to be. They can be of another device: a table does not tell.
     """
     is_text = path.suffix.lower() == ".csv"
-    names = [name for name, _ in task.columns if name in before and name != "error"]
-    for row in rows:
-        now = dict(zip(dict(task.columns), _line(task, points, row), strict=True))
-        for name in names:
-            old, new = before[name][row[0]], str(now[name]) if is_text else now[name]
+    for name in [name for name in now if name in before and name != "error"]:
+        for point, value in zip(now["point"], now[name], strict=True):
+            old, new = before[name][point], str(value) if is_text else value
             if old not in (None, "", new):
                 raise HarnessError(
-                    f"{path}: has {name} = {old} at point {row[0]}, now {new}, of another device, "
+                    f"{path}: has {name} = {old} at point {point}, now {new}, of another device, "
                     "FMU or version; must be a new file, or --overwrite to replace it"
                 )
 

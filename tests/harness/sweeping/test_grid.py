@@ -75,7 +75,7 @@ def test_an_invalid_grid_is_refused_with_name_value_and_requirement(tmp_path: Pa
 
 TASK = Task(("fidelity", "phase"), (), ("steady_velocity",), 20, Run(1, 1, 0))
 POINTS = ((0.0, 0.1), (2.0, 0.1 + 0.2))
-ROWS: dict[int, Row] = {1: (1, [1.0 / 3.0, "steady"], None), 0: (0, [None, None], 'load, "x"')}
+ROWS: list[Row] = [(0, [None, None], 'load, "x"'), (1, [1.0 / 3.0, "steady"], None)]
 
 
 def test_parquet_has_typed_columns_in_the_order_of_the_points(tmp_path: Path) -> None:

@@ -29,7 +29,7 @@ def columns_of(sweep: Sweep, *, answered: bool = True) -> Columns:
         for n in range(len(sweep.points))
     }
     rows[1] = (1, [None, None], "<refused>")
-    return table_columns(sweep.task, sweep.points, rows)
+    return table_columns(sweep.task, sweep.points, rows.values())
 
 
 def plots(path: Path, content: dict[str, Any], *, answered: bool = True) -> list[dict[str, Any]]:
