@@ -24,7 +24,6 @@ from slider_resonator.checks.conduct.findings import is_refused
 from slider_resonator.checks.conduct.process import (
     crowd_faults,
     instance_leaks,
-    life_faults,
     process_faults,
 )
 from slider_resonator.checks.conduct.refusals import explains
@@ -89,11 +88,7 @@ def host_faults(fmu: FmuSide) -> list[str]:
     if instance.fmu.runs_without_python:
         slave.dll.fmi2FreeInstance(None)  # which is no error, and must not crash
         faults += crowd_faults(instance)
-        faults += life_faults(instance)
-        try:
-            faults += process_faults(instance)
-        except OSError as error:
-            faults.append(f"an instance leaves the process without resources: {error}")
+        faults += process_faults(instance)
     faults += instance_leaks(instance)
     return faults
 

@@ -12,12 +12,12 @@ import signal
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack, chdir, contextmanager, suppress
+from contextlib import ExitStack, nullcontext, suppress
 from functools import partial
 from itertools import repeat
 from pathlib import Path
-from tempfile import TemporaryDirectory, TemporaryFile
-from threading import current_thread, main_thread, stack_size
+from tempfile import TemporaryFile
+from threading import stack_size
 
 from fmpy.fmi1 import FMICallException
 
@@ -27,11 +27,11 @@ from slider_resonator.device.schedule import schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance, SavedState, instantiate
+from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
+from slider_resonator.fmu.opening import open_fmu
 
 STEPS, STEP = 20, 1.1e-3
 """Steps (s) of a run."""
-STREAMS = {1: "output", 2: "error"}
-"""Standard streams. An FMU may print on the latter when it is instantiated, as some do."""
 SHOWN = 80
 """Bytes that are shown of what an FMU prints."""
 HOST_SIGNALS = (signal.SIGINT, signal.SIGTERM)
@@ -42,83 +42,57 @@ ENVIRONMENT = ("TZ", "LC_ALL", "LANG")
 """Variables of the environment that libraries may set."""
 
 
-def process_faults(instance: Instance) -> Iterator[str]:
+def process_faults(instance: Instance) -> list[str]:
     """Compare folder, locale, environment, open files and signals before and after a run.
 
-    All are first made those of a new process: the FMU may have changed them before. Nothing is
-    compared on Windows, where a process does not have all of these.
+    Nothing is compared on Windows, where a process does not have all of these.
     """
     if os.name != "posix":
-        return
-    for stream, name in STREAMS.items():
-        try:
-            os.fstat(stream)
-        except OSError:
-            yield f"standard {name} is closed"
-            return
-    instance.renew()
-    with _as_in_a_new_process():
-        before = _shared()
-        with instance.explained():
-            with _printed(1) as at_first:
-                instance.renew()
-            with _printed(*STREAMS) as in_run:
-                instance.start({})
-                instance.step_by(STEP)
-                instance.terminate()
-        instance.renew()  # an instance may keep a file open
-        after = _shared()
-    for what, value in before.items():
-        if after[what] != value:
-            yield f"an instance and its run change {what}: {value!r} becomes {after[what]!r}"
-    for text in at_first + in_run:
-        yield f"an instance and its run print {text!r} where the host prints"
-
-
-@contextmanager
-def _as_in_a_new_process() -> Iterator[None]:
-    """Give the process an empty folder, and other values that are known, for the block."""
-    # Python lets the main thread alone set handlers.
-    signals = HOST_SIGNALS if current_thread() is main_thread() else ()
-    handlers = {one: signal.signal(one, signal.default_int_handler) for one in signals}
-    environment = {name: os.environ.get(name) for name in ENVIRONMENT}
-    language = locale.setlocale(locale.LC_ALL)
+        return []
     try:
-        with TemporaryDirectory() as folder, chdir(folder):
-            locale.setlocale(locale.LC_ALL, "C")
-            os.environ.update(dict.fromkeys(ENVIRONMENT, "C"))
-            yield
-    finally:
-        locale.setlocale(locale.LC_ALL, language)
-        for name, value in environment.items():
-            os.environ.pop(name, None)
-            if value is not None:
-                os.environ[name] = value
-        for one, handler in handlers.items():
-            signal.signal(one, handler)
+        with IsolatedFmu(None, TIME_LIMIT) as process:
+            found: list[str] = process.run(partial(_traces, path=instance.fmu.file))
+            return found
+    except FmuError as error:
+        return [f"an instance and its run in a new process: {error}"]
 
 
-@contextmanager
-def _printed(*streams: int) -> Iterator[list[str]]:
-    """Yield the beginnings of what the block prints on standard streams, at its end."""
-    library = ctypes.CDLL(None)
-    texts: list[str] = []
-    with ExitStack() as stack:
-        files = []
-        for stream in streams:
-            files.append(stack.enter_context(TemporaryFile()))
-            kept = os.dup(stream)
-            stack.callback(os.close, kept)
-            stack.callback(os.dup2, kept, stream)
-            library.fflush(None)
-            os.dup2(files[-1].fileno(), stream)
-        stack.callback(library.fflush, None)
-        yield texts
-        library.fflush(None)
-        for file in files:
-            file.seek(0)
-            if text := file.read(SHOWN):
-                texts.append(text.decode("utf-8", "replace"))
+def _traces(_: None, path: Path) -> list[str]:
+    """Return what instances and their runs leave behind, in a process for this alone.
+
+    They may print on standard error when they are instantiated, as some do.
+    """
+    for one in HOST_SIGNALS:
+        signal.signal(one, signal.default_int_handler)
+    locale.setlocale(locale.LC_ALL, "C")
+    os.environ.update(dict.fromkeys(ENVIRONMENT, "C"))
+    flush = ctypes.CDLL(None).fflush
+    with open_fmu(path) as fmu, TemporaryFile() as output, TemporaryFile() as errors:
+        flush(None)
+        os.dup2(output.fileno(), 1)
+        os.dup2(errors.fileno(), 2)
+        before = _shared()
+        with instantiate(fmu) as instance:
+            flush(None)
+            at_first = os.fstat(errors.fileno()).st_size
+            with instance.explained():
+                for attempt in range(2):
+                    instance.start({"phase": float(attempt)})
+                    instance.step_by(STEP)
+                instance.terminate()
+            flush(None)
+        after = _shared()
+        texts = (os.pread(output.fileno(), SHOWN, 0), os.pread(errors.fileno(), SHOWN, at_first))
+    found = [
+        f"an instance and its run change {what}: {value!r} becomes {after[what]!r}"
+        for what, value in before.items()
+        if after[what] != value
+    ]
+    return found + [
+        f"an instance and its run print {text.decode('utf-8', 'replace')!r} where the host prints"
+        for text in texts
+        if text
+    ]
 
 
 def _shared() -> dict[str, object]:
@@ -144,11 +118,15 @@ def _shared() -> dict[str, object]:
     return shared
 
 
-CYCLES = 16
-"""How often something is made and freed while memory is counted, after as many times before."""
+CYCLES, MANY = 16, 500
+"""How often something is made and freed before memory is counted, and until it is counted again: a
+sweep makes ten thousands of instances, a search by trial and return millions of states."""
+RESETS = 5
+"""How often each instance is started."""
+PATIENCE = 2.0
+"""Seconds after which a slow FMU has made enough of them."""
 OF_INSTANCE, OF_STATE = 1024.0, 512.0
-"""Bytes that each may leave: a sweep makes ten thousands of instances, a search by trial and return
-millions of states. The host itself leaves some."""
+"""Bytes that each may leave. The host itself leaves some."""
 
 
 class _Counts(ctypes.Structure):
@@ -158,22 +136,22 @@ class _Counts(ctypes.Structure):
 
 
 def instance_leaks(instance: Instance) -> Iterator[str]:
-    """Make, run, reset and run instances, and free them; a step of each is refused.
+    """Make, run and reset instances beside another, and free them; a step of each is refused.
 
-    An instance that is the only one of a process is reset alone.
+    They are more than a small table of an FMU would hold. An instance that is the only one of a
+    process is reset alone.
     """
     once = instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess
 
     def use() -> None:
-        with instance.explained():
-            if not once:
-                instance.end(terminates=False)
-            instance.start({})
-            instance.step_by(STEP)
-            is_refused(partial(instance.call, "fmi2DoStep", instance.time, -STEP, True))
-            instance.start({})
+        beside = nullcontext(instance) if once else instantiate(instance.fmu)
+        with beside as used, used.explained():
+            for _ in range(RESETS):
+                used.start({})
+                used.step_by(STEP)
+                is_refused(partial(used.call, "fmi2DoStep", used.time, -STEP, True))
             for _ in range(STEPS):
-                instance.step_by(STEP)
+                used.step_by(STEP)
 
     yield from _leaks("instance", use, OF_INSTANCE)
 
@@ -193,13 +171,19 @@ def state_leaks(instance: Instance) -> Iterator[str]:
 
 
 def _leaks(what: str, use: Callable[[], None], allowed: float) -> Iterator[str]:
-    counts: list[int] = []
-    for _ in range(2):
-        for _ in range(CYCLES):
-            use()
+    counts, done = list[int](), 0
+    for count in (CYCLES, MANY):
+        end, done = time.monotonic() + PATIENCE, 0
+        while done < count and time.monotonic() < end:
+            try:
+                use()
+            except (FMICallException, FmuError) as error:
+                yield f"no more than {done} can be made and freed of each {what}: {error}"
+                return
+            done += 1
         gc.collect()
         counts += _in_use()
-    left = (counts[-1] - counts[0]) / CYCLES if counts else 0.0
+    left = (counts[-1] - counts[0]) / done if counts else 0.0
     if left > allowed:
         yield f"each {what} that is made and freed leaves {left:.0f} bytes behind"
 
@@ -221,10 +205,6 @@ COURSE = 200, 7e-4
 """Number and size (s) of the steps of each."""
 STACK = 1 << 20
 """Bytes of the stack of a thread, as on Windows."""
-RESETS, MADE = 3000, 500
-"""How often an instance is reset, and how many are made after it: a sweep makes as many."""
-PATIENCE = 5.0
-"""Seconds for each."""
 
 
 def crowd_faults(instance: Instance) -> Iterator[str]:
@@ -256,22 +236,3 @@ def crowd_faults(instance: Instance) -> Iterator[str]:
             other.end(terminates=False)
     if Replay(instance, {}, courses[0]).rows != alone[0]:
         yield "an instance has other outputs after others are freed in the middle of their runs"
-
-
-def life_faults(instance: Instance) -> Iterator[str]:
-    """Reset an instance, and make and free others, more often than a small table would allow.
-
-    As often as that goes in a while: an FMU may be slow.
-    """
-    attempts: list[tuple[str, Callable[[], object], int]]
-    attempts = [("resets of an instance", partial(instance.call, "fmi2Reset"), RESETS)]
-    if not instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
-        attempts.append(("instances beside another", lambda: Instance(instance.fmu).end(), MADE))
-    for what, attempt, count in attempts:
-        began, done = time.monotonic(), 0
-        try:
-            while done < count and time.monotonic() < began + PATIENCE:
-                attempt()
-                done += 1
-        except (FMICallException, FmuError) as error:
-            yield f"no more than {done} {what} are possible: {error}"

@@ -1,6 +1,5 @@
 """Faults of conduct are found and named."""
 
-import os
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
@@ -10,7 +9,6 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from slider_resonator.checks.conduct import process
 from slider_resonator.checks.conduct.dependencies import dependency_faults
 from slider_resonator.checks.conduct.findings import differences
 from slider_resonator.checks.conduct.host_calls import derivative_offer_faults
@@ -83,15 +81,3 @@ def test_status_that_ends_a_run_is_a_fault(function: str, number: int, status: s
 
     trial.refuses("a step", refused)
     assert trial.faults == [f"a step gives {status}, at which hosts end a run"]
-
-
-@pytest.mark.skipif(os.name != "posix", reason="nothing is compared on Windows")
-def test_environment_is_restored(instance: Instance, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse() -> None:
-        raise OSError("no space left on device")
-
-    monkeypatch.delenv("TZ", raising=False)
-    monkeypatch.setattr(process, "TemporaryDirectory", refuse)
-    with pytest.raises(OSError, match="no space left"):
-        [*process.process_faults(instance)]
-    assert "TZ" not in os.environ
