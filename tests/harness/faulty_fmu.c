@@ -93,14 +93,6 @@ static void fault(void)
         kill(0, SIGKILL);
     if (!strcmp(name, "kill_parent"))
         kill(getppid(), SIGKILL);
-    if (!strcmp(name, "fork_and_kill_parent")) {
-        if (!fork()) {
-            setsid();
-            rest();
-        }
-        kill(getppid(), SIGKILL);
-        rest();
-    }
 }
 #endif
 

@@ -80,17 +80,15 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     },
     "prediction_valid": {"averaged": lambda references: references.steady_at_end.prediction_valid},
     **{
-        output: {**_resolved("signal", output), "averaged": attrgetter(f"averaged_motion.{output}")}
-        for output in ("position", "velocity")
-    },
-    **{
-        output: {**_resolved(method, output), "averaged": attrgetter(f"averaged_outputs.{output}")}
-        for method, output in (
-            ("signal", "resonator_displacement"),
-            ("signal", "resonator_velocity"),
-            ("signal", "normal_force"),
-            ("beside_events", "friction_force"),
-            ("beside_events", "contact_mode"),
+        output: {**_resolved(method, output), "averaged": attrgetter(f"averaged_motion.{output}")}
+        for output, method in (
+            ("position", "signal"),
+            ("velocity", "signal"),
+            ("resonator_displacement", "signal"),
+            ("resonator_velocity", "signal"),
+            ("normal_force", "signal"),
+            ("friction_force", "beside_events"),
+            ("contact_mode", "beside_events"),
         )
     },
     "slow_displacement": {

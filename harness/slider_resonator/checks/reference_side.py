@@ -16,7 +16,6 @@ from slider_resonator.device.device import FULL, Device
 from slider_resonator.device.drive_periods import DrivePeriods
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import AveragedMotion, simulate_averaged
-from slider_resonator.references.averaged.averaged_outputs import AveragedOutputs, averaged_outputs
 from slider_resonator.references.averaged.device_average import (
     blocking_force,
     prediction_valid,
@@ -218,11 +217,6 @@ class ReferenceSide:
     def averaged_motion(self) -> AveragedMotion:
         """The averaged motion of the scene, whatever its fidelity, at the communication points."""
         return simulate_averaged(self.device, self.scene.schedule().held(), self.times)
-
-    @cached_property
-    def averaged_outputs(self) -> AveragedOutputs:
-        """Resonator, contact and forces of the averaged motion, at the communication points."""
-        return averaged_outputs(self.device, self.scene.schedule().held(), self.averaged_motion)
 
     def friction_power(self, reference: str) -> float:
         """Return the mean power (W) of friction over the last whole drive period of the run."""

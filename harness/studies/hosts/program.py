@@ -36,6 +36,4 @@ def run_program(
             ending = program.end()
     if ending.memory is not None:
         return f"had {ending.memory >> 20} MiB in memory, too many, and was ended"
-    if ending.escaped:
-        return "ended the process that watches it, and was ended"
     return f"ended with {ending.code}" if in_time else f"was ended after {time_limit:g} s"

@@ -1,12 +1,13 @@
 """Devices without a meaning, which an FMU must refuse before or in a run, and the same with one."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from functools import partial
 from math import isfinite, sqrt
 
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import fmi2Discard
 
+from slider_resonator.checks.conduct.refusals import Trial
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.fmu.instance import Instance
@@ -52,25 +53,22 @@ def device_faults(fmu: FmuSide) -> list[str]:
     """
     faults: list[str] = []
     for what, (device, cause) in MEANINGLESS.items():
-        for attempt in (_at_the_start, _in_a_run):
-            faults += attempt(fmu.instance, what, device, cause)
+        trial = Trial(fmu.instance, [], reads=False)
+        start = partial(_start, fmu.instance, {**device, **cause})
+        trial.refuses(what, start, (*device, *cause))
+        faults += trial.faults or _in_a_run(fmu.instance, what, device, cause)
     for device in EXTREMES:
         faults += _extreme(fmu.instance, device)
     return faults
 
 
-def _at_the_start(instance: Instance, what: str, device: Values, cause: Values) -> Iterator[str]:
+def _start(instance: Instance, device: Values) -> None:
+    """Start a run and step."""
     instance.set_up()
-    instance.messages.clear()
-    try:
-        instance.set({**device, **cause})
-        instance.call("fmi2EnterInitializationMode")
-        instance.begin()
-        instance.step_by(STEP)
-    except FMICallException as error:
-        yield from _told(instance, what, [*device, *cause], error)
-    else:
-        yield f"{what} is accepted"
+    instance.set(device)
+    instance.call("fmi2EnterInitializationMode")
+    instance.begin()
+    instance.step_by(STEP)
 
 
 def _extreme(instance: Instance, device: Values) -> Iterator[str]:
@@ -100,42 +98,23 @@ def _infinite(instance: Instance, values: str) -> Iterator[str]:
                 yield f"{name} is {value!r} with {values}"
 
 
-def _in_a_run(instance: Instance, what: str, device: Values, cause: Values) -> Iterator[str]:
+def _in_a_run(instance: Instance, what: str, device: Values, cause: Values) -> list[str]:
     """Turn a good device into the bad one; the run must then go on as if nothing was tried."""
     starts = {name: VARIABLES[name].start or 0.0 for name in cause}
     good = {
         name: (1.0 + NEXT_TO) * start if start == cause[name] else start
         for name, start in starts.items()
     }
-    read = [*cause, *instance.fmu.outputs]
+    trial = Trial(instance, [], instance.fmu.outputs)
     with instance.explained():
-        instance.start({**device, **good})
-        instance.step_by(STEP)
-        before = instance.read(read)
+        _start(instance, {**device, **good})
         instance.step_by(STEP)
         expected = instance.outputs()
-        instance.start({**device, **good})
-        instance.step_by(STEP)
-    instance.messages.clear()
-    try:
-        instance.set(cause)
-    except FMICallException as error:
-        yield from _told(instance, what, [*device, *cause], error)
-    else:
-        yield f"{what} is accepted in a run"
-        return
-    with instance.explained():
-        if instance.read(read) != before:
-            yield f"{what} is refused in a run but changes it"
-        instance.step_by(STEP)
-        if instance.outputs() != expected:
-            yield f"a run goes on differently after {what} is refused in it"
-
-
-def _told(
-    instance: Instance, what: str, names: Sequence[str], error: FMICallException
-) -> Iterator[str]:
-    if error.status == fmi2Discard:  # the same number in each version of FMI
-        yield f"{what} gives a Discard, at which hosts end a run"
-    if not any(name in " ".join(instance.messages) for name in names):
-        yield f"{what} is refused without naming any of {', '.join(names)}"
+        _start(instance, {**device, **good})
+    trial.refuses(f"{what} in a run", partial(instance.set, cause), (*device, *cause))
+    if not trial.faults:
+        with instance.explained():
+            instance.step_by(STEP)
+            if instance.outputs() != expected:
+                trial.faults.append(f"a run goes on differently after {what} is refused in it")
+    return trial.faults

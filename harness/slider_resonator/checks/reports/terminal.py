@@ -17,9 +17,9 @@ from slider_resonator.scenes.vocabulary import QUANTITIES
 MAX_DETAILED = 3
 """Number of scenes up to which every check is shown; of more only the failed ones."""
 MAX_SCENES = 12
-"""Number of scenes with a line each: the first that failed, then those nearest to a bound."""
+"""Number of scenes with a line each: those farthest beyond a bound, or nearest to it."""
 MAX_FAILED = 24
-"""Number of failed checks that are shown: of more, the worst of each of the first scenes."""
+"""Number of failed checks that are shown, the worst."""
 MAX_NOT_APPLIED = 3
 """Number of checks that do not apply for one reason up to which each has a line."""
 DIGITS = 8
@@ -35,9 +35,8 @@ def print_validation(
     """Print the table of verdicts, the reasons of failures, and a summary line.
 
     Show the worst point of a sweep; with `details` every point, and why each value is expected.
-    Without it give of many scenes one line to each of the first that failed, and to those nearest
-    to a bound, and show of many failures the worst of each scene. With `only_failed` leave out what
-    has passed.
+    Without it give of many scenes one line to each of the worst, and show of many failures the
+    worst. With `only_failed` leave out what has passed.
     """
     for heading, answers in () if only_failed else headline(validation.checks):
         console.print(Text(escaped(heading.text), STYLES[heading.style]))
@@ -52,7 +51,8 @@ def print_validation(
     rows = [(check, 1) for check in checks] if details else worst_of_sweeps(checks)
     count = len(rows)
     if only_failed and not details:
-        rows = _worst_of_scenes(rows, MAX_FAILED)
+        worst = sorted(rows, key=lambda row: -row[0].severity)[:MAX_FAILED]
+        rows = [row for row in rows if row in worst]
     if rows:
         console.print(rendered(_table(rows, details)))
     if any(_of_peak(check) for check, _ in rows):
@@ -103,21 +103,18 @@ def _summary(validation: Validation) -> Text:
 
 
 def _print_overview(console: Console, scenes: Mapping[str, Sequence[Check]]) -> None:
-    """Print a line for each of the first scenes that failed, and of those nearest to a bound.
+    """Print a line for each of the worst scenes.
 
     It has the check nearest to its limit, or farthest beyond it.
     """
-    failed = [name for name, checks in scenes.items() if not all(c.passed for c in checks)]
-    passed = [name for name in scenes if name not in failed]
-    by_severity = sorted(passed, key=lambda name: -max(check.severity for check in scenes[name]))
-    listed = {*failed[:MAX_SCENES], *by_severity[: max(0, MAX_SCENES - len(failed))]}
+    worst = {name: max(checks, key=lambda check: check.severity) for name, checks in scenes.items()}
+    listed = sorted(scenes, key=lambda name: -worst[name].severity)[:MAX_SCENES]
     rows: list[Row] = []
     for scene, checks in scenes.items():
         if scene in listed:
             count = sum(check.passed for check in checks)
-            nearest = max(checks, key=lambda check: check.severity)
-            off, allowed, measure = sizes(nearest)
-            cells = (scene, f"{count} of {len(checks)}", nearest.quantity)
+            off, allowed, measure = sizes(worst[scene])
+            cells = (scene, f"{count} of {len(checks)}", worst[scene].quantity)
             is_passed = verdict(count == len(checks))
             rows.append((*cells, _size(off), _size(allowed), measure, is_passed))
     columns = (
@@ -125,23 +122,9 @@ def _print_overview(console: Console, scenes: Mapping[str, Sequence[Check]]) -> 
         *(*numbers("off by", "allowed"), *texts("in", "")),
     )
     console.print(rendered(Table(columns, rows)))
-    more_failed = len(failed) - len(listed.intersection(failed))
-    more_passed = len(passed) - len(listed.intersection(passed))
-    parts = [f"{number_of(more_failed, 'more scene')} failed"] if more_failed else []
-    if more_passed:
-        nearer = "" if more_failed else ", none nearer to a bound"
-        parts.append(f"{number_of(more_passed, 'more scene')} passed{nearer}")
-    if parts:
-        _print_line(console, Text(f"{', '.join(parts)} (--details lists all)"))
-
-
-def _worst_of_scenes(rows: Sequence[tuple[Check, int]], count: int) -> list[tuple[Check, int]]:
-    """Return at most so many rows in order: the worst of each scene before the second worst."""
-    by_scene: dict[str, list[int]] = {}
-    for index in sorted(range(len(rows)), key=lambda index: -rows[index][0].severity):
-        by_scene.setdefault(rows[index][0].scene, []).append(index)
-    ranked = [(rank, index) for worst in by_scene.values() for rank, index in enumerate(worst)]
-    return [rows[index] for index in sorted(index for _, index in sorted(ranked)[:count])]
+    if more := len(scenes) - len(listed):
+        nearer = f"{number_of(more, 'more scene')}, none nearer to a bound"
+        _print_line(console, Text(f"{nearer} (--details lists all)"))
 
 
 def _table(checks: Sequence[tuple[Check, int]], details: bool) -> Table:

@@ -43,7 +43,7 @@ def missed_limit(trace: str, ending: Ending) -> bool:
 
     While it writes the traceback of a thread that goes on it may crash.
     """
-    if ending.over_limit or ending.escaped:
+    if ending.over_limit:
         return False
     return ending.code is None or (ending.code != 0 and _LIMIT_MISSED in trace)
 
@@ -69,8 +69,6 @@ def crash_report(printed: str, trace: str, ending: Ending, limit: float) -> str:
             f"the FMU was ended: it had {ending.processes} processes; must be at most "
             f"{MAX_PROCESSES}"
         )
-    elif ending.escaped:
-        report = "the FMU has ended the process that watches it, and was ended"
     elif missed_limit(trace, ending):
         report = f"no answer within the time limit of {limit:g} s{where}: the FMU was ended"
     else:

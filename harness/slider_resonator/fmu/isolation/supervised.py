@@ -2,11 +2,9 @@
 
 import json
 import os
-import signal
 import socket
 import subprocess
 import sys
-import time
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -17,8 +15,6 @@ from slider_resonator.fmu.limits import MEMORY, max_bytes
 
 PACKAGE_PATH = str(Path(__file__).resolve().parents[3])
 """The folder that this package is imported from."""
-FOLDER = "SLIDER_RESONATOR_FOLDER"
-"""The variable by which all processes of one temporary folder are known."""
 SUPERVISOR = Path(__file__).with_name("supervisor.py")
 MAX_ENDING = 90.0
 """Longest time (s) that ending a program may take; the supervisor gives up before."""
@@ -29,13 +25,11 @@ class Ending:
     """How a program ended: exit code, or minus the number of the signal; None where it is unknown.
 
     `memory` (bytes) and the number of `processes` are what it had where that was above the limit.
-    `escaped` says that it has killed the process that watched it.
     """
 
     code: int | None = None
     memory: int | None = None
     processes: int | None = None
-    escaped: bool = False
 
     @property
     def over_limit(self) -> bool:
@@ -54,12 +48,11 @@ class Supervised:
     def __init__(
         self, command: Sequence[str], folder: Path, search_path: str = "", **streams: Any
     ) -> None:
-        self._folder = folder
         self._ending: Ending | None = None
         self._control: socket.socket | None = None
         environment = {
             **os.environ,
-            **dict.fromkeys(("TMPDIR", "TEMP", "TMP", FOLDER), str(folder)),
+            **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder)),
             "PYTHONPATH": os.pathsep.join(filter(None, [PACKAGE_PATH, search_path])),
         }
         if sys.platform == "win32":
@@ -105,30 +98,7 @@ class Supervised:
             if not self.wait(MAX_ENDING):
                 self.process.kill()
                 self.process.wait()
-            report = b""
-            if self.process.returncode == 0:
-                with suppress(OSError):
-                    report = control.recv(4096)
-        if report:
-            return Ending(**json.loads(report))
-        _kill_marked(self._folder)
-        return Ending(escaped=True)
-
-
-def _kill_marked(folder: Path) -> None:
-    """Kill all processes whose environment has `folder`, or one in it, as theirs, by /proc."""
-    mark = os.fsencode(f"{FOLDER}={folder}")
-    deadline = time.monotonic() + MAX_ENDING
-    while time.monotonic() < deadline:
-        found = []
-        for environment in Path("/proc").glob("[0-9]*/environ"):
-            with suppress(OSError):
-                entries = environment.read_bytes().split(b"\0")
-                if any(one == mark or one.startswith(mark + b"/") for one in entries):
-                    found.append(int(environment.parent.name))
-        if not found:
-            return
-        for process in found:
-            with suppress(OSError):
-                os.kill(process, signal.SIGKILL)
-        time.sleep(0.01)
+            code = self.process.returncode
+            with suppress(OSError, ValueError):  # it may have been killed before it reports
+                return Ending(**json.loads(control.recv(4096)))
+            return Ending(code)

@@ -4,12 +4,14 @@ The slow velocity V obeys ``total_mass V' = -friction - load``, friction being t
 fast motion of the slider with velocity ``V - v_q cos(theta - theta1)``. Near an integer n the
 frequency ratio lets the phase of the normal load drift slowly, by (ratio - n) w, which is appendix
 A of the paper for every n; a clipped load does so near fractions too; elsewhere the mean load
-counts. The fast motion is that of (32)-(34).
+counts. The fast motion is that of (32)-(34): the resonator vibrates steadily. The normal load is
+the instantaneous one.
 """
 
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from itertools import pairwise
 
 import numpy as np
@@ -26,6 +28,7 @@ from slider_resonator.references.averaged.device_average import (
 from slider_resonator.references.averaged.vibrating_contact import MAX_TURNS, turns_until_repeat
 from slider_resonator.references.equivalent_force import EquivalentForce
 from slider_resonator.references.phase import advanced
+from slider_resonator.references.resolved.contact import LIFTED
 
 MAX_DETUNING = 0.1
 """Largest distance of the frequency ratio from an integer at which the phase counts as slow. For a
@@ -43,12 +46,24 @@ class AveragedMotion:
     """Averaged motion at ``time``: arrays of shape (n,), SI units.
 
     ``mean_velocity`` is the slow velocity; ``position`` and ``velocity`` carry the fast motion.
+    ``contact_mode`` is 2 in flight, else the sign of the velocity. A sample on a boundary between
+    inputs belongs to the inputs before it. ``frictions`` give the friction at each sample.
     """
 
     time: Array
+    frictions: Sequence[Callable[[], float]]
     position: Array
     velocity: Array
     mean_velocity: Array
+    resonator_displacement: Array
+    resonator_velocity: Array
+    normal_force: Array
+    contact_mode: Array
+
+    @cached_property
+    def friction_force(self) -> Array:
+        """The mean friction of all faces over the fast motion at the present slow velocity."""
+        return np.array([friction() for friction in self.frictions])
 
 
 def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) -> AveragedMotion:
@@ -72,7 +87,8 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     slow = device.initial_velocity + share * device.initial_resonator_velocity + slow_start(tuned)
     centre = device.initial_position + share * device.initial_resonator_displacement
     theta = psi = 0.0
-    rows = np.empty((0, 3))
+    rows = np.empty((0, 7))
+    frictions: list[Callable[[], float]] = []
     last = np.array([device.initial_position, device.initial_velocity])
     for inputs in in_slow_phases(with_steady_phase(held, device), device):
         before, tuned = tuned, inputs.tuned_device(device)
@@ -88,16 +104,48 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
         angle = theta + tuned.drive_frequency * grid - force.angle
         position = centre + moved - force.ripple_amplitude * np.sin(angle)
         motion = np.column_stack([position, velocity - force.velocity_amplitude * np.cos(angle)])
-        there = motion[places]
+        there, slow_there = motion[places], velocity[places]
         there[local <= np.spacing(inputs.start)] = last
         last = motion[-1]
-        rows = np.vstack([rows, np.column_stack([there, velocity[places]])])
+        angle = theta + tuned.drive_frequency * local
+        ratios = inputs.frequency_ratio + inputs.ratio_rate * local
+        turned = 0.5 * (inputs.frequency_ratio + ratios) * tuned.drive_frequency * local
+        load_angle = psi + inputs.phase + turned
+        normal = tuned.normal_preload + tuned.normal_amplitude * np.sin(load_angle)
+        swing = force.resonator_amplitude * np.exp(1j * (angle - force.resonator_angle))
+        here = [
+            *(there, slow_there, swing.imag, tuned.drive_frequency * swing.real),
+            np.maximum(0.0, normal),
+            np.where(normal > 0.0, np.sign(there[:, 1]), float(LIFTED)),
+        ]
+        rows = np.vstack([rows, np.column_stack(here)])
+        sampled = np.column_stack([angle, load_angle, ratios, slow_there]).tolist()
+        frictions += [partial(_friction, tuned, force, inputs.load, *one) for one in sampled]
         centre += float(moved[-1])
         slow = float(velocity[-1])
-        turned = tuned.drive_frequency * float(grid[-1])
-        theta = advanced(theta, turned)
+        theta = advanced(theta, tuned.drive_frequency * float(grid[-1]))
         psi = advanced(psi, inputs.turned(float(grid[-1]), tuned.drive_frequency))
-    return AveragedMotion(times, *rows.T)
+    return AveragedMotion(times, frictions, *rows.T)
+
+
+def _friction(
+    device: Device,
+    force: EquivalentForce,
+    load: float,
+    angle: float,
+    load_angle: float,
+    ratio: float,
+    slow: float,
+) -> float:
+    """Return the mean friction (N) at a slow velocity (m/s).
+
+    The angles (rad) are those of drive and normal load.
+    """
+    if force.velocity_amplitude == 0.0:
+        full = full_friction(device, load_angle, ratio)
+        return float(np.clip(-load, -full, full) if slow == 0.0 else np.sign(slow) * full)
+    _, near = slow_ratio(device, ratio)
+    return mean_friction(device, force, slow, load_angle - near * angle, near)
 
 
 def slow_start(device: Device) -> float:

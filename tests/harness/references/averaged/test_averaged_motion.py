@@ -12,7 +12,6 @@ from numpy.polynomial import Polynomial
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.averaged.averaged_motion import simulate_averaged, slow_trajectory
-from slider_resonator.references.averaged.averaged_outputs import averaged_outputs
 from slider_resonator.references.averaged.device_average import prediction_valid, stable_velocity
 from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
@@ -99,7 +98,7 @@ def test_friction_and_load_are_the_rate_of_momentum(law: int) -> None:
     held = [HeldInputs(0.0, 20.3 * PERIOD, phase=0.4)]
     times = np.linspace(0.0, held[0].stop, 201)
     motion = simulate_averaged(device, held, times)
-    friction = averaged_outputs(device, held, motion).friction_force
+    friction = motion.friction_force
     impulse = np.sum(0.5 * (friction[1:] + friction[:-1]) * np.diff(times))
     change = motion.mean_velocity[-1] - motion.mean_velocity[0]
     assert device.total_mass * change == pytest.approx(-impulse, rel=1e-4)
@@ -146,8 +145,8 @@ def test_a_block_is_held_by_what_the_load_needs() -> None:
     for velocity, friction in ((0.0, -0.07), (-1.0, -0.2)):
         block = Device(fidelity=0, base_amplitude=0.0, normal_amplitude=0.5)
         block = replace(block, initial_velocity=velocity)
-        outputs = averaged_outputs(block, held, simulate_averaged(block, held, times))
-        assert outputs.friction_force == pytest.approx(np.full(11, friction))
+        found = simulate_averaged(block, held, times).friction_force
+        assert found == pytest.approx(np.full(11, friction))
 
 
 OUTRUN = Device(fidelity=0, friction_coefficient=0.75948, initial_velocity=0.45596)
