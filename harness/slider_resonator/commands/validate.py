@@ -44,7 +44,7 @@ def validate_command(
     """Compare FMUs with the references, scene by scene.
 
     Without FMUS: those in dist, the native one first. Each FMU runs in processes of its own, one
-    until it has shown no fault for a while and then up to --jobs, while as many others compute the
+    until it has been opened and then up to --jobs, while as many others compute the
     references, once for all FMUs. Exit code: 0 when every check passes,
     1 when one fails, 2 when something could not run: an FMU that is corrupt, lacks a variable or
     gives it another unit, has no binary for this platform, cannot be instantiated, refuses a scene,

@@ -9,7 +9,6 @@ from slider_resonator.checks import expecting
 from slider_resonator.checks.expecting import ExpectedValues, values_in
 from slider_resonator.checks.validate import Validation, points_to_check, validate
 from slider_resonator.errors import HarnessError, SceneError
-from slider_resonator.fmu.isolation import tasks
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.scenes.scene import ScenePoint
 from slider_resonator.scenes.scene_files import find_scene
@@ -22,7 +21,6 @@ SCENES = [find_scene(name) for name in ("overload", "stuck", "table_1", "lift_of
 @pytest.fixture(autouse=True)
 def few_points_suffice(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(expecting, "MIN_POINTS", 1)
-    monkeypatch.setattr(tasks, "ALONE", 0.0)
 
 
 def points(*names: str) -> list[ScenePoint]:

@@ -26,9 +26,7 @@ PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36
 POLL_INTERVAL = 0.1
 """Interval (s) at which the memory of the program itself is read."""
 TREE_INTERVAL = 1.0
-"""Longest interval (s) at which all that it has started is counted, and its memory read."""
-MAX_TREE_SHARE = 0.05
-"""Share of the time for which this process counts, unless that makes the interval longer."""
+"""Interval (s) at which all that it has started is counted, and its memory read."""
 MAX_PROCESSES = 250
 """Largest number of processes, the program among them."""
 MAX_ENDING = 60.0
@@ -51,8 +49,6 @@ def main() -> None:
     for stream in range(3):  # the pipes of the program end with it
         os.dup2(nowhere, stream)
     report = _watch(program, control, wakeup, max_memory)
-    if "memory" not in report:  # it may have started many since they were counted
-        report |= _too_many(_descendants())
     _end_all(program)
     try:
         control.sendall(json.dumps(report).encode())
@@ -83,7 +79,7 @@ def _start(command: Sequence[str], control: socket.socket, closed: Sequence[int]
 
 def _watch(program: int, control: socket.socket, wakeup: int, max_memory: int) -> dict[str, int]:
     """Return the program's exit `code` once it ends, or what is too much: `memory`, `processes`."""
-    next_count = next_memory = time.monotonic()
+    next_count = time.monotonic()
     while True:
         readable, _, _ = select.select([control.fileno(), wakeup], [], [], POLL_INTERVAL)
         if wakeup in readable:
@@ -93,25 +89,16 @@ def _watch(program: int, control: socket.socket, wakeup: int, max_memory: int) -
                 return {"code": code}
         if control.fileno() in readable:
             return {}
-        began = time.monotonic()
-        processes = [program]
-        if began >= next_count:
-            processes = _descendants()
-            if too_many := _too_many(processes):
-                return too_many
-            took = time.monotonic() - began
-            next_count = began + min(TREE_INTERVAL, took / MAX_TREE_SHARE)
         memory = _memory(program)
-        if len(processes) > 1 and began >= next_memory:
-            memory = _memory_of_all(processes, max_memory)
-            next_memory = time.monotonic() + TREE_INTERVAL
+        if time.monotonic() >= next_count:
+            processes = _descendants()
+            if len(processes) > MAX_PROCESSES:
+                return {"processes": len(processes)}
+            if len(processes) > 1:
+                memory = max(memory, sum(map(_share, processes)))
+            next_count = time.monotonic() + TREE_INTERVAL
         if memory > max_memory:
             return {"memory": memory}
-
-
-def _too_many(processes: Sequence[int]) -> dict[str, int]:
-    """Return the number of processes where that is too large."""
-    return {"processes": len(processes)} if len(processes) > MAX_PROCESSES else {}
 
 
 def _reaped() -> list[tuple[int, int]]:
@@ -163,15 +150,6 @@ def _memory(process: int) -> int:
     with suppress(OSError), open(f"/proc/{process}/statm", "rb") as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
     return 0
-
-
-def _memory_of_all(processes: Sequence[int], enough: int) -> int:
-    """Return the bytes of all in memory, or more where even that is at most `enough`.
-
-    To find what forks share, the kernel walks all their pages: only where it matters.
-    """
-    memory = sum(map(_memory, processes))
-    return memory if memory <= enough else sum(map(_share, processes))
 
 
 def _share(process: int) -> int:

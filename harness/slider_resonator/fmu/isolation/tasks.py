@@ -123,8 +123,6 @@ class LocalProcesses:
 
 MAX_CRASHES = 3
 """Crashes after which no more tasks are run."""
-ALONE = 2.0
-"""Time (s) for which one process runs the tasks before others start; short runs end sooner."""
 QUEUED = 4
 """Tasks submitted for each process, so that none waits for a long one of another."""
 
@@ -200,16 +198,15 @@ def _outcomes(
 ) -> Iterator[tuple[Item, Outcome]]:
     """Yield item and outcome of each task, in this order, but of items that are left out.
 
-    A run that takes longer than `ALONE` gets all processes, with `QUEUED` tasks for each of them.
-    The outcomes do not depend on their number, for an FMU in which each run is independent of those
-    before. The last outcome is that of an FMU that cannot be opened.
+    The first task shows whether the FMU can be opened; from then on there are `QUEUED` tasks for
+    each process. The outcomes do not depend on their number, for an FMU in which each run is
+    independent of those before. The last outcome is that of an FMU that cannot be opened.
     """
     waiting = deque(tasks)
     submitted: deque[tuple[Item, Task, Future[Outcome]]] = deque()
-    count, began, has_opened = processes.count, monotonic(), False
+    count, has_opened = processes.count, False
     while True:
-        at_once = QUEUED * count if monotonic() - began >= ALONE else 1
-        while waiting and len(submitted) < at_once:
+        while waiting and len(submitted) < (QUEUED * count if has_opened else 1):
             item, task = waiting.popleft()
             if not is_left_out(item):
                 submitted.append((item, task, processes.submit(task)))

@@ -10,7 +10,6 @@ from typing import Any
 import pytest
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.isolation import tasks
 from slider_resonator.fmu.isolation.tasks import run_tasks
 from tests.harness.fmu.isolation import tasks_of_tests
 
@@ -19,11 +18,6 @@ pytestmark = pytest.mark.isolated
 Task = Callable[[Instance], Any]
 SLOW: Task = tasks_of_tests.own_process
 MOVE: Task = partial(tasks_of_tests.position_after, time=0.01)
-
-
-@pytest.fixture(autouse=True)
-def others_start_early(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tasks, "ALONE", 0.0)
 
 
 def outcomes(fmu: Path, given: list[tuple[str, Task]], jobs: int) -> list[tuple[object, ...]]:

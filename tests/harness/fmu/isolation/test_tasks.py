@@ -85,11 +85,9 @@ def test_an_fmu_that_cannot_be_used_is_reported_once(tmp_path: Path) -> None:
     assert "no such file" in str(outcome.error)
 
 
-@pytest.mark.parametrize(("alone", "starts_others"), [(60.0, False), (0.0, True)])
-def test_a_short_run_starts_no_other_process(
-    native_fmu: Path, monkeypatch: pytest.MonkeyPatch, alone: float, starts_others: bool
+def test_an_fmu_that_opens_once_at_a_time_runs_in_one_process(
+    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A longer one does; one process runs all tasks of an FMU that opens only once at a time."""
     started: list[object] = []
 
     def licensed(*arguments: Any) -> IsolatedFmu:
@@ -98,8 +96,8 @@ def test_a_short_run_starts_no_other_process(
             raise FmuError("all licences are in use")
         return IsolatedFmu(*arguments)
 
-    monkeypatch.setattr(tasks, "ALONE", alone)
     monkeypatch.setattr(tasks, "IsolatedFmu", licensed)
-    finished = list(run_tasks(native_fmu, [("a", MOVE)] * 4, 60.0, name=str, jobs=2))
+    given = [("a", tasks_of_tests.own_process)] * 4
+    finished = list(run_tasks(native_fmu, given, 60.0, name=str, jobs=2))
     assert [ending(outcome) for _, outcome in finished] == ["done"] * 4
-    assert (len(started) > 1) is starts_others
+    assert len(started) > 1
