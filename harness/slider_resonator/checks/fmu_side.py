@@ -1,6 +1,6 @@
 """The FMU in a scene: run, steady motion and blocking force, each computed once on first use."""
 
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, TypeVar
@@ -11,23 +11,16 @@ from slider_resonator.fmu.run import Record, run
 from slider_resonator.scenes.scene import Scene, ScenePoint
 from slider_resonator.steady.searches import Blocking, SteadyMotion, find_blocking, find_steady
 
-PREDICTIONS = (
-    *("steady_velocity", "blocking_force", "prediction_valid", "slow_motion_error"),
-    "friction_power",
-)
-"""Outputs that can cost more than the motion: an FMU computes them when they are read."""
-
-PREDICTED = {
-    "predicted_velocity_in_run",
-    "predicted_blocking_force_in_run",
-    "final_predicted_velocity",
-    "final_predicted_blocking_force",
-    "prediction_valid",
-    "slow_motion_error",
-    "error_over_estimate",
-    "friction_power",
+PREDICTIONS: Mapping[str, str] = {
+    "predicted_velocity_in_run": "steady_velocity",
+    "predicted_blocking_force_in_run": "blocking_force",
+    "final_predicted_velocity": "steady_velocity",
+    "final_predicted_blocking_force": "blocking_force",
+    "error_over_estimate": "slow_motion_error",
+    **{name: name for name in ("prediction_valid", "slow_motion_error", "friction_power")},
 }
-"""Quantities that are measured from `PREDICTIONS` in a run."""
+"""Quantities, each with the output that it is measured from in a run. These outputs can cost more
+than the motion: an FMU computes them when they are read."""
 
 RESOLVED_TOLERANCE = 1e-10
 """Largest tolerance of resolved motion that errors are measured against."""
@@ -36,14 +29,14 @@ RESOLVED_TOLERANCE = 1e-10
 class FmuSide:
     """Run, steady motion and blocking force of one FMU instance in one scene.
 
-    The run has the `PREDICTIONS` where the scene expects one of the `PREDICTED`.
+    The run has those outputs among `PREDICTIONS` that the scene expects something of.
     """
 
     def __init__(self, instance: Instance, scene: Scene) -> None:
         self.instance = instance
         self.scene = scene
-        expected = any(expect.quantity in PREDICTED for expect in scene.expect)
-        self._unread = () if expected else PREDICTIONS
+        expected = {PREDICTIONS.get(expect.quantity) for expect in scene.expect}
+        self._unread = {*PREDICTIONS.values()} - expected
 
     @cached_property
     def record(self) -> Record:

@@ -18,7 +18,7 @@ from slider_resonator.checks.conduct import (
     starts,
     states,
 )
-from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.checks.fmu_side import PREDICTIONS, FmuSide
 from slider_resonator.checks.measures import (
     NoOscillation,
     dominant_frequency,
@@ -105,20 +105,11 @@ def _output(quantity: str, fmu: FmuSide) -> Any:
 
     Raises NotApplicable for one at the end that the FMU lacks.
     """
-    name = OUTPUTS.get(quantity, quantity.removesuffix("_in_run"))
+    name = PREDICTIONS.get(quantity, quantity.removesuffix("_in_run"))
     if QUANTITIES[quantity].kind == "signal":
         return fmu.record[name]
     fmu.instance.fmu.variable(name)
     return fmu.record.final(name)
-
-
-OUTPUTS: Mapping[str, str] = {
-    "predicted_velocity_in_run": "steady_velocity",
-    "predicted_blocking_force_in_run": "blocking_force",
-    "final_predicted_velocity": "steady_velocity",
-    "final_predicted_blocking_force": "blocking_force",
-}
-"""Quantities that are outputs of the FMU, and are called otherwise."""
 
 
 def _frequency_in_later_half(fmu: FmuSide, signal: str) -> float:

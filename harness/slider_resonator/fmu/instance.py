@@ -1,8 +1,9 @@
 """Driving an instance of an FMU through fmpy, and saving its state."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import chdir, contextmanager, suppress
 from dataclasses import dataclass
+from functools import cache, partial
 from itertools import count
 from threading import Lock
 from typing import Any
@@ -97,9 +98,9 @@ class Instance:
         self.time = 0.0
         self._used = False
         self._initialised = False
-        self._settable: dict[tuple[str, ...], _Plan] = {}
-        self._readable: dict[tuple[str, ...], _Plan] = {}
-        self._blocks: dict[tuple[str, ...], Block] = {}
+        self._block = cache(self._new_block)
+        self._settable = cache(partial(self._plan, self.fmu.settable))
+        self._readable = cache(partial(self._plan, self.fmu.variable))
         self._inputs = self.block(list(INPUTS))
 
     def call(self, name: str, *arguments: Any) -> None:
@@ -108,11 +109,10 @@ class Instance:
 
     def block(self, names: Sequence[str]) -> Block:
         """Return a block of Real variables of the FMU; FmuError for an unknown name."""
-        key = tuple(names)
-        if key not in self._blocks:
-            references = [self.fmu.reference(name) for name in names]
-            self._blocks[key] = Block(self.slave, references)
-        return self._blocks[key]
+        return self._block(tuple(names))
+
+    def _new_block(self, names: tuple[str, ...]) -> Block:
+        return Block(self.slave, [self.fmu.reference(name) for name in names])
 
     def start(
         self,
@@ -168,7 +168,7 @@ class Instance:
         Integers are set one by one and all Reals in one call, each of which costs a drive period.
         """
         values = self.fmu.settings(values)
-        plan = self._plan(self._settable, values, self.fmu.settable)
+        plan = self._settable(tuple(values))
         for name, reference in plan.integers.items():
             try:
                 check_integer(name, values[name])
@@ -225,7 +225,7 @@ class Instance:
 
     def read(self, names: Sequence[str]) -> dict[str, float]:
         """Return the current values of variables; FmuError for an unknown name."""
-        plan = self._plan(self._readable, names, self.fmu.variable)
+        plan = self._readable(tuple(names))
         found = dict(zip(plan.reals, plan.block.read(), strict=True))
         for name, reference in plan.integers.items():
             found[name] = float(self.slave.getInteger([reference])[0])
@@ -246,21 +246,12 @@ class Instance:
         self.slave.freeInstance()
         fmu_log.forget(self._name)
 
-    def _plan(
-        self,
-        plans: dict[tuple[str, ...], _Plan],
-        variables: Iterable[str],
-        find: Callable[[str], ModelVariable],
-    ) -> _Plan:
+    def _plan(self, find: Callable[[str], ModelVariable], names: tuple[str, ...]) -> _Plan:
         """Return how variables are read or written; made once for each set of names."""
-        names = tuple(variables)
-        plan = plans.get(names)
-        if plan is None:
-            found = {name: find(name) for name in names}
-            integers = {n: v.valueReference for n, v in found.items() if v.type == "Integer"}
-            reals = [name for name in names if name not in integers]
-            plan = plans[names] = _Plan(integers, reals, self.block(reals))
-        return plan
+        found = {name: find(name) for name in names}
+        integers = {n: v.valueReference for n, v in found.items() if v.type == "Integer"}
+        reals = [name for name in names if name not in integers]
+        return _Plan(integers, reals, self.block(reals))
 
     @contextmanager
     def explained(self) -> Iterator[None]:

@@ -1,7 +1,7 @@
 """Open an FMU: unpack the archive, read its description and check its interface."""
 
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -119,7 +119,7 @@ class Fmu:
     @property
     def lacks(self) -> tuple[str, ...]:
         """The variables of the interface after its version `FIRST` that it does not have."""
-        return _lacking(self.variables)
+        return tuple(name for name in VARIABLES if name not in self.variables)
 
 
 @contextmanager
@@ -150,15 +150,11 @@ def open_fmu(path: str | Path) -> Iterator[Fmu]:
 def lacking(path: Path) -> tuple[str, ...]:
     """Return the later variables of the interface that an FMU file lacks; none if unusable."""
     try:
-        description = _read_description(path)
+        present = {variable.name for variable in _read_description(path).modelVariables}
     except FmuError:
         return ()
-    return _lacking([variable.name for variable in description.modelVariables])
-
-
-def _lacking(names: Iterable[str]) -> tuple[str, ...]:
-    present = set(names)
-    return tuple(name for name, v in VARIABLES.items() if v.since != FIRST and name not in present)
+    later = (name for name, variable in VARIABLES.items() if variable.since != FIRST)
+    return tuple(name for name in later if name not in present)
 
 
 def _read_description(path: Path) -> ModelDescription:
