@@ -20,8 +20,6 @@ MAX_SCENES = 12
 """Number of scenes with a line each: those farthest beyond a bound, or nearest to it."""
 MAX_FAILED = 24
 """Number of failed checks that are shown, the worst."""
-MAX_NOT_APPLIED = 3
-"""Number of checks that do not apply for one reason up to which each has a line."""
 DIGITS = 8
 """Significant digits in the table; what is asserted is the deviation, which has its own column."""
 SIGNAL = "*"
@@ -71,12 +69,12 @@ def print_validation(
 
 
 def _not_applied_lines(validation: Validation, details: bool) -> Iterator[str]:
-    """Yield a line for each check, or without `details` one for many of the same reason."""
+    """Yield a line for each check, or without `details` one for all of the same reason."""
     by_reason: dict[str, list[tuple[str, str]]] = {}
     for scene, quantity, reason in validation.inapplicable:
         by_reason.setdefault(reason, []).append((scene, quantity))
     for reason, checks in by_reason.items():
-        if details or len(checks) <= MAX_NOT_APPLIED:
+        if details or len(checks) == 1:
             yield from (f"{scene}: {quantity}: {reason}" for scene, quantity in checks)
         else:
             scenes = len({scene for scene, _ in checks})

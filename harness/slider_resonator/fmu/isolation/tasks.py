@@ -7,7 +7,6 @@ from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Event
-from time import monotonic
 from typing import Any, Protocol, TypeVar
 
 from slider_resonator.errors import FmuError, HarnessError
@@ -23,14 +22,13 @@ def available_cores() -> int:
 
 @dataclass(frozen=True)
 class Outcome:
-    """The `value` of a task or the `error` in its place, and the `seconds` that it took.
+    """The `value` of a task or the `error` in its place.
 
     `is_open` is False where the FMU could not be opened for the task.
     """
 
     value: Any = None
     error: HarnessError | None = None
-    seconds: float = 0.0
     is_open: bool = True
 
 
@@ -83,24 +81,22 @@ class LocalProcesses:
 
     def run(self, task: Task) -> Outcome:
         """Run a task; after an error its process is ended: the FMU may be in any state."""
-        began = monotonic()
         try:
             process = self._idle.pop()
         except IndexError:
             try:
                 process = IsolatedFmu(self._fmu, self._time_limit, self._stop)
             except FmuError as error:
-                return Outcome(error=error, seconds=monotonic() - began, is_open=False)
-        began = monotonic()
+                return Outcome(error=error, is_open=False)
         try:
             value = process.run(task)
         except BaseException as error:
             process.kill()
             if not isinstance(error, HarnessError):
                 raise
-            return Outcome(error=error, seconds=monotonic() - began)
+            return Outcome(error=error)
         self._idle.append(process)
-        return Outcome(value, seconds=monotonic() - began)
+        return Outcome(value)
 
     def close(self) -> FmuDied | None:
         """Free the FMU in each process and end them; return the first error thereby."""
@@ -140,12 +136,10 @@ def run_tasks(
     """Run a task for each item in up to `jobs` processes; yield item and outcome, in this order.
 
     After a crash or an exceeded limit the other items of that `name` are left out. All remaining
-    items are left out after an exceeded limit of time, memory or processes, after `MAX_CRASHES`
-    crashes, and after crashes that took `time_limit` (s) together. An outcome without an item has
-    an error of the FMU as a whole.
+    items are left out after an exceeded limit of time, memory or processes, and after `MAX_CRASHES`
+    crashes. An outcome without an item has an error of the FMU as a whole.
     """
     crashed, finished = set[str](), set[str]()
-    wasted = 0.0
     processes = LocalProcesses(fmu, time_limit, jobs)
     try:
         for item, outcome in _outcomes(processes, tasks, lambda item: name(item) in crashed):
@@ -157,8 +151,7 @@ def run_tasks(
             if not isinstance(outcome.error, FmuDied):
                 continue
             crashed.add(name(item))
-            wasted += time_limit if outcome.error.over_limit else outcome.seconds
-            if len(crashed) >= MAX_CRASHES or wasted >= time_limit:
+            if len(crashed) >= MAX_CRASHES or outcome.error.over_limit:
                 names = dict.fromkeys(name(one) for one, _ in tasks)
                 if not_run := [one for one in names if one not in finished]:
                     many = "1 crash or exceeded limit"

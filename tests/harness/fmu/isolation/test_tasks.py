@@ -16,12 +16,9 @@ from tests.harness.fmu.isolation.tasks_of_tests import position_after, refused
 
 MOVE = partial(position_after, time=0.01)
 Named = tuple[str, Callable[[Instance], Any]]
-CLOCK = [0.0]
-"""The time (s) of a test that does not wait."""
 
 
-def die(instance: Instance, seconds: float = 0.0, over_limit: bool = False) -> None:
-    CLOCK[0] += seconds
+def die(instance: Instance, over_limit: bool = False) -> None:
     raise FmuDied("as a process of its own would have", over_limit=over_limit)
 
 
@@ -67,15 +64,6 @@ def test_a_missed_time_limit_ends_the_run(native_fmu: Path) -> None:
     assert str(last.error) == "given up after 1 crash or exceeded limit; not run: b, c"
     ((only, _),) = run_tasks(native_fmu, given[:1], 60.0, name=str)
     assert only == "a", "nothing is left to be given up"
-
-
-def test_slow_crashes_end_the_run(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tasks, "monotonic", lambda: CLOCK[0])
-    slow: Named = ("a", partial(die, seconds=0.9))
-    given = [slow, ("b", slow[1]), ("c", slow[1])]
-    *died, (_, last) = run_tasks(native_fmu, given, 1.5, name=str)
-    assert [(item, ending(one)) for item, one in died] == [("a", "died"), ("b", "died")]
-    assert str(last.error) == "given up after 2 crashes or exceeded limits; not run: c"
 
 
 def test_an_fmu_that_cannot_be_used_is_reported_once(tmp_path: Path) -> None:
