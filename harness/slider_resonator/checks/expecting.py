@@ -1,6 +1,5 @@
 """The expected value of each quantity by each reference, and those of scenes, computed ahead."""
 
-import os
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from operator import attrgetter, methodcaller
@@ -136,8 +135,6 @@ MIN_POINTS = 8
 """Fewest points for a further process: loading it takes as long as some references."""
 TIME_LIMIT = 1e6
 """Time limit (s) of a reference: none."""
-PRIORITY = 5
-"""An FMU of Python takes longer than its references: it comes first."""
 
 
 class ExpectedValues:
@@ -195,6 +192,4 @@ def values_in(scene: Scene) -> list[Any]:
 
 def _values_ahead(_: None, scene: Scene) -> list[Any]:
     """Return the same in a process of its own."""
-    if hasattr(os, "nice"):
-        os.nice(max(0, PRIORITY - os.nice(0)))
     return values_in(scene)

@@ -27,7 +27,7 @@ from slider_resonator.device.schedule import schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance, SavedState, instantiate
-from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
+from slider_resonator.fmu.isolation.process import TIME_LIMIT, FmuDied, IsolatedFmu
 from slider_resonator.fmu.opening import open_fmu
 
 STEPS, STEP = 20, 1.1e-3
@@ -53,8 +53,10 @@ def process_faults(instance: Instance) -> list[str]:
         with IsolatedFmu(None, TIME_LIMIT) as process:
             found: list[str] = process.run(partial(_traces, path=instance.fmu.file))
             return found
-    except FmuError as error:
+    except FmuDied as error:
         return [f"an instance and its run in a new process: {error}"]
+    except (FmuError, OSError):  # there may be one instance, or no other process
+        return []
 
 
 def _traces(_: None, path: Path) -> list[str]:
