@@ -153,9 +153,7 @@ def run_sweep(
     remedy = "move the file away, or discard it with --restart"
     with Journal(journal_path(out), "sweep", digest, remedy, restart=restart) as journal:
         found: list[Row] = [
-            (number, cells, error)
-            for kept in journal.entries
-            for number, cells, error in kept
+            (number, cells, error) for kept in journal.entries for number, cells, error in kept
         ]
         rows: dict[int, Row] = {}
 

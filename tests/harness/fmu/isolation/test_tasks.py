@@ -12,7 +12,7 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation import tasks
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, Outcome, run_all_tasks, run_tasks
-from tests.harness.fmu.isolation.tasks_of_tests import position_after, refused
+from tests.harness.fmu.isolation.tasks_of_tests import own_process, position_after, refused
 
 MOVE = partial(position_after, time=0.01)
 Named = tuple[str, Callable[[Instance], Any]]
@@ -85,7 +85,7 @@ def test_an_fmu_that_opens_once_at_a_time_runs_in_one_process(
         return IsolatedFmu(*arguments)
 
     monkeypatch.setattr(tasks, "IsolatedFmu", licensed)
-    given = [("a", tasks_of_tests.own_process)] * 4
+    given = [("a", own_process)] * 4
     finished = list(run_tasks(native_fmu, given, 60.0, name=str, jobs=2))
     assert [ending(outcome) for _, outcome in finished] == ["done"] * 4
     assert len(started) > 1
