@@ -24,6 +24,8 @@ SIGNAL = Check(
     *("table_1", "position", "m", 2e-4, "located_events", 1e-4, 3e-4, 1e-8, False, "exact"),
     first_time=0.0125,
     worst_time=0.05,
+    fmu_then=1.3e-4,
+    reference_then=1e-4,
 )
 TIMES = np.linspace(0.0, 0.1, 200)
 CURVES = Curves(SIGNAL, TIMES, 1e-4 * np.sin(300.0 * TIMES) + 3e-8, 1e-4 * np.sin(300.0 * TIMES))

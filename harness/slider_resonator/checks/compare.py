@@ -32,7 +32,7 @@ class Check:
     for times of events, they carry a unit and `scale` is None. `against` is the name of the
     reference, "value", or for a bound `AT_MOST` or `AT_LEAST`. `at` is what a sweep
     varies. A signal that fails is beyond what is allowed from `first_time` (s) on and farthest at
-    `worst_time` (s). A deviation is counted from the edge of a tube, where there is one; `tube` is
+    `worst_time` (s), where it is `fmu_then` and the reference `reference_then`. A deviation is counted from the edge of a tube, where there is one; `tube` is
     its half width in drive periods.
     """
 
@@ -50,6 +50,8 @@ class Check:
     at: Mapping[str, float] = field(default_factory=dict)
     first_time: float | None = None
     worst_time: float | None = None
+    fmu_then: float | None = None
+    reference_then: float | None = None
     tube: float | None = None
     scale: float | None = None
 
@@ -161,9 +163,13 @@ def _difference_of_signals(
     passed = deviation <= allowed
     difference = {"deviation": deviation, "allowed": allowed, "passed": passed, "scale": scale}
     if not passed and measured.times is not None:
-        size_of_each = np.where(np.isfinite(outside), outside, np.inf)
-        difference["first_time"] = float(measured.times[np.argmax(~(outside <= limit))])
-        difference["worst_time"] = float(measured.times[np.argmax(size_of_each)])
+        worst = np.argmax(np.where(np.isfinite(outside), outside, np.inf))
+        difference |= {
+            "first_time": float(measured.times[np.argmax(~(outside <= limit))]),
+            "worst_time": float(measured.times[worst]),
+            "fmu_then": float(measured.value[worst]),
+            "reference_then": float(tube.middle[worst]),
+        }
     return {"fmu": peak(measured.value), "reference": size, **difference}
 
 

@@ -104,7 +104,9 @@ def _signal_sentence(check: Check, unit: str, peak: str) -> str:
     text = f"{size}, {_times(check)}"
     if check.first_time is None or check.worst_time is None:
         return text
-    return f"{text}; from {check.first_time:.9g} s on, most at {check.worst_time:.9g} s"
+    then = [value_text(one, DIGITS, unit) for one in (check.fmu_then, check.reference_then)]
+    worst = f"{check.worst_time:.9g} s, where the FMU gives {then[0]}, expected {then[1]}"
+    return f"{text}; from {check.first_time:.9g} s on, most at {worst}"
 
 
 def _times(check: Check) -> str:

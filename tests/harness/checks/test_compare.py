@@ -126,6 +126,7 @@ def test_a_failed_signal_says_from_where_on_and_where_most() -> None:
     signal[700] += 1e-3
     verdict = judge_position(signal, WAVE, relative=1e-8)
     assert (verdict.first_time, verdict.worst_time) == pytest.approx((0.3, 0.7))
+    assert (verdict.fmu_then, verdict.reference_then) == (signal[700], WAVE[700])
     assert judge_position(WAVE, WAVE, relative=1e-8).first_time is None
     lost = np.where(np.arange(1000) >= 500, np.nan, WAVE)
     assert judge_position(lost, WAVE, relative=1e-8).first_time == 0.5
