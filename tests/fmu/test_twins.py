@@ -34,7 +34,7 @@ some tolerances of its own, as their steps differ."""
 
 AVERAGES = 1e-5
 """The same of averages of first order, which err by more: each build integrates them in its own
-way, the native one a slow load without vibration in 256 pieces of a beat."""
+way."""
 
 RANDOM = 1e-10
 """The same of random devices: the builds are independent, and some devices amplify rounding."""
@@ -181,10 +181,9 @@ def test_coulomb_devices(
         native, python = both(twins, values, course_of(values, inputs))
     except Refusal:
         assume(False)  # `test_refusals` compares those
-    if values["fidelity"] > 0:
-        assert differences(native, python, RANDOM) == []
-    elif values["resonator_mass"] or values["tangential_force"]:  # It vibrates.
-        assert differences(native, python, AVERAGES) == []
+    vibrates = values["resonator_mass"] or values["tangential_force"]
+    averages = values["fidelity"] == 0 and vibrates
+    assert differences(native, python, AVERAGES if averages else RANDOM) == []
 
 
 @pytest.mark.parametrize(

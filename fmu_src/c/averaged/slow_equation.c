@@ -2,6 +2,7 @@
 
 #include "../base/constants.h"
 #include "../base/elementary.h"
+#include "../resolved/events.h"
 
 /* What the steps of averaged motion are called where they are refused. */
 static const char *const STEPS = "steps of averaged motion";
@@ -35,75 +36,32 @@ enum { MIN_STEPS = 16 };
 /* Largest cost of a step under a growing load, relative to one under a constant load. */
 enum { GROWING = 4 };
 
-/* Pieces of a beat, with constant friction in each, in motion without vibration. */
-#define PIECES 256.0
+/* Frequency [rad/s] of a drive that moves nothing, so low that it ends no segment. */
+#define STILL 1e-6
 
-/* Largest number of segments of a block under a load that grows: it stops, sticks and sets out twice at most. */
-enum { MAX_BLOCK_SEGMENTS = 8 };
-
-/* Time [s] until a velocity u >= 0 with acceleration a + j t is 0 again; infinite if it never is. */
-static double time_to_stop(double u, double a, double j) {
-    double square = a * a - 2.0 * j * u;
-    if (square < 0.0) {
-        return INFINITY;
-    }
-    if (a < 0.0) {
-        return 2.0 * u / (sqrt(square) - a);
-    }
-    return j < 0.0 ? (a + sqrt(square)) / -j : INFINITY;
-}
-
-/* Direction in which a block at rest sets out under a load that grows by `rate` [N/s]; STICK while friction
- * holds it. */
-static int block_sets_out(double friction, double load, double rate) {
-    if (fabs(load) > friction || (fabs(load) == friction && load * rate > 0.0)) {
-        return load > 0.0 ? BACKWARD : FORWARD;
-    }
-    return STICK;
-}
-
-/* Motion of a block without vibration under constant friction [N] and a load that grows by `rate` [N/s]. */
-static void block_pass(SlowPoint *now, double friction, double load, double rate, double mass,
-                       double duration) {
-    double left = duration;
-    for (int segment = 0; segment < MAX_BLOCK_SEGMENTS && left > 0.0; segment++) {
-        int direction = direction_of(now->velocity);
-        if (direction == STICK) {
-            direction = block_sets_out(friction, load, rate);
-        }
-        double a = -(direction * friction + load) / mass, j = -rate / mass;
-        double end = INFINITY;
-        if (direction != STICK) {
-            end = time_to_stop(direction * now->velocity, direction * a, direction * j);
-        } else if (rate != 0.0) {
-            end = (copysign(friction, rate) - load) / rate;
-        }
-        double t = fmin(left, end);
-        if (direction != STICK) {
-            now->travel += (now->velocity + (0.5 * a + j * t / 6.0) * t) * t;
-            now->velocity = end <= left ? 0.0 : now->velocity + (a + 0.5 * j * t) * t;
-        }
-        load = direction == STICK && end <= left ? copysign(friction, rate) : load + rate * t;
-        left -= t;
-    }
-}
-
-/* Motion without vibration, with constant friction in each piece of time. */
+/* Motion without vibration is that of a block, resolved: only the normal load is averaged, unless it is slow itself. */
 static bool pass_unshaken(const SlowFriction *friction, double duration, Budget *budget,
                           SlowPoint *now, Refusal *refusal) {
-    const Plant *plant = &friction->system->plant;
-    double longest = friction->stands ? fmin(duration, friction->beat / PIECES) : duration;
-    double pieces = ceil(duration / longest), piece = duration / pieces;
-    int allowed = budget_left(budget, MAX_SLOW_STEPS);
-    if (pieces > allowed) {
-        return budget_refuse(budget, allowed * longest, MAX_SLOW_STEPS, STEPS, refusal);
+    System still = *friction->system;
+    Plant *plant = &still.plant;
+    double frequency = plant->normal_frequency, rate = plant->normal_rate;
+    if (!friction->stands) {
+        plant->friction_preload = slow_friction_at(friction, 0.0, INFINITY);
+        plant->friction_amplitude = frequency = rate = 0.0;
+        plant->window.exists = false;
     }
-    budget_spend(budget, (int)pieces, MAX_SLOW_STEPS);
-    for (double k = 0.0; k < pieces; k += 1.0) {
-        double resisting = slow_friction_at(friction, (k + 0.5) * piece, INFINITY);
-        double load = plant->load + plant->load_rate * (k * piece);
-        block_pass(now, resisting, load, plant->load_rate, plant->total_mass, piece);
+    double w = fmax(STILL, fmax(fabs(frequency), fabs(frequency + rate * duration)));
+    plant->drive_frequency = w;
+    system_ramp(&still, &(Ramp){frequency / w, plant->load_rate, rate / w}, duration);
+    still.splits = split_prepare(&still.split, plant);
+    still.friction = &COULOMB;
+    Moment begin = {.state.velocity = now->velocity, .psi = friction->load.delta - plant->phase}, end;
+    begin.mode = mode_by_velocity(&still, &begin);
+    if (!events_advance(&still, &begin, duration, NULL, NULL, budget, &end, refusal)) {
+        return false;
     }
+    now->velocity = end.state.velocity;
+    now->travel = end.position;
     return true;
 }
 
