@@ -16,9 +16,6 @@ static const char *const STEPS = "steps of averaged motion";
 /* Part of a beat that a step may have: its stages then see all phases of the normal load. */
 #define BEAT_SHARE 0.125
 
-/* Part of a beat up to which a kink ahead counts as the one just passed. */
-#define MIN_SHARE 1e-9
-
 /* Change of the velocity up to which its rate may be linear, over the fast velocity; and the share of the tolerance for what
  * that leaves: no step corrects it. */
 #define LINEAR 4e-6
@@ -124,7 +121,7 @@ static double simpson_error(SlowFriction *friction, const SlowPoint *from, const
     return fabs(step->change - h / 6.0 * (first + 4.0 * rate.acceleration + last));
 }
 
-/* In this order: refuse a time of too many steps; then step by step: find how long the rates are smooth; pass all the rest
+/* In this order: refuse a time of too many steps; then step by step: pass all the rest
  * in one step where the velocity settles, or a step of the solver; take it over if its error is small enough. */
 bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoint *now,
                Refusal *refusal) {
@@ -145,8 +142,7 @@ bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoi
         if (tried == allowed) {
             return budget_refuse(budget, now->t, max_count, STEPS, refusal);
         }
-        double kink = fmax(slow_friction_to_kink(&own, now->t), MIN_SHARE * own.beat);
-        double next = fmin(end, now->t + kink), left = next - now->t;
+        double left = end - now->t;
         SlowStep step;
         bool settles = !varies && tried > 0 && linear_step(&own, now, gain, left, &step) &&
                        step.error <= SETTLED * tolerance;
@@ -159,7 +155,7 @@ bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoi
         }
         if (!(step.error > tolerance)) {
             *now = step.to;
-            now->t = settles || h == left ? next : now->t;
+            now->t = settles || h == left ? end : now->t;
             gain = step.gain;
         }
         h *= step_growth(step.error, tolerance);

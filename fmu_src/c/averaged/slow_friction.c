@@ -74,17 +74,6 @@ static const VibratingLoad *load_at(const SlowFriction *slow, double t, Vibratin
     return turned;
 }
 
-double slow_friction_to_kink(const SlowFriction *slow, double t) {
-    if (!slow->stands) {
-        return INFINITY;
-    }
-    VibratingLoad turned;
-    const Plant *plant = &slow->system->plant;
-    double chi = load_at(slow, t, &turned)->delta, drift = slow->drift + slow->chirp * t;
-    double going = drift != 0.0 ? drift : slow->chirp;
-    return time_to_switch(plant, chi, drift, slow->chirp, is_lifted(plant, chi, going));
-}
-
 double slow_friction_at(const SlowFriction *slow, double t, double velocity) {
     double turning = turning_at(velocity, slow->fast.velocity), means[MEANS], face;
     VibratingLoad turned;

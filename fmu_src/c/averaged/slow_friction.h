@@ -29,10 +29,6 @@ double turning_at(double velocity, double fast_velocity);
 /* The mean friction of all faces from drive phase `theta` and normal phase `psi` [rad] on. */
 SlowFriction slow_friction_of(const System *system, double theta, double psi);
 
-/* Time [s] from `t` [s] on until the contact lifts or touches down, where the load itself is slow; infinite
- * elsewhere. */
-double slow_friction_to_kink(const SlowFriction *slow, double t);
-
 /* The mean friction [N] at time `t` [s] from now and slow velocity `velocity` [m/s]. */
 double slow_friction_at(const SlowFriction *slow, double t, double velocity);
 
