@@ -6,7 +6,7 @@ terms are those of nonlinear regression: Seber and Wild, Nonlinear Regression (1
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, partial
+from functools import cache, lru_cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,8 +72,13 @@ def _steady(instance: Instance, parameters: Mapping[str, float], point: Point) -
 NO_MOTION = 10.0
 """Residual, in root mean squares of the quantity, of a point at which the FMU has no motion."""
 DIFFERENCE = 1e-4
-"""Step of central differences, in units of a parameter: error 1e-8, of rounding 1e-6."""
-PROFILE_ACCURACY = 0.02
+"""Step of differences, in units of a parameter: error 1e-4, 1e-8 of central ones, of rounding 1e-6.
+
+Searches take one-sided ones. Central ones at a minimum show what the data leave open.
+"""
+ACCURACY, ROUGH = 1e-10, 1e-3
+"""Relative change of a sum of squares at which a search ends; at a rough one another follows."""
+PROFILE_ACCURACY = 0.01
 """Share of the width of an interval to which its end is found."""
 MAX_DISTANCE = 1e6
 """Distance of an end from the estimate, in units of a parameter, beyond which it is not sought."""
@@ -140,12 +145,13 @@ class Problem:
         measured, scales = self.measurements.measured, self.measurements.scales
         no_motion = NO_MOTION * self.measurements.sizes / scales
 
-        def at(internal: Array) -> Array:
-            found = predict(instance, self.values(internal), self.measurements)
+        @lru_cache(maxsize=2)  # slopes begin where a step has ended
+        def at(internal: tuple[float, ...]) -> Array:
+            found = predict(instance, self.values(np.array(internal)), self.measurements)
             weighted = (found - measured) / scales
             return np.where(np.isfinite(weighted), weighted, no_motion)
 
-        return at
+        return lambda internal: at(tuple(internal.tolist()))
 
     def without(self, index: int, value: float) -> "Problem":
         """Return the problem in which a free parameter is fixed to a value in SI units."""
@@ -160,6 +166,7 @@ class Minimum:
     `at_bound` (p,) is -1 and 1 for a parameter at its lower and upper bound, else 0.
     """
 
+    problem: Problem
     internal: Array
     residuals: Array
     jacobian: Array
@@ -170,6 +177,17 @@ class Minimum:
     def sum_of_squares(self) -> float:
         """Weighted sum of squares."""
         return float(self.residuals @ self.residuals)
+
+    def deviance(self, rounding: float) -> float:
+        """Return -2 log likelihood, up to a constant of the data, with unknown noise as found.
+
+        `rounding` is the error, in root mean squares of the quantity, that counts as none.
+        """
+        data = self.problem.measurements
+        if data.knows_deviations:
+            return self.sum_of_squares
+        variances = (data.scales / data.sizes) ** 2 * np.mean(self.residuals**2)
+        return float(np.log(np.maximum(variances, rounding**2)).sum())
 
     @property
     def covariance(self) -> Array:
@@ -184,35 +202,47 @@ class Minimum:
         return np.asarray(self.covariance / products)
 
 
-def minimise(instance: Instance, problem: Problem, start: Array) -> Minimum:
+def minimise(
+    instance: Instance,
+    problem: Problem,
+    start: Array,
+    accuracy: float = ACCURACY,
+    is_last: bool = True,
+) -> Minimum:
     """Return the least squares from a start (p,), internal parameters.
 
-    Raises FmuError and Refusal as `Instance.start` does, also where a step leads to parameters that
-    the FMU refuses: their bounds must exclude them.
+    Its slopes are one-sided unless it `is_last`. Raises FmuError and Refusal as `Instance.start`
+    does, also where a step leads to parameters that the FMU refuses: their bounds must exclude
+    them.
     """
     residuals = problem.residuals(instance)
     low = np.array([one.internal(one.low) for one in problem.free])
     high = np.array([one.internal(one.high) for one in problem.free])
+    slopes = partial(_slopes, residuals, low, high)
     found = least_squares(
         residuals,
         np.clip(start, low, high),
-        partial(_slopes, residuals, low, high),
+        slopes,
         bounds=(low, high),
         x_scale="jac",
         xtol=1e-10,
-        ftol=1e-12,
+        ftol=accuracy,
         gtol=1e-12,
         max_nfev=60,
     )
-    evaluations = int(found.nfev) + 2 * len(found.x) * int(found.njev or 0)
-    return Minimum(found.x, found.fun, np.asarray(found.jac), evaluations, found.active_mask)
+    jacobian = slopes(found.x, back=1.0) if is_last else np.asarray(found.jac)
+    evaluations = int(found.nfev) + len(found.x) * (int(found.njev or 0) + 2 * is_last)
+    return Minimum(problem, found.x, found.fun, jacobian, evaluations, found.active_mask)
 
 
-def _slopes(residuals: Callable[[Array], Array], low: Array, high: Array, at: Array) -> Array:
-    """Return the slopes between two points beside `at`, within the bounds, (n, p)."""
+def _slopes(
+    residuals: Callable[[Array], Array], low: Array, high: Array, at: Array, back: float = 0.0
+) -> Array:
+    """Return the slopes between a step `back` from `at` and one forward, in the bounds, (n, p)."""
     columns = []
     for step in DIFFERENCE * np.eye(len(at)):
-        before, after = np.maximum(at - step, low), np.minimum(at + step, high)
+        before = np.maximum(at - np.where(at + step > high, 1.0, back) * step, low)
+        after = np.minimum(at + step, high)
         columns.append((residuals(after) - residuals(before)) / (after - before).sum())
     return np.column_stack(columns)
 
@@ -223,31 +253,51 @@ LEAST_NOISE = 1e-6
 """Least noise, in root mean squares of the quantity: what rounding of the data may be."""
 
 
-def noise_of_series(problem: Problem, best: Minimum) -> dict[tuple[str, str], float]:
-    """Return how much the numbers of each quantity and source err, by the residuals of a fit.
+REWEIGHTINGS = 10
+STEADY_NOISE = 0.01
+"""Largest number of times that series are weighted by what they err by, and the relative change of
+that up to which it is found."""
+
+
+def search(instance: Instance, problem: Problem, start: Array) -> Minimum:
+    """Return the minimum from a start, with each series weighted by what it errs by there.
+
+    Arguments and errors are those of `minimise`.
+    """
+    data, evaluations = problem.measurements, 0
+    is_weighted = len(data.measured) > len(problem.free) and not data.knows_deviations
+    for _ in range(REWEIGHTINGS if is_weighted and len(data.series) > 1 else 0):
+        rough = minimise(instance, problem, start, ROUGH, is_last=False)
+        start, evaluations = rough.internal, evaluations + rough.evaluations
+        noise = noise_of_series(rough)
+        if np.ptp(np.log(noise / problem.measurements.noise)) < STEADY_NOISE:
+            break
+        problem = replace(problem, measurements=replace(data, noise=noise))
+    found = minimise(instance, problem, start)
+    return replace(found, evaluations=found.evaluations + evaluations)
+
+
+def noise_of_series(best: Minimum) -> Array:
+    """Return how much the numbers of each quantity and source err, by the residuals of a fit, (n,).
 
     It is a step of the estimation of variance components: sums of squares over redundancies
     (Foerstner, Zeitschrift fuer Vermessungswesen 104 (1979), 446-453).
     """
-    series: dict[tuple[str, str], list[int]] = {}
-    for index, place in enumerate(problem.measurements.places):
-        if best.jacobian[index].any():  # else it is a point without motion, or tells nothing
-            series.setdefault((place.quantity, place.source), []).append(index)
-    hat = np.einsum("ij,ji->i", best.jacobian, np.linalg.pinv(best.jacobian))
-    spare = max(len(hat) - hat.sum(), 1.0)
-    noise = {}
-    for one, rows in series.items():
-        redundancy = len(rows) - hat[rows].sum()
-        squares = float(best.residuals[rows] @ best.residuals[rows]) / max(redundancy, 1e-300)
+    jacobian, squares = best.jacobian, best.residuals**2
+    tells = np.abs(jacobian).max(axis=1) > 0.0  # else there is no motion, or it tells nothing
+    hat = np.einsum("ij,ji->i", jacobian, np.linalg.pinv(jacobian))
+    noise = best.problem.measurements.noise * np.ones(len(hat))
+    for rows in best.problem.measurements.series.values():
+        own = rows[tells[rows]]
+        redundancy = len(own) - hat[own].sum()
         if redundancy < REDUNDANCY:
-            squares = best.sum_of_squares / spare
-        known = problem.measurements.noise.get(one, 1.0)
-        noise[one] = max(known * squares**0.5, LEAST_NOISE)
-    return noise
+            own, redundancy = np.arange(len(hat)), max(len(hat) - hat.sum(), 1.0)
+        noise[rows] *= (squares[own].sum() / redundancy) ** 0.5
+    return noise.clip(min=LEAST_NOISE)
 
 
 def profile_end(
-    instance: Instance, problem: Problem, best: Minimum, index: int, change: float, excess: float
+    instance: Instance, best: Minimum, index: int, change: float, excess: float
 ) -> float | None:
     """Return the end of a profile interval of a parameter, in SI units, None if it is unbounded.
 
@@ -255,10 +305,11 @@ def profile_end(
     `change` is the end that the linear approximation gives, as a change of the internal parameter.
     At a bound the interval ends, unless the bound only confines the search.
     """
-    one = problem.free[index]
-    covariance = best.covariance
+    problem, one = best.problem, best.problem.free[index]
+    covariance, least = best.covariance, best.sum_of_squares
     along = np.delete(covariance[:, index] / covariance[index, index], index)
     others = np.delete(best.internal, index)
+    accuracy = PROFILE_ACCURACY * min(excess / max(least, 1e-300), 1.0)
 
     def value(distance: float) -> float:
         return one.value(float(best.internal[index]) + np.copysign(distance, change))
@@ -266,26 +317,29 @@ def profile_end(
     @cache
     def beyond(distance: float) -> float:
         """Return how far the sum of squares is above the end, as its root and in its units."""
+        nonlocal along
         if distance == 0.0:
             return -1.0
         rest = problem.without(index, value(distance))
         if rest.free:
-            start = others + np.copysign(distance, change) * along
-            found = minimise(instance, rest, start).sum_of_squares
+            moved = np.copysign(distance, change)
+            nearest = minimise(instance, rest, others + moved * along, accuracy, False)
+            along, found = (nearest.internal - others) / moved, nearest.sum_of_squares
         else:
             residuals = rest.residuals(instance)(np.empty(0))
             found = float(residuals @ residuals)
-        return float(np.sqrt(max(found - best.sum_of_squares, 0.0) / excess)) - 1.0
+        above = float(np.sqrt(max(found - least, 0.0) / excess)) - 1.0
+        return above if abs(above) > PROFILE_ACCURACY else 0.0
 
-    outer = abs(change)
+    inner, outer = 0.0, abs(change)
     while beyond(outer) < 0.0:
         end = value(outer)
         if end in one.search_bounds or outer > MAX_DISTANCE:
             return None
         if end in (one.low, one.high):
             return end
-        outer *= 1.5
-    return value(float(brentq(beyond, 0.0, outer, rtol=PROFILE_ACCURACY, xtol=1e-15)))
+        inner, outer = outer, outer * (1.1 - beyond(outer))
+    return value(float(brentq(beyond, inner, outer, rtol=PROFILE_ACCURACY, xtol=1e-15)))
 
 
 @dataclass(frozen=True)
@@ -308,7 +362,7 @@ TAKES_PART = 0.1
 """Share of a direction from which a parameter takes part in it."""
 
 
-def open_directions(problem: Problem, best: Minimum, scale: float) -> list[OpenDirection]:
+def open_directions(best: Minimum, scale: float) -> list[OpenDirection]:
     """Return what the data leave open, from the singular values of the slopes.
 
     `scale` is the standard deviation of a weighted residual, and 1 where deviations are known.
@@ -316,7 +370,7 @@ def open_directions(problem: Problem, best: Minimum, scale: float) -> list[OpenD
     if not np.all(np.isfinite(best.jacobian)):
         raise HarnessError("the outputs of the FMU are not finite beside the solution")
     _, singular, directions = np.linalg.svd(best.jacobian, full_matrices=True)
-    sizes = np.zeros(len(problem.free))
+    sizes = np.zeros(len(directions))
     sizes[: len(singular)] = singular
     found = []
     for size, direction in zip(sizes, directions, strict=True):
@@ -326,7 +380,7 @@ def open_directions(problem: Problem, best: Minimum, scale: float) -> list[OpenD
             largest = direction[np.argmax(np.abs(direction))]
             factors = {
                 one.name: float(part / largest)
-                for one, part in zip(problem.free, direction, strict=True)
+                for one, part in zip(best.problem.free, direction, strict=True)
                 if abs(part / largest) > TAKES_PART
             }
             found.append(OpenDirection(factors, spread))

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
 from functools import partial
 from math import isfinite
 from pathlib import Path
@@ -20,12 +19,11 @@ from slider_resonator.fitting.estimation import (
     Free,
     Minimum,
     Problem,
-    minimise,
-    noise_of_series,
     open_directions,
     predict,
     predict_between,
     profile_end,
+    search,
 )
 from slider_resonator.fitting.measurements import Measurements, points_between
 from slider_resonator.fitting.notes import (
@@ -47,12 +45,8 @@ REACH_OF_FREQUENCY = 1.1
 """Factors up to which other starts lie beside the first; a resonance farther off is not felt."""
 SEED = 1
 LEVEL = 0.95
-REWEIGHTINGS = 10
-STEADY_NOISE = 0.01
-"""Largest number of times that series are weighted by what they err by, and the relative change of
-that up to which it is found."""
 SAME = 1e-6
-"""Relative difference of sums of squares up to which two starts have found the same minimum."""
+"""Relative difference of sums of squares up to which two minima are equally likely."""
 APART = 0.01
 """Distance of two minima, in units of a parameter, from which they are two solutions."""
 WIDE = 1e4
@@ -63,6 +57,8 @@ NO_INTERVALS = (
 )
 MET = 1e-4
 """Error, in root mean squares of the quantity, up to which as many parameters meet a number."""
+ROUNDING = 1e-8
+"""Error, likewise, that counts as none where there are more numbers."""
 
 
 def free_parameters(
@@ -153,28 +149,27 @@ def fit(
     notes = data_notes(problem.measurements, problem.parameters)
     free, count = problem.free, len(measurements.measured)
     spare = count - len(free)
-    tasks = [partial(minimise, problem=problem, start=one) for one in _starts(problem, starts)]
+    is_known = measurements.knows_deviations
+    tasks = [partial(search, problem=problem, start=one) for one in _starts(problem, starts)]
     try:
-        minima: list[Minimum] = run("searching", tasks)
+        searched: list[Minimum] = run("searching", tasks)
     except FmuError as error:
         raise FmuError("; ".join([str(error), *notes])) from error
-    first, *others = _solutions(minima, problem.start, 1e-16 * count if spare else MET**2 * count)
-    evaluations = sum(one.evaluations for one in minima)
-    best = first
-    if spare and not measurements.knows_deviations:
-        problem, best, more = _weighted(problem, first, run)
-        evaluations += more
-    measurements = problem.measurements
+    quantile = ndtri(0.5 + LEVEL / 2) if is_known else stdtrit(max(spare, 1), 0.5 + LEVEL / 2)
+    (_, best), *others = _solutions(searched, problem.start, float(quantile), spare)
+    agreeing = sum(_distance(one, best) < APART for one in searched)
+    problem, measurements = best.problem, best.problem.measurements
     scale = (best.sum_of_squares / spare) ** 0.5 if spare else None
-    unit = 1.0 if measurements.knows_deviations else scale or 0.0
-    is_as_stated = scale is None or (measurements.knows_deviations and scale <= AS_STATED)
-    directions = open_directions(problem, best, unit)
+    unit = 1.0 if is_known else scale or 0.0
+    is_as_stated = scale is None or (is_known and scale <= AS_STATED)
+    directions = open_directions(best, unit)
     left_open = {name for one in directions for name in one.factors}
     found = problem.values(best.internal)
     (predicted,) = run("comparing", [partial(predict, parameters=found, measurements=measurements)])
     missed = {} if is_as_stated else missed_quantities(measurements, predicted)
     is_near = len(missed) < len({*measurements.quantities})
-    fitted = _estimates(problem, best, unit if is_near else 0.0, left_open, run)
+    shown = unit if is_near else 0.0
+    fitted = _estimates(best, shown, float(quantile), left_open, run)
     off = np.abs(predicted - measurements.measured)
     unmet = () if spare else np.flatnonzero(~(off <= MET * measurements.sizes)).tolist()
     device = Device.from_mapping(found)
@@ -187,10 +182,15 @@ def fit(
             notes.append(NO_INTERVALS)
         notes += misfit_notes(measurements, predicted, best.jacobian)
     if not directions:
-        for one in others:
+        for how, one in others:
             pairs = zip(free, one.internal.tolist(), strict=True)
             said = ", ".join(f"{which.name} = {which.value(x):.6g}" for which, x in pairs)
-            notes.append(f"the data are met as well by {said}; bounds decide")
+            notes.append(f"the data are met {how} by {said}; bounds decide")
+        if agreeing == 1 < starts:
+            notes.append(
+                f"no other of {starts} starts led to this minimum: a better one may exist, "
+                "which more starts (--starts) or bounds may find"
+            )
     points = points_between(measurements.points)
     try:
         (between,) = run("drawing", [partial(predict_between, parameters=found, points=points)])
@@ -205,9 +205,9 @@ def fit(
         predicted=predicted,
         residuals=(predicted - measurements.measured) / (measurements.scales * (unit or 1.0)),
         scale=scale,
-        starts=len(minima),
-        starts_agreeing=sum(_distance(one, first) < APART for one in minima),
-        evaluations=evaluations,
+        starts=starts,
+        starts_agreeing=agreeing,
+        evaluations=sum(one.evaluations for one in searched),
         measurements=measurements,
         unmet=tuple(unmet),
         notes=tuple(notes),
@@ -252,39 +252,23 @@ def _supposed(problem: Problem, run: Runner) -> dict[str, Array]:
         return {}
 
 
-def _weighted(problem: Problem, best: Minimum, run: Runner) -> tuple[Problem, Minimum, int]:
-    """Weight each series by what it errs by; return problem, minimum and evaluations."""
-    evaluations = 0
-    for _ in range(REWEIGHTINGS):
-        noise = noise_of_series(problem, best)
-        before = [problem.measurements.noise.get(one, 1.0) for one in noise]
-        changes = np.log(np.array([*noise.values()]) / before)
-        if not noise or float(np.ptp(changes)) < STEADY_NOISE:
-            break
-        problem = replace(problem, measurements=replace(problem.measurements, noise=noise))
-        (best,) = run("weighting", [partial(minimise, problem=problem, start=best.internal)])
-        evaluations += best.evaluations
-    return problem, best, evaluations
-
-
 def _estimates(
-    problem: Problem, best: Minimum, unit: float, left_open: Container[str], run: Runner
+    best: Minimum, unit: float, quantile: float, left_open: Container[str], run: Runner
 ) -> tuple[FittedParameter, ...]:
     """Return the estimates, with intervals except of those that are left open.
 
-    `unit` is the standard deviation of the weighted residuals, 0 where nothing tells.
+    `unit` is the standard deviation of the weighted residuals, 0 where nothing tells; `quantile` is
+    half the width of an interval in standard deviations.
     """
-    spare, internal = len(best.residuals) - len(best.internal), best.internal.tolist()
-    is_known = problem.measurements.knows_deviations
-    quantile = ndtri(0.5 + LEVEL / 2) if is_known else stdtrit(max(spare, 1), 0.5 + LEVEL / 2)
-    width, deviations = float(quantile) * unit, np.sqrt(np.diag(best.covariance))
-    end_of = partial(profile_end, problem=problem, best=best, excess=width**2)
-    bounded = [i for i, one in enumerate(problem.free) if unit and one.name not in left_open]
+    width, free = quantile * unit, best.problem.free
+    internal, deviations = best.internal.tolist(), np.sqrt(np.diag(best.covariance))
+    end_of = partial(profile_end, best=best, excess=width**2)
+    bounded = [i for i, one in enumerate(free) if width and one.name not in left_open]
     sides = [(i, sign * width * deviations[i]) for i in bounded for sign in (-1, 1)]
     ends = run("bounding", [partial(end_of, index=i, change=change) for i, change in sides])
     intervals = dict(zip(bounded, zip(ends[::2], ends[1::2], strict=True), strict=True))
     fitted = []
-    for index, one in enumerate(problem.free):
+    for index, one in enumerate(free):
         value = one.value(internal[index])
         low, high = intervals.get(index, (None, None))
         deviation = one.slope(value) * unit * float(deviations[index])
@@ -299,18 +283,26 @@ def _estimates(
     return tuple(fitted)
 
 
-def _solutions(minima: Sequence[Minimum], start: Array, rounding: float) -> list[Minimum]:
-    """Return the different minima of least squares, up to a `rounding` of them, from the start on.
+def _solutions(
+    searched: Sequence[Minimum], start: Array, quantile: float, spare: int
+) -> list[tuple[str, Minimum]]:
+    """Return different minima by how well they meet the data: "as well" or "almost as well".
 
-    The nearest to the values that the device has comes first.
+    Of the most likely the nearest to the values that the device has comes first. Others follow that
+    are in the likelihood region of one parameter; `quantile` and `spare` are those of an interval.
     """
-    least = min(minima, key=lambda one: one.sum_of_squares)
-    bound = least.sum_of_squares * (1.0 + SAME) + rounding
-    found = [least]
-    for one in minima:
-        if one.sum_of_squares <= bound and min(_distance(one, other) for other in found) >= APART:
-            found.append(one)
-    return sorted(found, key=lambda one: float(np.abs(one.internal - start).max()))
+    count, is_known = len(searched[0].residuals), searched[0].problem.measurements.knows_deviations
+    deviances = [one.deviance(ROUNDING if spare else MET) for one in searched]
+    likely = quantile**2 if is_known else count * np.log1p(quantile**2 / max(spare, 1))
+    found: list[tuple[str, Minimum]] = []
+    for index in np.argsort(deviances, kind="stable").tolist():
+        one, excess = searched[index], deviances[index] - min(deviances)
+        is_other = all(_distance(one, other) >= APART for _, other in found)
+        if is_other and excess <= SAME * count:
+            found.append(("as well", one))
+        elif is_other and spare and excess <= likely:
+            found.append(("almost as well", one))
+    return sorted(found, key=lambda pair: (len(pair[0]), np.abs(pair[1].internal - start).max()))
 
 
 def _distance(one: Minimum, other: Minimum) -> float:

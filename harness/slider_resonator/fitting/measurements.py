@@ -7,6 +7,7 @@ from math import isfinite, nan
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INTEGERS, VARIABLES
@@ -66,15 +67,15 @@ class Place(NamedTuple):
 class Measurements:
     """All that is measured. Numbers come in the order of points, then runs, output by output.
 
-    `noise` is what numbers of a quantity and source err by without stated deviations, in root mean
-    squares of the quantity and up to a common factor; 1 by default. `units` are those of headings,
+    `noise` is what each number errs by without stated deviations, (n,) or one for all, in root mean
+    squares of the quantity and up to a common factor. `units` are those of headings,
     by name: text and factor to the SI unit. `plain_numbers` are source, name and value of
     frequencies and phases without a unit. `notes` say what was done in reading.
     """
 
     points: tuple[Point, ...] = ()
     runs: tuple[Run, ...] = ()
-    noise: Mapping[tuple[str, str], float] = field(default_factory=dict)
+    noise: Array | float = 1.0
     units: Mapping[str, tuple[str, float]] = field(default_factory=dict)
     plain_numbers: tuple[tuple[str, str, float], ...] = ()
     notes: tuple[str, ...] = ()
@@ -141,11 +142,21 @@ class Measurements:
         """Whether the numbers have their standard deviations; HarnessError if only some have."""
         known = np.isfinite(self.deviations)
         if known.any() and not known.all():
+            name, source, _ = self.places[int(np.argmin(known))]
             raise HarnessError(
                 f"{np.count_nonzero(known)} of {len(known)} numbers have a standard deviation; "
-                "must be all or none"
+                f"must be all or none: give {source} a column {name}_std, or take such columns out "
+                "of the others, and the fit finds the noise of each"
             )
         return bool(known.all())
+
+    @property
+    def series(self) -> dict[tuple[str, str], NDArray[np.intp]]:
+        """The indices of the numbers of each quantity and source."""
+        found: dict[tuple[str, str], list[int]] = {}
+        for index, place in enumerate(self.places):
+            found.setdefault(place[:2], []).append(index)
+        return {name: np.array(rows) for name, rows in found.items()}
 
     @property
     def sizes(self) -> Array:
@@ -162,9 +173,7 @@ class Measurements:
         """Standard deviations, shape (n,), or what stands for them up to a common factor."""
         if self.knows_deviations:
             return self.deviations
-        shares = [self.noise.get((place.quantity, place.source), 1.0) for place in self.places]
-        scales: Array = self.sizes * shares
-        return scales
+        return self.sizes * self.noise
 
     def under(self, inputs: Mapping[str, float]) -> "Measurements":
         """Return the same with inputs of the points that do not say them."""
@@ -184,10 +193,9 @@ class Measurements:
         return Measurements(
             self.points + other.points,
             self.runs + other.runs,
-            {**other.noise, **self.noise},
-            {**other.units, **self.units},
-            self.plain_numbers + other.plain_numbers,
-            self.notes + other.notes,
+            units={**other.units, **self.units},
+            plain_numbers=self.plain_numbers + other.plain_numbers,
+            notes=self.notes + other.notes,
         )
 
 

@@ -138,21 +138,17 @@ def misfit_notes(measurements: Measurements, predicted: Array, jacobian: Array) 
     measured = measurements.measured
     weighted = (predicted - measured) / measurements.scales
     is_seen = np.abs(predicted - measured) > ROUNDING * measurements.sizes
-    places = measurements.places
-    series: dict[tuple[str, str], list[int]] = {}
-    for index in np.flatnonzero(np.isfinite(weighted)):
-        series.setdefault(places[index][:2], []).append(int(index))
+    places, series = measurements.places, measurements.series
     outliers: list[str] = []
     systematic = []
-    for (quantity, source), rows in series.items():
-        found = np.array(rows)[
-            outlying(weighted[rows], jacobian[rows], OUTLIER_LEVEL / len(series))
-        ]
+    for (quantity, source), numbers in series.items():
+        rows = numbers[np.isfinite(weighted[numbers])]
+        found = rows[outlying(weighted[rows], jacobian[rows], OUTLIER_LEVEL / len(series))]
         for index in found[is_seen[found]].tolist():
             values = (measurements.shown(quantity, one[index]) for one in (measured, predicted))
             number, fit = values
             outliers.append(f"{source} {places[index].row}: {quantity} {number}, fit {fit}")
-        rows = [index for index in rows if is_seen[index]]
+        rows = rows[is_seen[rows]]
         lengths, expected, chance = runs_about_median(weighted[rows])
         if chance < CHANCE:
             longest = int(np.argmax(lengths))
@@ -183,7 +179,7 @@ def outlying(residuals: Array, jacobian: Array, level: float) -> list[int]:
     kept, left_out, count = np.arange(len(residuals)), list[int](), 0
     for _ in range(max(1, min((len(residuals) - jacobian.shape[1]) // 5, MAX_OUTLIERS))):
         basis, sizes, _ = np.linalg.svd(jacobian[kept], full_matrices=False)
-        basis = basis[:, sizes > NOTHING * sizes[0]]
+        basis = basis[:, sizes > NOTHING * sizes.max(initial=0.0)]
         spare = len(kept) - basis.shape[1]
         if spare < 2:
             break

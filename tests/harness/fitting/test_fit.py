@@ -165,6 +165,29 @@ def test_noisy_source_does_not_outweigh_an_exact_one(instance: Instance, run_noi
     assert found.residuals[len(table.points) :].std() == pytest.approx(1.0, rel=0.3)
 
 
+def test_the_most_likely_minimum_is_taken_of_series_with_noise_of_their_own(
+    instance: Instance,
+) -> None:
+    """By sums of squares before the noise is known, a bristle damping of 1.3 would be taken."""
+    true = {"friction_coefficient": 0.13, "bristle_stiffness": 6e4, "bristle_damping": 14.0}
+    true |= {"damping_ratio": 0.07}
+    start = {"friction_coefficient": 0.1, "bristle_stiffness": 1e5, "bristle_damping": 10.0}
+    start |= {"damping_ratio": 0.05, "friction_law": 1, "friction_faces": 2}
+    times = 3e-4 * np.arange(240)
+    inputs = {"phase": np.where(times < 0.03, 0.5, -1.2), "load": np.where(times < 0.05, 0.0, 0.03)}
+    noise = {"position": 2e-6, "velocity": 4e-3, "resonator_velocity": 3e-2}
+    empty = measurements_from({"time": times, **inputs, **dict.fromkeys(noise, 0.0 * times)})
+    exact = predict(instance, {**start, **true}, empty).reshape(3, -1)
+    errors = np.random.default_rng(110).normal(size=(240, 3)).T
+    outputs = dict(zip(noise, exact + errors * np.array([[*noise.values()]]).T, strict=True))
+    data = measurements_from({"time": times, **inputs, **outputs})
+    found = fitted(instance, data, list(true), parameters=start)
+    assert found.starts_agreeing == 4
+    for of, value in enumerate([*true.values()][:3]):
+        low, high = interval(found, of)
+        assert low < value < high
+
+
 def die(_: Instance, over_limit: bool) -> None:
     """End as a process of its own would."""
     raise FmuDied("no answer", over_limit=over_limit)
