@@ -169,9 +169,10 @@ def _named(
         name, std, unit = allowed.parts(heading)
         if name not in allowed.names or (std and name not in allowed.outputs):
             meant = _with_brackets(heading, allowed)
-            hint = f"unknown column {heading!r}; write {meant!r}" if meant else ""
-            names = {*allowed.names, *allowed.aliases}
-            raise ValueError(hint or unknown_name("column", name + std, names))
+            if meant:
+                raise ValueError(f"unknown column {heading!r}; write {meant!r}")
+            said = unknown_name("column", name + std, {*allowed.names, *allowed.aliases})
+            raise ValueError(f"{said}; take out a column of numbers that the fit is not to use")
         try:
             factor = _factor(name, unit)
         except ValueError as error:
