@@ -203,17 +203,12 @@ class Minimum:
 
 
 def minimise(
-    instance: Instance,
-    problem: Problem,
-    start: Array,
-    accuracy: float = ACCURACY,
-    is_last: bool = True,
+    instance: Instance, problem: Problem, start: Array, accuracy: float = ACCURACY
 ) -> Minimum:
     """Return the least squares from a start (p,), internal parameters.
 
-    Its slopes are one-sided unless it `is_last`. Raises FmuError and Refusal as `Instance.start`
-    does, also where a step leads to parameters that the FMU refuses: their bounds must exclude
-    them.
+    Raises FmuError and Refusal as `Instance.start` does, also where a step leads to parameters that
+    the FMU refuses: their bounds must exclude them.
     """
     residuals = problem.residuals(instance)
     low = np.array([one.internal(one.low) for one in problem.free])
@@ -230,8 +225,9 @@ def minimise(
         gtol=1e-12,
         max_nfev=60,
     )
-    jacobian = slopes(found.x, back=1.0) if is_last else np.asarray(found.jac)
-    evaluations = int(found.nfev) + len(found.x) * (int(found.njev or 0) + 2 * is_last)
+    is_rough = accuracy > ACCURACY
+    jacobian = np.asarray(found.jac) if is_rough else slopes(found.x, back=1.0)
+    evaluations = int(found.nfev) + len(found.x) * (int(found.njev or 0) + 2 * (not is_rough))
     return Minimum(problem, found.x, found.fun, jacobian, evaluations, found.active_mask)
 
 
@@ -267,7 +263,7 @@ def search(instance: Instance, problem: Problem, start: Array) -> Minimum:
     data, evaluations = problem.measurements, 0
     is_weighted = len(data.measured) > len(problem.free) and not data.knows_deviations
     for _ in range(REWEIGHTINGS if is_weighted and len(data.series) > 1 else 0):
-        rough = minimise(instance, problem, start, ROUGH, is_last=False)
+        rough = minimise(instance, problem, start, ROUGH)
         start, evaluations = rough.internal, evaluations + rough.evaluations
         noise = noise_of_series(rough)
         if np.ptp(np.log(noise / problem.measurements.noise)) < STEADY_NOISE:
@@ -289,6 +285,8 @@ def noise_of_series(best: Minimum) -> Array:
     noise = best.problem.measurements.noise * np.ones(len(hat))
     for rows in best.problem.measurements.series.values():
         own = rows[tells[rows]]
+        if not len(own):
+            continue
         redundancy = len(own) - hat[own].sum()
         if redundancy < REDUNDANCY:
             own, redundancy = np.arange(len(hat)), max(len(hat) - hat.sum(), 1.0)
@@ -323,7 +321,7 @@ def profile_end(
         rest = problem.without(index, value(distance))
         if rest.free:
             moved = np.copysign(distance, change)
-            nearest = minimise(instance, rest, others + moved * along, accuracy, False)
+            nearest = minimise(instance, rest, others + moved * along, accuracy)
             along, found = (nearest.internal - others) / moved, nearest.sum_of_squares
         else:
             residuals = rest.residuals(instance)(np.empty(0))

@@ -3,12 +3,12 @@
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
-from math import isfinite
+from math import inf, isfinite
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.special import ndtri, stdtrit
+from scipy.special import stdtrit
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
@@ -155,9 +155,9 @@ def fit(
         searched: list[Minimum] = run("searching", tasks)
     except FmuError as error:
         raise FmuError("; ".join([str(error), *notes])) from error
-    quantile = ndtri(0.5 + LEVEL / 2) if is_known else stdtrit(max(spare, 1), 0.5 + LEVEL / 2)
-    (_, best), *others = _solutions(searched, problem.start, float(quantile), spare)
-    agreeing = sum(_distance(one, best) < APART for one in searched)
+    quantile = float(stdtrit(inf if is_known else max(spare, 1), 0.5 + LEVEL / 2))
+    best, *others = _solutions(searched, problem.start, quantile, spare)
+    agreeing = sum(_distance(one.internal, best.internal) < APART for one in searched)
     problem, measurements = best.problem, best.problem.measurements
     scale = (best.sum_of_squares / spare) ** 0.5 if spare else None
     unit = 1.0 if is_known else scale or 0.0
@@ -168,8 +168,7 @@ def fit(
     (predicted,) = run("comparing", [partial(predict, parameters=found, measurements=measurements)])
     missed = {} if is_as_stated else missed_quantities(measurements, predicted)
     is_near = len(missed) < len({*measurements.quantities})
-    shown = unit if is_near else 0.0
-    fitted = _estimates(best, shown, float(quantile), left_open, run)
+    fitted = _estimates(best, unit if is_near else 0.0, quantile, left_open, run)
     off = np.abs(predicted - measurements.measured)
     unmet = () if spare else np.flatnonzero(~(off <= MET * measurements.sizes)).tolist()
     device = Device.from_mapping(found)
@@ -182,15 +181,12 @@ def fit(
             notes.append(NO_INTERVALS)
         notes += misfit_notes(measurements, predicted, best.jacobian)
     if not directions:
-        for how, one in others:
+        for one in others:
             pairs = zip(free, one.internal.tolist(), strict=True)
             said = ", ".join(f"{which.name} = {which.value(x):.6g}" for which, x in pairs)
-            notes.append(f"the data are met {how} by {said}; bounds decide")
+            notes.append(f"the data are met as well, or almost, by {said}; bounds decide")
         if agreeing == 1 < starts:
-            notes.append(
-                f"no other of {starts} starts led to this minimum: a better one may exist, "
-                "which more starts (--starts) or bounds may find"
-            )
+            notes.append("no other start led to this minimum: try more (--starts), or bounds")
     points = points_between(measurements.points)
     try:
         (between,) = run("drawing", [partial(predict_between, parameters=found, points=points)])
@@ -285,28 +281,28 @@ def _estimates(
 
 def _solutions(
     searched: Sequence[Minimum], start: Array, quantile: float, spare: int
-) -> list[tuple[str, Minimum]]:
-    """Return different minima by how well they meet the data: "as well" or "almost as well".
+) -> list[Minimum]:
+    """Return the most likely minima, the nearest to the device first, and those almost as likely.
 
-    Of the most likely the nearest to the values that the device has comes first. Others follow that
-    are in the likelihood region of one parameter; `quantile` and `spare` are those of an interval.
+    The latter are in the likelihood region of one parameter; `quantile` and `spare` are those of
+    its interval.
     """
     count, is_known = len(searched[0].residuals), searched[0].problem.measurements.knows_deviations
-    deviances = [one.deviance(ROUNDING if spare else MET) for one in searched]
-    likely = quantile**2 if is_known else count * np.log1p(quantile**2 / max(spare, 1))
-    found: list[tuple[str, Minimum]] = []
+    deviances = np.array([one.deviance(ROUNDING if spare else MET) for one in searched])
+    excesses, same = deviances - deviances.min(), SAME * count
+    region = quantile**2 if is_known else count * np.log1p(quantile**2 / max(spare, 1))
+    found: list[int] = []
     for index in np.argsort(deviances, kind="stable").tolist():
-        one, excess = searched[index], deviances[index] - min(deviances)
-        is_other = all(_distance(one, other) >= APART for _, other in found)
-        if is_other and excess <= SAME * count:
-            found.append(("as well", one))
-        elif is_other and spare and excess <= likely:
-            found.append(("almost as well", one))
-    return sorted(found, key=lambda pair: (len(pair[0]), np.abs(pair[1].internal - start).max()))
+        at = searched[index].internal
+        is_other = all(_distance(at, searched[one].internal) >= APART for one in found)
+        if is_other and excesses[index] <= (region if spare else same):
+            found.append(index)
+    found.sort(key=lambda i: (excesses[i] > same, _distance(searched[i].internal, start)))
+    return [searched[index] for index in found]
 
 
-def _distance(one: Minimum, other: Minimum) -> float:
-    return float(np.abs(one.internal - other.internal).max())
+def _distance(one: Array, other: Array) -> float:
+    return float(np.abs(one - other).max())
 
 
 def _starts(problem: Problem, count: int) -> list[Array]:

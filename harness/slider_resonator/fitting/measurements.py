@@ -29,14 +29,14 @@ TIME = "last_event_time"
 class Point:
     """A steady `quantity` measured under `values`; both in SI units.
 
-    `deviation` is the standard deviation of the measurement, None where it is not known. `source`
+    `deviation` is the standard deviation of the measurement, NaN where it is not known. `source`
     and `row` are those of the file.
     """
 
     values: Mapping[str, float]
     quantity: str
     measured: float
-    deviation: float | None = None
+    deviation: float = nan
     source: str = "datasheet"
     row: str = ""
 
@@ -83,14 +83,7 @@ class Measurements:
     @cached_property
     def _numbers(self) -> list[tuple[Place, float, float]]:
         """Place, value and standard deviation of each number, without what a run leaves out."""
-        found = [
-            (
-                Place(p.quantity, p.source, p.row),
-                p.measured,
-                nan if p.deviation is None else p.deviation,
-            )
-            for p in self.points
-        ]
+        found = [(Place(p.quantity, p.source, p.row), p.measured, p.deviation) for p in self.points]
         for run in self.runs:
             for name, column in run.outputs.items():
                 rows = run.rows or [f"row {number}" for number in range(1, len(column) + 1)]

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import nan
 from pathlib import Path
 from typing import Any
 
@@ -233,7 +234,7 @@ def _table(columns: _Columns) -> Measurements:
     for index, row in enumerate(columns.rows):
         own = {name: float(values[name][index]) for name in given}
         for name in [name for name, known in zip(measured, there[:, index], strict=True) if known]:
-            deviation = float(values[f"{name}_std"][index]) if f"{name}_std" in values else None
+            deviation = float(values[f"{name}_std"][index]) if f"{name}_std" in values else nan
             points.append(Point(own, name, float(values[name][index]), deviation, source, row))
     skipped = np.count_nonzero(~is_needed)
     note = f"{source}: {skipped} of {len(columns.rows)} rows skipped: nothing measured"
