@@ -74,7 +74,7 @@ def _search_command(
         search = partial(find, values=given.values, max_denominator=max_denominator)
         with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
             progress(f"searching the {what}", 0.0)
-            result: SearchResult = isolated.run(search, progress)
+            result: SearchResult = isolated.run(search)
         lines = [*result.describe(), f"FMU              {one_line(str(fmu))}"]
         print_result(result, "\n".join(lines), as_json=as_json, provenance=provenance)
         return 1 if result.value is None else 0

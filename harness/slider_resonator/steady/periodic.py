@@ -12,10 +12,9 @@ from slider_resonator.device.schedule import nearest
 from slider_resonator.device.values import check_value
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.references.averaged.vibrating_contact import mean_load
 from slider_resonator.steady.bristle_reading import bristle_reading
-from slider_resonator.steady.shooting import WARM_UP, PeriodicRun
+from slider_resonator.steady.shooting import NoPeriodicMotion, PeriodicRun
 from slider_resonator.steady.solvers import Matrix, Vector
 
 STATE = ("velocity", "resonator_displacement", "resonator_velocity")
@@ -25,16 +24,6 @@ SLOW = 0.1
 
 STICKS = 1e-10
 """Rounding of the fraction of a period in which the slider sticks."""
-USUAL_JACOBIANS = 3
-"""Jacobians of a search of usual length, by which its progress is estimated."""
-
-
-@dataclass(frozen=True)
-class Obstacle:
-    """The reason why there is no periodic motion; `status` for machines, `reason` for people."""
-
-    status: str
-    reason: str
 
 
 @dataclass(frozen=True)
@@ -92,11 +81,12 @@ def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
     return Facts(read, read.pop("steady_velocity"), read.pop("blocking_force"), is_valid)
 
 
-def repeating_periods(facts: Facts, max_denominator: int) -> int | Obstacle:
+def repeating_periods(facts: Facts, max_denominator: int) -> int:
     """Return the number q of drive periods of a common period.
 
-    Where frequency_ratio is no p/q with a small q there is none: slow_beat next to an integer,
-    where the phase runs slowly through all its values, no_common_period elsewhere.
+    Where frequency_ratio is no p/q with a small q there is none, and NoPeriodicMotion is raised:
+    slow_beat next to an integer, where the phase runs slowly through all its values,
+    no_common_period elsewhere.
     """
     ratio = facts["frequency_ratio"]
     count = common_period(ratio, max_denominator)
@@ -106,8 +96,8 @@ def repeating_periods(facts: Facts, max_denominator: int) -> int | Obstacle:
     distance = abs(ratio - round(ratio))
     if distance < SLOW:
         beat = distance / facts.drive_period
-        return Obstacle("slow_beat", f"{why}; slow beat at {beat:.6g} Hz")
-    return Obstacle(
+        raise NoPeriodicMotion("slow_beat", f"{why}; slow beat at {beat:.6g} Hz")
+    raise NoPeriodicMotion(
         "no_common_period",
         f"{why}, so that drive and normal force never repeat together; --max-denominator allows "
         "a larger q",
@@ -128,14 +118,12 @@ class FmuPeriodMap(PeriodicRun):
         values: Mapping[str, float],
         facts: Facts,
         drive_periods: int,
-        progress: Progress = no_progress,
     ) -> None:
         self.instance = instance
         self.values = values
         self.facts = facts
         self.drive_periods = drive_periods
         self.drive_period = facts.drive_period
-        self.progress = progress
         self.periods = 0
         self.stick_fraction = 0.0
         self.bristle = bristle_reading(facts.values)
@@ -156,9 +144,6 @@ class FmuPeriodMap(PeriodicRun):
         read_at = np.union1d(grid, leading)
         readings = self._readings(read_at)
         self.periods += round(end / self.drive_period)
-        jacobians = USUAL_JACOBIANS * (2 * len(self.names) + 1)
-        usual = max(WARM_UP + jacobians * self.drive_periods, self.periods)
-        self.progress(f"drive period {self.periods} of some {usual}", self.periods / usual)
         rows = readings[nearest(read_at, times)]
         states, travel = rows[:, 1:4], rows[:, 0] - before
         if self.bristle is not None:

@@ -13,7 +13,12 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.simulate import simulate as simulate_resolved
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.steady.shooting import FixedPoint, PeriodicRun, blocked_point, steady_point
+from slider_resonator.steady.shooting import (
+    NoPeriodicMotion,
+    PeriodicRun,
+    blocked_point,
+    steady_point,
+)
 from slider_resonator.steady.solvers import Matrix, Vector
 
 STATE = ("velocity", "resonator_displacement", "resonator_velocity", "bristle_deflection")
@@ -45,8 +50,10 @@ def reference_steady_velocity(
     if count is None:
         return None
     period_map = _ReferencePeriodMap(device, phase, ratio, count, simulate)
-    found = steady_point(period_map, guess, load, tolerance=tolerance)
-    return found.displacement / period_map.period if isinstance(found, FixedPoint) else None
+    try:
+        return steady_point(period_map, guess, load, tolerance).displacement / period_map.period
+    except NoPeriodicMotion:
+        return None
 
 
 def reference_blocking_force(
@@ -67,8 +74,10 @@ def reference_blocking_force(
     period_map = _ReferencePeriodMap(device, phase, ratio, count, simulate)
     # Without preload the load varies alone and friction is of the order of its amplitude.
     warm = period_map.warm_up(0.0, 0.0)
-    found = blocked_point(period_map, warm, 0.0, device.max_friction, tolerance=tolerance)
-    return found.load if isinstance(found, FixedPoint) else None
+    try:
+        return blocked_point(period_map, warm, 0.0, device.max_friction, tolerance).load
+    except NoPeriodicMotion:
+        return None
 
 
 class _ReferencePeriodMap(PeriodicRun):

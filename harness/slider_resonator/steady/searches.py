@@ -8,17 +8,15 @@ from typing import Any, ClassVar
 from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.device.interface import INPUTS, VARIABLES
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.output.shown import Shown
-from slider_resonator.steady.periodic import (
-    Facts,
-    FmuPeriodMap,
-    Obstacle,
-    read_facts,
-    repeating_periods,
+from slider_resonator.steady.periodic import Facts, FmuPeriodMap, read_facts, repeating_periods
+from slider_resonator.steady.shooting import (
+    FixedPoint,
+    NoPeriodicMotion,
+    blocked_point,
+    steady_point,
 )
-from slider_resonator.steady.shooting import FixedPoint, NoFixedPoint, blocked_point, steady_point
 
 
 @dataclass(frozen=True, repr=False)
@@ -97,27 +95,25 @@ def _asked(facts: Facts, predicted: float, searched: str = "") -> dict[str, Any]
     }
 
 
-def _cost(
-    period_map: FmuPeriodMap, found: FixedPoint | NoFixedPoint | None = None
-) -> dict[str, Any]:
+def _cost(period_map: FmuPeriodMap, found: FixedPoint | NoPeriodicMotion) -> dict[str, Any]:
     """Return the fields of a result that follow from the search itself."""
     fields: dict[str, Any] = {
         "common_period": period_map.drive_periods,
         "periods": period_map.periods,
+        "iterations": found.iterations,
+        "residual": found.residual,
     }
-    if found is not None:
-        fields |= {"iterations": found.iterations, "residual": found.residual}
     if isinstance(found, FixedPoint):
         fields["multipliers"] = tuple(found.multipliers.tolist())
         fields["stable"] = found.stability == "stable"
     return fields
 
 
-def _with_undamped_hint(reason: str, facts: Facts) -> str:
-    """Add to a reason that the resonator is undamped, if it is."""
+def _undamped_hint(facts: Facts) -> str:
+    """Return what a reason ends with for an undamped resonator."""
     if facts["damping_ratio"] > 0.0:
-        return reason
-    return f"{reason} (damping_ratio = 0: the transient of the resonator never decays)"
+        return ""
+    return " (damping_ratio = 0: the transient of the resonator never decays)"
 
 
 @dataclass(frozen=True, repr=False)
@@ -136,32 +132,33 @@ class SteadyMotion(SearchResult):
 
 
 def find_steady(
-    instance: Instance,
-    values: Mapping[str, float],
-    *,
-    max_denominator: int = MAX_DENOMINATOR,
-    progress: Progress = no_progress,
+    instance: Instance, values: Mapping[str, float], *, max_denominator: int = MAX_DENOMINATOR
 ) -> SteadyMotion:
     """Find the steady motion of an FMU with the given parameters and inputs.
 
     An `initial_velocity` among the values is where the search begins, otherwise that is the FMU's
-    own prediction. `progress` gets the drive periods run, of some that a search takes. Raises
-    FmuError and Refusal as `Instance.start` does.
+    own prediction. Raises FmuError and Refusal as `Instance.start` does.
     """
     facts = read_facts(instance, values)
     said = _asked(facts, facts.steady_velocity)
     runaway = _runaway(facts)
-    # Damped bristles can give more friction than full sliding: only the search can decide.
-    certain = runaway if facts["friction_law"] == 0 else None
-    count = certain or repeating_periods(facts, max_denominator)
-    if isinstance(count, Obstacle):
-        return SteadyMotion(count.status, count.reason, **said)
-    period_map = FmuPeriodMap(instance, values, facts, count, progress)
+    try:
+        # Damped bristles can give more friction than full sliding: only the search can decide.
+        if runaway is not None and facts["friction_law"] == 0:
+            raise runaway
+        count = repeating_periods(facts, max_denominator)
+    except NoPeriodicMotion as none:
+        return SteadyMotion(none.status, none.reason, **said)
+    period_map = FmuPeriodMap(instance, values, facts, count)
     guess = values.get("initial_velocity", facts.steady_velocity)
-    found = steady_point(period_map, guess if isfinite(guess) else 0.0, facts["load"])
-    if isinstance(found, NoFixedPoint):
-        why = runaway or Obstacle(found.status, _with_undamped_hint(found.reason, facts))
-        return SteadyMotion(why.status, why.reason, **said, **_cost(period_map, found))
+    hint = _undamped_hint(facts)
+    try:
+        found = steady_point(period_map, guess if isfinite(guess) else 0.0, facts["load"])
+    except NoPeriodicMotion as none:
+        status, reason = none.status, none.reason + hint
+        if runaway is not None:
+            status, reason = runaway.status, runaway.reason
+        return SteadyMotion(status, reason, **said, **_cost(period_map, none))
     largest = f"{abs(found.multipliers[0]):.9g}"
     repeats = "this motion repeats but departures from it"
     status, reason = {
@@ -170,10 +167,7 @@ def find_steady(
             "unstable",
             f"{repeats} grow by {largest} per common period: another one is reached in practice",
         ),
-        "neutral": (
-            "neutral",
-            _with_undamped_hint(f"{repeats} neither grow nor decay ({largest})", facts),
-        ),
+        "neutral": ("neutral", f"{repeats} neither grow nor decay ({largest}){hint}"),
     }[found.stability]
     if period_map.sticks_throughout:
         status = "stuck"
@@ -188,14 +182,14 @@ def find_steady(
     )
 
 
-def _runaway(facts: Facts) -> Obstacle | None:
-    """Return the obstacle of a load that even full sliding friction cannot hold."""
+def _runaway(facts: Facts) -> NoPeriodicMotion | None:
+    """Return the refusal of a load that even full sliding friction cannot hold."""
     load, limit = facts["load"], facts.friction_limit
     if abs(load) < limit or (load == 0.0 and limit == 0.0):
         return None
     mass = facts["slider_mass"] + facts["resonator_mass"]
     rate = abs(load) - limit
-    return Obstacle(
+    return NoPeriodicMotion(
         "load_above_friction",
         f"no steady motion: load = {load:.6g} N is not below the {limit:.6g} N that friction "
         f"gives on average in full sliding; the slider gains {rate / mass:.3g} m/s every second",
@@ -216,24 +210,20 @@ class Blocking(SearchResult):
 
 
 def find_blocking(
-    instance: Instance,
-    values: Mapping[str, float],
-    *,
-    max_denominator: int = MAX_DENOMINATOR,
-    progress: Progress = no_progress,
+    instance: Instance, values: Mapping[str, float], *, max_denominator: int = MAX_DENOMINATOR
 ) -> Blocking:
     """Find the load that stops an FMU with the given parameters and inputs.
 
-    A `load` among the values is where the search begins. `progress` and errors are those of
-    `find_steady`.
+    A `load` among the values is where the search begins. Errors are those of `find_steady`.
     """
     facts = read_facts(instance, values)
     predicted = facts.blocking_force
     said = _asked(facts, predicted, searched="load")
-    count = repeating_periods(facts, max_denominator)
-    if isinstance(count, Obstacle):
-        return Blocking(count.status, count.reason, **said)
-    period_map = FmuPeriodMap(instance, values, facts, count, progress)
+    try:
+        count = repeating_periods(facts, max_denominator)
+    except NoPeriodicMotion as none:
+        return Blocking(none.status, none.reason, **said)
+    period_map = FmuPeriodMap(instance, values, facts, count)
     load = values.get("load", predicted if isfinite(predicted) else 0.0)
     warm = period_map.warm_up(0.0, load)
     if period_map.sticks_throughout:
@@ -242,12 +232,14 @@ def find_blocking(
             f"the slider sticks throughout at load = {load:.6g} N: every load that friction holds "
             "stops it, so that no single one is the blocking force",
             **said,
-            **_cost(period_map),
+            common_period=count,
+            periods=period_map.periods,
         )
-    found = blocked_point(period_map, warm, load, max(facts.friction_limit, 1e-12))
-    if isinstance(found, NoFixedPoint):
-        reason = _with_undamped_hint(found.reason, facts)
-        return Blocking(found.status, reason, **said, **_cost(period_map, found))
+    try:
+        found = blocked_point(period_map, warm, load, max(facts.friction_limit, 1e-12))
+    except NoPeriodicMotion as none:
+        reason = none.reason + _undamped_hint(facts)
+        return Blocking(none.status, reason, **said, **_cost(period_map, none))
     return Blocking(
         "blocked" if found.stability == "stable" else found.stability,
         f"at this load the mean velocity is zero; the largest multiplier is "

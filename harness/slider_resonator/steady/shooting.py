@@ -35,8 +35,6 @@ TOLERANCE = 1e-11
 
 NEUTRAL = 1e-7
 """A multiplier this close to the unit circle counts as neutral, within its error."""
-FRESH = 1e-6
-"""A Jacobian taken this close to the fixed point, in units of the scale, gives its multipliers."""
 
 KINK = 0.1
 """Difference of the one-sided multipliers, in units of 1 minus the two-sided one, from which on the
@@ -83,14 +81,21 @@ class FixedPoint:
         return "neutral" if largest >= 1.0 - NEUTRAL else "stable"
 
 
-@dataclass(frozen=True)
-class NoFixedPoint:
-    """No repeating motion was found; `reason` gives the cause and a remedy."""
+class NoPeriodicMotion(Exception):
+    """No repeating motion was found: `status` for machines, `reason` with a remedy for people.
 
-    status: Literal["no_fixed_point", "not_unique", "not_converged"]
-    reason: str
-    iterations: int
-    residual: float
+    `iterations` were made, after which the state changes by `residual` over a period, in units of
+    its scale; None where nothing was run.
+    """
+
+    def __init__(
+        self, status: str, reason: str, iterations: int = 0, residual: float | None = None
+    ) -> None:
+        super().__init__(reason)
+        self.status = status
+        self.reason = reason
+        self.iterations = iterations
+        self.residual = residual
 
 
 def fixed_point(
@@ -100,37 +105,53 @@ def fixed_point(
     *,
     load: float = 0.0,
     tolerance: float = TOLERANCE,
-) -> FixedPoint | NoFixedPoint:
+) -> FixedPoint:
     """Find a state that the map returns to, starting from `guess` (n,).
 
     `scale` (n,) is the typical size of each entry of the state and `tolerance` is in units
-    of it. `load` is only recorded.
+    of it. `load` is only recorded. Raises NoPeriodicMotion where there is none.
     """
 
     def change(state: Vector) -> Vector:
         return period_map(state)[0] - state
 
-    root = solve(change, guess, scale, tolerance=tolerance)
-    if root.status != "converged":
-        return _failure(root)
-    jacobian = _fresh_jacobian(change, root, scale)
+    root = _zero(change, guess, scale, tolerance)
+    jacobian = central_jacobian(change, root.x, DIFFERENCE * scale)
     multipliers = _multipliers(jacobian)
     sides = _one_sided_multipliers(change, root.x, jacobian, scale)
     if sides is not None:
         error = max(NEUTRAL, tolerance / DISTANCE)
         if min(abs(side - 1.0) for side in sides) <= error:
-            return NoFixedPoint("not_unique", A_FAMILY, root.iterations, root.residual)
+            raise NoPeriodicMotion("not_unique", A_FAMILY, root.iterations, root.residual)
         if abs(sides[0] - sides[1]) > KINK * abs(1.0 - multipliers[0]):
             multipliers[0] = max(sides, key=abs)
     _, displacement = period_map(root.x)
     return FixedPoint(root.x, displacement, load, root.iterations, root.residual, multipliers)
 
 
-def _fresh_jacobian(function: Callable[[Vector], Vector], root: Root, scale: Vector) -> Matrix:
-    """Return the Jacobian at the root: the last one if it was taken close enough, or a new one."""
-    if float(np.abs((root.x - root.jacobian_at) / scale).max()) <= FRESH:
-        return root.jacobian
-    return central_jacobian(function, root.x, DIFFERENCE * scale)
+def _zero(
+    function: Callable[[Vector], Vector], guess: Vector, scale: Vector, tolerance: float
+) -> Root:
+    """Return the zero of a function as `solve` does; NoPeriodicMotion where there is none."""
+    root = solve(function, guess, scale, tolerance=tolerance)
+    if root.status == "converged":
+        return root
+    if root.status == "singular" and root.residual <= FAMILY:
+        raise NoPeriodicMotion("not_unique", A_FAMILY, root.iterations, root.residual)
+    if root.status == "singular":
+        status, reason = (
+            "no_fixed_point",
+            "the state drifts by the same amount in every period, whatever its start "
+            f"({root.residual:.3g} of its scale): no motion repeats",
+        )
+    else:
+        why = {"stalled": "no step brings it closer", "limit": "out of iterations"}[root.status]
+        status, reason = (
+            "not_converged",
+            f"did not converge ({why}): after {root.iterations} iterations the next correction is "
+            f"{root.correction:.3g} of the scale, the change over a period {root.residual:.3g}",
+        )
+    raise NoPeriodicMotion(status, reason, root.iterations, root.residual)
 
 
 def _multipliers(change_jacobian: Matrix) -> NDArray[np.complex128]:
@@ -180,24 +201,6 @@ def _multiplier(
         value = change(x + scale * y) / scale
         y = y + np.linalg.solve(border, np.append(-value, distance - left @ y))[:-1]
     return 1.0 + float(left @ (change(x + scale * y) / scale)) / distance
-
-
-def _failure(root: Root) -> NoFixedPoint:
-    """Explain a failed iteration."""
-    if root.status == "singular" and root.residual <= FAMILY:
-        return NoFixedPoint("not_unique", A_FAMILY, root.iterations, root.residual)
-    if root.status == "singular":
-        reason = (
-            "the state drifts by the same amount in every period, whatever its start "
-            f"({root.residual:.3g} of its scale): no motion repeats"
-        )
-        return NoFixedPoint("no_fixed_point", reason, root.iterations, root.residual)
-    why = {"stalled": "no step brings it closer", "limit": "out of iterations"}[root.status]
-    reason = (
-        f"did not converge ({why}): after {root.iterations} iterations the next correction is "
-        f"{root.correction:.3g} of the scale, the change over a period {root.residual:.3g}"
-    )
-    return NoFixedPoint("not_converged", reason, root.iterations, root.residual)
 
 
 @dataclass(frozen=True)
@@ -263,26 +266,32 @@ class PeriodicRun(ABC):
 
 def steady_point(
     run: PeriodicRun, velocity: float, load: float, tolerance: float = TOLERANCE
-) -> FixedPoint | NoFixedPoint:
-    """Find the repeating motion under a load (N), near a mean velocity (m/s) if there is one."""
+) -> FixedPoint:
+    """Find the repeating motion under a load (N), near a mean velocity (m/s) if there is one.
+
+    Raises NoPeriodicMotion.
+    """
     loaded = partial(run, load=load)
+    find = partial(fixed_point, loaded, load=load, tolerance=tolerance)
     warm = run.warm_up(velocity, load)
     guess, scale = warm.shifted(velocity), warm.scale
-    found = fixed_point(loaded, guess, scale, load=load, tolerance=tolerance)
-    if isinstance(found, NoFixedPoint):
+    try:
+        return find(guess, scale)
+    except NoPeriodicMotion:
         between = bracketed_state(loaded, guess, scale)
-        if between is not None:
-            return fixed_point(loaded, between, scale, load=load, tolerance=tolerance)
-    return found
+        if between is None:
+            raise
+    return find(between, scale)
 
 
 def blocked_point(
     run: PeriodicRun, warm: WarmedUp, load: float, load_scale: float, tolerance: float = TOLERANCE
-) -> FixedPoint | NoFixedPoint:
+) -> FixedPoint:
     """Find the load of the repeating motion without displacement over a period, near `load` (N).
 
     `warm` comes from a warm-up under that load, `load_scale` (N) is a typical load. One more
-    unknown and one more equation than `fixed_point`: the load and displacement = 0.
+    unknown and one more equation than `fixed_point`: the load and displacement = 0. Raises
+    NoPeriodicMotion.
     """
     scale = np.append(warm.scale, load_scale)
     displacement_scale = float(warm.scale[0]) * run.period
@@ -292,10 +301,9 @@ def blocked_point(
         end, displacement = run(state, load)
         return np.append(end - state, displacement * load_scale / displacement_scale)
 
-    root = solve(change, np.append(warm.shifted(0.0), load), scale, tolerance=tolerance)
-    if root.status != "converged":
-        return _failure(root)
-    multipliers = _multipliers(_fresh_jacobian(change, root, scale)[:-1, :-1])
+    root = _zero(change, np.append(warm.shifted(0.0), load), scale, tolerance)
+    jacobian = central_jacobian(change, root.x, DIFFERENCE * scale)
+    multipliers = _multipliers(jacobian[:-1, :-1])
     state, load = root.x[:-1], float(root.x[-1])
     _, displacement = run(state, load)
     return FixedPoint(state, displacement, load, root.iterations, root.residual, multipliers)

@@ -44,17 +44,14 @@ ROUNDING = 100.0
 class Root:
     """The end of an iteration.
 
-    `x` shape (n,); `jacobian` (n, n) is the last one that was computed, at `jacobian_at` (n,);
-    `correction` is the norm of the Newton step that remains and `residual` the largest remaining
-    function value, both in units of the scale. With a singular Jacobian `x` has taken some more
-    steps in the directions that the Jacobian determines: a residual that vanishes then shows a
-    family of zeros, one that remains shows that there is no zero.
+    `x` has shape (n,); `correction` is the norm of the Newton step that remains and `residual` the
+    largest remaining function value, both in units of the scale. With a singular Jacobian `x` has
+    taken some more steps in the directions that the Jacobian determines: a residual that vanishes
+    then shows a family of zeros, one that remains shows that there is no zero.
     """
 
     status: Ending
     x: Vector
-    jacobian: Matrix
-    jacobian_at: Vector
     iterations: int
     correction: float
     residual: float
@@ -90,16 +87,14 @@ def solve(
         return function(y * scale) / scale
 
     def result(status: Ending) -> Root:
-        unscaled = jacobian * scale[:, None] / scale[None, :]
-        residual = float(np.abs(value).max())
-        return Root(status, y * scale, unscaled, at * scale, iterations, size, residual)
+        return Root(status, y * scale, iterations, size, float(np.abs(value).max()))
 
     y = guess / scale
     steps = np.full_like(y, DIFFERENCE)
     iterations = 0
     size = np.inf
     value = scaled(y)
-    at, jacobian = y, central_jacobian(scaled, y, steps)
+    jacobian = central_jacobian(scaled, y, steps)
     inverse = _inverse(jacobian)
     while inverse is not None:
         correction = -inverse @ value
@@ -123,7 +118,7 @@ def solve(
                 return result("stalled")
         y, value = trial, trial_value
         if contraction > KEEP:
-            at, jacobian = y, central_jacobian(scaled, y, steps)
+            jacobian = central_jacobian(scaled, y, steps)
             inverse = _inverse(jacobian)
     determined = np.linalg.pinv(jacobian, rcond=SINGULAR)
     for _ in range(SINGULAR_STEPS):
