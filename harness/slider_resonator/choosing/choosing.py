@@ -16,8 +16,7 @@ from slider_resonator.choosing.candidate import (
 )
 from slider_resonator.choosing.choice import SAME_COST, Choice, Evaluation, RuledOut, cheapest
 from slider_resonator.choosing.errors import Estimates
-from slider_resonator.choosing.probe import Probe
-from slider_resonator.choosing.reference import FINEST_TOLERANCE, HEAD_PERIODS
+from slider_resonator.choosing.probe import FINEST_TOLERANCE, HEAD_PERIODS, Probe
 from slider_resonator.choosing.steady_need import SteadyValue, find, steady_error
 from slider_resonator.device.model import COULOMB, LUGRE, Model
 from slider_resonator.errors import FmuError, SceneError
@@ -97,7 +96,7 @@ class Choosing:
             self._evaluate(Candidate(model, START_TOLERANCE, self.steps(model)[0]))
             return self._choice(None, dict.fromkeys(self.models(), impossible))
         if self.probe.run_needs:
-            self.probe.resolve()
+            self.probe.reference(self.probe.ladder[0] or self.probe.duration)
         ruled_out: dict[Model, str] = {}
         good: list[Evaluation] = []
         every = self.models()

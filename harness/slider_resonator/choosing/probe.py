@@ -1,4 +1,7 @@
-"""The errors and the cost of candidates, measured in runs of the scene."""
+"""The errors and the cost of candidates, measured in runs of the scene.
+
+They are compared with a resolved run, or with leaps over periods where these prove to serve.
+"""
 
 from dataclasses import replace
 from functools import cached_property
@@ -6,8 +9,7 @@ from math import ceil, inf
 
 import numpy as np
 
-from slider_resonator.arrays import Array
-from slider_resonator.choosing.candidate import SIGNAL_NEEDS, Candidate, step_ladder
+from slider_resonator.choosing.candidate import MAX_PERIODS, SIGNAL_NEEDS, Candidate, step_ladder
 from slider_resonator.choosing.errors import (
     ErrorEstimate,
     Estimates,
@@ -16,10 +18,11 @@ from slider_resonator.choosing.errors import (
     lacking_beat,
     unseen_beat,
 )
-from slider_resonator.choosing.reference import Reference, must_hold
+from slider_resonator.choosing.exact_inputs import exact_schedule, must_hold
 from slider_resonator.choosing.steady_need import timed_run
 from slider_resonator.device.model import Model
 from slider_resonator.device.schedule import communication_points
+from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record
 from slider_resonator.scenes.scene import Scene
@@ -35,6 +38,21 @@ LONGEST = 60.0
 """CPU time (s) of a resolved run of a whole scene, where leaps do not serve."""
 CAUTION = 3.0
 """Safety factor on errors extrapolated from the beginning, besides their growth with time."""
+FINEST_TOLERANCE = 1e-13
+"""Tolerance of the resolved LuGre device."""
+LEAP_TOLERANCES = (1e-9, 1e-11)
+"""Tolerances of two runs with leaps, whose difference bounds the error of the finer one."""
+TRUSTED = 0.1
+"""Share of an allowed error up to which these may differ."""
+SHORT = 0.3
+"""CPU time (s) of the resolved run up to which it is always made."""
+GAIN = 3.0
+"""Quotient of CPU times from which on leaps gain enough for a second run."""
+HEAD_PERIODS = 300.0
+"""Drive periods from which the CPU time of resolved motion is measured."""
+STEPS, MIN_POINTS, MAX_POINTS = 8, 4000, 20_000
+"""Points of a reference in a step of the candidate, and in total, where inputs must be held; at
+least two in a step."""
 
 
 class Probe:
@@ -49,12 +67,13 @@ class Probe:
         self.inputs = scene.lines_reach(can_interpolate)
         self.scene = scene = scene if can_interpolate else scene.interpolating(False)
         needs = scene.need.needs if scene.need else {}
-        self.run_needs = [name for name in RUN_NEEDS if name in needs]
+        self.run_needs = {name: needs[name] for name in RUN_NEEDS if name in needs}
         self.steady_needs = [name for name in STEADY_NEEDS if name in needs]
         self.duration = scene.stop_time or 0.0
         passes_on = scene.run is not None and scene.run.interpolate
         self.varying = must_hold(scene, interpolates=passes_on)
         self.reference_model = Model(2, scene.device.friction_law)
+        self._leaps = replace(self.reference_model, fidelity=0, averaging_order=2)
         self.averaging_orders = (1, 2) if instance.fmu.has_orders else (None,)
         self.ladder: tuple[float | None, ...] = (None,)
         self._finest = self.duration
@@ -62,23 +81,16 @@ class Probe:
             most = MAX_FOLLOWED_STEPS if can_interpolate else MAX_STEPS
             self.ladder = ladder = step_ladder(scene, self.run_needs, most, varying=self.varying)
             self._finest = ladder[-1]
-        self._periods = 0.0
+        self.drive_periods = 0.0
+        """Drive periods that the FMU has resolved so far in runs."""
+        self._references: dict[float, Record] = {}
 
     @property
     def covers(self) -> str:
         """What the errors were compared with: "whole", "leaps" over the whole, or "beginning"."""
-        if self._reference.stop < self.duration:
+        if self._stop < self.duration:
             return "beginning"
-        return "leaps" if self._reference.leaps else "whole"
-
-    @property
-    def drive_periods(self) -> float:
-        """Drive periods that the FMU has resolved so far in runs."""
-        return self._periods + (self._reference.drive_periods if self.run_needs else 0.0)
-
-    def resolve(self) -> None:
-        """Make the reference; raises FmuError or Refusal where the FMU cannot."""
-        self._reference.record(self.ladder[0] or self.duration)
+        return "leaps" if self._leaps_serve else "whole"
 
     def measure(self, candidate: Candidate) -> tuple[Estimates, float]:
         """Return errors by need, and cost (s), of a run with a candidate.
@@ -86,12 +98,11 @@ class Probe:
         Raises FmuError or Refusal where the FMU cannot run it.
         """
         step = candidate.step or self.duration
-        joined, stop = step * self._together(step), self._reference.stop
+        joined, stop = step * self._together(step), self._stop
         record, seconds = self._run(candidate, joined, stop)
         if joined > step:
             seconds = self.cost(candidate) * stop / self.duration
-        reference, grid = self._reference.record(step), self._grid(step)
-        seen = replace(self._reference.readings, grid=grid).errors(record, reference)
+        seen = self._readings(stop, step).errors(record, self.reference(step))
         if "beat" in seen and (
             why := self.no_beat or unseen_beat(seen["beat"], beat_frequency(self.scene))
         ):
@@ -109,15 +120,15 @@ class Probe:
         """Return the cost (s) of a run with a candidate, by that up to `stop` (s)."""
         step = candidate.step or self.duration
         most = TIMED_STEPS * step if self._together(step) > 1 else inf
-        stop = min(stop, self._reference.stop, most)
+        stop = min(stop, self._stop, most)
         return self._run(candidate, min(step, stop), stop)[1] * self.duration / stop
 
     def _run(self, candidate: Candidate, step: float, stop: float) -> tuple[Record, float]:
         if candidate.model.fidelity > 0:
-            self._periods += stop / self.scene.drive_period
-        scene = _cut(self.scene, stop).timed(step_size=step)
-        schedule = replace(scene.schedule(), start_time=0.0, reads_twice=False)
-        return timed_run(self.instance, {**scene.parameters, **candidate.parameters}, schedule)
+            self.drive_periods += stop / self.scene.drive_period
+        schedule = self.scene.timed(stop_time=stop, step_size=step).schedule()
+        schedule = replace(schedule, start_time=0.0, reads_twice=False)
+        return timed_run(self.instance, {**self.scene.parameters, **candidate.parameters}, schedule)
 
     def _together(self, step: float) -> int:
         """Return how many steps (s) are put together: an odd number, to meet all phases.
@@ -133,37 +144,85 @@ class Probe:
         """The reason why a run shows no beat; empty where it shows one or none is needed."""
         return lacking_beat(self.scene) if "beat" in self.run_needs else ""
 
+    def reference(self, step: float) -> Record:
+        """Return what candidates with this step (s) are compared with.
+
+        Raises FmuError or Refusal where the FMU cannot run it.
+        """
+        key = step if must_hold(self.scene, interpolates=self.instance.fmu.interpolates) else 0.0
+        if key not in self._references:
+            model, tolerance = self.reference_model, FINEST_TOLERANCE
+            if self._leaps_serve:
+                model, tolerance = self._leaps, LEAP_TOLERANCES[-1]
+            self._references[key] = self._exact_run(model, tolerance, self._stop, step)[0]
+        return self._references[key]
+
     @cached_property
-    def _reference(self) -> Reference:
-        """The reference, of the beginning where the scene cannot be run as a whole."""
-        whole = Reference(self.instance, self.scene, self._read(self.scene))
-        if whole.seconds <= LONGEST or whole.leaps:
-            return whole
-        cut = _cut(self.scene, self.duration * LONGEST / whole.seconds)
-        return Reference(self.instance, cut, self._read(cut))
+    def _stop(self) -> float:
+        """Where references end (s): with the scene, where that can be run as a whole."""
+        share = LONGEST / max(self._resolved_seconds, LONGEST)
+        return self.duration * (1.0 if self._leaps_serve else share)
 
-    def _read(self, scene: Scene) -> Readings:
-        """Return when a scene is read: at each of its own steps, or at its end only."""
-        stop = scene.stop_time or 0.0
-        points = np.array([stop])
-        if SIGNAL_NEEDS & set(self.run_needs):
-            own = scene.step_size or stop
-            points = scene.timed(step_size=own * self._together(own)).schedule().times
-        assert scene.need is not None
-        needs = {name: scene.need.needs[name] for name in self.run_needs}
-        grid, law = self._grid(self._finest, stop), scene.device.friction_law
-        return Readings(needs, points, grid, scene.drive_period, law)
+    @cached_property
+    def _resolved_seconds(self) -> float:
+        """CPU time (s) of the resolved run of the whole scene, by that of its beginning."""
+        head = min(self.duration, HEAD_PERIODS * self.scene.drive_period)
+        _, seconds = self._exact_run(self.reference_model, FINEST_TOLERANCE, head, head)
+        return seconds * self.duration / head
 
-    def _grid(self, step: float, stop: float | None = None) -> Array:
-        """Return the times (s) at which a candidate with this step (s) shows a beat."""
-        if "beat" not in self.run_needs:
-            return np.empty(0)
-        return communication_points(stop or self._reference.stop, step)[:-1]
+    @cached_property
+    def _leaps_serve(self) -> bool:
+        """Whether leaps are cheaper by far than the resolved run, and accurate enough."""
+        is_short = self._resolved_seconds <= SHORT
+        if is_short or not self.instance.fmu.has_orders or "event_times" in self.run_needs:
+            return False
+        whole = self.duration
+        try:
+            coarse, seconds = self._exact_run(self._leaps, LEAP_TOLERANCES[0], whole, whole)
+            if GAIN * seconds > self._resolved_seconds:
+                return False
+            fine, _ = self._exact_run(self._leaps, LEAP_TOLERANCES[1], whole, whole)
+        except FmuError:
+            return False
+        errors = self._readings(whole, self._finest).errors(coarse, fine)
+        return all(
+            found.error <= TRUSTED * self.run_needs[name].at(found.magnitude)
+            for name, found in errors.items()
+        )
 
+    def _readings(self, stop: float, step: float) -> Readings:
+        """Return when runs up to `stop` (s) are read: at each of the scene's steps, or at the end.
 
-def _cut(scene: Scene, stop: float) -> Scene:
-    """Return the scene up to a time (s)."""
-    if scene.run is None or stop == scene.stop_time:
-        return scene
-    run = scene.run.model_copy(update={"stop_time": stop, "drive_periods": None})
-    return replace(scene, run=run)
+        A beat of a candidate with a `step` (s) is read at each of these.
+        """
+        points, grid = np.array([stop]), np.empty(0)
+        if SIGNAL_NEEDS & self.run_needs.keys():
+            own = self.scene.step_size or self.duration
+            own *= self._together(own)
+            points = self.scene.timed(stop_time=stop, step_size=own).schedule().times
+        if "beat" in self.run_needs:
+            grid = communication_points(stop, step)[:-1]
+        law = self.reference_model.friction_law
+        return Readings(self.run_needs, points, grid, self.scene.drive_period, law)
+
+    def _exact_run(
+        self, model: Model, tolerance: float, stop: float, step: float
+    ) -> tuple[Record, float]:
+        """Return a run up to `stop` (s) without the error of held inputs, and its CPU time (s).
+
+        Where inputs must be held, it is a reference of candidates with a `step` (s).
+        """
+        readings = self._readings(stop, self._finest)
+        points = np.union1d(readings.points, readings.grid)
+        points = np.concatenate([[0.0], points[(points > 0.0) & (points < stop)], [stop]])
+        if model.fidelity > 0:
+            self.drive_periods += stop / self.scene.drive_period
+            pieces = np.arange(0.0, stop, MAX_PERIODS * self.scene.drive_period)
+            points = np.union1d(points, pieces)
+        fine = min(step / STEPS, stop / MIN_POINTS)
+        while stop / fine > MAX_POINTS and fine < 0.5 * step:
+            fine *= 2.0
+        interpolates = self.instance.fmu.interpolates
+        schedule = exact_schedule(self.scene, points, fine, interpolates=interpolates)
+        values = {**self.scene.parameters, **Candidate(model, tolerance, None).parameters}
+        return timed_run(self.instance, values, schedule)

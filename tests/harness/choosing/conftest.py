@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from slider_resonator.choosing import choosing, probe, reference
+from slider_resonator.choosing import choosing, probe
 from slider_resonator.choosing.candidate import Candidate
 from slider_resonator.choosing.steady_need import SteadyValue, find, timed_run
 from slider_resonator.device.device import Device
@@ -46,7 +46,7 @@ def stated_costs(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
             return found
         return replace(found, seconds=OUTPUT_COST * (candidate.model.averaging_order or 1))
 
-    for module in (probe, reference, request.module):
+    for module in (probe, request.module):
         monkeypatch.setattr(module, "timed_run", run, raising=False)
     for module in (choosing, request.module):
         monkeypatch.setattr(module, "find", steady, raising=False)

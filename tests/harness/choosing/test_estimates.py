@@ -8,7 +8,7 @@ import pytest
 from slider_resonator.arrays import Array
 from slider_resonator.choosing.choosing import choose_with
 from slider_resonator.choosing.errors import ErrorEstimate, Readings, beat_frequency, unseen_beat
-from slider_resonator.choosing.reference import exact_schedule, must_hold
+from slider_resonator.choosing.exact_inputs import exact_schedule, must_hold
 from slider_resonator.choosing.steady_need import SteadyValue, steady_error
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record

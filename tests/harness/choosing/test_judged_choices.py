@@ -14,7 +14,7 @@ from slider_resonator.checks.measures import NoOscillation, dominant_frequency
 from slider_resonator.choosing.candidate import Candidate, tolerances
 from slider_resonator.choosing.choice import Choice
 from slider_resonator.choosing.choosing import Choosing, choose_with
-from slider_resonator.choosing.reference import exact_schedule
+from slider_resonator.choosing.exact_inputs import exact_schedule
 from slider_resonator.choosing.steady_need import find, timed_run
 from slider_resonator.device.model import Model
 from slider_resonator.device.schedule import nearest
