@@ -1,6 +1,7 @@
 """Choose the cheapest model for a scene: by the errors and the cost of its runs."""
 
 import time
+from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -25,8 +26,6 @@ from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.scenes.scene import Scene
 
-FIRST_TOLERANCE = 1e-6
-"""Tolerance at which the search for a tolerance starts."""
 TIGHTER = {0: 2, 1: 0, 2: 0}
 """By fidelity, tolerances below the largest one that serves which may cost less: leaps differ."""
 ROUNDING = 1e-9
@@ -176,11 +175,8 @@ class Choosing:
             ran = any(candidate.model == model for candidate in self._evaluations)
             return self._nearest(model).why if ran else refused
         step = steps[at]
-        index = choices.index(FIRST_TOLERANCE) if FIRST_TOLERANCE in choices else 0
-        while not excess(choices[index], step) <= 1.0:  # the tightest serves
-            index += 1
-        while index > 0 and excess(choices[index - 1], step) <= 1.0:
-            index -= 1
+        others = choices[:-1]  # the tightest serves
+        index = bisect_left(others, True, key=lambda one: excess(one, step) <= 1.0)
         found = [self._evaluate(Candidate(model, choices[index], step))]
         for tolerance in choices[index + 1 : index + 1 + TIGHTER[model.fidelity]]:
             if excess(tolerance, step) >= found[-1].excess:

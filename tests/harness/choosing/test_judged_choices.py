@@ -2,7 +2,7 @@
 
 import time
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from math import inf
 from pathlib import Path
@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from slider_resonator.checks.measures import NoOscillation, dominant_frequency
 from slider_resonator.choosing.candidate import Candidate, tolerances
 from slider_resonator.choosing.choice import Choice
 from slider_resonator.choosing.choosing import Choosing, choose_with
+from slider_resonator.choosing.errors import Estimates, Readings
 from slider_resonator.choosing.exact_inputs import exact_schedule
-from slider_resonator.choosing.steady_need import find, timed_run
+from slider_resonator.choosing.steady_need import find, steady_error, timed_run
 from slider_resonator.device.model import Model
-from slider_resonator.device.schedule import nearest
+from slider_resonator.device.schedule import communication_points
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record
@@ -54,57 +54,42 @@ class Judge:
         self.instance = instance
         self.scene = scene
         self.needs = scene.need.needs
-        self.reference = Candidate(Model(2, scene.device.friction_law), 1e-13, None)
+        self.law = scene.device.friction_law
+        self.reference = Candidate(Model(2, self.law), 1e-13, None)
+        points = np.empty(0) if scene.run is None else scene.schedule().times[1:]
+        in_run = {name: need for name, need in self.needs.items() if name not in STEADY_NEEDS}
+        self.readings = Readings(in_run, points, np.empty(0), scene.drive_period, self.law)
+        self.exact = {
+            name: find(instance, scene.values, name, self.reference)
+            for name in self.needs
+            if name in STEADY_NEEDS
+        }
         self._true_records: dict[float, Record] = {}
-        self._true_values: dict[str, float | None] = {}
 
     def tried(self, candidate: Candidate) -> tuple[float, float]:
         """Return the largest error over the allowed one of a candidate, and its cost (s)."""
-        excess, cost, record = 0.0, 0.0, None
+        estimates: Estimates = {}
+        cost = 0.0
         try:
             if candidate.step is not None:
                 record, cost = self._run(candidate)
-            for name, need in self.needs.items():
-                if name in STEADY_NEEDS:
-                    found = find(self.instance, self.scene.values, name, candidate)
-                    cost += found.seconds
-                    error, size = self._steady_error(name, found.value)
-                else:
-                    assert record is not None
-                    assert candidate.step is not None
-                    true = self.reference_record(candidate.step)
-                    error, size = self._error(name, record, true, candidate.step)
-                excess = max(excess, _over(error, need.at(size)))
-        except (FmuError, NoOscillation):
+                true = self.reference_record(candidate.step)
+                grid = communication_points(record.times[-1], candidate.step)[:-1]
+                estimates = replace(self.readings, grid=grid).errors(record, true)
+            for name, exact in self.exact.items():
+                found = find(self.instance, self.scene.values, name, candidate)
+                cost += found.seconds
+                estimates[name] = steady_error(found, exact, self.law)
+        except FmuError:
             return inf, cost
-        return excess, cost
+        return max(
+            _over(e.error, self.needs[name].at(e.magnitude)) for name, e in estimates.items()
+        ), cost
 
     def _run(self, candidate: Candidate) -> tuple[Record, float]:
-        assert candidate.step is not None
         own = self.scene.timed(step_size=candidate.step).schedule()
         values = {**self.scene.parameters, **candidate.parameters}
         return timed_run(self.instance, values, own)
-
-    def _error(self, name: str, record: Record, true: Record, step: float) -> tuple[float, float]:
-        period = 2.0 * np.pi / self.scene.device.drive_frequency
-        if name == "mean_velocity":
-            return abs(record.final(name) - true.final(name)), abs(true.final(name))
-        if name == "beat":
-            found, resolved = (_beat(r, step) for r in (record, true))
-            return abs(found - resolved), resolved
-        checkpoints = self.scene.schedule().times
-        if name == "mean_velocity_throughout":
-            checkpoints = checkpoints[checkpoints >= period]
-        at, there = (nearest(r.times, checkpoints) for r in (record, true))
-        if name == "event_times":
-            if record.final("reversals") != true.final("reversals"):
-                return inf, period
-            events = np.unique(true["last_event_time"])
-            shown = record["last_event_time"][at]
-            return float(np.abs(shown[:, None] - events).min(axis=1).max()), period
-        signal = name.removesuffix("_throughout")
-        difference = record[signal][at] - true[signal][there]
-        return float(np.abs(difference).max()), float(np.abs(true[signal][there]).max())
 
     def reference_record(self, step: float) -> Record:
         """Return the resolved run with inputs as they vary, at the points of a run too.
@@ -122,13 +107,6 @@ class Judge:
             values = {**self.scene.parameters, **self.reference.parameters}
             self._true_records[step] = timed_run(self.instance, values, samples)[0]
         return self._true_records[step]
-
-    def _steady_error(self, name: str, found: float | None) -> tuple[float, float]:
-        if name not in self._true_values:
-            exact = find(self.instance, self.scene.values, name, self.reference)
-            self._true_values[name] = exact.value
-        true = self._true_values[name]
-        return (inf, 0.0) if found is None or true is None else (abs(found - true), abs(true))
 
 
 def candidates(instance: Instance, scene: Scene) -> list[Candidate]:
@@ -166,14 +144,6 @@ def judge(instance: Instance, scene: Scene, choice: Choice) -> Verdict:
 
 def _over(error: float, allowed: float) -> float:
     return error / allowed if allowed > 0.0 else inf if error > 0.0 else 0.0
-
-
-def _beat(record: Record, step: float) -> float:
-    """Return the frequency (Hz) from the later half of the points at equal steps (s)."""
-    grid = step * np.arange(int(record.times[-1] / step * (1.0 + 1e-9)) + 1)
-    grid = grid[grid <= record.times[-1]]
-    later = grid[len(grid) // 2 :]
-    return dominant_frequency(later, record["mean_velocity"][nearest(record.times, later)])
 
 
 WITHIN = 1.5
