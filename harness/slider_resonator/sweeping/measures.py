@@ -145,8 +145,11 @@ Proved = Mapping[str, float]
 """Measure to its value, of those that need no search."""
 
 
-def prove_points(instance: Instance, task: Task, points: Sequence[Point]) -> Sequence[Proved]:
-    """Return what is proved of each point, in the process of the FMU."""
+def prove_points(instance: Instance, task: Task, points: Sequence[Point]) -> list[Row | Proved]:
+    """Return the row of each point of which all is proved, else what is proved of it.
+
+    In the process of the FMU.
+    """
     values = [task.values(point) for _, point in points]
     proved: list[dict[str, float]] = [{} for _ in points]
     for name in QUANTITIES:
@@ -155,7 +158,10 @@ def prove_points(instance: Instance, task: Task, points: Sequence[Point]) -> Seq
             for own, value in zip(proved, found, strict=True):
                 if value is not None:
                     own[name] = value
-    return proved
+    return [
+        measure_point(instance, task, point, own) if own.keys() >= {*task.measures} else own
+        for point, own in zip(points, proved, strict=True)
+    ]
 
 
 def measure_point(instance: Instance, task: Task, point: Point, proved: Proved) -> Row:
@@ -172,14 +178,6 @@ def measure_point(instance: Instance, task: Task, point: Point, proved: Proved) 
         text = str(error).replace(str(fmu), fmu.name)  # not where this process has unpacked it
         is_known = isinstance(error, HarnessError)
         return failed_row(task, number, text if is_known else f"{type(error).__name__}: {text}")
-
-
-def proved_row(task: Task, point: Point, proved: Proved) -> Row:
-    """Return the row of a point of which all is proved."""
-    cells: list[Cell] = []
-    for name in task.measures:
-        cells += [proved[name], STATUS[name]]
-    return point[0], cells, None
 
 
 def failed_row(task: Task, number: int, error: str) -> Row:

@@ -33,7 +33,6 @@ from slider_resonator.sweeping.measures import (
     failed_row,
     measure_point,
     prove_points,
-    proved_row,
     unit,
 )
 from slider_resonator.sweeping.table import (
@@ -241,14 +240,10 @@ def _prove(
         if isinstance(error, FmuDied) and not error.over_limit:
             lost += batch
             continue
-        proofs = outcome.value if error is None else [{}] * len(batch)
-        done = []
-        for point, proved in zip(batch, proofs, strict=True):
-            if proved.keys() >= {*task.measures}:
-                done.append(proved_row(task, point, proved))
-            else:
-                left.append((point, proved))
-        keep(done)
+        found = outcome.value if error is None else [{}] * len(batch)
+        pairs = list(zip(batch, found, strict=True))
+        keep([one for _, one in pairs if isinstance(one, tuple)])
+        left += [(point, one) for point, one in pairs if not isinstance(one, tuple)]
     return left, lost
 
 

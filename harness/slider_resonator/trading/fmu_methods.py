@@ -163,9 +163,9 @@ class FmuMethods:
         if quantity == "blocking_force":
             del values["load"]  # the search begins where the FMU predicts it
 
-        def find(_: float) -> tuple[float, SteadyAnswer]:
-            taken, search = self._run(SEARCHES[quantity], values=values)
-            return taken, SteadyAnswer(getattr(search, quantity), search.reason, search.periods)
+        def find(_: float) -> SteadyAnswer:
+            seconds, search = self._run(SEARCHES[quantity], values=values)
+            return SteadyAnswer(seconds, getattr(search, quantity), search.reason, search.periods)
 
         return SteadyMethod(self._label(model, USUAL_TOLERANCE, None), quantity, find)
 
@@ -176,9 +176,8 @@ class FmuMethods:
         values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
         family = f"{self.build} FMU, output {quantity}" + (f", order {order}" if order else "")
 
-        def find(_: float) -> tuple[float, SteadyAnswer]:
-            taken, value = self._run(_value_at_start, values=values, output=quantity)
-            return taken, SteadyAnswer(value, "", 0)
+        def find(_: float) -> SteadyAnswer:
+            return SteadyAnswer(*self._run(_value_at_start, values=values, output=quantity))
 
         label = Label(AVERAGED, family, family, law, averaging_order=order)
         return SteadyMethod(label, quantity, find)

@@ -63,7 +63,7 @@ def find_reference(problem: Problem) -> Reference:
         found = windows(problem, solution_of(run, located=True), periods)
         answers = dict.fromkeys(STEADY, None)
         if problem.steady:
-            answers = {n: shoot(problem, n, simulate, SHOOTING, inf)[1].value for n in STEADY}
+            answers = {n: shoot(problem, n, simulate, SHOOTING, inf).value for n in STEADY}
     except (ValueError, RuntimeError) as error:
         raise HarnessError(
             f"scene {problem.name}: the reference cannot follow it: {error}"
@@ -249,7 +249,7 @@ def _answer(
         notes.setdefault(key, "the device has none under these inputs, or it is zero")
         return []
     try:
-        taken, found = answer.find(budget)
+        found = answer.find(budget)
     except FmuDied:
         raise
     except _FAILURES as error:
@@ -266,4 +266,4 @@ def _answer(
         cpu=(),
         errors={answer.quantity: abs(found.value - expected) / abs(expected)},
     )
-    return [_Candidate(row, lambda: answer.find(inf)[0], 1.0, taken)]
+    return [_Candidate(row, lambda: answer.find(inf).seconds, 1.0, found.seconds)]

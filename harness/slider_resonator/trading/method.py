@@ -30,21 +30,24 @@ class Method:
 
 @dataclass(frozen=True)
 class SteadyAnswer:
-    """An answer, None with a `reason` where there is none, and the drive periods simulated."""
+    """An answer, None with a `reason` where there is none, and the CPU time (s) it took.
 
+    `periods` are the drive periods simulated.
+    """
+
+    seconds: float
     value: float | None
-    reason: str
-    periods: int
+    reason: str = ""
+    periods: int = 0
 
 
 @dataclass(frozen=True)
 class SteadyMethod:
     """A method to find a steady velocity (m/s) or a blocking force (N), named by `quantity`.
 
-    `find` takes its budget of CPU time (s) and raises RuntimeError where that is exceeded. It
-    returns the CPU time (s) that it took, too.
+    `find` takes its budget of CPU time (s) and raises RuntimeError where that is exceeded.
     """
 
     label: Label
     quantity: str
-    find: Callable[[float], tuple[float, SteadyAnswer]]
+    find: Callable[[float], SteadyAnswer]

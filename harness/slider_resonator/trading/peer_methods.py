@@ -124,8 +124,8 @@ def _averaged(device: Device, held: Sequence[HeldInputs], times: Array) -> Solut
 
 def shoot(
     problem: Problem, quantity: str, simulate: Simulate, tolerance: float, budget: float
-) -> tuple[float, SteadyAnswer]:
-    """Return the CPU time (s), and a steady velocity or blocking force by shooting.
+) -> SteadyAnswer:
+    """Return a steady velocity or blocking force by shooting.
 
     Raises RuntimeError when that takes more CPU time (s) than its budget.
     """
@@ -145,8 +145,8 @@ def shoot(
     force = partial(reference_blocking_force, problem.device, phase, ratio)
     search = velocity if quantity == "steady_velocity" else force
     value = search(simulate=counted, tolerance=tolerance)
-    found = SteadyAnswer(value, "the search by shooting found none", round(sum(simulated)))
-    return process_time() - began, found
+    seconds, none = process_time() - began, "the search by shooting found none"
+    return SteadyAnswer(seconds, value, none, round(sum(simulated)))
 
 
 def peer_methods(problem: Problem) -> Iterator[Method]:

@@ -1,6 +1,5 @@
 """Scenes at random: devices that averaging suits and others, inputs and needs of every kind."""
 
-from dataclasses import dataclass
 from math import ceil, pi
 from typing import Any
 
@@ -17,35 +16,27 @@ LONGEST = {0: 50_000.0, 1: 8000.0}
 MAX_CHECKPOINTS = 3000
 """Communication points of a scene in its own step."""
 
+Rng = np.random.Generator
 
-@dataclass
-class Draw:
-    """Random numbers of one scene."""
 
-    rng: np.random.Generator
+def log(rng: Rng, low: float, high: float) -> float:
+    """Return a number between two others, uniform in its logarithm."""
+    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
-    def log(self, low: float, high: float) -> float:
-        return float(np.exp(self.rng.uniform(np.log(low), np.log(high))))
 
-    def uniform(self, low: float, high: float) -> float:
-        return float(self.rng.uniform(low, high))
-
-    def chance(self, share: float) -> bool:
-        return bool(self.rng.uniform() < share)
-
-    def one_of(self, *values: float) -> float:
-        return values[int(self.rng.integers(len(values)))]
+def one_of(rng: Rng, *values: float) -> float:
+    return values[int(rng.integers(len(values)))]
 
 
 def generated_scene(seed: int) -> Scene:
     """Return the scene of a seed."""
-    draw = Draw(np.random.default_rng([20261121, seed]))
-    device = random_device(draw)
-    steady = draw.chance(STEADY_SHARE)
+    rng = np.random.default_rng([20261121, seed])
+    device = random_device(rng)
+    steady = rng.uniform() < STEADY_SHARE
     law = int(device["friction_law"])
-    periods = draw.log(30.0, LONGEST[law])
+    periods = log(rng, 30.0, LONGEST[law])
     duration = periods * 2.0 * pi / device["drive_frequency"]
-    inputs = _inputs(draw, Device.from_mapping(device), duration, steady)
+    inputs = _inputs(rng, Device.from_mapping(device), duration, steady)
     content: dict[str, Any] = {
         "name": f"scene_{seed}",
         "title": f"Scene {seed}",
@@ -53,99 +44,99 @@ def generated_scene(seed: int) -> Scene:
         "inputs": inputs,
     }
     if not steady:
-        per_period = min(draw.one_of(1.0, 4.0, 16.0), MAX_CHECKPOINTS / periods)
+        per_period = min(one_of(rng, 1.0, 4.0, 16.0), MAX_CHECKPOINTS / periods)
         content["run"] = {"stop_time": duration, "steps_per_period": per_period}
     beats = _beats(inputs)
     ramps = any(isinstance(given, dict) and "ramp" in given for given in inputs.values())
     fast = equivalent_force(Device.from_mapping(device)).velocity_amplitude
-    need: dict[str, Any] = _needs(draw, steady, beats, 1e-4 if ramps else 1e-5, fast)
-    if law == 1 and draw.chance(0.5):
+    need: dict[str, Any] = _needs(rng, steady, beats, 1e-4 if ramps else 1e-5, fast)
+    if law == 1 and rng.uniform() < 0.5:
         need["friction_law"] = "free"
     return scene_from({**content, "need": need}, f"scene_{seed}")
 
 
-def random_device(draw: Draw) -> dict[str, float]:
+def random_device(rng: Rng) -> dict[str, float]:
     """Return a device whose drive is 0.5 to 100 000 times its friction."""
-    slider, share = draw.log(0.1, 10.0), draw.log(0.005, 0.5)
-    frequency = draw.log(100.0, 35_000.0)
-    preload = draw.log(0.1, 30.0)
-    lift = draw.chance(0.1)
-    coefficient, faces = draw.log(0.02, 1.0), draw.one_of(1, 2)
+    slider, share = log(rng, 0.1, 10.0), log(rng, 0.005, 0.5)
+    frequency = log(rng, 100.0, 35_000.0)
+    preload = log(rng, 0.1, 30.0)
+    lift = rng.uniform() < 0.1
+    coefficient, faces = log(rng, 0.02, 1.0), one_of(rng, 1, 2)
     device = {
         "slider_mass": slider,
         "resonator_mass": slider * share / (1.0 - share),
         "drive_frequency": frequency,
-        "resonator_frequency": frequency * (1.0 if draw.chance(0.6) else draw.log(0.5, 2.0)),
-        "damping_ratio": draw.log(1e-3, 0.3),
+        "resonator_frequency": frequency * (1.0 if rng.uniform() < 0.6 else log(rng, 0.5, 2.0)),
+        "damping_ratio": log(rng, 1e-3, 0.3),
         "normal_preload": preload,
-        "normal_amplitude": preload * (draw.uniform(1.0, 2.0) if lift else draw.uniform(0.0, 1.0)),
+        "normal_amplitude": preload * (rng.uniform(1.0, 2.0) if lift else rng.uniform(0.0, 1.0)),
         "friction_coefficient": coefficient,
         "friction_faces": int(faces),
         "base_amplitude": 1e-4,
-        "friction_law": int(draw.chance(0.45)),
+        "friction_law": int(rng.uniform() < 0.45),
     }
     force = equivalent_force(Device.from_mapping(device))
-    strength = draw.log(30.0, 1e5) if draw.chance(0.7) else draw.log(0.5, 30.0)
+    strength = log(rng, 30.0, 1e5) if rng.uniform() < 0.7 else log(rng, 0.5, 30.0)
     drive = strength * faces * coefficient * preload
     device["base_amplitude"] *= drive / force.amplitude
     fast = force.velocity_amplitude * drive / force.amplitude
     if device["friction_law"]:
-        kappa = draw.log(1e-2, 1e4)
+        kappa = log(rng, 1e-2, 1e4)
         device["bristle_stiffness"] = kappa * coefficient * frequency / fast
-        device["bristle_damping"] = draw.log(1e-2, 1.0) * coefficient / fast
+        device["bristle_damping"] = log(rng, 1e-2, 1.0) * coefficient / fast
     return device
 
 
-def _inputs(draw: Draw, device: Device, duration: float, steady: bool) -> dict[str, Any]:
+def _inputs(rng: Rng, device: Device, duration: float, steady: bool) -> dict[str, Any]:
     friction = device.friction_faces * device.friction_coefficient * device.normal_preload
     alpha = device.normal_amplitude / device.normal_preload
     angle = equivalent_force(device).angle
-    phase = draw.uniform(-pi, pi)
+    phase = rng.uniform(-pi, pi)
     blocking = 2.0 / pi * friction * alpha * np.sin(phase + angle)
-    kind = draw.one_of(0, 0, 1, 2, 3)
+    kind = one_of(rng, 0, 0, 1, 2, 3)
     if kind == 0:
         load = 0.0
     elif kind == 1:
-        load = blocking * draw.uniform(0.9, 1.1)
+        load = blocking * rng.uniform(0.9, 1.1)
     elif kind == 2:
-        load = blocking * draw.uniform(-1.0, 1.0)
+        load = blocking * rng.uniform(-1.0, 1.0)
     else:
-        load = friction * draw.uniform(-0.7, 0.7)
+        load = friction * rng.uniform(-0.7, 0.7)
     inputs: dict[str, Any] = {"phase": phase, "load": float(load)}
-    ratio = draw.one_of(0, 0, 0, 0, 1, 2, 3)
+    ratio = one_of(rng, 0, 0, 0, 0, 1, 2, 3)
     if ratio == 1:
-        inputs["frequency_ratio"] = draw.one_of(2.0, 3.0, 5.0, 1.5, 0.0)
+        inputs["frequency_ratio"] = one_of(rng, 2.0, 3.0, 5.0, 1.5, 0.0)
     elif ratio == 2 and not steady:
-        inputs["frequency_ratio"] = 1.0 + draw.one_of(-1, 1) * draw.log(1e-4, 0.05)
+        inputs["frequency_ratio"] = 1.0 + one_of(rng, -1, 1) * log(rng, 1e-4, 0.05)
     elif ratio == 3 and not steady:
-        inputs["frequency_ratio"] = draw.uniform(0.2, 3.0)
-    if steady or draw.chance(0.5):
+        inputs["frequency_ratio"] = rng.uniform(0.2, 3.0)
+    if steady or rng.uniform() < 0.5:
         return inputs
-    times = np.sort([draw.uniform(0.0, duration) for _ in range(ceil(draw.uniform(0.0, 3.0)))])
-    way = "steps" if draw.chance(0.5) else "ramp"
-    loads = [float(load)] + [float(load + friction * draw.uniform(-0.5, 0.5)) for _ in times]
-    phases = [phase] + [phase + draw.uniform(-1.0, 1.0) for _ in times]
+    times = np.sort([rng.uniform(0.0, duration) for _ in range(ceil(rng.uniform(0.0, 3.0)))])
+    way = "steps" if rng.uniform() < 0.5 else "ramp"
+    loads = [float(load)] + [float(load + friction * rng.uniform(-0.5, 0.5)) for _ in times]
+    phases = [phase] + [phase + rng.uniform(-1.0, 1.0) for _ in times]
     for name, values in (("load", loads), ("phase", phases)):
-        if draw.chance(0.6):
+        if rng.uniform() < 0.6:
             inputs[name] = {way: list(zip([0.0, *times.tolist()], values, strict=True))}
-    if way == "ramp" and draw.chance(0.2):
-        start, end = draw.uniform(0.9, 1.1), draw.uniform(0.9, 1.1)
+    if way == "ramp" and rng.uniform() < 0.2:
+        start, end = rng.uniform(0.9, 1.1), rng.uniform(0.9, 1.1)
         inputs["frequency_ratio"] = {"ramp": [(0.0, start), (duration, end)]}
     return inputs
 
 
-def _needs(draw: Draw, steady: bool, beats: bool, tightest: float, fast: float) -> dict[str, Any]:
+def _needs(rng: Rng, steady: bool, beats: bool, tightest: float, fast: float) -> dict[str, Any]:
     if steady:
         names = ["steady_velocity", "blocking_force"]
     else:
         names = ["mean_velocity"] * 4 + ["position"] * 2 + ["velocity", "event_times"]
         names += ["beat"] * 3 * beats
-    chosen = {names[int(draw.rng.integers(len(names)))] for _ in range(ceil(draw.uniform(0, 1.5)))}
+    chosen = {names[int(rng.integers(len(names)))] for _ in range(ceil(rng.uniform(0, 1.5)))}
     scale = {"event_times": 1e-2, "beat": 1e-1}
     needs = {}
     for name in sorted(chosen):
-        share = draw.log(tightest, 0.5) * scale.get(name, 1.0)
-        absolute = name.endswith("velocity") and draw.chance(0.5)
+        share = log(rng, tightest, 0.5) * scale.get(name, 1.0)
+        absolute = name.endswith("velocity") and rng.uniform() < 0.5
         needs[name] = {"abs": share * fast} if absolute else {"rel": share}
     return needs
 

@@ -78,6 +78,7 @@ def test_failed_point_is_a_row_with_its_error_and_the_next_is_sound(instance: In
 def test_what_is_proved_is_not_searched(instance: Instance) -> None:
     point = (7, (0.4,))
     (proved,) = prove_points(instance, BOTH, [point])
+    assert isinstance(proved, dict)
     number, cells, error = measure_point(instance, BOTH, point, proved)
     assert (number, cells[:2], error) == (7, [proved["blocking_force"], "blocked"], None)
     assert cells[2] == pytest.approx(measure_point(instance, BOTH, point, {})[1][2], rel=0)

@@ -72,7 +72,7 @@ def test_table_1_by_a_run_and_by_shooting() -> None:
 
 def test_any_integrator_can_be_shot_with() -> None:
     table_1 = problem(TABLE_1)
-    _, found = shoot(table_1, "steady_velocity", simulate, 1e-9, inf)
+    found = shoot(table_1, "steady_velocity", simulate, 1e-9, inf)
     assert found.value == pytest.approx(0.12666700, rel=1e-7)
     assert 30 <= found.periods <= 100, "a long run needs thousands"
     with pytest.raises(RuntimeError, match="more than its budget of 0 s"):
