@@ -112,7 +112,8 @@ def _element(tag: str, cell: Cell, column: Column, stacks: bool = False) -> str:
     kinds += ["long"] if stacks and len(cell.text) > LONG else []
     kind = f' class="{" ".join(kinds)}"' if kinds else ""
     heading = f' data-heading="{escaped(column.heading)}"' if stacks else ""
-    return f"<{tag}{kind}{heading}>{_text(cell, wrapped=not column.numeric)}</{tag}>"
+    note = f' title="{escaped(cell.note)}"' if cell.note else ""
+    return f"<{tag}{kind}{heading}{note}>{_text(cell, wrapped=not column.numeric)}</{tag}>"
 
 
 def _text(cell: Cell, *, wrapped: bool) -> str:

@@ -27,12 +27,14 @@ class Column:
 class Cell:
     """A text, which may have several lines, with a style.
 
-    In a page it is a link to the element whose id is `target`, if any.
+    In a page it is a link to the element whose id is `target`, if any, and shows its `note` under
+    the pointer.
     """
 
     text: str
     style: Style = Style.PLAIN
     target: str = ""
+    note: str = ""
 
 
 Row = Sequence[str | Cell]

@@ -76,8 +76,7 @@ class Axis:
     """The values of an axis, by name, and the models that take each of them.
 
     Without `steps` they are the usual ones at the drive frequency of the value. Inputs are those of
-    all steps. `limits` are those of a value and a model, `start_time` (s) and `from_zero` those of
-    its cases.
+    all steps. `limits` are those of a value and a model, `start_time` (s) that of its cases.
     """
 
     name: str
@@ -86,7 +85,6 @@ class Axis:
     steps: Steps | None = None
     limits: Mapping[tuple[str, Model], Sequence[Limit]] = field(default_factory=dict)
     start_time: float = 0.0
-    from_zero: bool = False
 
     def cases(self) -> Iterator[Case]:
         """Yield all values, each by all models."""
@@ -100,10 +98,7 @@ class Axis:
                     steps = self.steps(model, value)
                 holds = tuple(hold.under(inputs) for hold in steps)
                 limits = tuple(self.limits.get((value, model), ()))
-                yield Case(
-                    *(self.name, value, model, parameters, holds),
-                    *(self.start_time, self.from_zero, limits),
-                )
+                yield Case(self.name, value, model, parameters, holds, self.start_time, limits)
 
 
 def _texts(*values: float) -> dict[str, float]:
@@ -336,7 +331,7 @@ AXES = (
     Axis(
         "communication step", {text: {} for text in MIXED}, CHEAP, steps=lambda _, text: MIXED[text]
     ),
-    Axis("start time", {"1e12 s": {}}, steps=lambda *_: LATE, start_time=1e12, from_zero=True),
+    Axis("start time", {"1e12 s": {}}, steps=lambda *_: LATE, start_time=1e12),
     _drive_periods(1e8, AVERAGED),
     _drive_periods(1e5, COULOMB_RESOLVED),
     _drive_periods(1e3, LUGRE_RESOLVED),

@@ -82,8 +82,7 @@ class Limit:
 class Case:
     """One run: the value `value` on the axis `axis`, by one model.
 
-    `parameters` are those that differ from table 1. `from_zero` asks for the same motion when the
-    run starts at time 0.
+    `parameters` are those that differ from table 1.
     """
 
     axis: str
@@ -92,7 +91,6 @@ class Case:
     parameters: Mapping[str, float]
     holds: tuple[Hold, ...]
     start_time: float = 0.0
-    from_zero: bool = False
     limits: tuple[Limit, ...] = ()
 
     @property

@@ -13,7 +13,7 @@ from slider_resonator.references.averaged.averaged_motion import simulate_averag
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.stressing.case import MARGIN, MIN_DIVISIBLE, Case
 from slider_resonator.stressing.observe import MEAN, SIGNALS, Observation
-from slider_resonator.stressing.verdict import NO_REFERENCE, REFERENCE, BoundCheck
+from slider_resonator.stressing.verdict import NO_REFERENCE, REFERENCE, BoundCheck, largest
 
 EXACT = 1e-10
 """Error of resolved motion by rounding, as a fraction of peaks, where events are the same."""
@@ -51,15 +51,13 @@ def equalities(case: Case, seen: Observation) -> Iterator[BoundCheck]:
     left_out = LEFT_OUT if case.model.leaps else 0.0
     allowed = _allowed(case, own, _numerics(case) + left_out)
     last = {name: signal[-1:] for name, signal in own.items()}
-    for name, other in (("other steps", seen.other), ("from time 0", seen.from_zero)):
-        if other is not None:
-            yield _largest(name, last, {key: np.array([other[key]]) for key in SIGNALS}, allowed)
+    for name, other in seen.others.items():
+        yield _largest(name, last, {key: np.array([other[key]]) for key in SIGNALS}, allowed)
     replayed = 0.0 if seen.replayed else 2.0
     yield BoundCheck("replay", replayed, "a run from the same start differs")
     for limit in case.limits:
-        off = abs(float(seen.outputs[limit.output][-1]) - limit.value)
-        words = f"{limit.output} off by {off:.3g}, allowed {limit.allowed:.3g}: {limit.why}"
-        yield BoundCheck("limit case", _share(off, limit.allowed), words)
+        off = seen.outputs[limit.output][-1:] - limit.value
+        yield largest("limit case", off, limit.allowed, f"{limit.why}: {limit.output}")
 
 
 def compare_with_reference(case: Case, seen: Observation) -> BoundCheck:
@@ -234,15 +232,5 @@ def _allowed(case: Case, signals: Signals, share: float) -> dict[str, float]:
 
 def _largest(name: str, own: Signals, other: Signals, allowed: Mapping[str, float]) -> BoundCheck:
     """Return the check of the signal that is farthest off."""
-    worst, words = 0.0, ""
-    for signal, values in other.items():
-        off = float(np.abs(own[signal] - values).max())
-        found = _share(off, allowed[signal])
-        if not found <= worst:
-            worst, words = found, f"{signal} off by {off:.3g}, allowed {allowed[signal]:.3g}"
-    return BoundCheck(name, worst, words)
-
-
-def _share(off: float, allowed: float) -> float:
-    """Return a deviation in units of the allowed one; where that is 0 it must be 0."""
-    return off / allowed if allowed else 2.0 * float(off > 0.0)
+    checks = (largest(name, own[key] - other[key], allowed[key], key) for key in other)
+    return max(checks, key=lambda check: check.found)

@@ -5,11 +5,10 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from slider_resonator.arrays import Array
 from slider_resonator.checks.natural_scale import fast_velocity
 from slider_resonator.stressing.case import MARGIN, Case
 from slider_resonator.stressing.observe import Observation
-from slider_resonator.stressing.verdict import BoundCheck
+from slider_resonator.stressing.verdict import BoundCheck, largest
 
 Exact = NDArray[np.longdouble]
 
@@ -21,8 +20,9 @@ BOUND = 1e-9
 def finite(seen: Observation) -> BoundCheck:
     """Return the check that all outputs are finite numbers."""
     wrong = [name for name, column in seen.outputs.items() if not np.isfinite(column).all()]
-    if seen.other is not None and not np.isfinite(list(seen.other.values())).all():
-        wrong.append("the other partition")
+    wrong += [
+        name for name, last in seen.others.items() if not np.isfinite(list(last.values())).all()
+    ]
     return BoundCheck("finite", 2.0 if wrong else 0.0, f"not finite: {', '.join(wrong)}")
 
 
@@ -52,7 +52,7 @@ def _phase(case: Case, seen: Observation, psi: Exact) -> BoundCheck:
     angle = np.abs(psi).astype(float) + np.abs(held)
     bound = BOUND * device.max_normal_force
     allowed = bound + 4.0 * ROUNDING * angle * device.normal_amplitude
-    return _largest("phase of the normal load", seen.outputs["normal_force"] - expected, allowed)
+    return largest("phase of the normal load", seen.outputs["normal_force"] - expected, allowed)
 
 
 def _friction_bound(case: Case, seen: Observation) -> BoundCheck:
@@ -73,7 +73,7 @@ def _friction_bound(case: Case, seen: Observation) -> BoundCheck:
         share += 2.0 * device.bristle_damping * velocity
     force = np.abs(seen.outputs["friction_force"])
     allowed = BOUND * device.friction_faces * share * device.max_normal_force
-    return _largest(
+    return largest(
         "friction bound", np.maximum(0.0, force - device.friction_faces * share * normal), allowed
     )
 
@@ -107,7 +107,7 @@ def _momentum(case: Case, seen: Observation, theta: Exact) -> BoundCheck:
     change = np.abs(momentum - momentum[0] + load)
     sizes = abs(drive) + (np.abs(body) + np.abs(resonator)).max() + np.abs(load) + friction
     rounding = (BOUND + 4.0 * ROUNDING * theta.astype(float)) * sizes
-    return _largest("momentum", np.maximum(0.0, change - friction - slack), rounding)
+    return largest("momentum", np.maximum(0.0, change - friction - slack), rounding)
 
 
 def _energy(case: Case, seen: Observation) -> BoundCheck:
@@ -126,7 +126,7 @@ def _energy(case: Case, seen: Observation) -> BoundCheck:
     if device.friction_law == 1:  # bristles bent to mu / s0 give energy back
         bent = 0.5 * device.friction_coefficient**2 / device.bristle_stiffness
         allowed += device.friction_faces * device.max_normal_force * bent
-    return _largest("energy", gained, allowed)
+    return largest("energy", gained, allowed)
 
 
 def _share(seen: Observation) -> BoundCheck:
@@ -139,12 +139,3 @@ def _share(seen: Observation) -> BoundCheck:
     return BoundCheck(
         "counts and shares", 2.0 * wrong, "share outside 0 to 1, mode unknown or count fell"
     )
-
-
-def _largest(name: str, deviation: Array, allowed: float | Array) -> BoundCheck:
-    """Return a check of the largest deviation; where 0 is allowed, the deviation must be 0."""
-    deviation = np.abs(np.asarray(deviation, dtype=float))
-    floor = np.finfo(float).tiny
-    found = float(np.max(deviation / np.maximum(allowed, floor)))
-    worst = float(np.max(deviation))
-    return BoundCheck(name, found, f"off by up to {worst:.3g}, {found:.3g} times the allowed")

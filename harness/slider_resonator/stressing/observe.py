@@ -25,17 +25,16 @@ BASELINE_STEPS = 5
 class Observation:
     """The outputs and costs of an FMU in a case.
 
-    `outputs` start with the first moment, each of shape (n + 1,). `other` are the last ones in the
-    other partition, `from_zero` those of a run from time 0, where one was made. `replayed` is
-    whether a second run was equal bit by bit.
+    `outputs` start with the first moment, each of shape (n + 1,). `others` are the last ones of
+    runs that must agree, by name: in other steps, and from time 0 where the case begins at another.
+    `replayed` is whether a second run was equal bit by bit.
     `worst_step` is the CPU time (s) of the most expensive step, the smaller of two runs, per drive
     period it spans (at least 1); `period_cost` is the median of a drive period of the device.
     `refusal` is the message of the FMU where it refused the case; all else is empty then.
     """
 
     outputs: Mapping[str, Array] = field(default_factory=dict)
-    other: Mapping[str, float] | None = None
-    from_zero: Mapping[str, float] | None = None
+    others: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     replayed: bool = True
     worst_step: float = 0.0
     period_cost: float = 0.0
@@ -53,8 +52,10 @@ def observe(instance: Instance, case: Case) -> Observation:
             return Observation(_run(instance, case, names)[0])
         first, first_costs = _run(instance, case)
         second, second_costs = _run(instance, case)
-        from_zero = _run(instance, replace(case, start_time=0.0))[0] if case.from_zero else None
-        other, _ = _run(instance, replace(case, holds=case.other_holds))
+        others = {"other steps": replace(case, holds=case.other_holds)}
+        if case.start_time:
+            others["from time 0"] = replace(case, start_time=0.0)
+        ends = {name: _run(instance, other)[0] for name, other in others.items()}
         size = min(case.period, case.duration)
         baseline = (Hold(size, BASELINE_STEPS, *case.holds[0].inputs, tuned=case.holds[0].tuned),)
         _, periods = _run(instance, replace(case, holds=baseline, start_time=0.0))
@@ -63,16 +64,14 @@ def observe(instance: Instance, case: Case) -> Observation:
     steps = zip(case.sizes, first_costs, second_costs, strict=True)
     return Observation(
         outputs=first,
-        other=_last(other),
-        from_zero=None if from_zero is None else _last(from_zero),
+        others={
+            name: {output: float(values[-1]) for output, values in outputs.items()}
+            for name, outputs in ends.items()
+        },
         replayed=all(np.array_equal(first[n], second[n], equal_nan=True) for n in OUTPUTS),
         worst_step=max(min(costs) / max(1.0, one / case.period) for one, *costs in steps),
         period_cost=median(periods) * case.period / size,
     )
-
-
-def _last(outputs: Mapping[str, Array]) -> dict[str, float]:
-    return {name: float(values[-1]) for name, values in outputs.items()}
 
 
 def _run(

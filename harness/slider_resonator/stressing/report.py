@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from itertools import accumulate
-from math import log10
 from pathlib import Path
 
 from slider_resonator.device.interface import INPUTS
@@ -16,16 +15,9 @@ from slider_resonator.stressing.case import MODELS, RANDOM, Case, name_of
 from slider_resonator.stressing.run import StressResult
 from slider_resonator.stressing.verdict import FAILED, MEANINGS, PASSED, Verdict
 
-FAR, NEAR = -8.0, 0.0
-"""Decimal logarithm of a deviation over its bound, at the ends of the scale."""
-SHADE = "rgb(47, 127, 121, {:.2f})"
-"""Colour of the scale, with its opacity: 0.1 far from the bound, 1 at it."""
-REFUSED_COLOUR, FAILED_COLOUR = "#edc46b", "#c8553d"
-_LEGEND_OF_GRIDS = (
-    "<p>Point at a cell of a grid for its checks. It is shaded by its largest deviation over the "
-    "allowed one; r is refused by name, F failed.</p>"
-    f'<p class="scale">{10.0**FAR:g} <i style="background: linear-gradient(to right, '
-    f'{SHADE.format(0.1)}, {SHADE.format(1.0)})"></i> {10.0**NEAR:g}</p>'
+GRIDS = (
+    "<p>A cell of a grid has the largest deviation of a case over the allowed one. Point at it for "
+    "its checks.</p>"
 )
 
 
@@ -51,7 +43,7 @@ def write_stress_page(path: Path, results: Sequence[StressResult], provenance: P
         rendered(Table((*texts("verdict"), *numbers("cases"), *texts("meaning")), legend)),
     ]
     if any(one.axis != RANDOM for result in results for one in result.verdicts):
-        parts.append(_LEGEND_OF_GRIDS)
+        parts.append(GRIDS)
     parts += [part for result in results for part in _of_one_fmu(result)]
     write_page(path, "Stress test", [*parts, provenance_html(provenance)])
 
@@ -80,47 +72,36 @@ def _of_one_fmu(result: StressResult) -> list[str]:
 
 
 def _grid(axis: str, cases: Sequence[Verdict]) -> str:
-    """Return a table of values over models, each cell with its checks as its title."""
+    """Return a table of values over models."""
     models = [name for name in map(name_of, MODELS) if any(one.model == name for one in cases)]
-    by_place = {(one.value, one.model): one for one in cases}
-    head = "".join(f'<th scope="col">{escaped(name)}</th>' for name in models)
-    rows = "\n".join(
-        f'<tr><th scope="row">{escaped(value)}</th>'
-        + "".join(_cell(by_place.get((value, model))) for model in models)
-        + "</tr>"
+    cells = {(one.value, one.model): _cell(one) for one in cases}
+    rows = [
+        (value, *(cells.get((value, model), "") for model in models))
         for value in dict.fromkeys(one.value for one in cases)
-    )
-    title = '<th scope="col">value</th>'
-    table = f'<table class="matrix"><thead><tr>{title}{head}</tr></thead><tbody>\n{rows}</tbody>'
+    ]
     checks = [check for one in cases for check in one.checks]
     names = ", ".join(dict.fromkeys(check.name for check in checks))
     words = f"{number_of(len(cases), 'case')} checked by {names}"
     if checks:
         nearest = max(checks, key=lambda check: check.found)
         words += f"; nearest to its bound: {nearest.name}, {nearest.found:.2g} of it"
-    wide = f'<div class="wide">{table}</table></div>'
-    return f"<h3>{escaped(axis)}</h3><p>{escaped(words)}</p>{wide}"
+    grid = rendered(Table((*texts("value"), *numbers(*models)), rows))
+    return f"<h3>{escaped(axis)}</h3><p>{escaped(words)}</p>{grid}"
 
 
-def _cell(one: Verdict | None) -> str:
-    """Return a case with its checks as title: shaded by its margin where it passed.
+def _cell(one: Verdict) -> Cell:
+    """Return a case with its checks as note: by its margin where it passed.
 
-    The margin is the largest deviation over its bound, as a decimal logarithm within the scale.
     What a step costs is no deviation and does not count.
     """
-    if one is None:
-        return "<td></td>"
-    found = one.nearest.found if one.nearest else 0.0
-    margin = min(max(log10(found), FAR), NEAR) if found > 0.0 else FAR
-    sign, colour = "", SHADE.format(0.1 + 0.9 * (margin - FAR) / (NEAR - FAR))
+    text, style = f"{one.nearest.found:.1g}" if one.nearest else "0", Style.PLAIN
     if one.verdict != PASSED:
-        sign, colour = ("F", FAILED_COLOUR) if one.verdict == FAILED else ("r", REFUSED_COLOUR)
+        text, style = ("FAIL", Style.FAIL) if one.verdict == FAILED else ("refused", Style.NOTE)
     why = f": {one.reason}" if one.reason else ""
     lines = [one.model, f"{one.axis}: {one.value}", one.verdict + why]
     for check in sorted(one.checks, key=lambda check: -check.found):
         lines.append(f"{check.name}: {check.found:.2g} of what is allowed")
-    note = escaped("\n".join(lines))
-    return f'<td style="background: {colour}" title="{note}">{sign}</td>'
+    return Cell(text, style, note="\n".join(lines))
 
 
 def write_results(results: Sequence[StressResult], folder: Path, provenance: Provenance) -> None:

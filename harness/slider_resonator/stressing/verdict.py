@@ -4,6 +4,9 @@ import re
 import shlex
 from dataclasses import dataclass
 
+import numpy as np
+
+from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.stressing.case import Case, name_of
 
@@ -44,6 +47,18 @@ class BoundCheck:
     def passed(self) -> bool:
         """Whether the bound holds; it does not for NaN."""
         return self.found <= 1.0
+
+
+def largest(name: str, off: Array, allowed: float | Array, what: str = "") -> BoundCheck:
+    """Return the check of the largest deviation `off`, of `what`; where 0 is allowed, it must be 0.
+
+    NaN breaks the bound.
+    """
+    off = np.abs(np.asarray(off, dtype=float))
+    shares = np.nan_to_num(off / np.maximum(allowed, np.finfo(float).tiny), nan=np.inf)
+    found = float(shares.max())
+    words = f"{what} off by up to {off.max():.3g}, {found:.3g} times the allowed"
+    return BoundCheck(name, found, words.lstrip())
 
 
 @dataclass(frozen=True)
