@@ -3,19 +3,19 @@
 import hashlib
 import json
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from slider_resonator import __version__
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, FmuDied
-from slider_resonator.fmu.isolation.tasks import LocalProcesses, Processes, run_all_tasks
+from slider_resonator.fmu.isolation.tasks import LocalProcesses, Outcome, Processes, run_all_tasks
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import digest_of
 from slider_resonator.output.console import noting_on_interrupt
@@ -54,6 +54,7 @@ BATCH = 200
 ATTEMPTS = 3
 """Processes that may die at a point before it counts as the cause."""
 
+_Key = TypeVar("_Key")
 Keep = Callable[[Sequence[Row]], None]
 """Called with rows as they come, in any order."""
 
@@ -213,56 +214,37 @@ def run_points(processes: Processes, task: Task, points: Sequence[Point], keep: 
     that exceeds a limit, or at which processes keep dying, has an error as its row. Raises FmuError
     when the FMU cannot be used.
     """
-    left: list[tuple[Point, Proved]] = []
-    unproved = list(points)
+    left: list[tuple[Point, Proved]] = [(point, {}) for point in points]
     if any(name in SEARCHED for name in task.measures):
-        for _ in range(ATTEMPTS):
-            more, unproved = _prove(processes, task, unproved, keep)
-            left += more
-    left += [(point, {}) for point in unproved]
+        left = []
+        batches = [tuple(points[first : first + BATCH]) for first in range(0, len(points), BATCH)]
+        tasks = [(batch, partial(prove_points, task=task, points=batch)) for batch in batches]
+        for batch, outcome in _outcomes(processes, tasks):
+            found = outcome.value if outcome.error is None else [{}] * len(batch)
+            pairs = list(zip(batch, found, strict=True))
+            keep([one for _, one in pairs if isinstance(one, tuple)])
+            left += [(point, one) for point, one in pairs if not isinstance(one, tuple)]
+    searches = [
+        (point, partial(measure_point, task=task, point=point, proved=proved))
+        for point, proved in left
+    ]
+    for point, outcome in _outcomes(processes, searches):
+        error = outcome.error
+        keep([outcome.value if error is None else failed_row(task, point[0], str(error))])
+
+
+def _outcomes(
+    processes: Processes, tasks: Sequence[tuple[_Key, Callable[..., Any]]]
+) -> Iterator[tuple[_Key, Outcome]]:
+    """Yield the outcomes of tasks; one whose process ends, which need not be its fault, runs again."""
+    left = tasks
     for attempt in range(ATTEMPTS):
-        left = _measure(processes, task, left, keep, is_last=attempt == ATTEMPTS - 1)
-
-
-def _prove(
-    processes: Processes, task: Task, points: Sequence[Point], keep: Keep
-) -> tuple[list[tuple[Point, Proved]], list[Point]]:
-    """Keep the rows of batches; return what is proved of points without, and those of lost batches.
-
-    A batch is lost where its process ends, which need not be its fault.
-    """
-    batches = [tuple(points[first : first + BATCH]) for first in range(0, len(points), BATCH)]
-    tasks = [(batch, partial(prove_points, task=task, points=batch)) for batch in batches]
-    left: list[tuple[Point, Proved]] = []
-    lost: list[Point] = []
-    for batch, outcome in run_all_tasks(processes, tasks, outcomes=(HarnessError,)):
-        error = outcome.error
-        if isinstance(error, FmuDied) and not error.over_limit:
-            lost += batch
-            continue
-        found = outcome.value if error is None else [{}] * len(batch)
-        pairs = list(zip(batch, found, strict=True))
-        keep([one for _, one in pairs if isinstance(one, tuple)])
-        left += [(point, one) for point, one in pairs if not isinstance(one, tuple)]
-    return left, lost
-
-
-def _measure(
-    processes: Processes,
-    task: Task,
-    points: Sequence[tuple[Point, Proved]],
-    keep: Keep,
-    *,
-    is_last: bool,
-) -> list[tuple[Point, Proved]]:
-    """Keep the row of each point, and return those at which a process died, unless `is_last`."""
-    measure = partial(measure_point, task=task)
-    tasks = [(one, partial(measure, point=one[0], proved=one[1])) for one in points]
-    died: list[tuple[Point, Proved]] = []
-    for one, outcome in run_all_tasks(processes, tasks, outcomes=(HarnessError,)):
-        error = outcome.error
-        if isinstance(error, FmuDied) and not error.over_limit and not is_last:
-            died.append(one)
-        else:
-            keep([outcome.value if error is None else failed_row(task, one[0][0], str(error))])
-    return died
+        died = []
+        again = [(one, one[1]) for one in left]
+        for one, outcome in run_all_tasks(processes, again, outcomes=(HarnessError,)):
+            error, is_last = outcome.error, attempt == ATTEMPTS - 1
+            if isinstance(error, FmuDied) and not error.over_limit and not is_last:
+                died.append(one)
+            else:
+                yield one[0], outcome
+        left = died

@@ -7,27 +7,13 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from slider_resonator.output.hover_plot import look
 from slider_resonator.output.plot_style import save, style
-from slider_resonator.trading.result import (
-    PEER,
-    Row,
-    Trade,
-    cost_label,
-    drawn_error,
-    families,
-    front,
-)
+from slider_resonator.trading.result import Row, Trade, cost_label, drawn_error, families, front
 
 PANELS = ("position", "mean_velocity")
 """The quantities in the picture."""
-OURS = {"native": "#1f5f8b", "Python": "#6fa8d0"}
-MARKERS = {(2, None): "o", (1, None): "s", (0, 1): "^", (0, 2): "d", (0, None): "^"}
-"""Markers of our FMUs, by fidelity and averaging order."""
-PEER_MARKERS = "DvPX*<>ph8|H"
-PEER_COLOURS = (
-    *("#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22"),
-    *("#17becf", "#333333", "#b8860b", "#7a0177"),
-)
+MARKERS = "os^dDvPX*<>ph8|H"
 
 
 def draw_picture(trade: Trade, path: Path) -> None:
@@ -87,15 +73,7 @@ def _points(rows: Sequence[Row], quantity: str) -> tuple[list[float], list[float
 
 def _looks(trade: Trade) -> dict[str, dict[str, Any]]:
     """Return colour and marker of each family, the same in all plots of a trade."""
-    looks = {}
-    peers = families([row for row in trade.rows if row.kind == PEER])
-    for index, family in enumerate(peers):
-        colour = PEER_COLOURS[index % len(PEER_COLOURS)]
-        looks[family] = {"color": colour, "marker": PEER_MARKERS[index % len(PEER_MARKERS)]}
-    for row in trade.rows:
-        if row.kind != PEER:
-            build = row.family.split(" ")[0]
-            other = "instead" in row.family or "output" in row.family
-            marker = "X" if other else MARKERS[row.fidelity or 0, row.averaging_order]
-            looks[row.family] = {"color": OURS.get(build, "black"), "marker": marker}
-    return looks
+    return {
+        family: {"color": look(index)[0], "marker": MARKERS[index % len(MARKERS)]}
+        for index, family in enumerate(families(trade.rows))
+    }
