@@ -14,8 +14,8 @@ from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged.vibrating_contact import mean_load
 from slider_resonator.steady.bristle_reading import bristle_reading
-from slider_resonator.steady.shooting import NoPeriodicMotion, PeriodicRun
-from slider_resonator.steady.solvers import Matrix, Vector
+from slider_resonator.steady.shooting import PeriodicRun
+from slider_resonator.steady.solvers import Matrix, NoPeriodicMotion, Vector
 
 STATE = ("velocity", "resonator_displacement", "resonator_velocity")
 """The outputs that are states; the position does not matter, for nothing depends on it."""

@@ -81,14 +81,12 @@ def proved_predictions(
     the outputs show its whole state.
     """
     proved: list[float | None] = [None] * len(points)
-    if any(name not in instance.fmu.variables for name in (*PREDICTIONS, "averaging_order")):
+    if any(name not in instance.fmu.variables for name in (*PREDICTIONS, *DEVICE)):
         return proved
-    instance.start({})
-    defaults = instance.read(DEVICE)
     left = [
         candidate
         for index, point in enumerate(points)
-        if (candidate := _candidate(instance, quantity, index, point, defaults, max_denominator))
+        if (candidate := _candidate(instance, quantity, index, point, max_denominator))
     ]
     before: Array | None = None
     for _ in range(1 + RESTARTS):
@@ -122,26 +120,27 @@ def _candidate(
     quantity: Quantity,
     index: int,
     values: Mapping[str, float],
-    defaults: Mapping[str, float],
     max_denominator: int,
 ) -> _Candidate | None:
     """Return the motion that a prediction belongs to, None where it cannot be proved."""
-    device = {**defaults, **values}
-    count = common_period(device["frequency_ratio"], max_denominator)
-    is_full = device["fidelity"] == 2 and device["averaging_order"] == 2
     guessed = "load" if quantity == "blocking_force" else "initial_velocity"
-    if not is_full or device["friction_law"] != 0 or count is None or guessed in values:
+    if guessed in values:
         return None
     try:
         instance.start(values)
         with instance.explained():
+            device = instance.read(DEVICE)
+            count = common_period(device["frequency_ratio"], max_denominator)
+            is_full = device["fidelity"] == 2 and device["averaging_order"] == 2
+            if not is_full or device["friction_law"] != 0 or count is None:
+                return None
             velocity, force, valid = instance.block(PREDICTIONS).read()
     except HarnessError:
         instance.recreate()
         return None
-    parameters = tuple(one for one in device.items() if one[0] not in INPUTS)
+    parameters = tuple(one for one in {**device, **values}.items() if one[0] not in INPUTS)
     displacement, swing = _vibration(parameters)
-    drive = device["drive_frequency"] * (1.0 + device.get("frequency_deviation", 0.0))
+    drive = device["drive_frequency"] * (1.0 + values.get("frequency_deviation", 0.0))
     size = (abs(swing), abs(displacement), abs(displacement) * drive)
     if valid != 1.0 or 0.0 in size or not all(map(isfinite, (velocity, force, *size))):
         return None

@@ -13,13 +13,8 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.simulate import simulate as simulate_resolved
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.steady.shooting import (
-    NoPeriodicMotion,
-    PeriodicRun,
-    blocked_point,
-    steady_point,
-)
-from slider_resonator.steady.solvers import Matrix, Vector
+from slider_resonator.steady.shooting import PeriodicRun, blocked_point, steady_point
+from slider_resonator.steady.solvers import Matrix, NoPeriodicMotion, Vector
 
 STATE = ("velocity", "resonator_displacement", "resonator_velocity", "bristle_deflection")
 _INITIAL = tuple(f"initial_{name}" for name in ("position", *STATE))

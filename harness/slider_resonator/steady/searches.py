@@ -11,12 +11,8 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.output.shown import Shown
 from slider_resonator.steady.periodic import Facts, FmuPeriodMap, read_facts, repeating_periods
-from slider_resonator.steady.shooting import (
-    FixedPoint,
-    NoPeriodicMotion,
-    blocked_point,
-    steady_point,
-)
+from slider_resonator.steady.shooting import FixedPoint, blocked_point, steady_point
+from slider_resonator.steady.solvers import NoPeriodicMotion
 
 
 @dataclass(frozen=True, repr=False)

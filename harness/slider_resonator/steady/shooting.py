@@ -16,10 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.steady.solvers import (
+    A_FAMILY,
     DIFFERENCE,
     Matrix,
+    NoPeriodicMotion,
     PeriodMap,
-    Root,
     Vector,
     bracketed_state,
     central_jacobian,
@@ -44,14 +45,6 @@ DISTANCE = 1e-3
 """Distance of the neighbours, in units of the scale."""
 CORRECTIONS = 2
 """Newton steps that make a neighbour periodic in the fast directions."""
-
-FAMILY = 1e-9
-"""Residual, in units of the scale, below which a singular map has a family of fixed points."""
-
-A_FAMILY = (
-    "a whole family of motions repeats: friction does not choose among them, each start keeps its "
-    "own velocity"
-)
 
 Stability = Literal["stable", "unstable", "neutral"]
 
@@ -81,23 +74,6 @@ class FixedPoint:
         return "neutral" if largest >= 1.0 - NEUTRAL else "stable"
 
 
-class NoPeriodicMotion(Exception):
-    """No repeating motion was found: `status` for machines, `reason` with a remedy for people.
-
-    `iterations` were made, after which the state changes by `residual` over a period, in units of
-    its scale; None where nothing was run.
-    """
-
-    def __init__(
-        self, status: str, reason: str, iterations: int = 0, residual: float | None = None
-    ) -> None:
-        super().__init__(reason)
-        self.status = status
-        self.reason = reason
-        self.iterations = iterations
-        self.residual = residual
-
-
 def fixed_point(
     period_map: PeriodMap,
     guess: Vector,
@@ -115,7 +91,7 @@ def fixed_point(
     def change(state: Vector) -> Vector:
         return period_map(state)[0] - state
 
-    root = _zero(change, guess, scale, tolerance)
+    root = solve(change, guess, scale, tolerance=tolerance)
     jacobian = central_jacobian(change, root.x, DIFFERENCE * scale)
     multipliers = _multipliers(jacobian)
     sides = _one_sided_multipliers(change, root.x, jacobian, scale)
@@ -127,31 +103,6 @@ def fixed_point(
             multipliers[0] = max(sides, key=abs)
     _, displacement = period_map(root.x)
     return FixedPoint(root.x, displacement, load, root.iterations, root.residual, multipliers)
-
-
-def _zero(
-    function: Callable[[Vector], Vector], guess: Vector, scale: Vector, tolerance: float
-) -> Root:
-    """Return the zero of a function as `solve` does; NoPeriodicMotion where there is none."""
-    root = solve(function, guess, scale, tolerance=tolerance)
-    if root.status == "converged":
-        return root
-    if root.status == "singular" and root.residual <= FAMILY:
-        raise NoPeriodicMotion("not_unique", A_FAMILY, root.iterations, root.residual)
-    if root.status == "singular":
-        status, reason = (
-            "no_fixed_point",
-            "the state drifts by the same amount in every period, whatever its start "
-            f"({root.residual:.3g} of its scale): no motion repeats",
-        )
-    else:
-        why = {"stalled": "no step brings it closer", "limit": "out of iterations"}[root.status]
-        status, reason = (
-            "not_converged",
-            f"did not converge ({why}): after {root.iterations} iterations the next correction is "
-            f"{root.correction:.3g} of the scale, the change over a period {root.residual:.3g}",
-        )
-    raise NoPeriodicMotion(status, reason, root.iterations, root.residual)
 
 
 def _multipliers(change_jacobian: Matrix) -> NDArray[np.complex128]:
@@ -301,7 +252,8 @@ def blocked_point(
         end, displacement = run(state, load)
         return np.append(end - state, displacement * load_scale / displacement_scale)
 
-    root = _zero(change, np.append(warm.shifted(0.0), load), scale, tolerance)
+    guess = np.append(warm.shifted(0.0), load)
+    root = solve(change, guess, scale, tolerance=tolerance)
     jacobian = central_jacobian(change, root.x, DIFFERENCE * scale)
     multipliers = _multipliers(jacobian[:-1, :-1])
     state, load = root.x[:-1], float(root.x[-1])

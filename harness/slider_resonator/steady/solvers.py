@@ -14,7 +14,6 @@ the fast entries repeat. One equation in one unknown remains, whose sign changes
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 import scipy
@@ -24,7 +23,6 @@ Vector = NDArray[np.float64]
 Matrix = NDArray[np.float64]
 PeriodMap = Callable[[Vector], tuple[Vector, float]]
 """State (n,) at the start of a period -> state (n,) at its end, displacement over it."""
-Ending = Literal["converged", "singular", "stalled", "limit"]
 
 DIFFERENCE = 1e-4
 """Steps of a Jacobian, in units of the scale."""
@@ -38,22 +36,38 @@ KEEP = 0.05
 SMALLEST_DAMPING = 1.0 / 256.0
 ROUNDING = 100.0
 """Correction, in tolerances, that is accepted when it no longer decreases, by rounding."""
+FAMILY = 1e-9
+"""Residual, in units of the scale, below which a singular map has a family of fixed points."""
+
+A_FAMILY = (
+    "a whole family of motions repeats: friction does not choose among them, each start keeps its "
+    "own velocity"
+)
+
+
+class NoPeriodicMotion(Exception):
+    """No repeating motion was found: `status` for machines, `reason` with a remedy for people.
+
+    `iterations` were made, after which the state changes by `residual` over a period, in units of
+    its scale; None where nothing was run.
+    """
+
+    def __init__(
+        self, status: str, reason: str, iterations: int = 0, residual: float | None = None
+    ) -> None:
+        super().__init__(reason)
+        self.status = status
+        self.reason = reason
+        self.iterations = iterations
+        self.residual = residual
 
 
 @dataclass(frozen=True)
 class Root:
-    """The end of an iteration.
+    """A zero `x` (n,); `residual` is the largest function value left, in units of the scale."""
 
-    `x` has shape (n,); `correction` is the norm of the Newton step that remains and `residual` the
-    largest remaining function value, both in units of the scale. With a singular Jacobian `x` has
-    taken some more steps in the directions that the Jacobian determines: a residual that vanishes
-    then shows a family of zeros, one that remains shows that there is no zero.
-    """
-
-    status: Ending
     x: Vector
     iterations: int
-    correction: float
     residual: float
 
 
@@ -77,22 +91,31 @@ def solve(
     *,
     tolerance: float = 1e-11,
 ) -> Root:
-    """Find a zero of `function`, (n,) -> (n,) and finite, starting at `guess` (n,).
+    """Find a zero of `function`, (n,) -> (n,) and finite, the change of a state over a period.
 
-    `scale` (n,) is the typical size of each unknown and of the function value beside it;
-    `tolerance` bounds the last correction, in units of it.
+    The search starts at `guess` (n,). `scale` (n,) is the typical size of each unknown and of the
+    function value beside it; `tolerance` bounds the last correction, in units of it. Raises
+    NoPeriodicMotion where there is no zero, or none can be singled out. With a singular Jacobian
+    some more steps are taken in the directions that it determines: a residual that vanishes then
+    shows a family of zeros, one that remains shows that there is none.
     """
 
     def scaled(y: Vector) -> Vector:
         return function(y * scale) / scale
 
-    def result(status: Ending) -> Root:
-        return Root(status, y * scale, iterations, size, float(np.abs(value).max()))
+    def residual() -> float:
+        return float(np.abs(value).max())
+
+    def unconverged(why: str) -> NoPeriodicMotion:
+        reason = (
+            f"did not converge ({why}): after {iterations} iterations the next correction is "
+            f"{size:.3g} of the scale, the change over a period {residual():.3g}"
+        )
+        return NoPeriodicMotion("not_converged", reason, iterations, residual())
 
     y = guess / scale
     steps = np.full_like(y, DIFFERENCE)
     iterations = 0
-    size = np.inf
     value = scaled(y)
     jacobian = central_jacobian(scaled, y, steps)
     inverse = _inverse(jacobian)
@@ -100,9 +123,9 @@ def solve(
         correction = -inverse @ value
         size = float(np.linalg.norm(correction))
         if size <= tolerance:
-            return result("converged")
+            return Root(y * scale, iterations, residual())
         if iterations == MAX_ITERATIONS:
-            return result("limit")
+            raise unconverged("out of iterations")
         iterations += 1
         damping = 1.0
         while True:
@@ -112,10 +135,10 @@ def solve(
             if contraction <= 1.0 - damping / 4.0:
                 break
             if size <= ROUNDING * tolerance:
-                return result("converged")
+                return Root(y * scale, iterations, residual())
             damping /= 2.0
             if damping < SMALLEST_DAMPING:
-                return result("stalled")
+                raise unconverged("no step brings it closer")
         y, value = trial, trial_value
         if contraction > KEEP:
             jacobian = central_jacobian(scaled, y, steps)
@@ -124,9 +147,17 @@ def solve(
     for _ in range(SINGULAR_STEPS):
         y = y - determined @ value
         value = scaled(y)
-        if np.abs(value).max() <= tolerance:
+        if residual() <= tolerance:
             break
-    return result("singular")
+    if residual() <= FAMILY:
+        raise NoPeriodicMotion("not_unique", A_FAMILY, iterations, residual())
+    raise NoPeriodicMotion(
+        "no_fixed_point",
+        "the state drifts by the same amount in every period, whatever its start "
+        f"({residual():.3g} of its scale): no motion repeats",
+        iterations,
+        residual(),
+    )
 
 
 def _inverse(jacobian: Matrix) -> Matrix | None:

@@ -236,7 +236,7 @@ def run_points(processes: Processes, task: Task, points: Sequence[Point], keep: 
 def _outcomes(
     processes: Processes, tasks: Sequence[tuple[_Key, Callable[..., Any]]]
 ) -> Iterator[tuple[_Key, Outcome]]:
-    """Yield the outcomes of tasks; one whose process ends, which need not be its fault, runs again."""
+    """Yield the outcomes of tasks; one whose process ends runs again, as others may be at fault."""
     left = tasks
     for attempt in range(ATTEMPTS):
         died = []

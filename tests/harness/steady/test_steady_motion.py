@@ -19,7 +19,7 @@ from slider_resonator.steady.reference_steady import (
     reference_steady_velocity,
 )
 from slider_resonator.steady.searches import find_blocking, find_steady
-from slider_resonator.steady.shooting import NoPeriodicMotion
+from slider_resonator.steady.solvers import NoPeriodicMotion
 
 
 @pytest.mark.parametrize(
