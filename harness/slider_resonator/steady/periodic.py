@@ -28,19 +28,19 @@ STICKS = 1e-10
 
 @dataclass(frozen=True)
 class Facts:
-    """Parameters and inputs in force, read back from the FMU, and its own two predictions.
-
-    `prediction_valid` is what the FMU says of these, None where it has no such output.
-    """
+    """Parameters and inputs in force, read back from the FMU, and its own predictions."""
 
     values: Mapping[str, float]
-    steady_velocity: float
-    blocking_force: float
-    prediction_valid: bool | None
 
     def __getitem__(self, name: str) -> float:
-        """Return a parameter or input by name."""
+        """Return a parameter, input or prediction by name."""
         return self.values[name]
+
+    @property
+    def prediction_valid(self) -> bool | None:
+        """What the FMU says of its predictions, None where it has no such output."""
+        flag = self.values.get("prediction_valid")
+        return None if flag is None else flag == 1.0
 
     @property
     def drive_period(self) -> float:
@@ -68,17 +68,15 @@ def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
         *("slider_mass", "resonator_mass", "resonator_frequency", "damping_ratio"),
         *("steady_velocity", "blocking_force"),
     )
-    flag = "prediction_valid"
-    has_flag = flag in instance.fmu.variables
+    optional = (name for name in ("prediction_valid",) if name in instance.fmu.variables)
     with instance.explained():
-        read = instance.read((*names, flag) if has_flag else names)
-    is_valid = read.pop(flag) == 1.0 if has_flag else None
+        read = instance.read((*names, *optional))
     read["drive_frequency"] *= 1.0 + values.get("frequency_deviation", 0.0)
     try:
         check_value("drive_frequency", read["drive_frequency"])
     except ValueError as error:
         raise FmuError(f"{instance.fmu.path.name} reports {error}") from error
-    return Facts(read, read.pop("steady_velocity"), read.pop("blocking_force"), is_valid)
+    return Facts(read)
 
 
 def repeating_periods(facts: Facts, max_denominator: int) -> int:

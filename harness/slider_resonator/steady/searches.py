@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from math import isfinite
 from typing import Any, ClassVar
 
@@ -81,27 +82,27 @@ class SearchResult(Shown):
         ]
 
 
-def _asked(facts: Facts, predicted: float, searched: str = "") -> dict[str, Any]:
-    """Return the fields of a result that say what was asked, without the input that is searched."""
-    return {
-        "predicted": predicted,
+def _fields(
+    facts: Facts,
+    searched: str,
+    period_map: FmuPeriodMap | None = None,
+    found: FixedPoint | NoPeriodicMotion | None = None,
+) -> dict[str, Any]:
+    """Return the fields of a result that say what was asked, and what the search took."""
+    load = "load" if searched == "blocking_force" else ""  # which is then searched, not held
+    fields: dict[str, Any] = {
+        "predicted": facts[searched],
         "prediction_valid": facts.prediction_valid,
-        "inputs": {name: facts[name] for name in INPUTS if name != searched},
+        "inputs": {name: facts[name] for name in INPUTS if name != load},
         "friction_faces": int(facts["friction_faces"]),
     }
-
-
-def _cost(period_map: FmuPeriodMap, found: FixedPoint | NoPeriodicMotion) -> dict[str, Any]:
-    """Return the fields of a result that follow from the search itself."""
-    fields: dict[str, Any] = {
-        "common_period": period_map.drive_periods,
-        "periods": period_map.periods,
-        "iterations": found.iterations,
-        "residual": found.residual,
-    }
+    if period_map is not None:
+        fields |= {"common_period": period_map.drive_periods, "periods": period_map.periods}
+    if found is not None:
+        fields |= {"iterations": found.iterations, "residual": found.residual}
     if isinstance(found, FixedPoint):
-        fields["multipliers"] = tuple(found.multipliers.tolist())
-        fields["stable"] = found.stability == "stable"
+        multipliers, stable = tuple(found.multipliers.tolist()), found.stability == "stable"
+        fields |= {"multipliers": multipliers, "stable": stable}
     return fields
 
 
@@ -136,7 +137,7 @@ def find_steady(
     own prediction. Raises FmuError and Refusal as `Instance.start` does.
     """
     facts = read_facts(instance, values)
-    said = _asked(facts, facts.steady_velocity)
+    said = partial(_fields, facts, "steady_velocity")
     runaway = _runaway(facts)
     try:
         # Damped bristles can give more friction than full sliding: only the search can decide.
@@ -144,9 +145,9 @@ def find_steady(
             raise runaway
         count = repeating_periods(facts, max_denominator)
     except NoPeriodicMotion as none:
-        return SteadyMotion(none.status, none.reason, **said)
+        return SteadyMotion(none.status, none.reason, **said())
     period_map = FmuPeriodMap(instance, values, facts, count)
-    guess = values.get("initial_velocity", facts.steady_velocity)
+    guess = values.get("initial_velocity", facts["steady_velocity"])
     hint = _undamped_hint(facts)
     try:
         found = steady_point(period_map, guess if isfinite(guess) else 0.0, facts["load"])
@@ -154,7 +155,7 @@ def find_steady(
         status, reason = none.status, none.reason + hint
         if runaway is not None:
             status, reason = runaway.status, runaway.reason
-        return SteadyMotion(status, reason, **said, **_cost(period_map, none))
+        return SteadyMotion(status, reason, **said(period_map, none))
     largest = f"{abs(found.multipliers[0]):.9g}"
     repeats = "this motion repeats but departures from it"
     status, reason = {
@@ -171,8 +172,7 @@ def find_steady(
     return SteadyMotion(
         status,
         reason,
-        **said,
-        **_cost(period_map, found),
+        **said(period_map, found),
         steady_velocity=found.displacement / period_map.period,
         state=dict(zip(period_map.names, found.state.tolist(), strict=True)),
     )
@@ -213,13 +213,13 @@ def find_blocking(
     A `load` among the values is where the search begins. Errors are those of `find_steady`.
     """
     facts = read_facts(instance, values)
-    predicted = facts.blocking_force
-    said = _asked(facts, predicted, searched="load")
+    said = partial(_fields, facts, "blocking_force")
     try:
         count = repeating_periods(facts, max_denominator)
     except NoPeriodicMotion as none:
-        return Blocking(none.status, none.reason, **said)
+        return Blocking(none.status, none.reason, **said())
     period_map = FmuPeriodMap(instance, values, facts, count)
+    predicted = facts["blocking_force"]
     load = values.get("load", predicted if isfinite(predicted) else 0.0)
     warm = period_map.warm_up(0.0, load)
     if period_map.sticks_throughout:
@@ -227,21 +227,18 @@ def find_blocking(
             "stuck",
             f"the slider sticks throughout at load = {load:.6g} N: every load that friction holds "
             "stops it, so that no single one is the blocking force",
-            **said,
-            common_period=count,
-            periods=period_map.periods,
+            **said(period_map),
         )
     try:
         found = blocked_point(period_map, warm, load, max(facts.friction_limit, 1e-12))
     except NoPeriodicMotion as none:
         reason = none.reason + _undamped_hint(facts)
-        return Blocking(none.status, reason, **said, **_cost(period_map, none))
+        return Blocking(none.status, reason, **said(period_map, none))
     return Blocking(
         "blocked" if found.stability == "stable" else found.stability,
         f"at this load the mean velocity is zero; the largest multiplier is "
         f"{abs(found.multipliers[0]):.9g}",
-        **said,
-        **_cost(period_map, found),
+        **said(period_map, found),
         blocking_force=found.load,
     )
 

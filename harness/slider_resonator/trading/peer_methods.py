@@ -45,7 +45,7 @@ NO_MODES = {"event_times": "averaged motion has no events", **NOT_SHOT}
 class Peer:
     """A method by the setting that its error depends on.
 
-    `simulate` returns a trajectory, with the times of its events where it is `located`, or a
+    `simulate` returns a trajectory, with the times of its events unless these are `missing`, or a
     solution. `shooting` is the accuracy of shooting in units of the state, None for a method that
     cannot start in any state.
     """
@@ -55,14 +55,15 @@ class Peer:
     tolerance: float | None
     simulate: Callable[[Device, Sequence[HeldInputs], Array], Any]
     shooting: float | None = SHOOTING
-    located: bool = False
     cannot_stick: bool = False
     missing: Mapping[str, str] = field(default_factory=lambda: NO_EVENTS)
 
     def follow(self, device: Device, held: Sequence[HeldInputs], times: Array) -> Solution:
         """Return the motion of a device through inputs at times (s), shape (n,)."""
         found = self.simulate(device, held, times)
-        return found if isinstance(found, Solution) else solution_of(found, located=self.located)
+        if isinstance(found, Solution):
+            return found
+        return solution_of(found, located="event_times" not in self.missing)
 
     def label(self, problem: Problem) -> Label:
         """Return what it is called on a problem."""
@@ -73,7 +74,7 @@ class Peer:
 
 def peers(problem: Problem) -> Iterator[Peer]:
     """Yield the peers for the friction law of a problem."""
-    located = partial(Peer, located=True, missing={})
+    located = partial(Peer, missing={})
     yield located("Taylor series in Python", "", None, simulate_series, shooting=1e-9)
     is_lugre = problem.device.friction_law == 1
     family = "heyoka at its fastest" + (", bristle from path" if is_lugre else "")

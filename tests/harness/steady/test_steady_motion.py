@@ -158,7 +158,7 @@ def test_damped_bristles_hold_loads_above_sliding_friction(instance: Instance) -
 
 
 def facts(**values: float) -> Facts:
-    return Facts({**vars(Device()), **INPUT_STARTS, **values}, 0.0, 0.0, None)
+    return Facts({**vars(Device()), **INPUT_STARTS, **values})
 
 
 @pytest.mark.parametrize("amplitude", [0.0, 0.5, 1.0, 1.5, 4.0])
