@@ -130,28 +130,20 @@ def _one_sided_multipliers(
     slowest = int(np.argmax(np.abs(values + 1.0)))
     if values[slowest].imag != 0.0:
         return None
+    found = []
     try:
         left = np.linalg.inv(right)[slowest].real
         direction = right[:, slowest].real / float(left @ right[:, slowest].real)
         border = np.block([[scaled, direction[:, None]], [left[None, :], np.zeros((1, 1))]])
-        below, above = (
-            _multiplier(change, x, scale, border, side * DISTANCE) for side in (-1.0, 1.0)
-        )
+        for distance in (-DISTANCE, DISTANCE):
+            y = distance * direction
+            for _ in range(CORRECTIONS):
+                rest = np.append(-change(x + scale * y) / scale, distance - left @ y)
+                y = y + np.linalg.solve(border, rest)[:-1]
+            found.append(1.0 + float(left @ (change(x + scale * y) / scale)) / distance)
     except np.linalg.LinAlgError:
         return None
-    return below, above
-
-
-def _multiplier(
-    change: Callable[[Vector], Vector], x: Vector, scale: Vector, border: Matrix, distance: float
-) -> float:
-    """Return the distance after a period over `distance`."""
-    direction, left = border[:-1, -1], border[-1, :-1]
-    y = distance * direction
-    for _ in range(CORRECTIONS):
-        value = change(x + scale * y) / scale
-        y = y + np.linalg.solve(border, np.append(-value, distance - left @ y))[:-1]
-    return 1.0 + float(left @ (change(x + scale * y) / scale)) / distance
+    return found[0], found[1]
 
 
 @dataclass(frozen=True)
