@@ -18,13 +18,14 @@ from slider_resonator.choosing.candidate import (
 from slider_resonator.choosing.choice import SAME_COST, Choice, Evaluation, RuledOut, cheapest
 from slider_resonator.choosing.errors import Estimates
 from slider_resonator.choosing.probe import FINEST_TOLERANCE, HEAD_PERIODS, Probe
-from slider_resonator.choosing.steady_need import SteadyValue, find, steady_error
+from slider_resonator.choosing.steady_need import find, steady_error
 from slider_resonator.device.model import COULOMB, LUGRE, Model
 from slider_resonator.errors import FmuError, SceneError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.scenes.scene import Scene
+from slider_resonator.steady.searches import SteadyAnswer
 
 TIGHTER = {0: 2, 1: 0, 2: 0}
 """By fidelity, tolerances below the largest one that serves which may cost less: leaps differ."""
@@ -83,10 +84,9 @@ class Choosing:
         self.law = scene.device.friction_law
         self.probe = Probe(instance, scene)
         self.scene = self.probe.scene
-        self.periods = 0
         self.finest = Candidate(self.probe.reference_model, FINEST_TOLERANCE, None)
         self._evaluations: dict[Candidate, Evaluation] = {}
-        self._steady: dict[tuple[str, Candidate], SteadyValue] = {}
+        self._steady: dict[tuple[str, Candidate], SteadyAnswer] = {}
 
     def answer(self, progress: Progress) -> Choice:
         """Try the models, the simplest first, and time those that serve in turn."""
@@ -215,11 +215,11 @@ class Choosing:
             self._evaluations[candidate] = Evaluation(candidate, estimates, allowed, cost, covers)
         return self._evaluations[candidate]
 
-    def _find(self, name: str, candidate: Candidate) -> SteadyValue:
+    def _find(self, name: str, candidate: Candidate) -> SteadyAnswer:
         key = name, replace(candidate, step=None)
         if key not in self._steady:
             self._steady[key] = find(self.instance, self.scene.values, name, candidate)
-            self.periods += self._steady[key].periods
+            self.probe.drive_periods += self._steady[key].periods
         return self._steady[key]
 
     def _timed_again(self, good: Sequence[Evaluation]) -> list[Evaluation]:
@@ -261,7 +261,7 @@ class Choosing:
             ),
             reason=why if best else none,
             probe=evaluation.probe,
-            probe_drive_periods=self.probe.drive_periods + self.periods,
+            probe_drive_periods=self.probe.drive_periods,
             drive_period=self.scene.drive_period,
             inputs=self.probe.inputs,
             jumps=any(signal.jumps for signal in self.scene.signals.values()),

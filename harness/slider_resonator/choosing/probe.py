@@ -82,7 +82,7 @@ class Probe:
             self.ladder = ladder = step_ladder(scene, self.run_needs, most, varying=self.varying)
             self._finest = ladder[-1]
         self.drive_periods = 0.0
-        """Drive periods that the FMU has resolved so far in runs."""
+        """Drive periods that the FMU has resolved so far, with those of searches."""
         self._references: dict[float, Record] = {}
 
     @property

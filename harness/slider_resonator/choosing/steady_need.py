@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -14,7 +14,7 @@ from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record, run
-from slider_resonator.steady.searches import SEARCHES
+from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
 
 SIGNALS = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")
 WARM_UP = {"fidelity": 2.0, "friction_law": float(COULOMB)}
@@ -47,22 +47,9 @@ SOLVED = 1e-10
 """Accuracy of a solution by shooting, as a share of its size, but for that of the integration."""
 
 
-@dataclass(frozen=True)
-class SteadyValue:
-    """A steady quantity (m/s or N), None with the reason.
-
-    `periods` are the drive periods that the search took, `seconds` (s) its CPU time.
-    """
-
-    value: float | None
-    reason: str
-    periods: int
-    seconds: float
-
-
 def find(
     instance: Instance, values: Mapping[str, float], name: str, candidate: Candidate
-) -> SteadyValue:
+) -> SteadyAnswer:
     """Return a steady quantity as a candidate gives it: at fidelity 0 the FMU's own output.
 
     `values` are the parameters and inputs of the scene. The instance is created anew, as an old one
@@ -76,16 +63,16 @@ def find(
         instance.start(given)
         with instance.explained():
             found = instance.value(name)
-        return SteadyValue(found, "", 0, time.process_time() - began)
+        return SteadyAnswer(time.process_time() - began, found)
     if name == "blocking_force":
         given.pop("load", None)  # the search begins where the FMU predicts it
     search = SEARCHES[name](instance, given)
     seconds = time.process_time() - began
     value: float | None = getattr(search, name) if search.status in EXISTS[name] else None
-    return SteadyValue(value, f"{search.status}: {search.reason}", search.periods, seconds)
+    return SteadyAnswer(seconds, value, f"{search.status}: {search.reason}", search.periods)
 
 
-def steady_error(found: SteadyValue, reference: SteadyValue, law: int) -> ErrorEstimate:
+def steady_error(found: SteadyAnswer, reference: SteadyAnswer, law: int) -> ErrorEstimate:
     """Return the error against the resolved quantity; `law` is the friction law of that."""
     if reference.value is None:
         return ErrorEstimate(inf, 0.0, reference.reason)

@@ -248,3 +248,16 @@ SEARCHES: Mapping[str, Callable[..., SearchResult]] = {
     "blocking_force": find_blocking,
 }
 """The search for each steady quantity, which is an attribute of its result, None where none is."""
+
+
+@dataclass(frozen=True)
+class SteadyAnswer:
+    """An answer (m/s or N), None with a `reason` where there is none, and its CPU time (s).
+
+    `periods` are the drive periods simulated.
+    """
+
+    seconds: float
+    value: float | None
+    reason: str = ""
+    periods: int = 0

@@ -13,8 +13,8 @@ import numpy as np
 from slider_resonator.device.model import LUGRE, Model
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record, run
-from slider_resonator.steady.searches import SEARCHES
-from slider_resonator.trading.method import STEADY, Method, SteadyAnswer, SteadyMethod
+from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
+from slider_resonator.trading.method import STEADY, Method, SteadyMethod
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import AVERAGED, RESOLVED, Label
 from slider_resonator.trading.solution import Solution

@@ -3,10 +3,11 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
 from slider_resonator.trading.result import Label
 from slider_resonator.trading.solution import Solution
 
-STEADY = ("steady_velocity", "blocking_force")
+STEADY = tuple(SEARCHES)
 """What is found without following a motion."""
 
 
@@ -26,19 +27,6 @@ class Method:
     min_periods: int = 1
     cannot_stick: bool = False
     missing: Mapping[str, str] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class SteadyAnswer:
-    """An answer, None with a `reason` where there is none, and the CPU time (s) it took.
-
-    `periods` are the drive periods simulated.
-    """
-
-    seconds: float
-    value: float | None
-    reason: str = ""
-    periods: int = 0
 
 
 @dataclass(frozen=True)

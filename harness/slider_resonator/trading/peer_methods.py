@@ -24,7 +24,8 @@ from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
     reference_steady_velocity,
 )
-from slider_resonator.trading.method import STEADY, Method, SteadyAnswer, SteadyMethod
+from slider_resonator.steady.searches import SteadyAnswer
+from slider_resonator.trading.method import STEADY, Method, SteadyMethod
 from slider_resonator.trading.peers import event_free, located_scipy, moreau_jean
 from slider_resonator.trading.peers.switching_taylor import heyoka_in_one_call
 from slider_resonator.trading.problem import Problem

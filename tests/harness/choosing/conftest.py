@@ -6,11 +6,12 @@ import pytest
 
 from slider_resonator.choosing import choosing, probe
 from slider_resonator.choosing.candidate import Candidate
-from slider_resonator.choosing.steady_need import SteadyValue, find, timed_run
+from slider_resonator.choosing.steady_need import find, timed_run
 from slider_resonator.device.device import Device
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record
+from slider_resonator.steady.searches import SteadyAnswer
 
 STEP_COST = 1e-6
 """Stated cost of a communication step, s."""
@@ -40,7 +41,7 @@ def stated_costs(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
 
     def steady(
         instance: Instance, values: Mapping[str, float], name: str, candidate: Candidate
-    ) -> SteadyValue:
+    ) -> SteadyAnswer:
         found = find(instance, values, name, candidate)
         if candidate.model.fidelity > 0:
             return found

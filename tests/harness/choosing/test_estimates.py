@@ -9,10 +9,11 @@ from slider_resonator.arrays import Array
 from slider_resonator.choosing.choosing import choose_with
 from slider_resonator.choosing.errors import ErrorEstimate, Readings, beat_frequency, unseen_beat
 from slider_resonator.choosing.exact_inputs import exact_schedule, must_hold
-from slider_resonator.choosing.steady_need import SteadyValue, steady_error
+from slider_resonator.choosing.steady_need import steady_error
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record
 from slider_resonator.scenes.schema import AllowedTable
+from slider_resonator.steady.searches import SteadyAnswer
 from tests.harness.scene_text import scene_of
 
 POINTS = np.linspace(0.1, 1.0, 10)
@@ -144,9 +145,9 @@ def test_only_inputs_that_change_other_than_by_jumps_vary(text: str, varies: boo
 
 def test_the_error_of_a_value_is_at_least_that_of_the_search() -> None:
     reference, near, none = (
-        SteadyValue(2.0, "", 9, 0.1),
-        SteadyValue(2.5, "", 0, 0.1),
-        SteadyValue(None, "stuck: why", 0, 0.1),
+        SteadyAnswer(0.1, 2.0),
+        SteadyAnswer(0.1, 2.5),
+        SteadyAnswer(0.1, None, "stuck: why"),
     )
     assert steady_error(near, reference, 0).error == 0.5
     assert steady_error(reference, reference, 0).error == pytest.approx(2e-10)
