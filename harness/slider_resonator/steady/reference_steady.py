@@ -41,11 +41,8 @@ def reference_steady_velocity(
     `phase` in rad, `load` in N; `guess` (m/s) is where the search begins. `simulate` is any
     integrator, `tolerance` that of the state in units of its scale.
     """
-    count = common_period(ratio)
-    if count is None:
-        return None
-    period_map = _ReferencePeriodMap(device, phase, ratio, count, simulate)
     try:
+        period_map = _ReferencePeriodMap(device, phase, ratio, simulate)
         return steady_point(period_map, guess, load, tolerance).displacement / period_map.period
     except NoPeriodicMotion:
         return None
@@ -63,13 +60,10 @@ def reference_blocking_force(
 
     The arguments are those of `reference_steady_velocity`.
     """
-    count = common_period(ratio)
-    if count is None:
-        return None
-    period_map = _ReferencePeriodMap(device, phase, ratio, count, simulate)
-    # Without preload the load varies alone and friction is of the order of its amplitude.
-    warm = period_map.warm_up(0.0, 0.0)
     try:
+        period_map = _ReferencePeriodMap(device, phase, ratio, simulate)
+        # Without preload the load varies alone and friction is of the order of its amplitude.
+        warm = period_map.warm_up(0.0, 0.0)
         return blocked_point(period_map, warm, 0.0, device.max_friction, tolerance).load
     except NoPeriodicMotion:
         return None
@@ -79,17 +73,18 @@ class _ReferencePeriodMap(PeriodicRun):
     """The period map of a reference.
 
     The state has the entries of `STATE` that there are: no resonator at fidelity 1, where its
-    force is given, and no bristle with Coulomb friction.
+    force is given, and no bristle with Coulomb friction. Raises NoPeriodicMotion without a period.
     """
 
-    def __init__(
-        self, device: Device, phase: float, ratio: float, drive_periods: int, simulate: Simulate
-    ) -> None:
+    def __init__(self, device: Device, phase: float, ratio: float, simulate: Simulate) -> None:
+        count = common_period(ratio)
+        if count is None:
+            raise NoPeriodicMotion("no_common_period", f"frequency_ratio = {ratio!r} is no p/q")
         self.simulate = simulate
         self.device = device
         self.phase = phase
         self.ratio = ratio
-        self.drive_periods = drive_periods
+        self.drive_periods = count
         self.drive_period = 2.0 * pi / device.drive_frequency
         resonator = STATE[1:3] if device.fidelity == 2 else ()
         bristle = STATE[3:] if device.friction_law == 1 else ()
