@@ -141,6 +141,20 @@ def test_near_a_reference_of_zero_the_absolute_tolerance_counts(noise: float, pa
         assert np.isfinite(verdict.deviation), "a share of next to nothing means nothing"
 
 
+@pytest.mark.parametrize(("noise", "passed"), [(5e-19, True), (2e-18, False)])
+def test_zero_without_a_scale_may_be_the_rounding_of_a_usual_value(
+    noise: float, passed: bool
+) -> None:
+    verdict = judge(
+        fmu(record=RecordOf(resonator_displacement=noise * WAVE)),
+        reference(signal=lambda name, output: 0.0 * WAVE),
+        quantity="resonator_displacement",
+        reference="located_events",
+        relative=1e-8,
+    )
+    assert verdict.passed is passed
+
+
 def test_a_signal_without_oscillation_fails_and_one_too_short_could_not_run() -> None:
     expect: dict[str, Any] = {"quantity": "ripple_frequency", "value": 557.0, "relative": 1e-6}
     for still in (np.ones(1000), np.full(1000, np.nan)):

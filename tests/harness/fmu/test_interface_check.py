@@ -1,13 +1,14 @@
 """What a description may say differently from the interface, and what not."""
 
+import re
 from pathlib import Path
 
 from fmpy import read_model_description
 
 from slider_resonator.fmu.interface_check import description_faults, interface_problems
-from slider_resonator.fmu.opening import Fmu
+from slider_resonator.fmu.opening import Fmu, open_fmu
 from tests.fmus import both_fmus
-from tests.harness.faulty_fmus import redescribed
+from tests.harness.faulty_fmus import DESCRIPTION, altered, redescribed
 from tests.harness.golden import assert_as_before
 
 CHANGES = {
@@ -67,3 +68,14 @@ def test_dependencies_are_neither_missing_nor_invented(native_fmu: Path) -> None
         "normal_force is declared independent of phase, which acts on it",
         "reversals is not among the outputs of ModelStructure",
     ]
+
+
+def test_what_declares_no_dependencies_depends_on_all(native_fmu: Path, tmp_path: Path) -> None:
+    def alter(name: str, content: bytes) -> bytes:
+        declared = rb' dependencies="[^"]*" dependenciesKind="[^"]*"'
+        return re.sub(declared, b"", content) if name == DESCRIPTION else content
+
+    with open_fmu(altered(native_fmu, tmp_path / "other.fmu", alter)) as fmu:
+        unknowns = [*fmu.description.outputs, *fmu.description.initialUnknowns]
+        assert {one.dependencies for one in unknowns} == {None}
+        assert description_faults(fmu.description) == []

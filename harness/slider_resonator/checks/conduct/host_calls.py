@@ -191,10 +191,7 @@ def _has_category(instance: Instance, category: bytes) -> bool:
 
 
 def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
-    """Create an instance for another host, to which alone its refusals must be reported.
-
-    An FMU with log categories must report them without debug logging, too.
-    """
+    """Create an instance for another host, to which alone its refusals may be reported."""
     if instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
         return
     environments: list[int | None] = []
@@ -228,8 +225,6 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     if messages or instance.messages or set(environments) - {OTHER_HOST}:
         yield "an instance beside another reports to the host of that one"
     yield from (f"a refusal is logged {how}" for how in dict.fromkeys(wrong))
-    if _has_category(instance, EVERYTHING) and not environments:
-        yield "without debug logging a refusal is not reported"
 
 
 def _many_values_faults(instance: Instance) -> Iterator[str]:

@@ -20,6 +20,7 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES, Variable
 from slider_resonator.fmu.instance import Instance, SavedState
 from slider_resonator.fmu.run import Running
+from slider_resonator.rounding import is_same
 
 STEP = 1.7e-3
 """Size of a good step, s."""
@@ -329,7 +330,7 @@ def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
         trial.refuses(what, partial(_set_up_experiment, instance, arguments))
     with suppress(FMICallException):  # an FMU may ask for another experiment first
         instance.call("fmi2EnterInitializationMode")
-        if instance.value("last_event_time") != instance.time:
+        if not is_same(instance.value("last_event_time"), instance.time):
             trial.faults.append("an experiment is refused but changes the start time")
         instance.call("fmi2Reset")
     trial.refuses_values("before a run", settable)
