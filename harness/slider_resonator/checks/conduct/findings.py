@@ -12,6 +12,14 @@ from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.rounding import is_same
 
+SMOOTH = (
+    *("position", "velocity", "mean_velocity", "resonator_displacement", "resonator_velocity"),
+    *("normal_force", "friction_force", "reversals", "last_event_time"),
+)
+"""Outputs that show whether a call moves anything; predictions would cost too much."""
+UNKNOWN = 0x7FFFFFFF
+"""The value reference of no variable."""
+
 
 def differences(
     what: str,

@@ -25,6 +25,7 @@ from slider_resonator.checks.conduct.process import (
     crowd_faults,
     instance_leaks,
     process_faults,
+    step_leaks,
 )
 from slider_resonator.checks.conduct.refusals import explains
 from slider_resonator.checks.fmu_side import FmuSide
@@ -89,6 +90,7 @@ def host_faults(fmu: FmuSide) -> list[str]:
         slave.dll.fmi2FreeInstance(None)  # which is no error, and must not crash
         faults += crowd_faults(instance)
         faults += process_faults(instance)
+    faults += step_leaks(instance)
     faults += instance_leaks(instance)
     return faults
 

@@ -7,21 +7,26 @@ serve several instances: in threads, freed in their runs, or thousands.
 import ctypes
 import gc
 import locale
+import math
+import mmap
 import os
 import signal
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, nullcontext, suppress
+from ctypes import byref
 from functools import partial
-from itertools import repeat
+from itertools import count, repeat, takewhile
 from pathlib import Path
 from tempfile import TemporaryFile
 from threading import stack_size
+from typing import Any
 
 from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave
 
-from slider_resonator.checks.conduct.findings import is_refused
+from slider_resonator.checks.conduct.findings import SMOOTH, UNKNOWN, is_refused
 from slider_resonator.checks.conduct.replays import Replay
 from slider_resonator.device.schedule import schedule
 from slider_resonator.device.signal import constant
@@ -32,18 +37,14 @@ from slider_resonator.fmu.opening import open_fmu
 
 STEPS, STEP = 20, 1.1e-3
 """Steps (s) of a run."""
+LIFTED = {"normal_amplitude": 1.8, "load": 0.02}
+"""A device that sticks, slides and flies."""
 SHOWN = 80
 """Bytes that are shown of what an FMU prints."""
-HOST_SIGNALS = (signal.SIGINT, signal.SIGTERM)
-"""Signals whose handlers are those of the host."""
-WATCHED = (*HOST_SIGNALS, signal.SIGSEGV, signal.SIGFPE, signal.SIGABRT)
-"""Those that are compared: hosts report crashes by some."""
-ENVIRONMENT = ("TZ", "LC_ALL", "LANG")
-"""Variables of the environment that libraries may set."""
 
 
 def process_faults(instance: Instance) -> list[str]:
-    """Compare folder, locale, environment, open files and signals before and after a run.
+    """Compare what a process has before and after a run of an instance in it.
 
     Nothing is compared on Windows, where a process does not have all of these.
     """
@@ -62,31 +63,42 @@ def process_faults(instance: Instance) -> list[str]:
 def _traces(_: None, path: Path) -> list[str]:
     """Return what instances and their runs leave behind, in a process for this alone.
 
-    They may print on standard error when they are instantiated, as some do.
+    What a process inherits is made known before, as one in which the FMU runs has started it.
+    Instances may print on standard error when they are made, as some do.
     """
-    for one in HOST_SIGNALS:
+    for one in (signal.SIGINT, signal.SIGTERM):  # whose handlers are those of the host
         signal.signal(one, signal.default_int_handler)
+    for one in (signal.SIGALRM, signal.SIGCHLD, signal.SIGHUP, signal.SIGUSR1, signal.SIGUSR2):
+        signal.signal(one, signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_SETMASK, [])
+    os.umask(0o27)
+    with suppress(AttributeError, OSError):  # which not all systems have
+        os.sched_setaffinity(0, range(os.cpu_count() or 1))
     locale.setlocale(locale.LC_ALL, "C")
-    os.environ.update(dict.fromkeys(ENVIRONMENT, "C"))
+    os.environ.update(TZ="C", LC_ALL="C", LANG="C")  # which libraries may set
     flush = ctypes.CDLL(None).fflush
     with open_fmu(path) as fmu, TemporaryFile() as output, TemporaryFile() as errors:
         flush(None)
         os.dup2(output.fileno(), 1)
         os.dup2(errors.fileno(), 2)
-        before = _shared()
+        before = _shared(fmu.folder)
         with instantiate(fmu) as instance:
             flush(None)
             at_first = os.fstat(errors.fileno()).st_size
             with instance.explained():
                 for attempt in range(2):
-                    instance.start({"phase": float(attempt)})
-                    instance.step_by(STEP)
+                    instance.start({**LIFTED, "phase": float(attempt)})
+                    _use(instance)
                 instance.terminate()
             flush(None)
-        after = _shared()
+        if isinstance(instance.slave, FMU2Slave):
+            ctypes.CDLL(instance.slave.dll._name)  # fmpy loads it in another folder
+        after = _shared(fmu.folder)
         texts = (os.pread(output.fileno(), SHOWN, 0), os.pread(errors.fileno(), SHOWN, at_first))
     found = [
-        f"an instance and its run change {what}: {value!r} becomes {after[what]!r}"
+        f"an instance and its run change {what}: {sorted(value ^ after[what])}"
+        if isinstance(value, set)
+        else f"an instance and its run change {what}: {value!r} becomes {after[what]!r}"
         for what, value in before.items()
         if after[what] != value
     ]
@@ -97,26 +109,51 @@ def _traces(_: None, path: Path) -> list[str]:
     ]
 
 
-def _shared() -> dict[str, object]:
-    """Return what the process has, as far as this system tells."""
+def _use(instance: Instance) -> None:
+    """Step, make calls that are refused, go back to a state and switch logging."""
+    for _ in range(3 * STEPS):
+        instance.step_by(0.5 * STEP)
+        instance.read(SMOOTH)
+    is_refused(partial(instance.call, "fmi2DoStep", instance.time, -STEP, True))
+    is_refused(partial(instance.set, {"load": math.nan}))
+    is_refused(partial(instance.slave.getReal, [UNKNOWN]))
+    if instance.fmu.offers.canGetAndSetFMUstate:
+        state = SavedState.of(instance)
+        state.restore()
+        if instance.fmu.offers.canSerializeFMUstate:
+            state.transfer(instance)
+        state.free()
+    if isinstance(instance.slave, FMU2Slave):
+        instance.call("fmi2SetDebugLogging", False, 0, None)
+
+
+def _shared(folder: Path) -> dict[str, Any]:
+    """Return what the process has, as far as this system tells, with the files in a folder."""
     library = ctypes.CDLL(None)
-    library.setlocale.restype = library.getenv.restype = ctypes.c_char_p
-    shared: dict[str, object] = {
+    library.setlocale.restype = ctypes.c_char_p
+    variables = ctypes.POINTER(ctypes.c_char_p).in_dll(library, "environ")
+    shared: dict[str, Any] = {
         "the current folder": str(Path.cwd()),
-        "the files in it": sorted(path.name for path in Path.cwd().iterdir()),
+        "the files in it": {path.name for path in Path.cwd().iterdir()},
         "the locale": library.setlocale(locale.LC_ALL, None),
-        "the environment": {name: library.getenv(name.encode()) for name in ENVIRONMENT},
+        "the files of the FMU": {str(path.relative_to(folder)) for path in folder.rglob("*")},
+        "the environment": set(takewhile(bool, (variables[n] for n in count()))),
+        "its priority": os.getpriority(os.PRIO_PROCESS, 0),
+        "a timer": signal.getitimer(signal.ITIMER_REAL)[0] > 0.0,
     }
     with suppress(OSError):
         shared["the number of open files"] = len(os.listdir("/proc/self/fd"))
         status = dict(
             line.split(":\t", 1) for line in Path("/proc/self/status").read_text().splitlines()
         )
-        for key, what in (("SigIgn", "ignored"), ("SigCgt", "caught")):
+        for key, what in (("SigIgn", "ignored"), ("SigCgt", "caught"), ("SigBlk", "blocked")):
             bits = int(status[key], 16)
-            shared[f"the signals that are {what}"] = [
-                one.name for one in WATCHED if bits >> (one - 1) & 1
-            ]
+            shared[f"the signals that are {what}"] = {
+                one.name for one in signal.Signals if bits >> (one - 1) & 1
+            }
+        shared["the number of threads"] = int(status["Threads"])
+        shared["the mask of new files"] = status["Umask"].strip()
+        shared["the processors it may use"] = os.sched_getaffinity(0)
     return shared
 
 
@@ -127,8 +164,12 @@ RESETS = 5
 """How often each instance is started."""
 PATIENCE = 2.0
 """Seconds after which a slow FMU has made enough of them."""
-OF_INSTANCE, OF_STATE = 1024.0, 512.0
+OF_INSTANCE, OF_STATE, OF_STEP, OF_REFUSAL = 512.0, 64.0, 8.0, 64.0
 """Bytes that each may leave. The host itself leaves some."""
+STEPPED = 200, 2000
+"""Steps before memory is counted, and until it is counted again."""
+MAPPED = 4 << 20
+"""Bytes of memory that a process may map for its own purposes meanwhile."""
 
 
 class _Counts(ctypes.Structure):
@@ -140,10 +181,11 @@ class _Counts(ctypes.Structure):
 def instance_leaks(instance: Instance) -> Iterator[str]:
     """Make, run and reset instances beside another, and free them; a step of each is refused.
 
-    They are more than a small table of an FMU would hold. An instance that is the only one of a
-    process is reset alone.
+    They are more than a small table of an FMU would hold, and each must do what the first does. An
+    instance that is the only one of a process is reset alone.
     """
     once = instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess
+    ends = set[tuple[float, ...]]()
 
     def use() -> None:
         beside = nullcontext(instance) if once else instantiate(instance.fmu)
@@ -154,8 +196,28 @@ def instance_leaks(instance: Instance) -> Iterator[str]:
                 is_refused(partial(used.call, "fmi2DoStep", used.time, -STEP, True))
             for _ in range(STEPS):
                 used.step_by(STEP)
+            ends.add(tuple(used.read(SMOOTH).values()))
 
     yield from _leaks("instance", use, OF_INSTANCE)
+    if len(ends) > 1:
+        yield "instances that are made later have other outputs"
+
+
+def step_leaks(instance: Instance) -> Iterator[str]:
+    """Set and read values and step; make calls that are refused."""
+    instance.start({})
+
+    def use() -> None:
+        instance.set({"load": 0.01})
+        instance.step_by(STEP)
+        instance.read(("position", "friction_force"))
+
+    def refuse() -> None:
+        is_refused(partial(instance.call, "fmi2DoStep", instance.time, -STEP, True))
+        del instance.messages[:]
+
+    yield from _leaks("step", use, OF_STEP, STEPPED)
+    yield from _leaks("refusal", refuse, OF_REFUSAL)
 
 
 def state_leaks(instance: Instance) -> Iterator[str]:
@@ -165,6 +227,8 @@ def state_leaks(instance: Instance) -> Iterator[str]:
     def use() -> None:
         state = SavedState.of(instance)
         state.restore()
+        if instance.fmu.runs_without_python:  # pythonfmu forgets the state that was there
+            instance.call("fmi2GetFMUstate", byref(state.handle))
         if serialises:
             state.transfer(instance)
         state.free()
@@ -172,33 +236,40 @@ def state_leaks(instance: Instance) -> Iterator[str]:
     yield from _leaks("state", use, OF_STATE)
 
 
-def _leaks(what: str, use: Callable[[], None], allowed: float) -> Iterator[str]:
-    counts, done = list[int](), 0
-    for count in (CYCLES, MANY):
+def _leaks(
+    what: str,
+    use: Callable[[], None],
+    allowed: float,
+    numbers: tuple[int, int] = (CYCLES, MANY),
+) -> Iterator[str]:
+    counts, done = list[tuple[int, int]](), 0
+    for number in numbers:
         end, done = time.monotonic() + PATIENCE, 0
-        while done < count and time.monotonic() < end:
+        while done < number and time.monotonic() < end:
             try:
                 use()
             except (FMICallException, FmuError) as error:
-                yield f"no more than {done} can be made and freed of each {what}: {error}"
+                yield f"no more than {done} are possible of each {what}: {error}"
                 return
             done += 1
         gc.collect()
-        counts += _in_use()
-    left = (counts[-1] - counts[0]) / done if counts else 0.0
+        counts.append(_in_use())
+    (before, mapped_before), (after, mapped) = counts
+    left = max(after - before, mapped - mapped_before - MAPPED) / done
     if left > allowed:
-        yield f"each {what} that is made and freed leaves {left:.0f} bytes behind"
+        yield f"each {what} leaves {left:.0f} bytes behind"
 
 
-def _in_use() -> list[int]:
-    """Return the bytes that are allocated, nothing where the C library does not tell."""
+def _in_use() -> tuple[int, int]:
+    """Return the bytes that are allocated and mapped, 0 where the system does not tell."""
     try:
         count = ctypes.CDLL(None).mallinfo2
+        pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
     except (AttributeError, OSError, TypeError):
-        return []
+        return 0, 0
     count.restype = _Counts
     *_, mapped, _, _, used, _, _ = count().counts
-    return [used + mapped]
+    return used + mapped, pages * mmap.PAGESIZE
 
 
 INSTANCES = 4

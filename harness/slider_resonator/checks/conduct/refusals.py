@@ -13,7 +13,13 @@ from typing import Any
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Fatal
 
-from slider_resonator.checks.conduct.findings import adding_refusal, is_refused, other_value
+from slider_resonator.checks.conduct.findings import (
+    SMOOTH,
+    UNKNOWN,
+    adding_refusal,
+    is_refused,
+    other_value,
+)
 from slider_resonator.checks.conduct.output_derivatives import status_faults
 from slider_resonator.checks.conduct.replays import Replay
 from slider_resonator.checks.fmu_side import FmuSide
@@ -62,16 +68,9 @@ DERIVATIVE_ORDERS = (0, 2, -1)
 """Orders of derivatives of inputs that must be refused."""
 ENDING = {fmi2Discard: "Discard", fmi2Fatal: "Fatal"}
 """Statuses of a refusal that end more than a call; the same numbers in each version of FMI."""
-SMOOTH = (
-    *("position", "velocity", "mean_velocity", "resonator_displacement", "resonator_velocity"),
-    *("normal_force", "friction_force", "reversals", "last_event_time"),
-)
-"""Outputs that show whether a refused call moves anything; predictions would cost too much."""
 _NUMBER = re.compile(r"[-+]?(?:\bnan\b|\binf\b|\d+\.?\d*(?:e[-+]?\d+)?)", re.IGNORECASE)
 SHARPER = ("tolerance",)
 """Variables that an FMU may make smaller for itself, so that a message has another value."""
-UNKNOWN = 0x7FFFFFFF
-"""The value reference of no variable."""
 BEYOND = 1e3
 """Size of a step over the time: so large that parts of it are beyond the stop, too."""
 SHOWN_TO = 1e-5

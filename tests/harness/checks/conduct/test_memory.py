@@ -3,15 +3,18 @@
 import ctypes
 import gc
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import pytest
 
 from slider_resonator.checks.conduct.process import (
     OF_INSTANCE,
+    OF_REFUSAL,
     OF_STATE,
+    OF_STEP,
     instance_leaks,
     state_leaks,
+    step_leaks,
 )
 from slider_resonator.fmu.instance import Instance
 
@@ -29,29 +32,36 @@ def frozen() -> Iterator[None]:
 
 def test_a_sound_fmu_gives_everything_back(instance: Instance) -> None:
     instance.start({})
-    assert [*state_leaks(instance), *instance_leaks(instance)] == []
+    found = [*state_leaks(instance), *step_leaks(instance), *instance_leaks(instance)]
+    assert found == []
 
 
 @pytest.mark.parametrize(
-    ("kind", "call", "allowed"),
-    [("state", "getFMUstate", OF_STATE), ("instance", "freeInstance", OF_INSTANCE)],
+    ("kind", "call", "allowed", "check"),
+    [
+        ("state", "getFMUstate", OF_STATE, state_leaks),
+        ("instance", "freeInstance", OF_INSTANCE, instance_leaks),
+        ("step", "call", OF_STEP, step_leaks),
+        ("refusal", "call", OF_REFUSAL, step_leaks),
+    ],
 )
 def test_what_is_not_given_back_is_a_fault(
-    instance: Instance, monkeypatch: pytest.MonkeyPatch, kind: str, call: str, allowed: float
+    instance: Instance,
+    monkeypatch: pytest.MonkeyPatch,
+    kind: str,
+    call: str,
+    allowed: float,
+    check: Callable[[Instance], Iterator[str]],
 ) -> None:
     allocate = ctypes.CDLL(None).malloc
     allocate.argtypes, allocate.restype = [ctypes.c_size_t], ctypes.c_void_p
-    own = getattr(type(instance.slave), call)
+    caller = Instance if call == "call" else type(instance.slave)
+    own = getattr(caller, call)
 
-    def found(left: float) -> list[str]:
-        def leaking(slave: object, *arguments: object) -> object:
-            assert allocate(int(left))
-            return own(slave, *arguments)
+    def leaking(slave: object, *arguments: object) -> object:
+        assert allocate(int(4.0 * allowed))
+        return own(slave, *arguments)
 
-        monkeypatch.setattr(type(instance.slave), call, leaking)
-        instance.start({})
-        return [*{"state": state_leaks, "instance": instance_leaks}[kind](instance)]
-
-    assert found(0.25 * allowed) == []
-    (fault,) = found(4.0 * allowed)
-    assert fault.startswith(f"each {kind} that is made and freed leaves ")
+    instance.start({})
+    monkeypatch.setattr(caller, call, leaking)
+    assert any(fault.startswith(f"each {kind} leaves ") for fault in check(instance))
