@@ -80,7 +80,7 @@ def _factor(unit: str, display: str) -> float | None:
     named = _DISPLAYED.get(unit, {})
     if display in named:
         return named[display]
-    if unit in ("m", "m/s", "s", "N") and display[1:] == unit:
+    if unit in ("m", "m/s", "s", "N", "W") and display[1:] == unit:
         return _PREFIXES.get(display[0])
     return None
 

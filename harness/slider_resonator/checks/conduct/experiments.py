@@ -1,9 +1,14 @@
 """Experiments as hosts set them up: sums of steps, a tolerance, outputs read at the end."""
 
+import math
+import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from itertools import pairwise
 from math import isclose, sqrt
 
+from slider_resonator.checks.conduct.findings import is_refused
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.blocks import WARNED
@@ -18,6 +23,7 @@ EARLY_ROUNDING = 1e-9
 STEP, STEPS = 0.01, 6
 """Steps (s) that add up to more than their product, by rounding."""
 STEPS_ACCEPTED: Sequence[tuple[float, Mapping[str, float]]] = (
+    (1e-11, {}),
     (4.0, {"fidelity": 1.0}),
     (2e4, {"fidelity": 0.0, "averaging_order": 1.0}),
     (
@@ -35,11 +41,13 @@ STEPS_ACCEPTED: Sequence[tuple[float, Mapping[str, float]]] = (
     ),
     (1e-3, {"fidelity": 1.0, "damping_ratio": 1e-9, "resonator_frequency": 3500.0 / sqrt(1.1)}),
 )
-"""Steps (s) that must be accepted, and devices: of 2000 drive periods, of 11 million that are not
-resolved, of a slider that trembles on hard bristles under a slow drive, of next to no damping at
-resonance."""
+"""Steps (s) that must be accepted, and devices: very short ones, of 2000 drive periods, of 11
+million that are not resolved, of a slider that trembles on hard bristles under a slow drive, of
+next to no damping at resonance."""
 SHORT, MANY, TOGETHER = 1e-5, 120_000, 1000
 """Steps (s) of a host that samples the motion, their number, and how many another takes in one."""
+FEW, SLOWER = 5, 5.0
+"""How many times that number are compared with the first two, and how much slower they may be."""
 PATIENCE = 5.0
 """Seconds after which a slow FMU has taken enough of them."""
 SAMPLED = 1e-7
@@ -48,7 +56,7 @@ EARLY = -3.0
 """The time (s) at which these steps begin."""
 BRISTLES = {"friction_law": 1.0, "bristle_stiffness": 1e4}
 """A device that its parameter `tolerance` acts on."""
-TOLERANCES = (1e-3, 1e-6, 1e-10)
+TOLERANCES = (1e-2, 1e-3, 1e-6, 1e-10)
 """Tolerances that hosts define for an experiment."""
 
 
@@ -63,19 +71,23 @@ def experiment_faults(fmu: FmuSide) -> list[str]:
         ("up to a stop time that sums of steps exceed by rounding", (False, 0.0)),
         *((f"with a tolerance of {tolerance:g}", (True, tolerance)) for tolerance in TOLERANCES),
         ("with a tolerance that is not defined", (False, -1.0)),
+        ("with a tolerance of NaN that is not defined", (False, math.nan)),
     ):
         try:
             with instance.explained():
                 faults += _run_faults(instance, what, experiment)
         except Refusal as error:
             faults.append(f"an experiment {what} is refused: {error}")
-    try:
-        with instance.explained():
-            instance.start({}, EARLY, start_time=EARLY)
-            instance.outputs()
-            instance.terminate()
-    except Refusal as error:
-        faults.append(f"an experiment that ends where it starts is refused: {error}")
+    for start, stop in ((EARLY, EARLY), (0.0, sys.float_info.max)):
+        try:
+            with instance.explained():
+                instance.start({}, stop, start_time=start)
+                instance.outputs()
+                if stop == start and not is_refused(partial(instance.step_by, STEP)):
+                    faults.append(f"a step beyond the stop time {stop:g} s is accepted")
+                instance.terminate()
+        except Refusal as error:
+            faults.append(f"an experiment from {start:g} s to {stop:g} s is refused: {error}")
     with instance.explained():
         faults += _early_faults(instance)
         if instance.fmu.runs_without_python:
@@ -112,11 +124,15 @@ def _early_faults(instance: Instance) -> Iterator[str]:
 def _many_steps_faults(instance: Instance) -> Iterator[str]:
     """Run a device in very many steps, or those of a while, which must end where few do."""
     instance.start({"phase": 0.4})
-    began, steps = time.monotonic(), 0
-    while steps < MANY and time.monotonic() < began + PATIENCE:
+    times, steps = [time.monotonic()], 0
+    while steps < MANY and times[-1] < times[0] + PATIENCE:
         for _ in range(TOGETHER):
             instance.step_by(SHORT)
         steps += TOGETHER
+        times.append(time.monotonic())
+    taken = [late - early for early, late in pairwise(times)]
+    if min(taken[-FEW:]) > SLOWER * max(taken[:2]):
+        yield f"steps take {min(taken[-FEW:]) / max(taken[:2]):.0f} times as long after {steps}"
     found = instance.outputs()
     instance.start({"phase": 0.4})
     for _ in range(steps // TOGETHER):

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from ctypes import byref, c_char_p, c_double, c_int, c_uint, c_void_p
+from ctypes import byref, c_char_p, c_double, c_int, c_uint
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -40,6 +40,8 @@ ANSWERS = {"fmi2GetVersion": "2.0", "fmi2GetTypesPlatform": "default"}
 BESIDE = b"an instance beside another one"
 """The name of another instance."""
 
+STATUSES = [f"logStatus{name}".encode() for name in ("OK", "Warning", "Discard", "Error", "Fatal")]
+"""Log categories, each for messages of a status."""
 WARNINGS, EVERYTHING = b"logStatusWarning", b"logAll"
 """Log categories: one to which no refusal belongs, and that of all messages."""
 
@@ -67,7 +69,7 @@ def host_faults(fmu: FmuSide) -> list[str]:
     if isinstance(slave, Fmi3Slave):
         if not instance.fmu.offers.hasEventMode:
             raise NotApplicable("needs FMI 2.0, whose calls are tried, or hasEventMode = true")
-        return event_mode_faults(instance)
+        return [*event_mode_faults(instance), *process_faults(instance), *step_leaks(instance)]
     faults = [*_version_faults(slave)]
     if instance.fmu.runs_without_python:
         faults += _instance_faults(instance, slave)
@@ -105,9 +107,10 @@ def _version_faults(slave: FMU2Slave) -> Iterator[str]:
 
 
 def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
-    """Try to make instances that FMI 2.0 forbids, each with one argument wrong.
+    """Try to make instances that FMI 2.0 forbids, each with one argument wrong, and unusual ones.
 
     An FMU with log categories must say why it refuses them; FMI 2.0 does not ask that of others.
+    All that are made are freed in initialization mode.
     """
     folder, guid = _resources(instance), instance.fmu.description.guid
 
@@ -122,9 +125,12 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
         messages, callbacks = fmu_log.collect(name)
         arguments = name.encode(), kind, token.encode(), location.encode(), byref(callbacks)
         component = slave.dll.fmi2Instantiate(*arguments, visible, True)
-        fmu_log.forget(name)
         if component:
+            slave.dll.fmi2DoStep(component, 0.0, -1.0, True)  # which is refused with a message
+            slave.dll.fmi2SetupExperiment(component, False, 0.0, 0.0, False, 0.0)
+            slave.dll.fmi2EnterInitializationMode(component)
             slave.dll.fmi2FreeInstance(component)
+        fmu_log.forget(name)
         return bool(component), messages
 
     last = "1" if guid[-2] == "0" else "0"
@@ -141,10 +147,17 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
         elif explains(instance) and not messages:
             yield f"an instance {what} is refused without a message"
     # Some hosts show instances, and write the authority of a URI or leave it out.
-    for visible, location in ((True, folder), (False, folder.replace("file:///", "file:/"))):
-        is_made, _ = made(location=location, visible=visible)
+    unusual: list[dict[str, Any]] = [
+        {"visible": True},
+        {"location": folder.replace("file:///", "file:/")},
+        {"location": f"{folder}/"},
+        {"location": folder.replace("unpacked", "un%20packed")},
+        *({"name": name} for name in ("x" * 300, "größer", "100%d %s %n")),
+    ]
+    for argument in unusual:
+        is_made, _ = made(**argument)
         if not (is_made or instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess):
-            yield f"an instance with visible = {visible} and resources in {location} is not made"
+            yield f"an instance with {argument} is not made"
 
 
 def _resources(instance: Instance) -> str:
@@ -207,6 +220,8 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
             wrong.append("with the name of another instance")
         if status <= fmi2Warning:
             wrong.append("as a success")
+        if (category or b"") in STATUSES and STATUSES.index(category) != status:
+            wrong.append("in the category of another status")
         if _has_category(instance, EVERYTHING) and not _has_category(instance, category or b""):
             wrong.append("in a category that is not declared")
 
@@ -214,14 +229,24 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     callbacks.logger = fmi2CallbackLoggerTYPE(listen)
     callbacks.componentEnvironment = OTHER_HOST
     folder, guid = _resources(instance), instance.fmu.description.guid
-    made = slave.dll.fmi2Instantiate(
-        BESIDE, fmi2CoSimulation, guid.encode(), folder.encode(), byref(callbacks), False, False
+    make = partial(
+        slave.dll.fmi2Instantiate,
+        *(BESIDE, fmi2CoSimulation, guid.encode(), folder.encode(), byref(callbacks)),
+        *(False, False),
     )
-    if not made:
-        yield "an instance beside another is not made"
+    made, again = make(), make()
+    if not (made and again):
+        yield "an instance beside another, or a further one of the same name, is not made"
         return
+    slave.dll.fmi2FreeInstance(again)
     del instance.messages[:]
-    slave.dll.fmi2DoStep(c_void_p(made), c_double(0.0), c_double(-1.0), True)
+    slave.dll.fmi2SetupExperiment(made, False, 0.0, 0.0, False, 0.0)
+    slave.dll.fmi2EnterInitializationMode(made)
+    slave.dll.fmi2ExitInitializationMode(made)
+    slave.dll.fmi2DoStep(made, 0.0, STEP, True)
+    if environments:
+        yield "good calls are logged without debug logging"
+    slave.dll.fmi2DoStep(made, STEP, -1.0, True)
     slave.dll.fmi2FreeInstance(made)
     fmu_log.forget(BESIDE.decode())
     if messages or instance.messages or set(environments) - {OTHER_HOST}:

@@ -6,7 +6,7 @@ import numpy as np
 
 from slider_resonator.checks.conduct.replays import Replay, Rows
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.device.interface import INPUTS
+from slider_resonator.device.interface import INPUTS, TUNABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.instance import Instance, SavedState
 
@@ -75,6 +75,11 @@ def _begun(fmu: FmuSide) -> list[str]:
         instance.begin()
         if after_a_step() != growing:
             faults.append("derivatives set before initialization ends are forgotten")
+        instance.start(parameters)
+        instance.set_input_rates(RATES)
+        instance.set(instance.read(TUNABLES))
+        if after_a_step() != growing:
+            faults.append("derivatives of inputs are forgotten where parameters are set")
     return faults
 
 

@@ -64,6 +64,10 @@ EXPERIMENTS: Mapping[str, tuple[object, ...]] = {
 """Experiments, as arguments of fmi2SetupExperiment, that must be refused."""
 
 STEP_SIZES = (0.0, -0.0, -1e-3, math.nan, math.inf, -math.inf)
+OTHER_TIME = 5.0
+"""The start time (s) of an experiment before."""
+LARGE = 1e7
+"""A value over the nominal one that a variable without a maximum can have."""
 DERIVATIVE_ORDERS = (0, 2, -1)
 """Orders of derivatives of inputs that must be refused."""
 ENDING = {fmi2Discard: "Discard", fmi2Fatal: "Fatal"}
@@ -161,6 +165,8 @@ class Trial:
         bad = bad_values(last)[0]
         what = f"{last.name} = {bad!r} after {len(others)} good values {when}"
         self.refuses(what, partial(self._set, {**good, last: bad}), [last.name])
+        what = f"{last.name} = {bad!r} before {len(others)} good values {when}"
+        self.refuses(what, partial(self._set, {last: bad, **good}), [last.name])
         references = [self.instance.fmu.reference(v.name) for v in others]
         wrongs = {"an unknown variable": UNKNOWN}
         if last.kind == "Real":
@@ -232,17 +238,28 @@ class Trial:
                     attempt = partial(write, [reference], [good[kind]])
                     self.refuses(f"reading {what} as {kind}", partial(read, [reference]), (), told)
                     self.refuses(f"setting {what} as {kind}", attempt, (), told)
+        around = (references["load"], UNKNOWN, references["load"])
+        self.refuses("reading an unknown reference among others", partial(slave.getReal, around))
 
-    def accepts_bounds(self, variables: Sequence[Variable]) -> None:
-        """Set variables to their bounds, which they can have."""
+    def accepts_bounds(self, when: str, variables: Sequence[Variable]) -> None:
+        """Set variables to their bounds, or far without one, and back; they can have these."""
+        kept = self._values()
         for variable in variables:
-            for bound in (variable.minimum, variable.maximum):
+            far = LARGE * (variable.nominal or 1.0)
+            for bound in (variable.minimum, far if variable.maximum is None else variable.maximum):
                 if bound is None:
                     continue
+                what = f"{variable.name} = {bound!r} {when}"
                 try:
                     self._set({variable: bound})
                 except FMICallException:
-                    self.faults.append(f"{variable.name} = {bound!r} is refused, a bound")
+                    self.faults.append(f"{what} is refused, which is within its bounds")
+                    continue
+                found = self._values().get(variable.name, bound)
+                if not is_same(found, bound):
+                    self.faults.append(f"{what} is read as {found!r}")
+                if kept:
+                    self._set({variable: kept[variable.name]})
 
     def _derive(self, *derivatives: tuple[int, int, float]) -> None:
         """Set derivatives of inputs, each of a reference, an order and a value, in one call."""
@@ -307,6 +324,7 @@ def refusal_faults(fmu: FmuSide) -> list[str]:
         trial.refuses_calls("in initialisation mode")
         instance.begin()
         running.read()
+        _refuse_jumps(trial)
         for step in range(running.steps):
             tried = step in (1, running.steps // 2 + 1)
             # After derivatives of inputs are set, which a refused call must not drop.
@@ -322,19 +340,20 @@ def refusal_faults(fmu: FmuSide) -> list[str]:
 
 def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
     instance = trial.instance
-    instance.set_up()
+    instance.set_up(start_time=OTHER_TIME)
     instance.call("fmi2Reset")
+    instance.time = 0.0
     trial.reads = not is_refused(partial(instance.value, "load"))
     for what, arguments in EXPERIMENTS.items():
         trial.refuses(what, partial(_set_up_experiment, instance, arguments))
     with suppress(FMICallException):  # an FMU may ask for another experiment first
         instance.call("fmi2EnterInitializationMode")
         if not is_same(instance.value("last_event_time"), instance.time):
-            trial.faults.append("an experiment is refused but changes the start time")
+            trial.faults.append("a reset or an experiment that is refused changes the start time")
         instance.call("fmi2Reset")
     trial.refuses_values("before a run", settable)
     trial.refuses_calls("before a run")
-    trial.accepts_bounds(settable)
+    trial.accepts_bounds("before a run", settable)
 
 
 def _set_up_experiment(instance: Instance, arguments: tuple[object, ...]) -> None:
@@ -367,15 +386,25 @@ def _in_the_run(trial: Trial, present: list[Variable], *, restores: bool) -> Non
         trial.refuses(f"a step of {size!r} s", partial(_step, instance, instance.time, size), *told)
     beyond = BEYOND * (instance.time + STEP)
     trial.refuses("a step far beyond the stop", partial(_step, instance, instance.time, beyond))
+    _refuse_jumps(trial)
+    trial.faults += status_faults(instance, refused=True)
+    trial.accepts_bounds("in a run", anytime)
+    if state is not None:
+        state.restore()
+        state.free()
+        trial.refuses(
+            "a step far beyond the stop after a state is restored",
+            partial(_step, instance, instance.time, beyond),
+        )
+
+
+def _refuse_jumps(trial: Trial) -> None:
+    instance = trial.instance
     for jump in JUMPS:
         trial.refuses(
             f"a step {jump!r} s away from the present time",
             partial(_step, instance, instance.time + jump, STEP),
         )
-    trial.faults += status_faults(instance, refused=True)
-    if state is not None:
-        state.restore()
-        state.free()
 
 
 def _step(instance: Instance, time: float, size: float) -> None:

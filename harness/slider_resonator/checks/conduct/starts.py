@@ -1,14 +1,16 @@
 """What the variables of an FMU are before a run, and whether they keep what is set."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import partial
 from itertools import product
 
 from slider_resonator.checks.conduct.findings import is_refused, other_value, unequal
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS, VARIABLES
+from slider_resonator.device.interface import HELD, INPUTS, INTEGERS, PARAMETERS, VARIABLES
 from slider_resonator.fmu.instance import Instance
 
+STEP = 3e-3
+"""Size of a step, s."""
 PHASE = 1.3
 """A phase (rad) that acts on the normal force at the start."""
 
@@ -49,6 +51,9 @@ def start_faults(fmu: FmuSide) -> list[str]:
         faults += unequal(instance, first, "after initialization, as it was read in it")
         instance.step_by(1e-3)
         faults += unequal(instance, others, "after a step")
+        changed = {name: starts[name] for name in (*INPUTS, *HELD) if name in starts}
+        instance.set(changed)
+        faults += unequal(instance, changed, "after it was set in a run")
         instance.set_up()
         faults += early(instance, starts, "after a reset")
         instance.set(others)
@@ -56,13 +61,16 @@ def start_faults(fmu: FmuSide) -> list[str]:
         instance.set({name: others[name] for name in INPUTS})
         instance.call("fmi2Reset")
         faults += early(instance, starts, "after a reset in initialization mode")
-        faults += _set_in_initialization(instance)
+        faults += _set_in_initialization(instance, others)
         faults += _integer_faults(instance)
     return faults
 
 
-def _set_in_initialization(instance: Instance) -> Iterator[str]:
-    """Read outputs before and after an input is set in initialization mode."""
+def _set_in_initialization(instance: Instance, others: Mapping[str, float]) -> Iterator[str]:
+    """Set an input between readings in initialization mode, and then everything in it.
+
+    What is set there must act as if it was set before.
+    """
     instance.initialise({})
     instance.outputs()
     instance.set({"phase": PHASE})
@@ -72,6 +80,17 @@ def _set_in_initialization(instance: Instance) -> Iterator[str]:
     instance.initialise({"phase": PHASE})
     yield from unequal(instance, found, "in initialization mode, where the phase was set before")
     instance.begin()
+    for law in (0.0, 1.0):
+        values = {**others, "friction_law": law}
+        instance.start(values)
+        instance.step_by(STEP)
+        expected = instance.outputs()
+        instance.initialise({})
+        instance.set(values)
+        instance.begin()
+        instance.step_by(STEP)
+        when = f"where all was set in initialization mode, with friction_law = {law:g}"
+        yield from unequal(instance, expected, when)
 
 
 def _integer_faults(instance: Instance) -> Iterator[str]:

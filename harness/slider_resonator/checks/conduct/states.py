@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
-from ctypes import byref, c_char, c_void_p
+from ctypes import byref, c_char, c_void_p, create_string_buffer
 from functools import partial
 from itertools import product
 
@@ -10,6 +10,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
 from slider_resonator.checks.conduct.findings import adding_refusal, is_refused, other_value
+from slider_resonator.checks.conduct.output_derivatives import status_faults
 from slider_resonator.checks.conduct.process import state_leaks
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
@@ -22,8 +23,10 @@ STEP = 1.3e-3
 """Size of a step, s."""
 LOAD = 0.02
 """Load (N) of another instance."""
-STATES = 12
-"""How many states a host keeps at a time."""
+STATES, MANY = 12, 300
+"""How many states a host goes back to, and how many it keeps at a time."""
+OTHER = {"resonator_mass": 0.2, "damping_ratio": 0.1, "friction_faces": 1.0}
+"""Another device."""
 CHANGED = ("friction_coefficient", "base_amplitude")
 """Parameters that are set after a state is saved."""
 GUID = b"00000000-0000-0000-0000-000000000000"
@@ -101,6 +104,11 @@ def _damage_faults(instance: Instance) -> Iterator[str]:
         changed[place] ^= 1 << bit
         damaged[f"with bit {bit} of byte {place} turned"] = bytes(changed)
     if isinstance(slave, FMU2Slave) and instance.fmu.runs_without_python:
+        behind = b"\xff" * 8
+        target = create_string_buffer(content + behind)
+        instance.call("fmi2SerializeFMUstate", state, target, size)
+        if not target.raw[size:].startswith(behind):
+            yield "a state is serialised beyond its size"
         few = (c_char * (len(content) - 1))()
         with suppress(FMICallException):
             instance.call("fmi2SerializeFMUstate", state, few, len(few))
@@ -173,10 +181,14 @@ def _later_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
         instance.step_by(STEP)
         states.append(SavedState.of(instance))
         rows.append(instance.outputs())
+    for state in [SavedState.of(instance) for _ in range(MANY)]:
+        state.free()
     ways: dict[str, Callable[[], object]] = {
         "in a run": lambda: None,
         "after the end of a run": instance.terminate,
         "after a reset": lambda: instance.call("fmi2Reset"),
+        "in initialization mode": lambda: instance.initialise({}),
+        "in a run of another device": lambda: instance.start(OTHER),
     }
     for when, leave in ways.items():
         leave()
@@ -188,6 +200,8 @@ def _later_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
                 break
             if instance.outputs() != expected:
                 yield f"a state is another one {when}"
+            if instance.fmu.runs_without_python:  # pythonfmu keeps the time of the last step
+                yield from status_faults(instance)
         instance.start(parameters)
         instance.step_by(STEP)
     instance.terminate()
