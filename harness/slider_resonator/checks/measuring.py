@@ -28,7 +28,7 @@ from slider_resonator.checks.measures import (
 )
 from slider_resonator.checks.natural_scale import largest_fast_velocity
 from slider_resonator.errors import NotApplicable, SceneError
-from slider_resonator.fmu.interface_check import description_faults
+from slider_resonator.fmu.interface_check import archive_faults, description_faults
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 SHOWN = 12
@@ -150,7 +150,10 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "other_device_differences": replays.other_device_differences,
     "refusal_faults": refusals.refusal_faults,
     "start_faults": starts.start_faults,
-    "description_faults": lambda fmu: description_faults(fmu.instance.fmu.description),
+    "description_faults": lambda fmu: [
+        *description_faults(fmu.instance.fmu.description),
+        *archive_faults(fmu.instance.fmu.folder.resolve(), fmu.instance.fmu.description),
+    ],
     "dependency_faults": dependencies.dependency_faults,
     "device_faults": devices.device_faults,
     "experiment_faults": experiments.experiment_faults,

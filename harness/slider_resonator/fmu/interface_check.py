@@ -1,7 +1,9 @@
 """Checking that a model description has the interface that the harness needs, with its units."""
 
+import re
 from collections.abc import Iterator, Mapping, Sequence, Set
 from math import isclose, isfinite, pi
+from pathlib import Path
 
 from fmpy.model_description import (
     DefaultExperiment,
@@ -179,6 +181,41 @@ def description_faults(description: ModelDescription) -> list[str]:
     if description.coSimulation.needsExecutionTool:
         faults.append("needsExecutionTool is true, must be false: hosts refuse the FMU")
     return faults
+
+
+MAGIC = {
+    ".dll": (b"MZ",),
+    ".so": (b"\x7fELF",),
+    ".dylib": (b"\xcf\xfa\xed\xfe", b"\xca\xfe\xba\xbe"),
+}
+"""What binaries begin with, by the end of their names."""
+
+
+def archive_faults(folder: Path, description: ModelDescription) -> Iterator[str]:
+    """Find binaries that are not of their platform, and source files that are missing or unlisted.
+
+    Headers of FMI come with the host.
+    """
+    for binary in folder.glob(f"binaries/*/{description.coSimulation.modelIdentifier}.*"):
+        begins = MAGIC.get(binary.suffix)
+        if begins and not binary.read_bytes().startswith(begins):
+            yield f"{binary.relative_to(folder)} is no binary of its platform"
+    sources = folder / "sources"
+    sets = [one for build in description.buildConfigurations for one in build.sourceFileSets]
+    listed = [name for one in sets for name in one.sourceFiles]
+    searched = [sources / name for one in sets for name in ("", *one.includeDirectories)]
+    present = [path for path in sources.rglob("*") if path.suffix in (".c", ".h")]
+    needed = {sources / name: "which is listed" for name in listed}
+    for path in present:
+        text = path.read_text(encoding="utf-8", errors="replace")
+        for name in re.findall(r'^\s*#\s*include\s+"(?!fmi)([^"]+)"', text, re.MULTILINE):
+            places = [(base / name).resolve() for base in (path.parent, *searched)]
+            found = next((place for place in places if place.is_file()), places[0])
+            needed[found] = f"which {path.name} includes"
+    yield from (f"{p.name}, {why}, is missing" for p, why in needed.items() if not p.is_file())
+    if listed:
+        unlisted = {path.resolve() for path in present if path.suffix == ".c"} - {*needed}
+        yield from (f"{path.name} is not among the source files" for path in unlisted)
 
 
 def _experiment_faults(experiment: DefaultExperiment | None) -> Iterator[str]:

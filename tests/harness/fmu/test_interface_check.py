@@ -2,10 +2,15 @@
 
 import re
 from pathlib import Path
+from zipfile import ZipFile
 
 from fmpy import read_model_description
 
-from slider_resonator.fmu.interface_check import description_faults, interface_problems
+from slider_resonator.fmu.interface_check import (
+    archive_faults,
+    description_faults,
+    interface_problems,
+)
 from slider_resonator.fmu.opening import Fmu, open_fmu
 from tests.fmus import both_fmus
 from tests.harness.faulty_fmus import DESCRIPTION, altered, redescribed
@@ -79,3 +84,17 @@ def test_what_declares_no_dependencies_depends_on_all(native_fmu: Path, tmp_path
         unknowns = [*fmu.description.outputs, *fmu.description.initialUnknowns]
         assert {one.dependencies for one in unknowns} == {None}
         assert description_faults(fmu.description) == []
+
+
+def test_files_that_are_missing_unlisted_or_of_another_platform_are_named(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    description = read_model_description(str(native_fmu))
+    with ZipFile(native_fmu) as archive:
+        archive.extractall(tmp_path)
+    assert [*archive_faults(tmp_path, description)] == []
+    (tmp_path / "sources/component/component.h").unlink()
+    (tmp_path / "sources/base/other.c").touch()
+    (tmp_path / "binaries/win64").mkdir(exist_ok=True)
+    (tmp_path / "binaries/win64/SliderResonator.dll").write_bytes(b"\x7fELF")
+    assert len([*archive_faults(tmp_path, description)]) == 3

@@ -15,6 +15,8 @@ SITUATIONS: Sequence[Mapping[str, float]] = (
     {"initial_velocity": 0.3, "load": 0.1, "frequency_ratio": 3.0, "phase": 0.5},
     {"fidelity": 1.0, "load": 0.03, "phase": 1.0},
     {"fidelity": 0.0, "phase": 1.0},
+    {"fidelity": 0.0, "averaging_order": 1.0, "phase": 1.0},
+    {"load": 0.25},
     {"friction_law": 1.0, "initial_velocity": 0.2, "phase": 0.2},
     {"base_amplitude": 1e-8, "load": 0.02},  # at rest
     {"normal_preload": 0.5, "initial_velocity": 0.1, "phase": 2.0},  # with flight
@@ -36,7 +38,8 @@ def dependency_faults(fmu: FmuSide) -> list[str]:
     faults: list[str] = []
     names = [name for name in SETTABLE if name in instance.fmu.variables]
     chosen = ("fidelity", "friction_law", "averaging_order")  # each has a situation of its own
-    for situation in SITUATIONS:
+    for values in SITUATIONS:
+        situation = {n: value for n, value in values.items() if n in instance.fmu.variables}
         instance.start(situation)
         with instance.explained():
             before = instance.outputs()
