@@ -202,7 +202,8 @@ def archive_faults(folder: Path, description: ModelDescription) -> Iterator[str]
             yield f"{binary.relative_to(folder)} is no binary of its platform"
     sources = folder / "sources"
     sets = [one for build in description.buildConfigurations for one in build.sourceFileSets]
-    listed = [name for one in sets for name in one.sourceFiles]
+    # An FMU without any sources can be run all the same.
+    listed = [name for one in sets for name in one.sourceFiles if sources.is_dir()]
     searched = [sources / name for one in sets for name in ("", *one.includeDirectories)]
     present = [path for path in sources.rglob("*") if path.suffix in (".c", ".h")]
     needed = {sources / name: "which is listed" for name in listed}
