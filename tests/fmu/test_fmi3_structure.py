@@ -39,6 +39,7 @@ def test_the_flange_names_variables(native_3_fmu: Path, unpacked_3: Unpacked) ->
 SCENES = ("interface", "changing_inputs", "tuned", "burst")
 
 
+@pytest.mark.isolated  # some scenes judge what an FMU does to its process
 @pytest.mark.parametrize("name", SCENES)
 def test_scene_passes(native_3_fmu: Path, name: str) -> None:
     (result,) = validate([native_3_fmu], [find_scene(name)])

@@ -31,10 +31,10 @@ class Check:
     For a signal, `fmu` and `reference` are peaks, and `deviation` and `allowed` shares of `scale`,
     in its unit: the reference's peak, or what a reference near zero counts as. For a number, and
     for times of events, they carry a unit and `scale` is None. `against` is the name of the
-    reference, "value", or for a bound `AT_MOST` or `AT_LEAST`. `at` is what a sweep
-    varies. A signal that fails is beyond what is allowed from `first_time` (s) on and farthest at
-    `worst_time` (s), where it is `fmu_then` and the reference `reference_then`. A deviation is counted from the edge of a tube, where there is one; `tube` is
-    its half width in drive periods.
+    reference, "value", or for a bound `AT_MOST` or `AT_LEAST`. `at` is what a sweep varies. A
+    signal that fails is beyond what is allowed from `first_time` (s) on and farthest at
+    `worst_time` (s), where it is `fmu_then` and the reference `reference_then`. A deviation is
+    counted from the edge of a tube, where there is one; `tube` is its half width in drive periods.
     """
 
     scene: str
