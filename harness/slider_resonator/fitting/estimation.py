@@ -7,6 +7,7 @@ terms are those of nonlinear regression: Seber and Wild, Nonlinear Regression (1
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache, partial
+from math import nan
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,30 +44,26 @@ def predict_between(
     instance: Instance, parameters: Mapping[str, float], points: Sequence[Point]
 ) -> list[Point]:
     """Return the points with the FMU's output as measured, without those where it is not valid."""
-    outputs = [_output(instance, {**parameters, **point.values}, point) for point in points]
-    return [
-        replace(point, measured=found)
-        for point, found in zip(points, outputs, strict=True)
-        if found is not None
-    ]
+    outputs = [_output(instance, parameters, point) for point in points]
+    found = zip(points, outputs, strict=True)
+    return [replace(point, measured=one) for point, one in found if one is not None]
 
 
-def _output(instance: Instance, values: Mapping[str, float], point: Point) -> float | None:
+def _output(instance: Instance, parameters: Mapping[str, float], point: Point) -> float | None:
     """Return the output of the FMU for a steady quantity, None where it is not valid."""
     has_validity = "prediction_valid" in instance.fmu.outputs
-    instance.start(values)
+    instance.start({**parameters, **point.values})
     with instance.explained():
         read = instance.read([point.quantity, *(["prediction_valid"] if has_validity else [])])
     return read[point.quantity] if read.get("prediction_valid") == 1.0 else None
 
 
 def _steady(instance: Instance, parameters: Mapping[str, float], point: Point) -> float:
-    values = {**parameters, **point.values}
-    output = _output(instance, values, point)
-    if output is not None:
-        return output
-    found = getattr(SEARCHES[point.quantity](instance, values), point.quantity)
-    return float("nan") if found is None else float(found)
+    output = _output(instance, parameters, point)
+    if output is None:
+        search_for = SEARCHES[point.quantity]
+        output = getattr(search_for(instance, {**parameters, **point.values}), point.quantity)
+    return nan if output is None else float(output)
 
 
 NO_MOTION = 10.0
@@ -367,9 +364,7 @@ def open_directions(best: Minimum, scale: float) -> list[OpenDirection]:
     """
     if not np.all(np.isfinite(best.jacobian)):
         raise HarnessError("the outputs of the FMU are not finite beside the solution")
-    _, singular, directions = np.linalg.svd(best.jacobian, full_matrices=True)
-    sizes = np.zeros(len(directions))
-    sizes[: len(singular)] = singular
+    _, sizes, directions = np.linalg.svd(best.jacobian, full_matrices=False)
     found = []
     for size, direction in zip(sizes, directions, strict=True):
         nothing = size <= NOTHING * max(sizes[0], 1e-300)

@@ -16,6 +16,7 @@ from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS, VARI
 from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fitting.estimation import (
+    LEAST_NOISE,
     Free,
     Minimum,
     Problem,
@@ -57,8 +58,6 @@ NO_INTERVALS = (
 )
 MET = 1e-4
 """Error, in root mean squares of the quantity, up to which as many parameters meet a number."""
-ROUNDING = 1e-8
-"""Error, likewise, that counts as none where there are more numbers."""
 
 
 def free_parameters(
@@ -238,9 +237,8 @@ def _problem(
 def _supposed(problem: Problem, run: Runner) -> dict[str, Array]:
     """Return what the device before the fit predicts, as `miss_notes` has it; {} if it fails."""
     start = problem.values(problem.start)
-    meant = {"": problem.measurements}
-    for what, (name, factor) in SUPPOSITIONS.items():
-        meant[what] = problem.measurements.multiplied(name, factor)
+    data = problem.measurements
+    meant = {"": data} | {what: data.multiplied(*how) for what, how in SUPPOSITIONS.items()}
     tasks = [partial(predict, parameters=start, measurements=one) for one in meant.values()]
     try:
         return dict(zip(meant, run("supposing", tasks), strict=True))
@@ -288,7 +286,7 @@ def _solutions(
     its interval.
     """
     count, is_known = len(searched[0].residuals), searched[0].problem.measurements.knows_deviations
-    deviances = np.array([one.deviance(ROUNDING if spare else MET) for one in searched])
+    deviances = np.array([one.deviance(LEAST_NOISE if spare else MET) for one in searched])
     excesses, same = deviances - deviances.min(), SAME * count
     region = quantile**2 if is_known else count * np.log1p(quantile**2 / max(spare, 1))
     found: list[int] = []

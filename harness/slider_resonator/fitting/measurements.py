@@ -138,8 +138,7 @@ class Measurements:
             name, source, _ = self.places[int(np.argmin(known))]
             raise HarnessError(
                 f"{np.count_nonzero(known)} of {len(known)} numbers have a standard deviation; "
-                f"must be all or none: give {source} a column {name}_std, or take such columns out "
-                "of the others, and the fit finds the noise of each"
+                f"must be all or none: give {source} a column {name}_std, or take all such out"
             )
         return bool(known.all())
 

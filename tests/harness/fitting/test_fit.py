@@ -245,16 +245,6 @@ def test_what_cannot_be_free_is_refused(
     assert said in str(error.value)
 
 
-def test_numbers_that_no_device_has_are_not_met(instance: Instance) -> None:
-    found = fitted(instance, datasheet(5.0, None, []), ["friction_coefficient"])
-    assert found.unmet == (0,)
-    said = "\n".join(found.sentences())
-    assert "as many parameters as numbers: not solved" in said
-    reached = found.measurements.shown("steady_velocity", float(found.predicted[0]))
-    assert f"(datasheet, no load) must be 5 m/s, the nearest found is {reached}" in said
-    assert "not met: steady_velocity" in str(found)
-
-
 @pytest.mark.parametrize(("count", "factor"), [(20, 1.5), (12, 0.1)])
 def test_outliers_are_named_and_noise_is_not(instance: Instance, count: int, factor: float) -> None:
     points = [
