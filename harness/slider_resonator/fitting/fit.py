@@ -146,8 +146,7 @@ def fit(
     """
     problem = _problem(measurements, names, values, bounds or {})
     notes = data_notes(problem.measurements, problem.parameters)
-    free, count = problem.free, len(measurements.measured)
-    spare = count - len(free)
+    free, spare = problem.free, len(measurements.measured) - len(names)
     is_known = measurements.knows_deviations
     tasks = [partial(search, problem=problem, start=one) for one in _starts(problem, starts)]
     try:

@@ -40,8 +40,7 @@ def fit_figure(measurements: Measurements, numbers: Array, between: Sequence[Poi
                 values = np.array([set_value(point, first) for point in shown])
                 x = drawn(first, VARIABLES[first].unit, values)
             else:
-                numbered = np.arange(1.0, len(shown) + 1.0)
-                x = Drawn("number of the measurement", "1", numbered)
+                x = Drawn("number of the measurement", "1", np.arange(1.0, len(shown) + 1.0))
             beyond = np.array([point.measured for point in more])
             _draw(next(columns), x, quantity, "", numbers[:, rows], beyond, curves)
         begin = len(points)
@@ -87,8 +86,7 @@ def _draw(
         below.plot(x.values[own], numbers[2][own], "o", ms=3, color=fit)
     above.set_title(f"{name.replace('_', ' ')} [{unit}]{source}")
     if len(curves) > 1:
-        title = "points measured, lines fit"
-        above.legend(title=title, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+        above.legend(title="points measured, lines fit", loc="upper left", bbox_to_anchor=(1, 1))
     elif not above.figure.legends:
         shown = above.get_legend_handles_labels()
         above.figure.legend(*shown, loc="outside upper right", ncols=2)
