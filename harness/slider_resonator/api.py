@@ -59,7 +59,7 @@ from slider_resonator.stressing.run import TIME_LIMIT as CASE_LIMIT
 from slider_resonator.stressing.run import StressResult, run_cases
 from slider_resonator.sweeping.grid import grid_from, read_grid
 from slider_resonator.sweeping.sweeping import SweepResult, run_sweep
-from slider_resonator.trading.measure import BUDGET, REPEATS, measure_trades, opened
+from slider_resonator.trading.measure import BUDGET, REPEATS, measure_trade, opened
 from slider_resonator.trading.measure import TIME_LIMIT as TRADE_LIMIT
 from slider_resonator.trading.problem import problem_of
 from slider_resonator.trading.result import Trade
@@ -332,7 +332,8 @@ def trade(
     read = _scene_of(scene, _stated(device), values)
     problems = [problem_of(point.scene, point.at, periods) for point in read.points()]
     with opened(_fmus(fmus), time_limit) as instances:
-        return tuple(measure_trades(problems, instances, repeats=repeats, budget=budget))
+        measured = partial(measure_trade, instances=instances, repeats=repeats, budget=budget)
+        return tuple(map(measured, problems))
 
 
 def _scene_of(

@@ -10,9 +10,10 @@ from slider_resonator.commands import options
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, print_json, print_text
 from slider_resonator.output.files import PICTURE_SUFFIXES, distinct, make_folder
+from slider_resonator.output.progress import part_of
 from slider_resonator.output.progress_bar import progress_bar
 from slider_resonator.output.readable import number_of, one_line
-from slider_resonator.trading.measure import BUDGET, REPEATS, TIME_LIMIT, measure_trades, opened
+from slider_resonator.trading.measure import BUDGET, REPEATS, TIME_LIMIT, measure_trade, opened
 from slider_resonator.trading.page import write_trades
 from slider_resonator.trading.plots import draw_picture
 from slider_resonator.trading.problem import Problem, problem_of
@@ -116,12 +117,13 @@ def trade_command(
         progress_bar() as progress,
     ):
         make_folder(out)
-        for trade in measure_trades(problems, instances, progress, repeats=repeats, budget=budget):
-            trades.append(trade)
+        for index, problem in enumerate(problems):
+            part = part_of(progress, index, len(problems))
+            trades.append(measure_trade(problem, instances, part, repeats=repeats, budget=budget))
             # After each scene, so that a later failure does not lose minutes of measurement.
-            index, rows, omissions = tables.values()
+            page, rows, omissions = tables.values()
             write_tables(rows, omissions, trades)
-            write_trades(index, trades, provenance)
+            write_trades(page, trades, provenance)
     if picture is not None:
         draw_picture(trades[0], picture)
     for page in pages:

@@ -17,7 +17,7 @@ import numpy as np
 
 from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
-from slider_resonator.output.progress import Progress, counted, no_progress, part_of
+from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.references.resolved.contact import STICK
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trading.fmu_methods import FmuMethods, TaskRunner
@@ -98,26 +98,12 @@ def opened(fmus: Sequence[Path], time_limit: float) -> Iterator[dict[str, Isolat
         yield instances
 
 
-def measure_trades(
-    problems: Sequence[Problem],
+def measure_trade(
+    problem: Problem,
     instances: Mapping[str, TaskRunner],
     progress: Progress = no_progress,
     *,
     repeats: int = REPEATS,
-    budget: float = BUDGET,
-) -> Iterator[Trade]:
-    """Measure all methods on problems, and yield each result; raises as `measure_trade` does."""
-    for index, problem in enumerate(problems):
-        part = part_of(progress, index, len(problems))
-        yield measure_trade(problem, instances, part, repeats=repeats, budget=budget)
-
-
-def measure_trade(
-    problem: Problem,
-    instances: Mapping[str, TaskRunner],
-    progress: Progress,
-    *,
-    repeats: int,
     budget: float = BUDGET,
 ) -> Trade:
     """Measure all methods on a problem; `instances` are our FMUs by name.

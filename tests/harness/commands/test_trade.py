@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator.commands import trade
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.steady import shooting
-from slider_resonator.trading import measure as measuring
 from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.peer_methods import peer_methods
 from slider_resonator.trading.problem import Problem
@@ -94,7 +94,7 @@ def test_measurements_before_an_error_or_an_interruption_are_kept(
             raise error
         return TRADE
 
-    monkeypatch.setattr(measuring, "measure_trade", measure)
+    monkeypatch.setattr(trade, "measure_trade", measure)
     result = call("trade", "table_1", "lugre", "--out", tmp_path, "--fmu", native_fmu)
     assert result.exit_code == code
     assert said in result.stderr
@@ -105,6 +105,6 @@ def test_measurements_before_an_error_or_an_interruption_are_kept(
 
 def test_public_keys(native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     measured = replace(TRADE, omissions=(Omission("s", "CVODE", "all", "not installed"),))
-    monkeypatch.setattr(measuring, "measure_trade", lambda *_, **__: measured)
+    monkeypatch.setattr(trade, "measure_trade", lambda *_, **__: measured)
     arguments = ["--out", tmp_path, "--fmu", native_fmu, "--json"]
     assert_public_keys("trade", call("trade", *arguments).stdout)
