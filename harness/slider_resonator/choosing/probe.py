@@ -76,11 +76,10 @@ class Probe:
         self._leaps = replace(self.reference_model, fidelity=0, averaging_order=2)
         self.averaging_orders = (1, 2) if instance.fmu.has_orders else (None,)
         self.ladder: tuple[float | None, ...] = (None,)
-        self._finest = self.duration
         if self.run_needs:
             most = MAX_FOLLOWED_STEPS if can_interpolate else MAX_STEPS
-            self.ladder = ladder = step_ladder(scene, self.run_needs, most, varying=self.varying)
-            self._finest = ladder[-1]
+            self.ladder = step_ladder(scene, self.run_needs, most, varying=self.varying)
+        self._finest = self.ladder[-1] or self.duration
         self.drive_periods = 0.0
         """Drive periods that the FMU has resolved so far, with those of searches."""
         self._references: dict[float, Record] = {}

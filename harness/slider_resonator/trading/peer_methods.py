@@ -171,15 +171,12 @@ def peer_answers(problem: Problem) -> Iterator[SteadyMethod]:
 
 def _run(problem: Problem, peer: Peer, periods: int) -> tuple[float, Solution]:
     began = process_time()
-    times, ends = problem.readings(periods), problem.ends(periods)
-    if problem.beat is not None:
-        times = np.union1d(times, ends)
+    ends = np.empty(0) if problem.beat is None else problem.ends(periods)
+    times = np.union1d(problem.readings(periods), ends)
     solution = peer.follow(problem.device, problem.lines(periods), times)
-    if problem.beat is not None:
-        position = solution.position[np.searchsorted(times, ends)]
-        history = ends[1:], np.diff(position) / problem.period
-        solution = replace(solution, history=history)
-    return process_time() - began, solution
+    position = solution.position[np.searchsorted(times, ends)]
+    history = ends[1:], np.diff(position) / problem.period
+    return process_time() - began, replace(solution, history=history)
 
 
 def _seconds(run: Callable[[int], tuple[float, Solution]], periods: int) -> float:
