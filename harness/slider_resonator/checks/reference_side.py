@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import pi
+from math import pi, tau
 from typing import Any
 
 import numpy as np
@@ -223,7 +223,8 @@ class ReferenceSide:
         begin, end = self.scene.drive_periods.ends(self.times[-1:])[0].tolist()
         changes = [held.start for held in self.scene.schedule().held()]
         events = np.append(self.trajectory(reference).event_times, changes)
-        times, weights = quadrature(events, begin, end)
+        swings = np.arange(begin, end, tau / self.device.resonator_frequency)
+        times, weights = quadrature(np.append(events, swings), begin, end)
         run = self._simulate(reference, times)
         return float(np.sum(weights * run.friction_force * run.velocity) / (end - begin))
 
