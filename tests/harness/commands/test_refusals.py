@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator.commands import options
 from tests.harness.calling import call
 from tests.harness.golden import SCREENS, assert_as_before, without_long_lists
 
@@ -27,6 +28,7 @@ def test_refused_commands_write_nothing(tmp_path: Path, monkeypatch: pytest.Monk
     for name, text in FILES.items():
         (tmp_path / name).write_text(text)
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(options, "default_fmus", lambda: (Path("none.fmu"),))  # built or not
     said = []
     lines = (SCREENS / FILE).read_text(encoding="utf-8").splitlines()
     for command in (line.removeprefix(PROMPT) for line in lines if line.startswith(PROMPT)):
