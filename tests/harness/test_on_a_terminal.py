@@ -94,21 +94,7 @@ def test_an_interrupted_build_ends_with_130(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("arguments", "counted"),
-    [
-        (("choose", "feed_forward"), r"\d of 4: \S"),
-        # 1009 is prime: all evaluations run over a thousand drive periods.
-        (("steady", "--set", f"frequency_ratio={1 + 500 / 1009!r}"), r"drive period.+f some \d+"),
-        (("blocking", "--set", f"frequency_ratio={1 + 500 / 1009!r}"), r"drive period.+f some \d+"),
-    ],
-)
-def test_a_search_counts_what_it_does(
-    native_fmu: Path, python_fmu: Path, arguments: tuple[str, ...], counted: str
-) -> None:
-    command, *others = arguments
-    named = ("--fmu", native_fmu) if command == "choose" else (python_fmu,)
-    denominator = () if command == "choose" else ("--max-denominator", 1009)
-    code, shown = on_terminal(command, *named, *others, *denominator)
-    assert code in (0, 1), shown
-    assert re.search(counted, shown), shown
+def test_a_choice_counts_what_it_does(native_fmu: Path) -> None:
+    code, shown = on_terminal("choose", "feed_forward", "--fmu", native_fmu)
+    assert code == 0, shown
+    assert re.search(r"\d of 4: \S", shown), shown
