@@ -32,7 +32,7 @@ LEAPS = 10.0
 """Largest difference of motion that leaps, in tolerances and over the peak: each build may err by
 some tolerances of its own, as their steps differ."""
 
-AVERAGES = 1e-5
+AVERAGES = 1e-6
 """The same of averages of first order, which err by more: each build integrates them in its own
 way."""
 

@@ -19,13 +19,6 @@ double next_slow_boundary(const Device *device, double ratio, double direction) 
     return direction * next;
 }
 
-double turning_at(double velocity, double fast_velocity) {
-    if (fabs(velocity) >= fast_velocity) {
-        return velocity > 0.0 ? 0.0 : PI;
-    }
-    return acos(velocity / fast_velocity);
-}
-
 /* The table of means, where one pays: for a load whose phase enters by sine and cosine alone, or not at all. */
 static const FrictionTable *table_of(const SlowFriction *slow) {
     const VibratingLoad *load = &slow->load;

@@ -23,9 +23,6 @@ typedef struct {
     bool stands;                /* whether the load itself is slow, at a frequency ratio near 0 */
 } SlowFriction;
 
-/* Angle tau at which sliding turns forward [rad] at a slow velocity; 0 or pi where it never reverses. */
-double turning_at(double velocity, double fast_velocity);
-
 /* The mean friction of all faces from drive phase `theta` and normal phase `psi` [rad] on. */
 SlowFriction slow_friction_of(const System *system, double theta, double psi);
 

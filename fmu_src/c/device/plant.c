@@ -64,6 +64,13 @@ FastVibration fast_vibration_of(const Device *device) {
     return fast;
 }
 
+double turning_at(double velocity, double fast_velocity) {
+    if (fabs(velocity) >= fast_velocity) {
+        return velocity > 0.0 ? 0.0 : PI;
+    }
+    return acos(velocity / fast_velocity);
+}
+
 static FlightWindow flight_window(const Device *device) {
     double preload = device->normal_preload, amplitude = device->normal_amplitude;
     if (preload == 0.0 && amplitude == 0.0) {

@@ -80,6 +80,9 @@ typedef struct {
 
 FastVibration fast_vibration_of(const Device *device);
 
+/* Angle tau at which sliding turns forward [rad] at a slow velocity; 0 or pi where it never reverses. */
+double turning_at(double velocity, double fast_velocity);
+
 /* Displacement [m] and velocity [m/s] of `amplitude` e at drive phase `theta` [rad]. */
 static inline Response steady_swing(Complex amplitude, double theta, double frequency) {
     SineCosine turn = elementary_sine_cosine(theta);

@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "../averaged/slow_friction.h"
-
 /* Number of points of which the one in the widest gap is taken. */
 enum { CANDIDATES = 24 };
 

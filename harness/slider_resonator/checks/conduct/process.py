@@ -263,12 +263,12 @@ def _leaks(
 def _in_use() -> tuple[int, int]:
     """Return the bytes that are allocated and mapped, 0 where the system does not tell."""
     try:
-        count = ctypes.CDLL(None).mallinfo2
+        mallinfo = ctypes.CDLL(None).mallinfo2
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
     except (AttributeError, OSError, TypeError):
         return 0, 0
-    count.restype = _Counts
-    *_, mapped, _, _, used, _, _ = count().counts
+    mallinfo.restype = _Counts
+    *_, mapped, _, _, used, _, _ = mallinfo().counts
     return used + mapped, pages * mmap.PAGESIZE
 
 
