@@ -67,6 +67,7 @@ test: $(READY) ## run the tests that take seconds; SLOW=1 runs the slow ones too
 lint: $(LINT)/.ready ## check style, formatting, types and layers, with the versions of requirements-lint.lock
 	$(LINT)/bin/ruff check .
 	$(LINT)/bin/ruff format --check .
+	$(LINT)/bin/clang-format --dry-run -Werror $$(find fmu_src -name '*.[ch]')
 	$(LINT)/bin/mypy
 	PYTHONPATH=harness $(LINT)/bin/lint-imports
 	$(LINT)/bin/python -m fmu_src.c_layers

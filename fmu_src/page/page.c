@@ -1,7 +1,7 @@
 /* The component in a web page: one instance, driven from JavaScript through two buffers.
  *
- * Each function that returns a bool leaves the component as it was where it returns false, and the
- * reason in `refusal_text`. */
+ * Each function that returns a bool leaves the component as it was where it returns false, and the reason in
+ * `refusal_text`. */
 #include <stdlib.h>
 
 #include "component/component.h"
@@ -14,12 +14,18 @@ static unsigned references[VARIABLE_COUNT];
 static double values[VARIABLE_COUNT];
 
 /* Value references to set or to read. */
-EXPORT(references_buffer) unsigned *references_buffer(void) { return references; }
+EXPORT(references_buffer) unsigned *references_buffer(void) {
+    return references;
+}
 
 /* Values to set, or the values read. */
-EXPORT(values_buffer) double *values_buffer(void) { return values; }
+EXPORT(values_buffer) double *values_buffer(void) {
+    return values;
+}
 
-EXPORT(refusal_text) const char *refusal_text(void) { return refusal.text; }
+EXPORT(refusal_text) const char *refusal_text(void) {
+    return refusal.text;
+}
 
 static void *allocate(const void *host, size_t size) {
     (void)host;
@@ -36,11 +42,10 @@ EXPORT(start) bool start(unsigned count) {
     const Experiment experiment = {.stop_time = INFINITY};
     component_begin(&component, &(Memory){allocate, release, NULL});
     component_reset(&component);
-    return count <= VARIABLE_COUNT
-           && component_setup_experiment(&component, &experiment, &refusal)
-           && component_enter_initialization(&component, &refusal)
-           && component_set(&component, references, values, count, &refusal)
-           && component_exit_initialization(&component, &refusal);
+    return count <= VARIABLE_COUNT && component_setup_experiment(&component, &experiment, &refusal) &&
+           component_enter_initialization(&component, &refusal) &&
+           component_set(&component, references, values, count, &refusal) &&
+           component_exit_initialization(&component, &refusal);
 }
 
 /* Set `count` inputs or tunable parameters from the buffers. */

@@ -12,8 +12,8 @@ enum { SORTING = 4 };
 /* Rounding error of a mean friction, in units of the last place of the largest friction. */
 #define ROUNDING 8.0
 
-/* Friction and load as functions of the angle Theta at which sliding turns forward; `noise` is the
- * rounding error of their sum [N]. Several angles may balance where friction rises with the angle. */
+/* Friction and load as functions of the angle Theta at which sliding turns forward; `noise` is the rounding error of
+ * their sum [N]. Several angles may balance where friction rises with the angle. */
 typedef struct {
     const System *system;
     double noise;
@@ -36,20 +36,18 @@ static Balance balance_of(const System *system, double normal_lead) {
     balance.load = vibrating_load_of(device, ratio, delta);
     double mu = system->bristle.coefficient;
     double drag = system->bristle.damping * balance.fast.velocity;
-    balance.noise = ROUNDING * EPSILON * faces * (mu + drag) *
-                    (device->normal_preload + device->normal_amplitude);
+    balance.noise = ROUNDING * EPSILON * faces * (mu + drag) * (device->normal_preload + device->normal_amplitude);
     return balance;
 }
 
 /* Mean friction [N] when sliding turns forward at tau = `turning` [rad]. */
 static double friction_at(const Balance *balance, double turning) {
     const System *system = balance->system;
-    return system->device.friction_faces *
-           mean_friction(&system->bristle, &balance->fast, &balance->load, turning);
+    return system->device.friction_faces * mean_friction(&system->bristle, &balance->fast, &balance->load, turning);
 }
 
-/* Share of the way from the newest point `a` to the opposite one `b`, by inverse quadratic interpolation through
- * these and the one before, `c`, where Chandrupatla's criterion accepts it; a half otherwise. */
+/* Share of the way from the newest point `a` to the opposite one `b`, by inverse quadratic interpolation through these
+ * and the one before, `c`, where Chandrupatla's criterion accepts it; a half otherwise. */
 static double next_share(Point a, Point b, Point c) {
     double xi = (a.turning - b.turning) / (c.turning - b.turning);
     double phi = (a.excess - b.excess) / (c.excess - b.excess);
@@ -57,13 +55,13 @@ static double next_share(Point a, Point b, Point c) {
         return 0.5;
     }
     return a.excess / (b.excess - a.excess) * c.excess / (b.excess - c.excess) +
-           (c.turning - a.turning) / (b.turning - a.turning) * a.excess / (c.excess - a.excess) *
-               b.excess / (c.excess - b.excess);
+           (c.turning - a.turning) / (b.turning - a.turning) * a.excess / (c.excess - a.excess) * b.excess /
+               (c.excess - b.excess);
 }
 
-/* Angle to which halving leads where friction and load balance [rad], by Chandrupatla's method. Where they
- * balance over a range of angles (even ratios, with flight while sliding turns) it is the end of the highest
- * velocity: what is 0 within rounding counts as below 0. */
+/* Angle to which halving leads where friction and load balance [rad], by Chandrupatla's method. Where they balance over
+ * a range of angles (even ratios, with flight while sliding turns) it is the end of the highest velocity: what is 0
+ * within rounding counts as below 0. */
 static double balanced_turning(const Balance *balance, Point low, Point high) {
     double share = 0.5;
     for (int i = 0; high.turning - low.turning > CLOSE; i++) {
@@ -83,8 +81,8 @@ static double balanced_turning(const Balance *balance, Point low, Point high) {
     return 0.5 * (low.turning + high.turning);
 }
 
-/* Whether the vibration alone overcomes the mean `friction` [N] of sliding: the amplitude of its force on the pair must, and
- * so must that of its force on a held slider. */
+/* Whether the vibration alone overcomes the mean `friction` [N] of sliding: the amplitude of its force on the pair
+ * must, and so must that of its force on a held slider. */
 static bool breaks_loose(const Balance *balance, double friction) {
     const Device *device = &balance->system->device;
     const Bristle *bristle = &balance->system->bristle;
@@ -111,5 +109,5 @@ Prediction first_order_prediction(const System *system, double normal_lead) {
     double turning = balanced_turning(&balance, low, high);
     bool holds = fabs(load) < first;
     return (Prediction){balance.fast.velocity * cos(turning), -friction_at(&balance, 0.5 * PI), holds,
-                      holds && breaks_loose(&balance, first)};
+                        holds && breaks_loose(&balance, first)};
 }

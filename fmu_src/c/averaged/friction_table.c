@@ -12,8 +12,7 @@
 enum { MAX_HALVINGS = 24 };
 
 /* Fills panels from `low` to `high` [rad], which were made by `halvings` of the whole. */
-static void fill(FrictionTable *table, const GaussIntegrals *gauss, double low, double high,
-                 int halvings) {
+static void fill(FrictionTable *table, const GaussIntegrals *gauss, double low, double high, int halvings) {
     double values[MEANS][GAUSS_NODES], size = table->key.bristle.coefficient, error = 0.0;
     for (int j = 0; j < GAUSS_NODES; j++) {
         double means[MEANS], turning = 0.5 * (low + high + (high - low) * GAUSS_NODE[j]);
@@ -40,8 +39,8 @@ static void fill(FrictionTable *table, const GaussIntegrals *gauss, double low, 
     table->ends[++table->panels] = high;
 }
 
-const FrictionTable *friction_table_of(FrictionTables *tables, const Bristle *bristle,
-                                       const FastMotion *fast, double n) {
+const FrictionTable *friction_table_of(FrictionTables *tables, const Bristle *bristle, const FastMotion *fast,
+                                       double n) {
     MeansKey key = {*bristle, *fast, n};
     for (int i = 0; i < TABLES; i++) {
         if (memcmp(&tables->tables[i].key, &key, sizeof key) == 0) {

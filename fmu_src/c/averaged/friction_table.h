@@ -1,8 +1,8 @@
 /* Mean friction of bristles over a turn of the drive, tabulated over the slow velocity.
  *
- * Averaged motion asks for it several times a step, and each mean costs a quadrature. Means are smooth in Theta = arccos(V /
- * v_q), with a layer at its ends that gets thinner for harder bristles: polynomials on panels, halved until they hold.
- * Turning Theta into pi - Theta mirrors the motion, so half is kept. */
+ * Averaged motion asks for it several times a step, and each mean costs a quadrature. Means are smooth in Theta =
+ * arccos(V / v_q), with a layer at its ends that gets thinner for harder bristles: polynomials on panels, halved until
+ * they hold. Turning Theta into pi - Theta mirrors the motion, so half is kept. */
 #pragma once
 
 #include "../base/gauss_nodes.h"
@@ -21,8 +21,8 @@ typedef struct {
     double n;
 } MeansKey;
 
-/* The means for a key: Legendre coefficients on panels, which lie
- * between `ends` [k] and [k + 1] and rise from 0 to pi / 2 [rad]. */
+/* The means for a key: Legendre coefficients on panels, which lie between `ends` [k] and [k + 1] and rise from 0 to pi
+ * / 2 [rad]. */
 typedef struct {
     MeansKey key;
     int panels;
@@ -37,10 +37,10 @@ typedef struct FrictionTables {
     FrictionTable tables[TABLES];
 } FrictionTables;
 
-/* The means under `n` waves of the normal load over a turn, n not 0: kept, or made where there are
- * none. They stay until TABLES others were asked for. */
-const FrictionTable *friction_table_of(FrictionTables *tables, const Bristle *bristle,
-                                       const FastMotion *fast, double n);
+/* The means under `n` waves of the normal load over a turn, n not 0: kept, or made where there are none. They stay
+ * until TABLES others were asked for. */
+const FrictionTable *friction_table_of(FrictionTables *tables, const Bristle *bristle, const FastMotion *fast,
+                                       double n);
 
 /* The means when sliding turns forward at tau = `turning` in [0, pi] [rad]. */
 void tabulated_means(const FrictionTable *table, double turning, double means[MEANS]);

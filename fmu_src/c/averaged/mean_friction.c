@@ -10,8 +10,7 @@ enum { EDGES = 6, MAX_BISECTIONS = 60 };
 /* Edges of the panels of the quadrature over an arc; they crowd where sliding begins. */
 static const double EDGE[EDGES] = {0.0, 0.05, 0.15, 0.35, 0.65, 1.0};
 
-/* Widest panel, as an angle [rad] of the normal load: the nodes follow its sine to rounding
- * there. */
+/* Widest panel, as an angle [rad] of the normal load: the nodes follow its sine to rounding there. */
 #define WIDEST 6.0
 
 /* Path in units of mu / sigma_0 after which a bristle is fully bent to rounding. */
@@ -20,14 +19,14 @@ static const double EDGE[EDGES] = {0.0, 0.05, 0.15, 0.35, 0.65, 1.0};
 /* Narrowest part [rad] that is kept apart: what is narrower adds no more than rounding. */
 #define NARROW 1e-12
 
-/* MAX_WAVES for the mean power: friction times velocity has no jump, so that what waves add falls with the
- * square of their number, to less than 1e-8 of full power. */
+/* MAX_WAVES for the mean power: friction times velocity has no jump, so that what waves add falls with the square of
+ * their number, to less than 1e-8 of full power. */
 #define MAX_POWER_WAVES 10000.0
 
 /* What the quadrature is over: `waves` of the integrand over a turn, and the load (`load`), with its kinks, or, where
- * that is NULL, unit loads: 1 and sine and cosine of `waves` times the angle. The `sum` of friction beyond
- * Coulomb's under these loads is its result; under a load it has one part, PLAIN. With `powers` it is that of friction
- * times velocity, which is `beyond` [m/s] that by which the slider turns. */
+ * that is NULL, unit loads: 1 and sine and cosine of `waves` times the angle. The `sum` of friction beyond Coulomb's
+ * under these loads is its result; under a load it has one part, PLAIN. With `powers` it is that of friction times
+ * velocity, which is `beyond` [m/s] that by which the slider turns. */
 typedef struct {
     const Bristle *bristle;
     const FastMotion *fast;
@@ -37,9 +36,9 @@ typedef struct {
     double sum[MEANS];
 } Quadrature;
 
-/* A part of the turn with one direction of sliding, from the angle `begin` on for `length` [rad], and
- * cosine and sine of where it begins. `unbent` is what the bristle friction there is beyond the limit
- * `direction` mu; for full friction it is 0, and `full` is that limit. */
+/* A part of the turn with one direction of sliding, from the angle `begin` on for `length` [rad], and cosine and sine
+ * of where it begins. `unbent` is what the bristle friction there is beyond the limit `direction` mu; for full friction
+ * it is 0, and `full` is that limit. */
 typedef struct {
     int direction;
     double begin, length, cosine, sine, unbent, full;
@@ -61,9 +60,9 @@ static double beyond_sine(double x, double sine) {
     return x * square / 6.0 * sum;
 }
 
-/* Speed over v_q, and path [m] in the direction of the arc, `ahead` [rad] of where it begins. The
- * velocity is v_q (cos(begin) - cos(begin + ahead)); differences of nearly equal numbers are taken
- * in closed form, for hard bristles see short paths. */
+/* Speed over v_q, and path [m] in the direction of the arc, `ahead` [rad] of where it begins. The velocity is v_q
+ * (cos(begin) - cos(begin + ahead)); differences of nearly equal numbers are taken in closed form, for hard bristles
+ * see short paths. */
 typedef struct {
     double speed, path;
 } Way;
@@ -128,8 +127,8 @@ static void integrate_panel(Quadrature *over, const Arc *arc, double low, double
     }
 }
 
-/* Where the smooth part of the load ends that begins `low` ahead of an angle `begin`: at its next kink
- * beyond NARROW, or at `last` [rad]. Always beyond `low`, however the phase is rounded. */
+/* Where the smooth part of the load ends that begins `low` ahead of an angle `begin`: at its next kink beyond NARROW,
+ * or at `last` [rad]. Always beyond `low`, however the phase is rounded. */
 static double smooth_until(const VibratingLoad *load, double begin, double low, double last) {
     double kink = vibrating_load_next_kink(load, begin + low + NARROW) - begin;
     return low < kink && kink < last ? kink : last;
@@ -155,8 +154,8 @@ static void integrate_arc(Quadrature *over, const Arc *arc) {
     }
 }
 
-/* Quadrature over both arcs of what the bristle still lacks of being fully bent. The response is
- * periodic: sigma_0 z where the forward arc begins follows from the lengths of both. */
+/* Quadrature over both arcs of what the bristle still lacks of being fully bent. The response is periodic: sigma_0 z
+ * where the forward arc begins follows from the lengths of both. */
 static void integrate_turn(Quadrature *over, double turning) {
     double stiffness = over->bristle->stiffness, mu = over->bristle->coefficient;
     double sine = sin(turning), cosine = cos(turning);
@@ -198,8 +197,7 @@ double mean_power(const Bristle *bristle, const FastMotion *fast, const Vibratin
     return over.sum[PLAIN] / TAU;
 }
 
-double mean_friction(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load,
-                     double turning) {
+double mean_friction(const Bristle *bristle, const FastMotion *fast, const VibratingLoad *load, double turning) {
     double mu = bristle->coefficient;
     if (!is_elastic(bristle)) {
         return mu * (vibrating_load_difference(load, turning) / TAU);
@@ -211,8 +209,7 @@ double mean_friction(const Bristle *bristle, const FastMotion *fast, const Vibra
     return (mu * vibrating_load_difference(&counted, turning) + over.sum[PLAIN]) / TAU;
 }
 
-void friction_means(const Bristle *bristle, const FastMotion *fast, double n, double turning,
-                    double means[MEANS]) {
+void friction_means(const Bristle *bristle, const FastMotion *fast, double n, double turning, double means[MEANS]) {
     double mu = bristle->coefficient;
     Quadrature over = {.bristle = bristle, .fast = fast, .waves = n};
     over.sum[PLAIN] = mu * (TAU - 4.0 * turning);

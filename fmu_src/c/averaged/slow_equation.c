@@ -16,8 +16,8 @@ static const char *const STEPS = "steps of averaged motion";
 /* Part of a beat that a step may have: its stages then see all phases of the normal load. */
 #define BEAT_SHARE 0.125
 
-/* Change of the velocity up to which its rate may be linear, over the fast velocity; and the share of the tolerance for what
- * that leaves: no step corrects it. */
+/* Change of the velocity up to which its rate may be linear, over the fast velocity; and the share of the tolerance for
+ * what that leaves: no step corrects it. */
 #define LINEAR 4e-6
 #define SETTLED 1e-2
 
@@ -37,8 +37,8 @@ enum { GROWING = 4 };
 #define STILL 1e-6
 
 /* Motion without vibration is that of a block, resolved: only the normal load is averaged, unless it is slow itself. */
-static bool pass_unshaken(const SlowFriction *friction, double duration, Budget *budget,
-                          SlowPoint *now, Refusal *refusal) {
+static bool pass_unshaken(const SlowFriction *friction, double duration, Budget *budget, SlowPoint *now,
+                          Refusal *refusal) {
     System still = *friction->system;
     Plant *plant = &still.plant;
     double frequency = plant->normal_frequency, rate = plant->normal_rate;
@@ -87,15 +87,15 @@ static double first_step(const SlowFriction *friction, double duration) {
     const System *system = friction->system;
     const Plant *plant = &system->plant;
     double last_load = plant->load + plant->load_rate * duration;
-    double strongest = plant->friction_preload + plant->friction_amplitude +
-                       fmax(fabs(plant->load), fabs(last_load));
+    double strongest = plant->friction_preload + plant->friction_amplitude + fmax(fabs(plant->load), fabs(last_load));
     double change = system->fast.velocity * plant->total_mass;
     return strongest > 0.0 ? FIRST_STEP * change / strongest : duration;
 }
 
 /* One step of `h` [s] near a steady velocity, under rates that do not depend on time: the acceleration is linear in the
- * velocity, with a derivative `gain`; a positive one, which is rounding, counts as 0. The error is by the residual of the
- * acceleration at the end. Return false where the velocity would change by more than a share LINEAR of the fast one. */
+ * velocity, with a derivative `gain`; a positive one, which is rounding, counts as 0. The error is by the residual of
+ * the acceleration at the end. Return false where the velocity would change by more than a share LINEAR of the fast
+ * one. */
 static bool linear_step(SlowFriction *friction, const SlowPoint *from, double gain, double h, SlowStep *step) {
     double acceleration = from->rate.acceleration, z = h * fmin(0.0, gain), decayed = exp(z);
     double mean = z < -NO_DECAY ? expm1(z) / z : 1.0, change = h * acceleration * mean;
@@ -121,10 +121,9 @@ static double simpson_error(SlowFriction *friction, const SlowPoint *from, const
     return fabs(step->change - h / 6.0 * (first + 4.0 * rate.acceleration + last));
 }
 
-/* In this order: refuse a time of too many steps; then step by step: pass all the rest
- * in one step where the velocity settles, or a step of the solver; take it over if its error is small enough. */
-bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoint *now,
-               Refusal *refusal) {
+/* In this order: refuse a time of too many steps; then step by step: pass all the rest in one step where the velocity
+ * settles, or a step of the solver; take it over if its error is small enough. */
+bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoint *now, Refusal *refusal) {
     double fast = friction->fast.velocity, tolerance = TOLERANCE * fast, gain = 0.0;
     if (fast == 0.0) {
         return pass_unshaken(friction, end, budget, now, refusal);
@@ -144,8 +143,8 @@ bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoi
         }
         double left = end - now->t;
         SlowStep step;
-        bool settles = !varies && tried > 0 && linear_step(&own, now, gain, left, &step) &&
-                       step.error <= SETTLED * tolerance;
+        bool settles =
+            !varies && tried > 0 && linear_step(&own, now, gain, left, &step) && step.error <= SETTLED * tolerance;
         if (!settles) {
             h = fmin(fmin(h, longest), left);
             runge_kutta_step(rate_at, &own, now, h, &step);

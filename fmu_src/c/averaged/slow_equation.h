@@ -7,5 +7,4 @@
 
 /* Bring `now`, at time 0, to time `end` [s]: its velocity settles in few steps, however long the time. Refuses, with
  * `now` undefined, where that takes more than the budget has. Without vibration it is the motion of a block. */
-bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoint *now,
-               Refusal *refusal);
+bool slow_pass(const SlowFriction *friction, double end, Budget *budget, SlowPoint *now, Refusal *refusal);

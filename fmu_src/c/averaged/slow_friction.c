@@ -2,8 +2,8 @@
 
 #include "../base/elementary.h"
 
-/* Largest distance of the frequency ratio from an integer at which the phase counts as slow. Under a lifting
- * contact: largest distance of q times the ratio, times q, for q up to a few turns. */
+/* Largest distance of the frequency ratio from an integer at which the phase counts as slow. Under a lifting contact:
+ * largest distance of q times the ratio, times q, for q up to a few turns. */
 #define NEAR 0.1
 
 double next_slow_boundary(const Device *device, double ratio, double direction) {
@@ -76,13 +76,14 @@ double slow_friction_at(const SlowFriction *slow, double t, double velocity) {
     } else {
         tabulated_means(slow->table, turning, means);
         double swung = cos(load->delta) * means[SINE] + load->sine * means[COSINE];
-        face = load->is_constant ? load->constant * means[PLAIN]
-                                 : load->preload * means[PLAIN] + load->amplitude * swung;
+        face =
+            load->is_constant ? load->constant * means[PLAIN] : load->preload * means[PLAIN] + load->amplitude * swung;
     }
     return slow->system->device.friction_faces * face;
 }
 
 double slow_friction_power(const SlowFriction *slow, double velocity) {
     double turning = turning_at(velocity, slow->fast.velocity);
-    return slow->system->device.friction_faces * mean_power(&slow->bristle, &slow->fast, &slow->load, turning, velocity);
+    return slow->system->device.friction_faces *
+           mean_power(&slow->bristle, &slow->fast, &slow->load, turning, velocity);
 }

@@ -1,8 +1,8 @@
 /* Mean friction under fast vibration as a function of the slow velocity and the slow phase.
  *
- * The normal load counts with its phase near integer frequency ratios n, where that phase drifts by
- * (ratio - n) w (Appendix A for n = 1), and with its mean elsewhere. A load that lifts the contact
- * has harmonics, and counts with its phase near fractions too. */
+ * The normal load counts with its phase near integer frequency ratios n, where that phase drifts by (ratio - n) w
+ * (Appendix A for n = 1), and with its mean elsewhere. A load that lifts the contact has harmonics, and counts with its
+ * phase near fractions too. */
 #pragma once
 
 #include <stddef.h>
@@ -32,5 +32,6 @@ double slow_friction_at(const SlowFriction *slow, double t, double velocity);
 /* The mean power of friction [W] now, at slow velocity `velocity` [m/s]. */
 double slow_friction_power(const SlowFriction *slow, double velocity);
 
-/* The next ratio above (`direction` 1) or below (-1) `ratio` at which the phase of the load begins or ceases to count. */
+/* The next ratio above (`direction` 1) or below (-1) `ratio` at which the phase of the load begins or ceases to
+ * count. */
 double next_slow_boundary(const Device *device, double ratio, double direction);

@@ -1,17 +1,17 @@
 /* Averaged motion of first order, fidelity 0: the slow motion of the pair under mean friction.
  *
- * With D the amplitude of the drive force on the pair, its momentum over the total mass is P = X' + r_m Y'
- * = V - D cos(theta) / (w (M + m)), and its centre is X + r_m Y. Both are continuous, also where a parameter
- * is tuned. V is the slow velocity: (M + m) V' = -mean friction - load. The fast parts of all outputs are
- * the steady vibration (32)-(33), added in closed form.
+ * With D the amplitude of the drive force on the pair, its momentum over the total mass is P = X' + r_m Y' = V - D
+ * cos(theta) / (w (M + m)), and its centre is X + r_m Y. Both are continuous, also where a parameter is tuned. V is the
+ * slow velocity: (M + m) V' = -mean friction - load. The fast parts of all outputs are the steady vibration (32)-(33),
+ * added in closed form.
  *
  * The bristle follows the motion periodically; it has no state here. */
 #include "../base/elementary.h"
 #include "../resolved/motion.h"
 #include "slow_equation.h"
 
-/* Error of first order in friction shares and v_q: that of the average, and that of what the average leaves
- * out, the resonator's first swing and the first bend of bristles. */
+/* Error of first order in friction shares and v_q: that of the average, and that of what the average leaves out, the
+ * resonator's first swing and the first bend of bristles. */
 #define FIRST_ORDER 2.0
 
 /* The initial values determine the momentum of the pair, not its vibration: the first step takes care of that. */
@@ -23,11 +23,10 @@ static Moment start(const System *system) {
     return first;
 }
 
-/* In this order: take the slow velocity and the centre of the pair from the state; pass the slow motion; turn the phases;
- * add the steady vibration again. */
-static bool averaged_advance(const System *system, const Moment *moment, double duration,
-                             EventSearch *search, Budget *budget, Moment *after,
-                             Refusal *refusal) {
+/* In this order: take the slow velocity and the centre of the pair from the state; pass the slow motion; turn the
+ * phases; add the steady vibration again. */
+static bool averaged_advance(const System *system, const Moment *moment, double duration, EventSearch *search,
+                             Budget *budget, Moment *after, Refusal *refusal) {
     (void)search;
     const Plant *plant = &system->plant;
     double w = plant->drive_frequency, drive = system->fast.pair_velocity;
@@ -88,16 +87,16 @@ static Rates rates(const System *system, const Moment *moment) {
     return (Rates){state, slow};
 }
 
-/* Velocity [m/s] that mean friction changes in a radian of the drive, faces mu N0 / (Mt w), what bristles damp included: over v_q
- * it is the small number by which averages expand. */
+/* Velocity [m/s] that mean friction changes in a radian of the drive, faces mu N0 / (Mt w), what bristles damp
+ * included: over v_q it is the small number by which averages expand. */
 static double friction_in_radian(const System *system) {
     double w = system->device.drive_frequency;
     double damping = damping_share(&system->bristle, system->fast.velocity, w);
     return full_friction(&system->device) * hypot(1.0, damping) / (system->plant.total_mass * w);
 }
 
-/* Decay in a turn of the drive, as an exponent, of the resonator's own vibration or of a bend of the bristle, the slower
- * one; infinite without both. The path of a turn is four times the amplitude. */
+/* Decay in a turn of the drive, as an exponent, of the resonator's own vibration or of a bend of the bristle, the
+ * slower one; infinite without both. The path of a turn is four times the amplitude. */
 static double decay_in_turn(const System *system) {
     const Device *device = &system->device;
     double w = device->drive_frequency, path = 4.0 * system->fast.velocity / w;
@@ -109,8 +108,8 @@ static double decay_in_turn(const System *system) {
     return fmin(slower_decay(&system->plant.slip) * TAU / w, bend_decay);
 }
 
-/* In proportion to the velocity that friction changes in a radian. Where nothing vibrates, friction is constant and averages are
- * exact. */
+/* In proportion to the velocity that friction changes in a radian. Where nothing vibrates, friction is constant and
+ * averages are exact. */
 static double error(const System *system, const Moment *moment) {
     (void)moment;
     double fast = system->fast.velocity, changed = friction_in_radian(system);

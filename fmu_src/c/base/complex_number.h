@@ -1,5 +1,5 @@
-/* Complex numbers as a plain struct. C99's complex types are missing from some compilers, and slow in
- * others because they treat infinities, which do not occur here. */
+/* Complex numbers as a plain struct. C99's complex types are missing from some compilers, and slow in others because
+ * they treat infinities, which do not occur here. */
 #pragma once
 
 #include <math.h>

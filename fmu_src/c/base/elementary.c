@@ -29,8 +29,8 @@
 /* A sum with it rounds to an integer, which then are the last bits. */
 #define SHIFT 0x1.8p52
 
-/* Polynomials are Taylor series of twice the order, economised by Chebyshev polynomials: to 1e-17. Processors
- * compute pairs of their terms in parallel. */
+/* Polynomials are Taylor series of twice the order, economised by Chebyshev polynomials: to 1e-17. Processors compute
+ * pairs of their terms in parallel. */
 
 /* An argument within the range of a polynomial, and what its rounding has left out. */
 typedef struct {
@@ -103,8 +103,7 @@ typedef struct {
 
 static inline Quarters quarters_of(double x) {
     double shifted = x * QUARTERS_PER_RADIAN + SHIFT, count = shifted - SHIFT;
-    return (Quarters){difference(x - count * QUARTER, count * QUARTER_REST),
-                      (unsigned)bits_of(shifted)};
+    return (Quarters){difference(x - count * QUARTER, count * QUARTER_REST), (unsigned)bits_of(shifted)};
 }
 
 SineCosine elementary_sine_cosine(double x) {
@@ -114,8 +113,7 @@ SineCosine elementary_sine_cosine(double x) {
     Quarters quarters = quarters_of(x);
     double sine = sine_within(quarters.rest), cosine = cosine_within(quarters.rest);
     double first = quarters.count & 1 ? cosine : sine, second = quarters.count & 1 ? sine : cosine;
-    return (SineCosine){quarters.count & 2 ? -first : first,
-                        (quarters.count + 1) & 2 ? -second : second};
+    return (SineCosine){quarters.count & 2 ? -first : first, (quarters.count + 1) & 2 ? -second : second};
 }
 
 double elementary_sin(double x) {
@@ -183,8 +181,7 @@ typedef struct {
 
 static inline Octaves octaves_of(double x) {
     double shifted = x * OCTAVES_PER_UNIT + SHIFT, count = shifted - SHIFT;
-    return (Octaves){difference(x - count * OCTAVE, count * OCTAVE_REST),
-                     number_of((bits_of(shifted) + 1023) << 52)};
+    return (Octaves){difference(x - count * OCTAVE, count * OCTAVE_REST), number_of((bits_of(shifted) + 1023) << 52)};
 }
 
 double elementary_exp(double x) {

@@ -1,5 +1,5 @@
-/* <math.h> with elementary functions that give the same bits on every platform, for .c files only: its
- * macros would reach whoever includes a header. */
+/* <math.h> with elementary functions that give the same bits on every platform, for .c files only: its macros would
+ * reach whoever includes a header. */
 #pragma once
 
 #include <math.h>

@@ -6,8 +6,8 @@
 
 /* exp(-x) for x >= 0, with a relative error of 1e-14; exp(-700) for x above 700.
  *
- * With x = n ln 2 - r it is exp(r) / 2^n. Adding 1.5 * 2^52 rounds to the integer n and leaves it in the
- * last bits; ln 2 is split in two so that r is exact to rounding. */
+ * With x = n ln 2 - r it is exp(r) / 2^n. Adding 1.5 * 2^52 rounds to the integer n and leaves it in the last bits; ln
+ * 2 is split in two so that r is exact to rounding. */
 static inline double fast_decay(double x) {
     const double per_octave = 1.4426950408889634, shift = 0x1.8p52;
     const double octave = 0x1.62e42fefap-1, octave_rest = 0x1.cf79abc9e3b3ap-40;

@@ -3,15 +3,14 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* A step that cannot pass a zero may be as short as rounding allows where the signal is next to zero. Steps
- * are then lengthened to `SHORTEST_STEP`, which doubles every FLOOR_DOUBLING steps up to `SHORT_STEP` [rad]:
- * that bounds the work. What a lengthened step may pass is looked for at its end. */
+/* A step that cannot pass a zero may be as short as rounding allows where the signal is next to zero. Steps are then
+ * lengthened to `SHORTEST_STEP`, which doubles every FLOOR_DOUBLING steps up to `SHORT_STEP` [rad]: that bounds the
+ * work. What a lengthened step may pass is looked for at its end. */
 enum { FLOOR_DOUBLING = 20 };
 #define SHORTEST_STEP 1e-7
 #define SHORT_STEP 0.01
 
-/* Evaluations after which a search ends without a zero: reached only by motion at the limits of floating
- * point. */
+/* Evaluations after which a search ends without a zero: reached only by motion at the limits of floating point. */
 enum { MAX_SEARCH_EVALUATIONS = 1000000 };
 
 enum { MAX_REFINEMENTS = 100, MAX_EXPECTING_STEPS = 4 };
@@ -29,8 +28,8 @@ static bool is_last(Signal at, double step, double resolved) {
     return at.bound * step * step <= -at.slope * resolved;
 }
 
-/* The zero between `low`, up to which the signal is positive, and `high`, where it is not: Newton's method
- * from `t`, at one of the two, where the signal is `at`; bisection where that leaves the bracket. */
+/* The zero between `low`, up to which the signal is positive, and `high`, where it is not: Newton's method from `t`, at
+ * one of the two, where the signal is `at`; bisection where that leaves the bracket. */
 static double zero_between(const Watch *watch, double low, double high, double t, Signal at) {
     double resolved = resolution(watch);
     for (int i = 0; i < MAX_REFINEMENTS; i++) {
@@ -64,8 +63,8 @@ typedef struct {
     double time, slope;
 } Candidate;
 
-/* The downward zero near `expected`, if Newton's method finds one in a few steps and before `limit`: beyond
- * that the bound of the signal may not hold. */
+/* The downward zero near `expected`, if Newton's method finds one in a few steps and before `limit`: beyond that the
+ * bound of the signal may not hold. */
 static Candidate zero_near(const Watch *watch, double start, double limit, double expected) {
     double resolved = resolution(watch);
     for (int i = 0; i < MAX_EXPECTING_STEPS && expected > start && expected < limit; i++) {
@@ -82,8 +81,8 @@ static Candidate zero_near(const Watch *watch, double start, double limit, doubl
     return (Candidate){NO_ZERO, 0.0};
 }
 
-/* Whether the candidate is the first zero after `t`, where the signal is `at` and guaranteed to be positive
- * for `ahead` [s]: the parabola from the candidate backwards must cover the rest, beyond rounding. */
+/* Whether the candidate is the first zero after `t`, where the signal is `at` and guaranteed to be positive for `ahead`
+ * [s]: the parabola from the candidate backwards must cover the rest, beyond rounding. */
 static bool is_first(Candidate candidate, const Watch *watch, double t, Signal at, double ahead) {
     double distance = candidate.time - t, back = -2.0 * candidate.slope / at.bound;
     return distance > 0.0 && distance < SURE * (ahead + back) && distance < watch->horizon &&
@@ -93,12 +92,11 @@ static bool is_first(Candidate candidate, const Watch *watch, double t, Signal a
 /* Whether the signal is below zero, or so steep in rounding of it that a zero is certain. */
 static bool is_below(const Watch *watch, Signal at) {
     double noise = watch->noise;
-    return at.slope < 0.0 && at.value <= noise &&
-           (at.value < -noise || at.slope * at.slope > 16.0 * noise * at.bound);
+    return at.slope < 0.0 && at.value <= noise && (at.value < -noise || at.slope * at.slope > 16.0 * noise * at.bound);
 }
 
-/* Time in a lengthened step from `from`, where the signal was `before`, to `to` at which the signal may be
- * below zero in between, if it turns there: on so short a way its slope changes evenly. Otherwise `to`. */
+/* Time in a lengthened step from `from`, where the signal was `before`, to `to` at which the signal may be below zero
+ * in between, if it turns there: on so short a way its slope changes evenly. Otherwise `to`. */
 static double lowest_between(double from, Signal before, double to, Signal at) {
     bool turns = before.slope < 0.0 && at.slope > 0.0;
     return turns ? from + (to - from) * before.slope / (before.slope - at.slope) : to;

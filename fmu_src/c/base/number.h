@@ -9,7 +9,8 @@
 #define PI ((double)3.14159265358979323846) /* some compilers keep more digits of a constant */
 #define TAU (2.0 * PI)
 
-/* Smallest number that is divided by where it may be 0: compilers divide before they choose, and hosts may trap x / 0. */
+/* Smallest number that is divided by where it may be 0: compilers divide before they choose, and hosts may trap x /
+ * 0. */
 #define SMALLEST 1e-300
 
 /* `angle` [rad] modulo 2 pi, in [0, 2 pi); exact for angles >= 0. */

@@ -17,8 +17,7 @@ bool refuse(Refusal *refusal, const char *format, ...) {
     return false;
 }
 
-/* Write the fewest digits that read back as `value` > 0, without a point; return the exponent of the
- * first one. */
+/* Write the fewest digits that read back as `value` > 0, without a point; return the exponent of the first one. */
 static int shortest_digits(double value, char digits[MAX_DIGITS + 1]) {
     char scientific[NUMBER_SIZE];
     for (int count = 1; count <= MAX_DIGITS; count++) {
@@ -51,13 +50,12 @@ const char *number_text(double value, char text[NUMBER_SIZE]) {
     int exponent = shortest_digits(fabs(value), digits);
     int count = (int)strlen(digits);
     if (exponent < MIN_PLAIN_EXPONENT || exponent > MAX_PLAIN_EXPONENT) {
-        snprintf(text, NUMBER_SIZE, "%s%c%s%se%c%02d", sign, digits[0], count > 1 ? "." : "",
-                 digits + 1, exponent < 0 ? '-' : '+', abs(exponent));
+        snprintf(text, NUMBER_SIZE, "%s%c%s%se%c%02d", sign, digits[0], count > 1 ? "." : "", digits + 1,
+                 exponent < 0 ? '-' : '+', abs(exponent));
     } else if (exponent < 0) {
         snprintf(text, NUMBER_SIZE, "%s0.%.*s%s", sign, -1 - exponent, "000", digits);
     } else if (count <= exponent + 1) {
-        snprintf(text, NUMBER_SIZE, "%s%s%.*s.0", sign, digits, exponent + 1 - count,
-                 "000000000000000");
+        snprintf(text, NUMBER_SIZE, "%s%s%.*s.0", sign, digits, exponent + 1 - count, "000000000000000");
     } else {
         snprintf(text, NUMBER_SIZE, "%s%.*s.%s", sign, exponent + 1, digits, digits + exponent + 1);
     }

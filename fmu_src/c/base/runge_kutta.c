@@ -24,8 +24,7 @@ static const double ERROR[STAGES] = {
 #define MAX_GROWTH 5.0
 #define SAFETY 0.9
 
-bool runge_kutta_step(SlowRateFunction rate, void *motion, const SlowPoint *from, double h,
-                      SlowStep *step) {
+bool runge_kutta_step(SlowRateFunction rate, void *motion, const SlowPoint *from, double h, SlowStep *step) {
     SlowRate rates[STAGES] = {from->rate};
     double error = h * ERROR[0] * from->rate.acceleration, before = 0.0, gained = 0.0;
     SlowPoint to = *from;

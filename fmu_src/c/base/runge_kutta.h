@@ -17,8 +17,8 @@ typedef struct {
     SlowRate rate;
 } SlowPoint;
 
-/* A step to a point; `change` is that of the velocity, `error` its estimated error, `gain` the derivative of the acceleration
- * by the velocity, from two stages at the end, between which the acceleration has `risen`. */
+/* A step to a point; `change` is that of the velocity, `error` its estimated error, `gain` the derivative of the
+ * acceleration by the velocity, from two stages at the end, between which the acceleration has `risen`. */
 typedef struct {
     SlowPoint to;
     double change, error, gain, risen;
@@ -29,8 +29,7 @@ enum { ORDER = 5 };
 
 /* One step of `h` from a point by that pair. Return false where the rates are not defined at a stage; `step` is then
  * undefined. */
-bool runge_kutta_step(SlowRateFunction rate, void *motion, const SlowPoint *from, double h,
-                      SlowStep *step);
+bool runge_kutta_step(SlowRateFunction rate, void *motion, const SlowPoint *from, double h, SlowStep *step);
 
 /* Factor by which the next step may be longer or shorter than one with this error. */
 double step_growth(double error, double tolerance);

@@ -38,10 +38,9 @@ void component_reset(Component *component) {
     start_values(component->now.values);
 }
 
-bool component_setup_experiment(Component *component, const Experiment *experiment,
-                                Refusal *refusal) {
-    if (!require("setupExperiment", component->now.lifecycle, INSTANTIATED, refusal)
-        || !experiment_check(experiment, refusal)) {
+bool component_setup_experiment(Component *component, const Experiment *experiment, Refusal *refusal) {
+    if (!require("setupExperiment", component->now.lifecycle, INSTANTIATED, refusal) ||
+        !experiment_check(experiment, refusal)) {
         return false;
     }
     component->now.time = component->now.last_event_time = experiment->start_time;
@@ -50,13 +49,13 @@ bool component_setup_experiment(Component *component, const Experiment *experime
 }
 
 bool component_enter_initialization(Component *component, Refusal *refusal) {
-    return lifecycle_change(&component->now.lifecycle, "enterInitializationMode", INSTANTIATED,
-                            INITIALIZATION, refusal);
+    return lifecycle_change(&component->now.lifecycle, "enterInitializationMode", INSTANTIATED, INITIALIZATION,
+                            refusal);
 }
 
 bool component_exit_initialization(Component *component, Refusal *refusal) {
-    if (!require("exitInitializationMode", component->now.lifecycle, INITIALIZATION, refusal)
-        || !prepare_present(component, refusal)) {
+    if (!require("exitInitializationMode", component->now.lifecycle, INITIALIZATION, refusal) ||
+        !prepare_present(component, refusal)) {
         return false;
     }
     component->now.moment = component->system.motion->start(&component->system);
@@ -94,30 +93,28 @@ static bool take_values(Component *component, const double values[SETTABLE_COUNT
     return true;
 }
 
-bool component_set(Component *component, const unsigned *references, const double *values,
-                   size_t count, Refusal *refusal) {
+bool component_set(Component *component, const unsigned *references, const double *values, size_t count,
+                   Refusal *refusal) {
     double changed[SETTABLE_COUNT];
     memcpy(changed, component->now.values, sizeof changed);
-    if (!change_values(changed, component->now.lifecycle, references, values, count, refusal)
-        || !take_values(component, changed, refusal)) {
+    if (!change_values(changed, component->now.lifecycle, references, values, count, refusal) ||
+        !take_values(component, changed, refusal)) {
         return false;
     }
     hold_inputs(component->now.derivatives, references, count);
     return true;
 }
 
-bool component_set_derivatives(Component *component, const unsigned *references,
-                               const double *values, size_t count, Refusal *refusal) {
-    return change_derivatives(component->now.derivatives, component->now.lifecycle, references, values,
-                              count, refusal);
+bool component_set_derivatives(Component *component, const unsigned *references, const double *values, size_t count,
+                               Refusal *refusal) {
+    return change_derivatives(component->now.derivatives, component->now.lifecycle, references, values, count, refusal);
 }
 
-/* The moment from which outputs are read. Until initialization ends it is the first one, which is written
- * to `first`. */
-static bool moment_to_read(Component *component, unsigned reference, Moment *first,
-                           const Moment **moment, Refusal *refusal) {
-    if (!reading_check(component->now.lifecycle, reference, refusal)
-        || !prepare_present(component, refusal)) {
+/* The moment from which outputs are read. Until initialization ends it is the first one, which is written to
+ * `first`. */
+static bool moment_to_read(Component *component, unsigned reference, Moment *first, const Moment **moment,
+                           Refusal *refusal) {
+    if (!reading_check(component->now.lifecycle, reference, refusal) || !prepare_present(component, refusal)) {
         return false;
     }
     *moment = &component->now.moment;
@@ -129,8 +126,8 @@ static bool moment_to_read(Component *component, unsigned reference, Moment *fir
 }
 
 /* Read variables by reference or, as asked, their derivatives: all or none. */
-static bool read(Component *component, bool derivatives, const unsigned *references, double *values,
-                 size_t count, Refusal *refusal) {
+static bool read(Component *component, bool derivatives, const unsigned *references, double *values, size_t count,
+                 Refusal *refusal) {
     const Snapshot *now = &component->now;
     double found[VARIABLE_COUNT];
     Moment first;
@@ -147,8 +144,8 @@ static bool read(Component *component, bool derivatives, const unsigned *referen
         const System *system = &component->system;
         if (!derivatives) {
             found[i] = output_value(reference, system, moment, now->last_event_time, &component->theory);
-        } else if (!output_derivative(reference, system, moment, now->derivatives[VR_PHASE].value,
-                                      &found[i], refusal)) {
+        } else if (!output_derivative(reference, system, moment, now->derivatives[VR_PHASE].value, &found[i],
+                                      refusal)) {
             return false;
         }
         if (!isfinite(found[i])) {
@@ -161,13 +158,12 @@ static bool read(Component *component, bool derivatives, const unsigned *referen
     return true;
 }
 
-bool component_get(Component *component, const unsigned *references, double *values, size_t count,
-                   Refusal *refusal) {
+bool component_get(Component *component, const unsigned *references, double *values, size_t count, Refusal *refusal) {
     return read(component, false, references, values, count, refusal);
 }
 
-bool component_get_derivatives(Component *component, const unsigned *references, double *values,
-                               size_t count, Refusal *refusal) {
+bool component_get_derivatives(Component *component, const unsigned *references, double *values, size_t count,
+                               Refusal *refusal) {
     return read(component, true, references, values, count, refusal);
 }
 
@@ -178,21 +174,20 @@ typedef struct {
 } StepEnd;
 
 /* Find where a step leads, at most to the event that a `search` finds; the component does not change. The motion takes
- * `duration` [s], the step size but for a rounding error. In this order: refuse a wrong state or time; advance the moment;
- * refuse numbers out of range. */
-static bool find_end(Component *component, double time, double step_size, double duration,
-                     EventSearch *search, StepEnd *end, Refusal *refusal) {
+ * `duration` [s], the step size but for a rounding error. In this order: refuse a wrong state or time; advance the
+ * moment; refuse numbers out of range. */
+static bool find_end(Component *component, double time, double step_size, double duration, EventSearch *search,
+                     StepEnd *end, Refusal *refusal) {
     const Snapshot *now = &component->now;
     const System *system = &component->system;
     Moment *after = &end->moment;
     Budget budget = budget_of(step_size);
-    if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)
-        || !step_check(now->time, now->stop_time, time, step_size, refusal)) {
+    if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal) ||
+        !step_check(now->time, now->stop_time, time, step_size, refusal)) {
         return false;
     }
     bool done = inputs_vary(now->derivatives)
-                    ? ramped_step(system, &component->tables, now, duration, &budget, after, end->values,
-                                  refusal)
+                    ? ramped_step(system, &component->tables, now, duration, &budget, after, end->values, refusal)
                     : system->motion->advance(system, &now->moment, duration, search, &budget, after, refusal);
     if (!done) {
         return false;
@@ -200,13 +195,11 @@ static bool find_end(Component *component, double time, double step_size, double
     const double reached[] = {after->position,   after->state.velocity, after->state.displacement,
                               after->state.rate, after->theta,          after->psi,
                               time + step_size};
-    return all_finite(reached, sizeof reached / sizeof reached[0])
-           || refuse_infinite_motion(refusal, step_size);
+    return all_finite(reached, sizeof reached / sizeof reached[0]) || refuse_infinite_motion(refusal, step_size);
 }
 
 /* Accept a step: go on to its end, `elapsed` [s] after `time` [s]. */
-static bool accept_step(Component *component, const StepEnd *end, double time, double elapsed,
-                  Refusal *refusal) {
+static bool accept_step(Component *component, const StepEnd *end, double time, double elapsed, Refusal *refusal) {
     Snapshot *now = &component->now;
     double age = end->moment.event_age;
     if (inputs_vary(now->derivatives) && !take_values(component, end->values, refusal)) {
@@ -224,8 +217,8 @@ static bool accept_step(Component *component, const StepEnd *end, double time, d
 
 bool component_step(Component *component, double time, double step_size, Refusal *refusal) {
     StepEnd end;
-    return find_end(component, time, step_size, step_size, NULL, &end, refusal)
-           && accept_step(component, &end, time, step_size, refusal);
+    return find_end(component, time, step_size, step_size, NULL, &end, refusal) &&
+           accept_step(component, &end, time, step_size, refusal);
 }
 
 /* Smallest time [s] by which a later time must differ from `time` [s] to be another number. */
@@ -239,10 +232,9 @@ static double owed_time(double carry, double step_size) {
     return carry == 0.0 ? 0.0 : fmax(-half, fmin(carry, half));
 }
 
-/* Times of events are rounded to floating point numbers: the motion makes up for that in the next step, so that stopping at
- * events does not change it. */
-bool component_step_to_event(Component *component, double time, double step_size, bool *event,
-                             Refusal *refusal) {
+/* Times of events are rounded to floating point numbers: the motion makes up for that in the next step, so that
+ * stopping at events does not change it. */
+bool component_step_to_event(Component *component, double time, double step_size, bool *event, Refusal *refusal) {
     Snapshot *now = &component->now;
     double owed = owed_time(now->time_carry, step_size), duration = step_size - owed;
     /* At an event the next one comes at a later time; elsewhere it may come at once. */
@@ -263,13 +255,11 @@ bool component_step_to_event(Component *component, double time, double step_size
 }
 
 bool component_enter_event_mode(Component *component, Refusal *refusal) {
-    return lifecycle_change(&component->now.lifecycle, "enterEventMode", STEP_COMPLETE, EVENT_MODE,
-                            refusal);
+    return lifecycle_change(&component->now.lifecycle, "enterEventMode", STEP_COMPLETE, EVENT_MODE, refusal);
 }
 
 bool component_enter_step_mode(Component *component, Refusal *refusal) {
-    return lifecycle_change(&component->now.lifecycle, "enterStepMode", EVENT_MODE, STEP_COMPLETE,
-                            refusal);
+    return lifecycle_change(&component->now.lifecycle, "enterStepMode", EVENT_MODE, STEP_COMPLETE, refusal);
 }
 
 bool component_restore(Component *component, const Snapshot *snapshot, Refusal *refusal) {

@@ -1,5 +1,5 @@
-/* The functions of a component, the same for every native FMU. `component.h` defines `Component`
- * before it includes this.
+/* The functions of a component, the same for every native FMU. `component.h` defines `Component` before it includes
+ * this.
  *
  * A function that refuses leaves the component as it was. */
 #pragma once
@@ -13,8 +13,7 @@ void component_end(Component *component);
 /* Give the component, a new one or one in use, its start values. */
 void component_reset(Component *component);
 
-bool component_setup_experiment(Component *component, const Experiment *experiment,
-                                Refusal *refusal);
+bool component_setup_experiment(Component *component, const Experiment *experiment, Refusal *refusal);
 bool component_enter_initialization(Component *component, Refusal *refusal);
 
 /* Fix the parameters and the first moment. */
@@ -24,12 +23,11 @@ bool component_exit_initialization(Component *component, Refusal *refusal);
 bool component_terminate(Component *component, Refusal *refusal);
 
 /* Set inputs and parameters by reference: all of them or, if one is refused, none. */
-bool component_set(Component *component, const unsigned *references, const double *values,
-                   size_t count, Refusal *refusal);
+bool component_set(Component *component, const unsigned *references, const double *values, size_t count,
+                   Refusal *refusal);
 
 /* Get values of any variables: all or none; outputs from initialization mode on. */
-bool component_get(Component *component, const unsigned *references, double *values, size_t count,
-                   Refusal *refusal);
+bool component_get(Component *component, const unsigned *references, double *values, size_t count, Refusal *refusal);
 
 /* Advance from the present `time` [s] by `step_size` > 0 [s], inputs held. */
 bool component_step(Component *component, double time, double step_size, Refusal *refusal);

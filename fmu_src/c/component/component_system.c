@@ -14,9 +14,9 @@ bool all_finite(const double *numbers, size_t count) {
     return true;
 }
 
-/* Whether all coefficients are finite numbers, and so are bounds of what motion and averages compute: the square of the fast
- * velocity [m^2/s^2], the drag over mu, and the integrals of load and friction [N]. The slider's mass must count beside the
- * resonator's. */
+/* Whether all coefficients are finite numbers, and so are bounds of what motion and averages compute: the square of the
+ * fast velocity [m^2/s^2], the drag over mu, and the integrals of load and friction [N]. The slider's mass must count
+ * beside the resonator's. */
 static bool system_is_finite(const System *system) {
     const Plant *plant = &system->plant;
     const Device *device = &system->device;
@@ -28,18 +28,30 @@ static bool system_is_finite(const System *system) {
     double friction = device->friction_faces * (mu + drag + bent * (1.0 + drag_over_mu));
     double strongest = TAU * (device->normal_preload + device->normal_amplitude) * (1.0 + friction);
     const double numbers[] = {
-        plant->total_mass,      plant->mass_fraction,     plant->normal_frequency,
-        plant->slip.decay,      plant->slip.stiffness,    plant->stick.decay,
-        plant->stick.stiffness, plant->drive.re,          plant->drive.im,
-        plant->relative_drive,  plant->base_acceleration, plant->holding_drive.re,
-        plant->spring,          plant->damper,            plant->holding_drive.im,
-        fast * fast,            drag_over_mu,             strongest,
+        plant->total_mass,
+        plant->mass_fraction,
+        plant->normal_frequency,
+        plant->slip.decay,
+        plant->slip.stiffness,
+        plant->stick.decay,
+        plant->stick.stiffness,
+        plant->drive.re,
+        plant->drive.im,
+        plant->relative_drive,
+        plant->base_acceleration,
+        plant->holding_drive.re,
+        plant->spring,
+        plant->damper,
+        plant->holding_drive.im,
+        fast * fast,
+        drag_over_mu,
+        strongest,
     };
     return plant->mass_fraction < 1.0 && all_finite(numbers, sizeof numbers / sizeof numbers[0]);
 }
 
-/* Refuse values that together leave the range of floating point numbers; the text names the value that is
- * the most decades away from its start value. */
+/* Refuse values that together leave the range of floating point numbers; the text names the value that is the most
+ * decades away from its start value. */
 static bool refuse_extreme(const double values[SETTABLE_COUNT], Refusal *refusal) {
     size_t furthest = 0;
     double largest = -1.0;
@@ -53,8 +65,7 @@ static bool refuse_extreme(const double values[SETTABLE_COUNT], Refusal *refusal
     }
     char value[NUMBER_SIZE], start[NUMBER_SIZE];
     const Variable *variable = &VARIABLES[furthest];
-    return refuse_extreme_value(refusal, variable->name,
-                                value_text(variable, values[furthest], value),
+    return refuse_extreme_value(refusal, variable->name, value_text(variable, values[furthest], value),
                                 value_text(variable, variable->start, start));
 }
 
@@ -102,8 +113,8 @@ static bool provide_table(Tables *tables, System *system, Refusal *refusal) {
         tables->bending = table_of(&tables->memory, tables->bending, sizeof *tables->bending);
         system->bending = tables->bending;
     }
-    return system->tables != NULL || system->bending != NULL
-           || refuse(refusal, "out of memory: the host gives none for tables of friction");
+    return system->tables != NULL || system->bending != NULL ||
+           refuse(refusal, "out of memory: the host gives none for tables of friction");
 }
 
 bool prepare_system(const double values[SETTABLE_COUNT], Tables *tables, System *system, Refusal *refusal) {

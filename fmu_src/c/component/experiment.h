@@ -15,6 +15,6 @@ typedef struct {
 /* Refuse times that are not finite or in the wrong order, and a tolerance that is not above 0. */
 bool experiment_check(const Experiment *experiment, Refusal *refusal);
 
-/* Refuse a step of `step_size` that is not above 0, does not start at the present time `now`, or ends
- * after `stop_time`, all in s. */
+/* Refuse a step of `step_size` that is not above 0, does not start at the present time `now`, or ends after
+ * `stop_time`, all in s. */
 bool step_check(double now, double stop_time, double time, double step_size, Refusal *refusal);

@@ -1,7 +1,7 @@
 /* First derivatives of inputs: over a step inputs vary linearly.
  *
- * Like a value, a derivative holds until it is set again. An input that is set after a step without its
- * derivative is held from then on. */
+ * Like a value, a derivative holds until it is set again. An input that is set after a step without its derivative is
+ * held from then on. */
 #pragma once
 
 #include <stddef.h>
@@ -20,15 +20,13 @@ typedef struct {
 /* Whether any input varies: has a derivative other than 0. */
 bool inputs_vary(const InputDerivative derivatives[VARYING_COUNT]);
 
-/* Change derivatives by reference. Refuse derivatives of other variables, any derivative after the end, and
- * values that are not finite; `derivatives` are then as they were. */
-bool change_derivatives(InputDerivative derivatives[VARYING_COUNT], Lifecycle lifecycle,
-                        const unsigned *references, const double *values, size_t count,
-                        Refusal *refusal);
+/* Change derivatives by reference. Refuse derivatives of other variables, any derivative after the end, and values that
+ * are not finite; `derivatives` are then as they were. */
+bool change_derivatives(InputDerivative derivatives[VARYING_COUNT], Lifecycle lifecycle, const unsigned *references,
+                        const double *values, size_t count, Refusal *refusal);
 
 /* Hold inputs that were set by reference, except those with new derivatives. */
-void hold_inputs(InputDerivative derivatives[VARYING_COUNT], const unsigned *references,
-                 size_t count);
+void hold_inputs(InputDerivative derivatives[VARYING_COUNT], const unsigned *references, size_t count);
 
 /* Note that a step was made: no derivative is new any more. */
 void derivatives_used(InputDerivative derivatives[VARYING_COUNT]);

@@ -4,14 +4,7 @@
 #include "../base/refusal_texts.h"
 
 /* STEP_COMPLETE of FMI 2.0 is the step mode of FMI 3.0; only FMI 3.0 has EVENT_MODE. */
-typedef enum {
-    INSTANTIATED,
-    INITIALIZATION,
-    STEP_COMPLETE,
-    TERMINATED,
-    EVENT_MODE,
-    LIFECYCLES
-} Lifecycle;
+typedef enum { INSTANTIATED, INITIALIZATION, STEP_COMPLETE, TERMINATED, EVENT_MODE, LIFECYCLES } Lifecycle;
 
 /* Types of values; the table of variables has those of the first two. */
 typedef enum {
@@ -32,8 +25,8 @@ typedef enum {
     VALUE_TYPES
 } ValueType;
 
-/* The version has the first `states` entries of Lifecycle. The value reference of a variable is its place in
- * the table plus `reference_offset`; `min_reference` is the lowest one. */
+/* The version has the first `states` entries of Lifecycle. The value reference of a variable is its place in the table
+ * plus `reference_offset`; `min_reference` is the lowest one. */
 typedef struct {
     unsigned min_reference, reference_offset;
     int states;
@@ -57,15 +50,13 @@ static inline bool is_running(Lifecycle state) {
 }
 
 /* Refuse the call in any state but `required`. */
-static inline bool require(const char *call, Lifecycle state, Lifecycle required,
-                           Refusal *refusal) {
-    return state == required
-           || refuse_wrong_state(refusal, call, FMI.state_names[state], FMI.state_names[required]);
+static inline bool require(const char *call, Lifecycle state, Lifecycle required, Refusal *refusal) {
+    return state == required || refuse_wrong_state(refusal, call, FMI.state_names[state], FMI.state_names[required]);
 }
 
 /* Go from one state to the next; refuse the call in any other state. */
-static inline bool lifecycle_change(Lifecycle *state, const char *call, Lifecycle from,
-                                    Lifecycle to, Refusal *refusal) {
+static inline bool lifecycle_change(Lifecycle *state, const char *call, Lifecycle from, Lifecycle to,
+                                    Refusal *refusal) {
     if (!require(call, *state, from, refusal)) {
         return false;
     }

@@ -44,8 +44,8 @@ static const Prediction *theory_of(const System *system, const Moment *moment, T
     return &theory->prediction;
 }
 
-double output_value(unsigned reference, const System *system, const Moment *moment,
-                    double last_event_time, Theory *theory) {
+double output_value(unsigned reference, const System *system, const Moment *moment, double last_event_time,
+                    Theory *theory) {
     switch (reference) {
     case VR_POSITION:
         return moment->position;
@@ -124,8 +124,7 @@ bool output_derivative(unsigned reference, const System *system, const Moment *m
     case VR_BLOCKING_FORCE:
     case VR_SLOW_MOTION_ERROR:
     case VR_FRICTION_POWER:
-        return refuse(refusal, "derivative of %s refused: this FMU does not provide it",
-                      VARIABLES[reference].name);
+        return refuse(refusal, "derivative of %s refused: this FMU does not provide it", VARIABLES[reference].name);
     }
     return refuse(refusal, "derivative of %s refused: it is no output", VARIABLES[reference].name);
 }

@@ -11,11 +11,11 @@ typedef struct {
 } Theory;
 
 /* The output `reference` of the system at this moment; `last_event_time` [s]. */
-double output_value(unsigned reference, const System *system, const Moment *moment,
-                    double last_event_time, Theory *theory);
+double output_value(unsigned reference, const System *system, const Moment *moment, double last_event_time,
+                    Theory *theory);
 
 /* The right-hand derivative of the output `reference` at the present moment and inputs, per s: 0 for outputs that
- * change only at events and at the ends of periods. `phase_rate` [rad/s] is the derivative of the input `phase`. Refuses variables
- * without derivative. */
+ * change only at events and at the ends of periods. `phase_rate` [rad/s] is the derivative of the input `phase`.
+ * Refuses variables without derivative. */
 bool output_derivative(unsigned reference, const System *system, const Moment *moment, double phase_rate,
                        double *derivative, Refusal *refusal);

@@ -1,5 +1,5 @@
-/* Layout: the header of state_bytes.h; as numbers the fields below in their order, then the values
- * that can be set; the checksum. */
+/* Layout: the header of state_bytes.h; as numbers the fields below in their order, then the values that can be set; the
+ * checksum. */
 #include "snapshot.h"
 
 #include <string.h>
@@ -7,8 +7,8 @@
 #include "state_bytes.h"
 #include "values.h"
 
-/* What a number must be: finite, finite or infinite, a phase within a turn, or an integer, by the type
- * that keeps it. */
+/* What a number must be: finite, finite or infinite, a phase within a turn, or an integer, by the type that keeps
+ * it. */
 typedef enum { FINITE, FINITE_OR_INFINITE, PHASE, INTEGER, FLAG, LIFECYCLE } Kind;
 
 /* `minimum` and `maximum` bound integers. */
@@ -19,8 +19,7 @@ typedef struct {
     int minimum, maximum;
 } Field;
 
-#define FIELD(name, kind, minimum, maximum) \
-    {#name, offsetof(Snapshot, name), kind, minimum, maximum}
+#define FIELD(name, kind, minimum, maximum) {#name, offsetof(Snapshot, name), kind, minimum, maximum}
 
 static const Field FIELDS[] = {
     FIELD(lifecycle, LIFECYCLE, 0, 0), /* the version of FMI bounds it */
@@ -65,10 +64,7 @@ static const Field FIELDS[] = {
 
 enum { FIELD_COUNT = sizeof FIELDS / sizeof FIELDS[0] };
 
-enum {
-    SNAPSHOT_SIZE = STATE_HEADER_SIZE + (FIELD_COUNT + SETTABLE_COUNT) * STATE_NUMBER_SIZE
-                    + STATE_CHECKSUM_SIZE
-};
+enum { SNAPSHOT_SIZE = STATE_HEADER_SIZE + (FIELD_COUNT + SETTABLE_COUNT) * STATE_NUMBER_SIZE + STATE_CHECKSUM_SIZE };
 
 size_t snapshot_size(void) {
     return SNAPSHOT_SIZE;
@@ -109,18 +105,17 @@ static bool field_check(const Field *field, double number, Refusal *refusal) {
     char text[NUMBER_SIZE];
     if (field->kind == FINITE || field->kind == FINITE_OR_INFINITE) {
         bool may_be_infinite = field->kind == FINITE_OR_INFINITE && number > 0.0;
-        return isfinite(number) || (may_be_infinite && isinf(number))
-               || refuse_infinite_in_state(refusal, field->name, number_text(number, text));
+        return isfinite(number) || (may_be_infinite && isinf(number)) ||
+               refuse_infinite_in_state(refusal, field->name, number_text(number, text));
     }
     if (field->kind == PHASE) {
         /* A turn where rounding takes a phase below 0 up to it, and a period that counts as ended before its end. */
-        return (number >= -PERIOD_END_TOLERANCE && number <= TAU)
-               || refuse_phase_in_state(refusal, field->name, number_text(number, text));
+        return (number >= -PERIOD_END_TOLERANCE && number <= TAU) ||
+               refuse_phase_in_state(refusal, field->name, number_text(number, text));
     }
     int maximum = field->kind == LIFECYCLE ? FMI.states - 1 : field->maximum;
-    return (number >= field->minimum && number <= maximum && number == floor(number))
-           || refuse_out_of_range_in_state(refusal, field->name, number_text(number, text),
-                                           field->minimum, maximum);
+    return (number >= field->minimum && number <= maximum && number == floor(number)) ||
+           refuse_out_of_range_in_state(refusal, field->name, number_text(number, text), field->minimum, maximum);
 }
 
 void snapshot_write(const Snapshot *snapshot, unsigned char *bytes) {

@@ -59,19 +59,23 @@ bool state_seal_check(const unsigned char *bytes, size_t size, size_t expected, 
     unsigned char header[STATE_HEADER_SIZE];
     write_header(header);
     if (size < STATE_HEADER_SIZE || memcmp(bytes, header, sizeof FORMAT) != 0) {
-        return refuse(refusal, "FMU state refused: %lu bytes without the header of a state; must "
-                      "be bytes that a state of this build was serialised to", (unsigned long)size);
+        return refuse(refusal,
+                      "FMU state refused: %lu bytes without the header of a state; must "
+                      "be bytes that a state of this build was serialised to",
+                      (unsigned long)size);
     }
     if (memcmp(bytes, header, STATE_HEADER_SIZE) != 0) {
-        return refuse(refusal, "FMU state refused: it is of another build; must be of the build "
-                      "%s", MODEL_GUID);
+        return refuse(refusal,
+                      "FMU state refused: it is of another build; must be of the build "
+                      "%s",
+                      MODEL_GUID);
     }
     if (size != expected) {
-        return refuse(refusal, "FMU state refused: it has %lu bytes; must be %lu",
-                      (unsigned long)size, (unsigned long)expected);
+        return refuse(refusal, "FMU state refused: it has %lu bytes; must be %lu", (unsigned long)size,
+                      (unsigned long)expected);
     }
     size_t checked = size - STATE_CHECKSUM_SIZE;
-    return get_bits(bytes + checked) == checksum(bytes, checked)
-           || refuse(refusal, "FMU state refused: damaged, its bytes do not match their checksum; "
-                     "must be bytes that a state was serialised to");
+    return get_bits(bytes + checked) == checksum(bytes, checked) ||
+           refuse(refusal, "FMU state refused: damaged, its bytes do not match their checksum; "
+                           "must be bytes that a state was serialised to");
 }

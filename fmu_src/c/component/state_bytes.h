@@ -5,8 +5,8 @@
 
 #include "../base/refusal.h"
 
-/* The header is "SLIDRES", the version of this layout in one byte, and the GUID in 40 bytes, padded
- * with 0. Numbers are IEEE doubles, lowest byte first. The checksum covers all bytes before it. */
+/* The header is "SLIDRES", the version of this layout in one byte, and the GUID in 40 bytes, padded with 0. Numbers are
+ * IEEE doubles, lowest byte first. The checksum covers all bytes before it. */
 enum { STATE_HEADER_SIZE = 48, STATE_NUMBER_SIZE = 8, STATE_CHECKSUM_SIZE = 8 };
 
 void state_number_put(unsigned char *bytes, double number);

@@ -4,30 +4,28 @@
 #include <stdio.h>
 
 bool value_check(const Variable *variable, double value, Refusal *refusal) {
-    if (isfinite(value) && value >= variable->minimum && value <= variable->maximum
-        && (!variable->integer || value == floor(value))) {
+    if (isfinite(value) && value >= variable->minimum && value <= variable->maximum &&
+        (!variable->integer || value == floor(value))) {
         return true;
     }
     char text[NUMBER_SIZE];
-    return refuse_out_of_bounds(refusal, variable->name, value_text(variable, value, text),
-                                variable->requirement);
+    return refuse_out_of_bounds(refusal, variable->name, value_text(variable, value, text), variable->requirement);
 }
 
 /* Refuse the `access` to a variable in any state but `required`. */
-static bool require_for(const char *access, unsigned reference, Lifecycle lifecycle,
-                        Lifecycle required, Refusal *refusal) {
+static bool require_for(const char *access, unsigned reference, Lifecycle lifecycle, Lifecycle required,
+                        Refusal *refusal) {
     char call[REFUSAL_SIZE];
     snprintf(call, sizeof call, "%s %s", access, VARIABLES[reference].name);
     return require(call, lifecycle, required, refusal);
 }
 
 bool reading_check(Lifecycle lifecycle, unsigned reference, Refusal *refusal) {
-    return reference < SETTABLE_COUNT || lifecycle != INSTANTIATED
-           || require_for("reading", reference, lifecycle, INITIALIZATION, refusal);
+    return reference < SETTABLE_COUNT || lifecycle != INSTANTIATED ||
+           require_for("reading", reference, lifecycle, INITIALIZATION, refusal);
 }
 
-/* Refuse to set outputs, fixed parameters while running, anything after the end, and values that the
- * table excludes. */
+/* Refuse to set outputs, fixed parameters while running, anything after the end, and values that the table excludes. */
 static bool setting_check(Lifecycle lifecycle, unsigned reference, double value, Refusal *refusal) {
     const Variable *variable = &VARIABLES[reference];
     char text[NUMBER_SIZE];
@@ -38,8 +36,7 @@ static bool setting_check(Lifecycle lifecycle, unsigned reference, double value,
         return refuse_output_set(refusal, variable->name, value_text(variable, value, text));
     }
     if (variable->fixed && is_running(lifecycle)) {
-        return refuse_fixed_while_running(refusal, variable->name,
-                                          value_text(variable, value, text));
+        return refuse_fixed_while_running(refusal, variable->name, value_text(variable, value, text));
     }
     return value_check(variable, value, refusal);
 }

@@ -6,9 +6,10 @@
 #include "lifecycle.h"
 #include "variables.h"
 
-#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || defined(__ASSOCIATIVE_MATH__) \
-    || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "compile without -ffast-math, -fassociative-math, -ffinite-math-only, /fp:fast: they remove rounding or checks for NaN"
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || defined(__ASSOCIATIVE_MATH__) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error \
+    "compile without -ffast-math, -fassociative-math, -ffinite-math-only, /fp:fast: they remove rounding or checks for NaN"
 #endif
 
 /* Refuse a value that the table excludes. */
@@ -20,8 +21,8 @@ bool reading_check(Lifecycle lifecycle, unsigned reference, Refusal *refusal);
 /* The start values of the table. */
 void start_values(double values[SETTABLE_COUNT]);
 
-/* Change `count` of `values` by reference. Refuse to set outputs, fixed parameters while running,
- * anything after the end, and values that the table excludes; `values` are then undefined. */
+/* Change `count` of `values` by reference. Refuse to set outputs, fixed parameters while running, anything after the
+ * end, and values that the table excludes; `values` are then undefined. */
 bool change_values(double values[SETTABLE_COUNT], Lifecycle lifecycle, const unsigned *references,
                    const double *changes, size_t count, Refusal *refusal);
 

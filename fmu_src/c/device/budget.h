@@ -5,8 +5,8 @@
 
 #include "../base/refusal_texts.h"
 
-/* The step has `step_size` [s], of which `passed` [s] were over when its present part began. `spent` is the
- * share of the budget that is spent. */
+/* The step has `step_size` [s], of which `passed` [s] were over when its present part began. `spent` is the share of
+ * the budget that is spent. */
 typedef struct {
     double step_size, passed, spent;
 } Budget;
@@ -24,10 +24,10 @@ static inline void budget_spend(Budget *budget, int count, int max_count) {
     budget->spent += (double)count / max_count;
 }
 
-/* Refuse work of which a whole budget buys `max_count` of `what`. A step up to `reached` [s] after the present
- * part began takes less: the text names the power of ten below it. Return false. */
-static inline bool budget_refuse(const Budget *budget, double reached, int max_count,
-                                 const char *what, Refusal *refusal) {
+/* Refuse work of which a whole budget buys `max_count` of `what`. A step up to `reached` [s] after the present part
+ * began takes less: the text names the power of ten below it. Return false. */
+static inline bool budget_refuse(const Budget *budget, double reached, int max_count, const char *what,
+                                 Refusal *refusal) {
     double end = budget->passed + reached;
     if (end > 0.0) {
         long long exponent = (long long)floor(log10(end));

@@ -2,8 +2,8 @@
 
 #include "../base/elementary.h"
 
-/* Distance [rad] from a boundary within which it counts as reached: rounding. The shortest flight that
- * floating point numbers can describe is 3e-8 rad long. */
+/* Distance [rad] from a boundary within which it counts as reached: rounding. The shortest flight that floating point
+ * numbers can describe is 3e-8 rad long. */
 #define REACHED 1e-12
 
 bool is_lifted(const Plant *plant, double chi, double frequency) {

@@ -13,13 +13,13 @@ static inline int direction_of(double velocity) {
 
 /* Whether the contact is lifted at normal phase `chi` [rad].
  *
- * On a boundary this depends on the direction in which the phase moves: `frequency` [rad/s] is its rate.
- * At rate 0 the contact is lifted where the normal load is 0. */
+ * On a boundary this depends on the direction in which the phase moves: `frequency` [rad/s] is its rate. At rate 0 the
+ * contact is lifted where the normal load is 0. */
 bool is_lifted(const Plant *plant, double chi, double frequency);
 
-/* Time [s] until the contact lifts, or touches down when `lifted`; infinite if never. `frequency`
- * [rad/s] is that of the normal load and may be negative; it grows by `rate` [rad/s^2], and the time is valid until it
- * changes its sign. */
+/* Time [s] until the contact lifts, or touches down when `lifted`; infinite if never. `frequency` [rad/s] is that of
+ * the normal load and may be negative; it grows by `rate` [rad/s^2], and the time is valid until it changes its
+ * sign. */
 double time_to_switch(const Plant *plant, double chi, double frequency, double rate, bool lifted);
 
 /* Limit of the friction force [N] of all faces at normal phase `psi` [rad]; 0 in flight. */

@@ -7,9 +7,9 @@
 /* Largest change of the phase of a stop [rad] in a turn that counts as a drift. */
 #define MAX_DRIFT 0.1
 
-/* Drive phase [rad] at which the slider last stopped after sliding in one direction, and its first and second difference from
- * the stops before (`drift`, `curvature`): extrapolated to the next turn they expect the next stop. Before the first stop all are
- * 0, an arbitrary guess. */
+/* Drive phase [rad] at which the slider last stopped after sliding in one direction, and its first and second
+ * difference from the stops before (`drift`, `curvature`): extrapolated to the next turn they expect the next stop.
+ * Before the first stop all are 0, an arbitrary guess. */
 typedef struct {
     double theta, drift, curvature;
 } Stop;

@@ -5,8 +5,8 @@
 /* Damping ratio below which the complex eigenvalue is used; hyperbolic forms are used above. */
 #define OSCILLATORY 0.9
 
-/* Relative distance of forcing frequency and eigenvalue below which the particular solution, which
- * grows with the inverse of that distance, is replaced by the response from rest. */
+/* Relative distance of forcing frequency and eigenvalue below which the particular solution, which grows with the
+ * inverse of that distance, is replaced by the response from rest. */
 #define RESONANT 0.02
 
 Oscillator oscillator_of(double decay, double stiffness) {
@@ -25,8 +25,7 @@ double slower_decay(const Oscillator *oscillator) {
 }
 
 Complex transfer(const Oscillator *oscillator, double frequency) {
-    Complex impedance = complex_of(oscillator->stiffness - frequency * frequency,
-                                   2.0 * oscillator->decay * frequency);
+    Complex impedance = complex_of(oscillator->stiffness - frequency * frequency, 2.0 * oscillator->decay * frequency);
     return complex_div(complex_of(1.0, 0.0), impedance);
 }
 
@@ -61,8 +60,7 @@ static Complex divided_difference(Complex a, Complex b, Complex grown_b, double 
     return complex_scale(t, complex_mul(grown_b, growth_of(angle).once));
 }
 
-Response response_from_rest(const Oscillator *oscillator, Complex forcing, double frequency, double t,
-                            Complex turn) {
+Response response_from_rest(const Oscillator *oscillator, Complex forcing, double frequency, double t, Complex turn) {
     Complex eigenvalue = oscillator->eigenvalue, conjugate = complex_conj(eigenvalue);
     Complex exponent = complex_of(0.0, frequency);
     Complex near = divided_difference(eigenvalue, exponent, turn, t);

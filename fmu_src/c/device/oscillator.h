@@ -1,23 +1,23 @@
 /* Closed forms of one damped oscillator, y'' + 2 decay y' + stiffness y = g(t).
  *
- * Free motion is regular at and around critical damping and without damping. Where the forcing frequency
- * meets the damped one, the response from rest is regular, unlike the steady one. */
+ * Free motion is regular at and around critical damping and without damping. Where the forcing frequency meets the
+ * damped one, the response from rest is regular, unlike the steady one. */
 #pragma once
 
 #include <stdbool.h>
 
 #include "../base/complex_number.h"
 
-/* Share of the drive frequency below which an oscillator or a forcing counts as slow: its steady response
- * would be far larger than the response between two reversals, and lose as many digits. */
+/* Share of the drive frequency below which an oscillator or a forcing counts as slow: its steady response would be far
+ * larger than the response between two reversals, and lose as many digits. */
 #define SLOW 0.02
 
-/* The longest segment, as an angle [rad] of the fastest oscillation: avoids the rounding errors of large
- * arguments of sine and cosine. */
+/* The longest segment, as an angle [rad] of the fastest oscillation: avoids the rounding errors of large arguments of
+ * sine and cosine. */
 #define LONGEST_ARC 60.0
 
-/* `decay` [1/s] and `stiffness` [1/s^2]; derived from these: the undamped `frequency` [rad/s] and, where
- * `oscillatory`, the `eigenvalue` [1/s] of positive imaginary part. */
+/* `decay` [1/s] and `stiffness` [1/s^2]; derived from these: the undamped `frequency` [rad/s] and, where `oscillatory`,
+ * the `eigenvalue` [1/s] of positive imaginary part. */
 typedef struct {
     double decay, stiffness, frequency;
     bool oscillatory;
@@ -52,5 +52,4 @@ static inline Response free_motion(const Oscillator *oscillator, Response start,
 
 /* Response to the real part of `forcing` [m/s^2] exp(i frequency t) from rest; regular at resonance. Only for
  * oscillatory damping and frequency > 0. `turn` is exp(i frequency t). */
-Response response_from_rest(const Oscillator *oscillator, Complex forcing, double frequency, double t,
-                            Complex turn);
+Response response_from_rest(const Oscillator *oscillator, Complex forcing, double frequency, double t, Complex turn);

@@ -3,8 +3,8 @@
 
 #include <stdbool.h>
 
-/* Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps of whole
- * periods complete their last period in spite of rounding. */
+/* Angle [rad] by which the end of a period may be ahead and still count as reached, so that steps of whole periods
+ * complete their last period in spite of rounding. */
 #define PERIOD_END_TOLERANCE 1e-7
 
 /* Sums since the last period ended, and the means of the last whole period.
@@ -25,8 +25,8 @@ typedef struct {
 /* The passage of a motion after `t` [s]. */
 typedef Passage (*PassageFunction)(const void *motion, double t);
 
-/* An interval of motion of `duration` [s]: `passage_at(motion, t)` is its passage; `passed` and `velocity` [m/s] are those
- * at its end. */
+/* An interval of motion of `duration` [s]: `passage_at(motion, t)` is its passage; `passed` and `velocity` [m/s] are
+ * those at its end. */
 typedef struct {
     double duration, velocity;
     Passage passed;
@@ -35,12 +35,11 @@ typedef struct {
     const void *motion;
 } Interval;
 
-/* Add an interval that began at drive phase `theta` [rad]. Return the drive phase at its end, modulo
- * 2 pi. */
+/* Add an interval that began at drive phase `theta` [rad]. Return the drive phase at its end, modulo 2 pi. */
 double period_advance(PeriodMeans *means, const Interval *interval, double theta, double frequency);
 
-/* Mean velocity [m/s] of the last whole period; before one has ended the mean since the start, and at the
- * start `velocity`. */
+/* Mean velocity [m/s] of the last whole period; before one has ended the mean since the start, and at the start
+ * `velocity`. */
 double period_mean_velocity(const PeriodMeans *means, double velocity);
 
 /* Mean power of friction [W], likewise; at the start `power`. */

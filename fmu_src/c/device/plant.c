@@ -3,8 +3,8 @@
 #include "../base/elementary.h"
 #include "../base/refusal_texts.h"
 
-/* Relative difference of two squared frequencies that is due to rounding: without damping the steady force
- * has no correct digit there. */
+/* Relative difference of two squared frequencies that is due to rounding: without damping the steady force has no
+ * correct digit there. */
 #define AT_RESONANCE (8.0 * EPSILON)
 
 /* Whether undamped resonance leaves no steady vibration. */
@@ -20,8 +20,9 @@ static Oscillator slip_oscillator(const Device *device) {
     return oscillator_of(device->damping_ratio * wn / free_share, wn * wn / free_share);
 }
 
-/* Steady vibration as complex amplitudes of e: displacement of the `resonator` [m] (eqs 31-32), a direct drive included, and
- * F_T* exp(-i theta_1) of eqs (33)-(34) with the direct drive added, `force` [N]. Refuses where it is unbounded. */
+/* Steady vibration as complex amplitudes of e: displacement of the `resonator` [m] (eqs 31-32), a direct drive
+ * included, and F_T* exp(-i theta_1) of eqs (33)-(34) with the direct drive added, `force` [N]. Refuses where it is
+ * unbounded. */
 static bool steady_vibration(const Device *device, Complex *resonator, Complex *force, Refusal *refusal) {
     double w = device->drive_frequency;
     Oscillator oscillator = slip_oscillator(device);

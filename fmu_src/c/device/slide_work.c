@@ -16,8 +16,7 @@ SlideWork slide_work_of(const Plant *plant) {
     work.displacement = complex_mul(response, complex_of(0.0, -q * plant->slip.stiffness));
     work.steady = complex_scale(1.0 / plant->slider_mass, reaction);
     work.steady.re -= 1.0 / plant->total_mass;
-    Complex by_drive[2] = {complex_add(plant->drive, shaken),
-                           complex_add(complex_conj(plant->drive), shaken)};
+    Complex by_drive[2] = {complex_add(plant->drive, shaken), complex_add(complex_conj(plant->drive), shaken)};
     for (int i = 0; i < 2; i++) {
         Complex amplitude = complex_mul(complex_of(0.0, i - 0.5), by_drive[i]), zero = complex_of(0.0, 0.0);
         bool swings = fabs(work.frequency[i]) > STANDING * w;
@@ -27,8 +26,8 @@ SlideWork slide_work_of(const Plant *plant) {
     return work;
 }
 
-/* The boundary term at an end: without the resisting force that is constant, `constant`, and with the swinging
- * part of friction, `own`. */
+/* The boundary term at an end: without the resisting force that is constant, `constant`, and with the swinging part of
+ * friction, `own`. */
 static Complex boundary(const SlideWork *work, const SlideEnd *end, Complex constant, Complex own) {
     Complex sum = complex_scale(end->state.rate, work->rate);
     sum = complex_add(sum, complex_scale(end->state.displacement, work->displacement));

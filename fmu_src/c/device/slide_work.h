@@ -1,9 +1,8 @@
 /* Work of full friction on a slider that slides, in closed form.
  *
- * With s the direction of sliding and K the integral of n X', n = exp(i chi), the work is
- * s (F0 (X - X_0) + F1 Im K). Partial integration of both equations of motion gives K from the states and phases at
- * the ends: with r = m / (M + m) and T the response of the sliding resonator, of stiffness k and decay d, to
- * exp(-i q t),
+ * With s the direction of sliding and K the integral of n X', n = exp(i chi), the work is s (F0 (X - X_0) + F1 Im K).
+ * Partial integration of both equations of motion gives K from the states and phases at the ends: with r = m / (M + m)
+ * and T the response of the sliding resonator, of stiffness k and decay d, to exp(-i q t),
  *
  *   i q K = [n (X' + r T ((k - 2 i d q) Y' - i q k Y))] - integral of n (P + r q^2 T G)
  *
@@ -12,8 +11,8 @@
 
 #include "plant.h"
 
-/* Coefficients of n Y', n Y and n in i q K; then, for n exp(i theta) and n exp(-i theta), the `frequency` [rad/s] of the
- * phasor and its coefficient: in the integral (`forced`), or after integration (`swung`), 0 for the other one. */
+/* Coefficients of n Y', n Y and n in i q K; then, for n exp(i theta) and n exp(-i theta), the `frequency` [rad/s] of
+ * the phasor and its coefficient: in the integral (`forced`), or after integration (`swung`), 0 for the other one. */
 typedef struct {
     Complex rate, displacement, steady, forced[2], swung[2];
     double frequency[2];

@@ -9,8 +9,7 @@ bool split_prepare(Split *split, const Plant *plant) {
     if (creeps) {
         return false;
     }
-    if (follows && (slip->frequency < SLOW * fmax(w, fabs(q)) || resonates(slip, w) ||
-                    resonates(slip, q))) {
+    if (follows && (slip->frequency < SLOW * fmax(w, fabs(q)) || resonates(slip, w) || resonates(slip, q))) {
         return false;
     }
     Complex zero = complex_of(0.0, 0.0), turn = complex_of(0.0, -1.0);
@@ -46,9 +45,8 @@ Phasors phasors_of(const Plant *plant, const Moment *now) {
 }
 
 Complex normal_phasor(const Plant *plant, const Phasors *phasors) {
-    return plant->normal_frequency == plant->drive_frequency
-               ? complex_mul(phasors->drive, phasors->normal)
-               : phasors->normal;
+    return plant->normal_frequency == plant->drive_frequency ? complex_mul(phasors->drive, phasors->normal)
+                                                             : phasors->normal;
 }
 
 double force_by(const Plant *plant, const State *state, const Phasors *phasors) {
@@ -62,8 +60,7 @@ double friction_limit_by(const Plant *plant, const Phasors *phasors) {
     return limit > 0.0 ? limit : 0.0;
 }
 
-/* Angle [rad] of the fastest oscillation up to which turns are rotated: the series below are then exact to
- * rounding. */
+/* Angle [rad] of the fastest oscillation up to which turns are rotated: the series below are then exact to rounding. */
 #define SMALL_TURN 0x1p-7
 
 /* Whether `t` [s] is close to the start. */
@@ -100,9 +97,8 @@ static void compute_turns(const SplitSlide *slide, double t, Turns *turns) {
     turns->t = t;
     compute_free(plant, t, turns);
     turns->phasors.drive = drive_at(slide->theta + plant->drive_frequency * t);
-    turns->phasors.normal = slide->split->merges
-                                ? slide->start.phasors.normal
-                                : complex_rect(1.0, slide->chi + plant->normal_frequency * t);
+    turns->phasors.normal = slide->split->merges ? slide->start.phasors.normal
+                                                 : complex_rect(1.0, slide->chi + plant->normal_frequency * t);
 }
 
 /* `z` exp(i angle) for a small `angle` [rad]. */
@@ -120,8 +116,7 @@ static inline double grown(double x) {
 }
 
 /* Turns at the time of `anchor`, rotated to the close time `t`. */
-static inline void rotate_turns(const SplitSlide *slide, const Turns *anchor, double t,
-                                Turns *turns) {
+static inline void rotate_turns(const SplitSlide *slide, const Turns *anchor, double t, Turns *turns) {
     const Plant *plant = slide->plant;
     double ahead = t - anchor->t;
     turns->t = t;
@@ -136,16 +131,14 @@ static inline void rotate_turns(const SplitSlide *slide, const Turns *anchor, do
         compute_free(plant, t, turns);
     }
     turns->phasors.drive = rotated(anchor->phasors.drive, plant->drive_frequency * ahead);
-    turns->phasors.normal = slide->split->merges
-                                ? anchor->phasors.normal
-                                : rotated(anchor->phasors.normal, plant->normal_frequency * ahead);
+    turns->phasors.normal = slide->split->merges ? anchor->phasors.normal
+                                                 : rotated(anchor->phasors.normal, plant->normal_frequency * ahead);
 }
 
-/* Whether turns at `t` are rotated from the start or the anchor instead of computed. Close to the start they always are, so that
- * rounding errors are those of the start: a slider that sets out must not seem to move back. */
+/* Whether turns at `t` are rotated from the start or the anchor instead of computed. Close to the start they always
+ * are, so that rounding errors are those of the start: a slider that sets out must not seem to move back. */
 static inline bool is_near(const SplitSlide *slide, double t) {
-    return is_soon(slide, t) ||
-           (slide->anchored && fabs(t - slide->anchor.t) * slide->split->fastest < SMALL_TURN);
+    return is_soon(slide, t) || (slide->anchored && fabs(t - slide->anchor.t) * slide->split->fastest < SMALL_TURN);
 }
 
 /* The turns at `t`: those of the start, or others, which are put in `place`. */
@@ -171,8 +164,8 @@ static inline Response free_motion_at(const SplitSlide *slide, const Turns *turn
     return (Response){swing.re, slip->eigenvalue.re * swing.re - slip->eigenvalue.im * swing.im};
 }
 
-/* Sets the complex amplitude of the free oscillation of the resonator [m] and returns the velocity amplitude
- * of the slider that belongs to it [m/s]. */
+/* Sets the complex amplitude of the free oscillation of the resonator [m] and returns the velocity amplitude of the
+ * slider that belongs to it [m/s]. */
 static double swing_freely(SplitSlide *slide, Complex free) {
     const Plant *plant = slide->plant;
     double decaying = plant->mass_fraction * plant->slip.frequency * complex_abs(free);
@@ -182,8 +175,8 @@ static double swing_freely(SplitSlide *slide, Complex free) {
     return decaying;
 }
 
-/* Sets the free motion of the resonator, from displacement [m] and rate [m/s] on; returns the velocity of the
- * slider that belongs to it at most [m/s]. */
+/* Sets the free motion of the resonator, from displacement [m] and rate [m/s] on; returns the velocity of the slider
+ * that belongs to it at most [m/s]. */
 static double begin_freely(SplitSlide *slide, Response free) {
     const Plant *plant = slide->plant;
     Complex eigenvalue = plant->slip.eigenvalue;
@@ -273,8 +266,7 @@ void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex norm
     bool resolves = slide->plant->resolves_resonator;
     slide->anchor.t = t;
     slide->anchor.phasors.drive = complex_mul(start->drive, drive);
-    slide->anchor.phasors.normal =
-        slide->split->merges ? start->normal : complex_mul(start->normal, normal);
+    slide->anchor.phasors.normal = slide->split->merges ? start->normal : complex_mul(start->normal, normal);
     slide->anchor.free = resolves ? free : complex_of(1.0, 0.0);
     slide->anchor.envelope = resolves ? complex_abs(free) : 1.0;
     slide->anchored = true;
@@ -283,16 +275,14 @@ void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex norm
 static inline double velocity_by(const SplitSlide *slide, const Turns *turns, double rate) {
     double t = turns->t;
     double velocity = slide->k0 + (slide->k1 + slide->k2 * t) * t +
-                      complex_mul(slide->velocity_drive, turns->phasors.drive).re -
-                      slide->plant->mass_fraction * rate;
+                      complex_mul(slide->velocity_drive, turns->phasors.drive).re - slide->plant->mass_fraction * rate;
     if (slide->split->merges) {
         return velocity;
     }
     return velocity + complex_mul(slide->velocity_normal, turns->phasors.normal).re;
 }
 
-static inline double acceleration_by(const SplitSlide *slide, const Turns *turns,
-                                     double acceleration) {
+static inline double acceleration_by(const SplitSlide *slide, const Turns *turns, double acceleration) {
     const Plant *plant = slide->plant;
     Complex drive = complex_mul(slide->velocity_drive, turns->phasors.drive);
     double total = slide->k1 + 2.0 * slide->k2 * turns->t - plant->drive_frequency * drive.im -
@@ -304,10 +294,9 @@ static inline double acceleration_by(const SplitSlide *slide, const Turns *turns
     return total;
 }
 
-/* Bound [m/s^3] on the second derivative of the velocity from turns on. That by the free motion is bounded by
- * its energy, which never grows. */
-static inline double bound_by(const SplitSlide *slide, const Turns *turns, double rate,
-                              double acceleration) {
+/* Bound [m/s^3] on the second derivative of the velocity from turns on. That by the free motion is bounded by its
+ * energy, which never grows. */
+static inline double bound_by(const SplitSlide *slide, const Turns *turns, double rate, double acceleration) {
     const Oscillator *slip = &slide->plant->slip;
     if (slip->oscillatory) {
         return slide->bound + slide->free_bound * turns->envelope;
@@ -337,8 +326,7 @@ Watch split_slide_watch(SplitSlide *slide) {
     return (Watch){velocity_ahead, slide, slide->noise, slide->split->fastest, INFINITY};
 }
 
-/* Integral of the real part of amplitude exp(i frequency s), between turns `start` and `end`;
- * frequency != 0. */
+/* Integral of the real part of amplitude exp(i frequency s), between turns `start` and `end`; frequency != 0. */
 static double swing_travel(Complex amplitude, double frequency, Complex start, Complex end) {
     return complex_mul(amplitude, complex_sub(end, start)).im / frequency;
 }
@@ -346,12 +334,12 @@ static double swing_travel(Complex amplitude, double frequency, Complex start, C
 static inline double travel_by(const SplitSlide *slide, const Turns *turns, double displacement) {
     const Plant *plant = slide->plant;
     double t = turns->t, moved = displacement - slide->free_start.displacement;
-    double travel = swing_travel(slide->velocity_drive, plant->drive_frequency,
-                                 slide->start.phasors.drive, turns->phasors.drive) -
-                    plant->mass_fraction * moved;
+    double travel =
+        swing_travel(slide->velocity_drive, plant->drive_frequency, slide->start.phasors.drive, turns->phasors.drive) -
+        plant->mass_fraction * moved;
     if (!slide->split->merges) {
-        travel += swing_travel(slide->velocity_normal, plant->normal_frequency,
-                               slide->start.phasors.normal, turns->phasors.normal);
+        travel += swing_travel(slide->velocity_normal, plant->normal_frequency, slide->start.phasors.normal,
+                               turns->phasors.normal);
     }
     return (slide->k0 + (0.5 * slide->k1 + slide->k2 * t / 3.0) * t) * t + travel;
 }
@@ -382,8 +370,7 @@ Place split_slide_place(const SplitSlide *slide, double t) {
     const Turns *turns = turns_at(slide, t, &place);
     Response free = free_motion_at(slide, turns);
     Complex ae = complex_mul(slide->resonator_drive, turns->phasors.drive);
-    State state = {velocity_by(slide, turns, free.rate),
-                   slide->constant + slide->slope * t + ae.re + free.displacement,
+    State state = {velocity_by(slide, turns, free.rate), slide->constant + slide->slope * t + ae.re + free.displacement,
                    slide->slope - plant->drive_frequency * ae.im + free.rate};
     if (!slide->split->merges) {
         Complex aq = complex_mul(slide->resonator_normal, turns->phasors.normal);

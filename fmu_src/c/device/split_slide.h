@@ -1,19 +1,18 @@
 /* Sliding or flight in closed form, for most devices.
  *
- * Velocity is v(t) = k0 + k1 t + k2 t^2 + Re(ve exp(i w t) + vq exp(i q t)) - r u(t): the particular
- * solutions at drive and normal frequency are split off from the free motion of the resonator, whose rate is
- * u. That loses digits near resonance, for soft resonators and under slow normal loads; `split_prepare` returns false there, and
- * series are used (taylor_slide.h). */
+ * Velocity is v(t) = k0 + k1 t + k2 t^2 + Re(ve exp(i w t) + vq exp(i q t)) - r u(t): the particular solutions at drive
+ * and normal frequency are split off from the free motion of the resonator, whose rate is u. That loses digits near
+ * resonance, for soft resonators and under slow normal loads; `split_prepare` returns false there, and series are used
+ * (taylor_slide.h). */
 #pragma once
 
 #include "../base/first_zero.h"
 #include "moment.h"
 #include "slide_work.h"
 
-/* Complex amplitudes per unit exp(i theta) and, for s = 1, per unit exp(i chi): displacement of the
- * resonator (`resonator_*`), velocity of the slider (`velocity_*`). Where `merges`, drive and normal
- * load swing at one frequency, or the normal load is constant: one term of v(t) then stands for
- * both. */
+/* Complex amplitudes per unit exp(i theta) and, for s = 1, per unit exp(i chi): displacement of the resonator
+ * (`resonator_*`), velocity of the slider (`velocity_*`). Where `merges`, drive and normal load swing at one frequency,
+ * or the normal load is constant: one term of v(t) then stands for both. */
 typedef struct {
     bool merges;
     double fastest;
@@ -24,14 +23,14 @@ typedef struct {
 /* Compute the amplitudes. Returns false, with `split` undefined, where splitting would lose digits. */
 bool split_prepare(Split *split, const Plant *plant);
 
-/* `drive` is exp(i theta). `normal` is exp(i chi) or, if the normal load has the frequency of the drive, the
- * constant exp(i (chi - theta)). */
+/* `drive` is exp(i theta). `normal` is exp(i chi) or, if the normal load has the frequency of the drive, the constant
+ * exp(i (chi - theta)). */
 typedef struct {
     Complex drive, normal;
 } Phasors;
 
-/* Phasors at the end of a slide, for the next segment of the same step, if the slide has computed them. They are
- * no part of the state: each step computes them anew. */
+/* Phasors at the end of a slide, for the next segment of the same step, if the slide has computed them. They are no
+ * part of the state: each step computes them anew. */
 typedef struct {
     bool known;
     Phasors phasors;
@@ -49,8 +48,8 @@ double force_by(const Plant *plant, const State *state, const Phasors *phasors);
 double friction_limit_by(const Plant *plant, const Phasors *phasors);
 
 /* Phasors after `t` [s], with the free motion of the resonator: exp(lambda t) (`free`) and its absolute value
- * (`envelope`), both 1 where the resonator is not resolved; where it does not oscillate `free` is its free
- * response C + i S. */
+ * (`envelope`), both 1 where the resonator is not resolved; where it does not oscillate `free` is its free response C +
+ * i S. */
 typedef struct {
     double t;
     Phasors phasors;
@@ -58,17 +57,17 @@ typedef struct {
     double envelope;
 } Turns;
 
-/* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight, from `theta` and `chi` [rad] on. The
- * resonator vibrates about `constant` [m] + `slope` [m/s] t. Its free motion has the complex amplitude
- * `resonator_free` [m] or, where it does not oscillate, begins at `free_start`. `bound` and `free_bound`
- * [m/s^3] bound the second derivative of the velocity: of its forced part, and of the part by a free
- * oscillation at the start. `noise` [m/s] is the rounding error of the velocity.
+/* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight, from `theta` and `chi` [rad] on. The resonator
+ * vibrates about `constant` [m] + `slope` [m/s] t. Its free motion has the complex amplitude `resonator_free` [m] or,
+ * where it does not oscillate, begins at `free_start`. `bound` and `free_bound` [m/s^3] bound the second derivative of
+ * the velocity: of its forced part, and of the part by a free oscillation at the start. `noise` [m/s] is the rounding
+ * error of the velocity.
  *
- * It begins at `begin`. The velocity is watched in `direction`; `sign` is that of friction, 0 in flight.
- * Set after the beginning, `works` says whether the work of friction is wanted.
+ * It begins at `begin`. The velocity is watched in `direction`; `sign` is that of friction, 0 in flight. Set after the
+ * beginning, `works` says whether the work of friction is wanted.
  *
- * Turns at the latest time for which sines were computed are kept in `anchor`, if `anchored`. Close to the
- * anchor or the `start` these are rotated instead of computing sines. */
+ * Turns at the latest time for which sines were computed are kept in `anchor`, if `anchored`. Close to the anchor or
+ * the `start` these are rotated instead of computing sines. */
 typedef struct {
     const Split *split;
     const Plant *plant;
@@ -85,17 +84,17 @@ typedef struct {
     bool anchored;
 } SplitSlide;
 
-/* Begin at `now`, whose phasors are `start`: a slide in `direction`, or a flight in contact mode LIFTED. The velocity is
- * watched in `direction`, unless that is 0. */
+/* Begin at `now`, whose phasors are `start`: a slide in `direction`, or a flight in contact mode LIFTED. The velocity
+ * is watched in `direction`, unless that is 0. */
 void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant, const Moment *now,
                        const Phasors *start, int direction);
 
-/* Adds to the motion a constant velocity `momentum` [m/s] and a free oscillation from the start on, of
- * complex amplitude `swing` [m] of the resonator, with its reaction on the slider. */
+/* Adds to the motion a constant velocity `momentum` [m/s] and a free oscillation from the start on, of complex
+ * amplitude `swing` [m] of the resonator, with its reaction on the slider. */
 void split_slide_change(SplitSlide *slide, double momentum, Complex swing);
 
-/* Makes the known turns after `t` [s] the anchor: exp(i w t) of the drive, exp(i q t) of the normal load and
- * exp(lambda t). */
+/* Makes the known turns after `t` [s] the anchor: exp(i w t) of the drive, exp(i q t) of the normal load and exp(lambda
+ * t). */
 void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex normal, Complex free);
 
 /* The velocity in the direction to watch. */

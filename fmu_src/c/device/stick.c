@@ -2,8 +2,7 @@
 
 #include "../base/elementary.h"
 
-/* Horizon of the bounds of a response from rest, as an angle [rad] of the oscillator: longer than most
- * sticks. */
+/* Horizon of the bounds of a response from rest, as an angle [rad] of the oscillator: longer than most sticks. */
 #define AHEAD 5.0
 
 void stick_begin(Stick *stick, const Plant *plant, const Moment *now) {
@@ -14,8 +13,8 @@ void stick_begin(Stick *stick, const Plant *plant, const Moment *now) {
     stick->normal = complex_scale(plant->friction_amplitude, complex_of(sin(chi), -cos(chi)));
     double fastest = fabs(q) + fabs(plant->normal_rate) * LONGEST_ARC / fmax(w, fabs(q));
     double swing = complex_abs(stick->normal);
-    stick->fixed_bound = swing * fastest * fastest + swing * fabs(plant->normal_rate) +
-                         complex_abs(stick->direct) * w * w;
+    stick->fixed_bound =
+        swing * fastest * fastest + swing * fabs(plant->normal_rate) + complex_abs(stick->direct) * w * w;
     stick->forcing = complex_scale(plant->base_acceleration, drive_turn);
     stick->resonates = resonates(&plant->stick, w);
     stick->horizon = stick->resonates ? AHEAD / fmax(plant->stick.frequency, w) : INFINITY;
@@ -23,8 +22,7 @@ void stick_begin(Stick *stick, const Plant *plant, const Moment *now) {
         steady = complex_mul(stick->forcing, transfer(&plant->stick, w));
     }
     stick->steady = steady;
-    stick->free_start =
-        (Response){now->state.displacement - steady.re, now->state.rate + w * steady.im};
+    stick->free_start = (Response){now->state.displacement - steady.re, now->state.rate + w * steady.im};
 }
 
 /* Response to the drive at a time [s]. */
@@ -52,10 +50,9 @@ static Sample sample_at(const Stick *stick, double t, Complex drive_turn) {
     Response forced = forced_at(stick, t, drive_turn);
     double second = -2.0 * decay * free.rate - stiffness * free.displacement;
     double energy = hypot(2.0 * decay * second + stiffness * free.rate, frequency * second);
-    Sample sample = {free.displacement + forced.displacement, free.rate + forced.rate, 0.0,
-                     energy / frequency, energy};
-    sample.acceleration = complex_mul(stick->forcing, drive_turn).re - 2.0 * decay * sample.rate -
-                          stiffness * sample.displacement;
+    Sample sample = {free.displacement + forced.displacement, free.rate + forced.rate, 0.0, energy / frequency, energy};
+    sample.acceleration =
+        complex_mul(stick->forcing, drive_turn).re - 2.0 * decay * sample.rate - stiffness * sample.displacement;
     if (stick->resonates) {
         double growing = w + 2.0 * decay + frequency + (t + stick->horizon) * w * w;
         double jerk = complex_abs(stick->forcing) * growing;
@@ -80,8 +77,7 @@ static Signal margin(const Stick *stick, double direction, double t) {
         Sample sample = sample_at(stick, t, drive_turn);
         needed += plant->spring * sample.displacement + plant->damper * sample.rate;
         change += plant->spring * sample.rate + plant->damper * sample.acceleration;
-        signal.bound +=
-            plant->spring * sample.acceleration_bound + plant->damper * sample.jerk_bound;
+        signal.bound += plant->spring * sample.acceleration_bound + plant->damper * sample.jerk_bound;
     }
     Complex held = complex_mul(stick->direct, drive_turn);
     Complex turn = turned == w * t ? drive_turn : complex_rect(1.0, turned);
@@ -112,8 +108,7 @@ int stick_watches(Stick *stick, double longest, Watch watches[2]) {
         double frequency = plant->stick.frequency, w = plant->drive_frequency;
         double rate = hypot(start.rate, frequency * start.displacement);
         double swing = complex_abs(stick->steady);
-        double force = plant->spring * (rate / frequency + swing) +
-                       plant->damper * (rate + w * swing);
+        double force = plant->spring * (rate / frequency + swing) + plant->damper * (rate + w * swing);
         reach += stick->resonates ? INFINITY : force;
         fastest = fmax(fastest, frequency);
     }

@@ -37,7 +37,8 @@ static double delta_in(const VibratingLoad *load, int turn) {
     return load->delta + load->ratio * TAU * turn;
 }
 
-/* Whether the load is constant over a turn, at a ratio of rounding: integrals below would lose their digits to 1 / n. */
+/* Whether the load is constant over a turn, at a ratio of rounding: integrals below would lose their digits to 1 /
+ * n. */
 static bool stands(const VibratingLoad *load) {
     return fabs(load->ratio) <= EXACT;
 }

@@ -5,24 +5,24 @@
 
 #include "device.h"
 
-/* Largest number of turns of the drive after which a clipped load may repeat for its phase to count. The
- * more turns, the weaker are the harmonics of the clipping that meet the drive; beyond, the mean counts. */
+/* Largest number of turns of the drive after which a clipped load may repeat for its phase to count. The more turns,
+ * the weaker are the harmonics of the clipping that meet the drive; beyond, the mean counts. */
 enum { MAX_TURNS_TO_REPEAT = 4 };
 
 /* Distance of a ratio from a fraction up to which it is due to rounding. */
 #define EXACT 1e-12
 
-/* Smallest number of turns q of the drive after which a load repeats; 0 above `max_turns`. Then q `ratio` is an integer, but
- * for rounding or a distance of at most `near` / q. */
+/* Smallest number of turns q of the drive after which a load repeats; 0 above `max_turns`. Then q `ratio` is an
+ * integer, but for rounding or a distance of at most `near` / q. */
 int turns_to_repeat(double ratio, int max_turns, double near);
 
 /* Largest number of turns after which the phase of a load counts in averages. Without flight the load is a sine: over
  * several turns it would average out. */
 int max_turns_to_repeat(const Device *device);
 
-/* N(n tau + delta) with lift-off, in N, averaged over the `turns` of the drive after which it
- * repeats; where it never does its mean instead (`is_constant`). The contact is in touch from
- * -`dip` to pi + `dip` of the phase of N, and `per_turn` is the integral of N over that; `sine` is sin(delta). */
+/* N(n tau + delta) with lift-off, in N, averaged over the `turns` of the drive after which it repeats; where it never
+ * does its mean instead (`is_constant`). The contact is in touch from -`dip` to pi + `dip` of the phase of N, and
+ * `per_turn` is the integral of N over that; `sine` is sin(delta). */
 typedef struct {
     double preload, amplitude, ratio, delta, sine;
     double dip, cos_dip, per_turn;
@@ -49,13 +49,12 @@ static inline double vibrating_load_waves(const VibratingLoad *load) {
     return load->is_constant ? 0.0 : load->ratio;
 }
 
-/* First drive angle above `angle` [rad] at which the contact lifts or touches down; infinite if it
- * never does. */
+/* First drive angle above `angle` [rad] at which the contact lifts or touches down; infinite if it never does. */
 double vibrating_load_next_kink(const VibratingLoad *load, double angle);
 
 /* Normal load [N] at drive angle `angle` [rad]. */
 double vibrating_load_at(const VibratingLoad *load, double angle);
 
-/* The integral over [turning, 2 pi - turning], where sliding goes forward, less that over
- * [-turning, turning] [N rad]. */
+/* The integral over [turning, 2 pi - turning], where sliding goes forward, less that over [-turning, turning] [N
+ * rad]. */
 double vibrating_load_difference(const VibratingLoad *load, double turning);

@@ -1,8 +1,8 @@
-/* FMI 2.0 for co-simulation. In this order: an instance and its life cycle, values (all of a call
- * or none), steps and their status, the complete state.
+/* FMI 2.0 for co-simulation. In this order: an instance and its life cycle, values (all of a call or none), steps and
+ * their status, the complete state.
  *
- * A refused call returns fmi2Error and leaves the instance as it was, ready for the next call. It
- * never returns fmi2Discard, which hosts take for a request to end the run early. */
+ * A refused call returns fmi2Error and leaves the instance as it was, ready for the next call. It never returns
+ * fmi2Discard, which hosts take for a request to end the run early. */
 #include "fmi2_api.h"
 #include "state_access.h"
 #include "value_access.h"
@@ -36,9 +36,8 @@ static void log_message(const Host *host, const char *instance_name, Status stat
 }
 
 fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2String fmuGUID,
-                              fmi2String fmuResourceLocation,
-                              const fmi2CallbackFunctions *functions, fmi2Boolean visible,
-                              fmi2Boolean loggingOn) {
+                              fmi2String fmuResourceLocation, const fmi2CallbackFunctions *functions,
+                              fmi2Boolean visible, fmi2Boolean loggingOn) {
     (void)fmuResourceLocation;
     (void)visible;
     if (functions == NULL) {
@@ -53,8 +52,8 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
     };
     if (fmuType != fmi2CoSimulation) {
         Refusal refusal;
-        refuse(&refusal, "fmi2Instantiate: fmuType = %d refused: must be %d, fmi2CoSimulation",
-               (int)fmuType, (int)fmi2CoSimulation);
+        refuse(&refusal, "fmi2Instantiate: fmuType = %d refused: must be %d, fmi2CoSimulation", (int)fmuType,
+               (int)fmi2CoSimulation);
         return refuse_instance(&host, instanceName, &refusal);
     }
     return instance_create(&host, "fmi2Instantiate", instanceName, fmuGUID, loggingOn != fmi2False);
@@ -66,19 +65,16 @@ void fmi2FreeInstance(fmi2Component c) {
 
 fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nCategories,
                                const fmi2String categories[]) {
-    return set_debug_logging(c, "fmi2SetDebugLogging", loggingOn != fmi2False, nCategories,
-                             categories);
+    return set_debug_logging(c, "fmi2SetDebugLogging", loggingOn != fmi2False, nCategories, categories);
 }
 
-fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fmi2Real tolerance,
-                               fmi2Real startTime, fmi2Boolean stopTimeDefined,
-                               fmi2Real stopTime) {
+fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fmi2Real tolerance, fmi2Real startTime,
+                               fmi2Boolean stopTimeDefined, fmi2Real stopTime) {
     Instance *instance = c;
     Refusal refusal;
-    Experiment experiment = {startTime, stopTimeDefined ? stopTime : INFINITY,
-                             toleranceDefined != fmi2False, tolerance};
-    bool done = instance != NULL
-                && component_setup_experiment(&instance->component, &experiment, &refusal);
+    Experiment experiment = {startTime, stopTimeDefined ? stopTime : INFINITY, toleranceDefined != fmi2False,
+                             tolerance};
+    bool done = instance != NULL && component_setup_experiment(&instance->component, &experiment, &refusal);
     return answer(instance, done, &refusal);
 }
 
@@ -99,12 +95,10 @@ fmi2Status fmi2Reset(fmi2Component c) {
 }
 
 #define GET_AND_SET(NAME, TYPE) \
-    fmi2Status fmi2Get##NAME(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, \
-                             fmi2##NAME value[]) { \
+    fmi2Status fmi2Get##NAME(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2##NAME value[]) { \
         return values_get(c, "fmi2Get" #NAME, vr, nvr, (void *)value, nvr, TYPE); \
     } \
-    fmi2Status fmi2Set##NAME(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, \
-                             const fmi2##NAME value[]) { \
+    fmi2Status fmi2Set##NAME(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2##NAME value[]) { \
         return values_set(c, "fmi2Set" #NAME, vr, nvr, (const void *)value, nvr, TYPE); \
     }
 
@@ -113,8 +107,7 @@ GET_AND_SET(Integer, INTEGER_TYPE)
 GET_AND_SET(Boolean, BOOLEAN_TYPE)
 GET_AND_SET(String, STRING_TYPE)
 
-fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint,
-                      fmi2Real communicationStepSize,
+fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2Real communicationStepSize,
                       fmi2Boolean noSetFMUStatePriorToCurrentPoint) {
     (void)noSetFMUStatePriorToCurrentPoint;
     Instance *instance = c;
@@ -122,25 +115,23 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint,
     if (instance == NULL) {
         return fmi2Error;
     }
-    bool done = component_step(&instance->component, currentCommunicationPoint,
-                               communicationStepSize, &refusal);
+    bool done = component_step(&instance->component, currentCommunicationPoint, communicationStepSize, &refusal);
     instance->last_step = answer(instance, done, &refusal);
     return instance->last_step;
 }
 
-/* Refuse a null pointer, and with fmi2Discard any status that is not `known`: FMI 2.0 demands fmi2Discard,
- * and it ends no run. */
+/* Refuse a null pointer, and with fmi2Discard any status that is not `known`: FMI 2.0 demands fmi2Discard, and it ends
+ * no run. */
 static fmi2Status status_check(fmi2Component c, const void *value, bool known, const char *text) {
     if (c == NULL || value == NULL) {
-        return report(c, fmi2Error,
-                      "status refused: value is a null pointer; must point to memory");
+        return report(c, fmi2Error, "status refused: value is a null pointer; must point to memory");
     }
     return known ? fmi2OK : report(c, fmi2Discard, text);
 }
 
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *value) {
-    fmi2Status checked = status_check(c, value, s == fmi2DoStepStatus,
-                                      "fmi2GetStatus: the kind must be fmi2DoStepStatus");
+    fmi2Status checked =
+        status_check(c, value, s == fmi2DoStepStatus, "fmi2GetStatus: the kind must be fmi2DoStepStatus");
     if (checked == fmi2OK) {
         *value = ((const Instance *)c)->last_step;
     }
@@ -162,8 +153,8 @@ fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind s, fmi2Int
 }
 
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boolean *value) {
-    fmi2Status checked = status_check(c, value, s == fmi2Terminated,
-                                      "fmi2GetBooleanStatus: the kind must be fmi2Terminated");
+    fmi2Status checked =
+        status_check(c, value, s == fmi2Terminated, "fmi2GetBooleanStatus: the kind must be fmi2Terminated");
     if (checked == fmi2OK) {
         *value = fmi2False;
     }
@@ -172,8 +163,7 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boo
 
 fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2String *value) {
     (void)s;
-    return status_check(c, value, false,
-                        "fmi2GetStringStatus: there is no such status, no step is ever pending");
+    return status_check(c, value, false, "fmi2GetStringStatus: there is no such status, no step is ever pending");
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
@@ -192,8 +182,7 @@ fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, si
     return state_size(c, "fmi2SerializedFMUstateSize", FMUstate, size);
 }
 
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate,
-                                 fmi2Byte serializedState[], size_t size) {
+fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate, fmi2Byte serializedState[], size_t size) {
     return state_write(c, "fmi2SerializeFMUstate", FMUstate, serializedState, size);
 }
 

@@ -4,19 +4,17 @@
 
 /* Refuse what is no call for Reals, and any order but 1. */
 static bool derivatives_check(const char *call, const fmi2ValueReference *references, size_t count,
-                              const fmi2Integer *orders, const void *values, unsigned *places,
-                              Refusal *refusal) {
+                              const fmi2Integer *orders, const void *values, unsigned *places, Refusal *refusal) {
     if (!places_check(call, references, count, values, REAL_TYPE, places, &count, refusal)) {
         return false;
     }
     if (count > 0 && orders == NULL) {
-        return refuse(refusal, "%s: a null pointer refused: must point to %lu orders", call,
-                      (unsigned long)count);
+        return refuse(refusal, "%s: a null pointer refused: must point to %lu orders", call, (unsigned long)count);
     }
     for (size_t i = 0; i < count; i++) {
         if (orders[i] != 1) {
-            return refuse(refusal, "%s: derivative of %s of order %d refused: the order must be 1",
-                          call, VARIABLES[places[i]].name, (int)orders[i]);
+            return refuse(refusal, "%s: derivative of %s of order %d refused: the order must be 1", call,
+                          VARIABLES[places[i]].name, (int)orders[i]);
         }
     }
     return true;
@@ -27,9 +25,9 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
     Instance *instance = c;
     Refusal refusal;
     unsigned places[VARIABLE_COUNT + 1];
-    bool done = instance != NULL
-                && derivatives_check("fmi2SetRealInputDerivatives", vr, nvr, order, value, places, &refusal)
-                && component_set_derivatives(&instance->component, places, value, nvr, &refusal);
+    bool done = instance != NULL &&
+                derivatives_check("fmi2SetRealInputDerivatives", vr, nvr, order, value, places, &refusal) &&
+                component_set_derivatives(&instance->component, places, value, nvr, &refusal);
     return answer(instance, done, &refusal);
 }
 
@@ -38,8 +36,8 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
     Instance *instance = c;
     Refusal refusal;
     unsigned places[VARIABLE_COUNT + 1];
-    bool done = instance != NULL
-                && derivatives_check("fmi2GetRealOutputDerivatives", vr, nvr, order, value, places, &refusal)
-                && component_get_derivatives(&instance->component, places, value, nvr, &refusal);
+    bool done = instance != NULL &&
+                derivatives_check("fmi2GetRealOutputDerivatives", vr, nvr, order, value, places, &refusal) &&
+                component_get_derivatives(&instance->component, places, value, nvr, &refusal);
     return answer(instance, done, &refusal);
 }

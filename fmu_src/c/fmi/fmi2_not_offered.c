@@ -13,8 +13,7 @@
 REFUSED(CancelStep, "no step is ever pending", (fmi2Component c))
 REFUSED(GetDirectionalDerivative, "there are none (providesDirectionalDerivative is false)",
         (fmi2Component c, const fmi2ValueReference vUnknown_ref[], size_t nUnknown,
-         const fmi2ValueReference vKnown_ref[], size_t nKnown, const fmi2Real dvKnown[],
-         fmi2Real dvUnknown[]))
+         const fmi2ValueReference vKnown_ref[], size_t nKnown, const fmi2Real dvKnown[], fmi2Real dvUnknown[]))
 
 #define MODEL_EXCHANGE "this FMU is for co-simulation"
 
@@ -22,8 +21,8 @@ REFUSED(EnterEventMode, MODEL_EXCHANGE, (fmi2Component c))
 REFUSED(NewDiscreteStates, MODEL_EXCHANGE, (fmi2Component c, fmi2EventInfo *fmi2eventInfo))
 REFUSED(EnterContinuousTimeMode, MODEL_EXCHANGE, (fmi2Component c))
 REFUSED(CompletedIntegratorStep, MODEL_EXCHANGE,
-        (fmi2Component c, fmi2Boolean noSetFMUStatePriorToCurrentPoint,
-         fmi2Boolean *enterEventMode, fmi2Boolean *terminateSimulation))
+        (fmi2Component c, fmi2Boolean noSetFMUStatePriorToCurrentPoint, fmi2Boolean *enterEventMode,
+         fmi2Boolean *terminateSimulation))
 REFUSED(SetTime, MODEL_EXCHANGE, (fmi2Component c, fmi2Real time))
 REFUSED(SetContinuousStates, MODEL_EXCHANGE, (fmi2Component c, const fmi2Real x[], size_t nx))
 REFUSED(GetDerivatives, MODEL_EXCHANGE, (fmi2Component c, fmi2Real derivatives[], size_t nx))

@@ -1,16 +1,16 @@
-/* FMI 3.0 for co-simulation. In this order: an instance and its life cycle, values (all of a call
- * or none), steps and the event mode between them, the complete state.
+/* FMI 3.0 for co-simulation. In this order: an instance and its life cycle, values (all of a call or none), steps and
+ * the event mode between them, the complete state.
  *
  * A refused call returns fmi3Error and leaves the instance as it was, ready for the next call.
  *
- * If the host uses event mode and allows early return, a step ends at the first reversal, stick,
- * release, lift-off or touchdown, located to rounding. Otherwise it passes over them. */
+ * If the host uses event mode and allows early return, a step ends at the first reversal, stick, release, lift-off or
+ * touchdown, located to rounding. Otherwise it passes over them. */
 #include "fmi3_api.h"
 #include "state_access.h"
 #include "value_access.h"
 
-static void log_message(const Host *host, const char *instance_name, Status status,
-                        const char *category, const char *text) {
+static void log_message(const Host *host, const char *instance_name, Status status, const char *category,
+                        const char *text) {
     (void)instance_name;
     fmi3LogMessageCallback logger = (fmi3LogMessageCallback)host->logger;
     logger(host->environment, status, category, text);
@@ -24,20 +24,23 @@ const char *fmi3GetVersion(void) {
     return fmi3Version;
 }
 
-fmi3Instance fmi3InstantiateCoSimulation(
-    fmi3String instanceName, fmi3String instantiationToken, fmi3String resourcePath,
-    fmi3Boolean visible, fmi3Boolean loggingOn, fmi3Boolean eventModeUsed,
-    fmi3Boolean earlyReturnAllowed, const fmi3ValueReference requiredIntermediateVariables[],
-    size_t nRequiredIntermediateVariables, fmi3InstanceEnvironment instanceEnvironment,
-    fmi3LogMessageCallback logMessage, fmi3IntermediateUpdateCallback intermediateUpdate) {
+fmi3Instance fmi3InstantiateCoSimulation(fmi3String instanceName, fmi3String instantiationToken,
+                                         fmi3String resourcePath, fmi3Boolean visible, fmi3Boolean loggingOn,
+                                         fmi3Boolean eventModeUsed, fmi3Boolean earlyReturnAllowed,
+                                         const fmi3ValueReference requiredIntermediateVariables[],
+                                         size_t nRequiredIntermediateVariables,
+                                         fmi3InstanceEnvironment instanceEnvironment, fmi3LogMessageCallback logMessage,
+                                         fmi3IntermediateUpdateCallback intermediateUpdate) {
     (void)resourcePath, (void)visible, (void)requiredIntermediateVariables;
     (void)intermediateUpdate;
     const char *call = "fmi3InstantiateCoSimulation";
     Host host = fmi3_host(instanceEnvironment, logMessage);
     if (nRequiredIntermediateVariables > 0) {
         Refusal refusal;
-        refuse(&refusal, "%s: nRequiredIntermediateVariables = %lu refused: must be 0, there is no "
-               "intermediate update", call, (unsigned long)nRequiredIntermediateVariables);
+        refuse(&refusal,
+               "%s: nRequiredIntermediateVariables = %lu refused: must be 0, there is no "
+               "intermediate update",
+               call, (unsigned long)nRequiredIntermediateVariables);
         return refuse_instance(&host, instanceName, &refusal);
     }
     Instance *instance = instance_create(&host, call, instanceName, instantiationToken, loggingOn);
@@ -58,17 +61,15 @@ fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean loggingOn, siz
 }
 
 /* The times of the experiment come with the change to initialization mode. */
-fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean toleranceDefined,
-                                       fmi3Float64 tolerance, fmi3Float64 startTime,
-                                       fmi3Boolean stopTimeDefined, fmi3Float64 stopTime) {
+fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean toleranceDefined, fmi3Float64 tolerance,
+                                       fmi3Float64 startTime, fmi3Boolean stopTimeDefined, fmi3Float64 stopTime) {
     Instance *own = instance;
     Refusal refusal;
     Experiment experiment = {startTime, stopTimeDefined ? stopTime : INFINITY, toleranceDefined, tolerance};
-    bool done = own != NULL
-                && require("enterInitializationMode", own->component.now.lifecycle, INSTANTIATED,
-                           &refusal)
-                && component_setup_experiment(&own->component, &experiment, &refusal)
-                && component_enter_initialization(&own->component, &refusal);
+    bool done = own != NULL &&
+                require("enterInitializationMode", own->component.now.lifecycle, INSTANTIATED, &refusal) &&
+                component_setup_experiment(&own->component, &experiment, &refusal) &&
+                component_enter_initialization(&own->component, &refusal);
     return answer(own, done, &refusal);
 }
 
@@ -93,14 +94,13 @@ fmi3Status fmi3Reset(fmi3Instance instance) {
 #define GET_AND_SET(NAME, TYPE) \
     fmi3Status fmi3Get##NAME(fmi3Instance instance, const fmi3ValueReference valueReferences[], \
                              size_t nValueReferences, fmi3##NAME values[], size_t nValues) { \
-        return values_get(instance, "fmi3Get" #NAME, valueReferences, nValueReferences, \
-                          (void *)values, nValues, TYPE); \
+        return values_get(instance, "fmi3Get" #NAME, valueReferences, nValueReferences, (void *)values, nValues, \
+                          TYPE); \
     } \
     fmi3Status fmi3Set##NAME(fmi3Instance instance, const fmi3ValueReference valueReferences[], \
-                             size_t nValueReferences, const fmi3##NAME values[], \
-                             size_t nValues) { \
-        return values_set(instance, "fmi3Set" #NAME, valueReferences, nValueReferences, \
-                          (const void *)values, nValues, TYPE); \
+                             size_t nValueReferences, const fmi3##NAME values[], size_t nValues) { \
+        return values_set(instance, "fmi3Set" #NAME, valueReferences, nValueReferences, (const void *)values, nValues, \
+                          TYPE); \
     }
 
 GET_AND_SET(Float64, REAL_TYPE)
@@ -116,62 +116,54 @@ GET_AND_SET(UInt64, UINT64_TYPE)
 GET_AND_SET(Boolean, BOOLEAN_TYPE)
 GET_AND_SET(String, STRING_TYPE)
 
-fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                         size_t nValueReferences, size_t valueSizes[], fmi3Binary values[],
-                         size_t nValues) {
+fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                         size_t valueSizes[], fmi3Binary values[], size_t nValues) {
     (void)valueSizes;
-    return values_get(instance, "fmi3GetBinary", valueReferences, nValueReferences,
-                      (void *)values, nValues, BINARY_TYPE);
+    return values_get(instance, "fmi3GetBinary", valueReferences, nValueReferences, (void *)values, nValues,
+                      BINARY_TYPE);
 }
 
-fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                         size_t nValueReferences, const size_t valueSizes[],
-                         const fmi3Binary values[], size_t nValues) {
+fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                         const size_t valueSizes[], const fmi3Binary values[], size_t nValues) {
     (void)valueSizes;
-    return values_set(instance, "fmi3SetBinary", valueReferences, nValueReferences,
-                      (const void *)values, nValues, BINARY_TYPE);
+    return values_set(instance, "fmi3SetBinary", valueReferences, nValueReferences, (const void *)values, nValues,
+                      BINARY_TYPE);
 }
 
-fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                        size_t nValueReferences, fmi3Clock values[]) {
-    return values_get(instance, "fmi3GetClock", valueReferences, nValueReferences,
-                      (void *)values, nValueReferences, CLOCK_TYPE);
+fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                        fmi3Clock values[]) {
+    return values_get(instance, "fmi3GetClock", valueReferences, nValueReferences, (void *)values, nValueReferences,
+                      CLOCK_TYPE);
 }
 
-fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[],
-                        size_t nValueReferences, const fmi3Clock values[]) {
-    return values_set(instance, "fmi3SetClock", valueReferences, nValueReferences,
-                      (const void *)values, nValueReferences, CLOCK_TYPE);
+fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
+                        const fmi3Clock values[]) {
+    return values_set(instance, "fmi3SetClock", valueReferences, nValueReferences, (const void *)values,
+                      nValueReferences, CLOCK_TYPE);
 }
 
 /* Refuse NULL where the function `call` must write its results. */
 static bool results_check(const char *call, bool all_given, Refusal *refusal) {
-    return all_given
-           || refuse(refusal, "%s: a null pointer refused: must point to memory for a result", call);
+    return all_given || refuse(refusal, "%s: a null pointer refused: must point to memory for a result", call);
 }
 
-fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoint,
-                      fmi3Float64 communicationStepSize,
-                      fmi3Boolean noSetFMUStatePriorToCurrentPoint,
-                      fmi3Boolean *eventHandlingNeeded, fmi3Boolean *terminateSimulation,
-                      fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime) {
+fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoint, fmi3Float64 communicationStepSize,
+                      fmi3Boolean noSetFMUStatePriorToCurrentPoint, fmi3Boolean *eventHandlingNeeded,
+                      fmi3Boolean *terminateSimulation, fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime) {
     (void)noSetFMUStatePriorToCurrentPoint;
     Instance *own = instance;
     Refusal refusal;
-    if (own == NULL
-        || !results_check("fmi3DoStep",
-                          eventHandlingNeeded && terminateSimulation && earlyReturn
-                              && lastSuccessfulTime, &refusal)) {
+    if (own == NULL ||
+        !results_check("fmi3DoStep", eventHandlingNeeded && terminateSimulation && earlyReturn && lastSuccessfulTime,
+                       &refusal)) {
         return answer(own, false, &refusal);
     }
     Component *component = &own->component;
     bool event = false, done;
     if (own->event_mode_used && own->early_return_allowed) {
-        done = component_step_to_event(component, currentCommunicationPoint, communicationStepSize,
-                                       &event, &refusal);
+        done = component_step_to_event(component, currentCommunicationPoint, communicationStepSize, &event, &refusal);
     } else {
-        done = component_step(component, currentCommunicationPoint, communicationStepSize,
-                              &refusal);
+        done = component_step(component, currentCommunicationPoint, communicationStepSize, &refusal);
     }
     double end = currentCommunicationPoint + communicationStepSize;
     *eventHandlingNeeded = event;
@@ -202,21 +194,17 @@ fmi3Status fmi3EnterStepMode(fmi3Instance instance) {
 
 /* There is nothing to update at an event: the step that ended there has changed the contact mode. */
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discreteStatesNeedUpdate,
-                                    fmi3Boolean *terminateSimulation,
-                                    fmi3Boolean *nominalsOfContinuousStatesChanged,
-                                    fmi3Boolean *valuesOfContinuousStatesChanged,
-                                    fmi3Boolean *nextEventTimeDefined,
+                                    fmi3Boolean *terminateSimulation, fmi3Boolean *nominalsOfContinuousStatesChanged,
+                                    fmi3Boolean *valuesOfContinuousStatesChanged, fmi3Boolean *nextEventTimeDefined,
                                     fmi3Float64 *nextEventTime) {
     Instance *own = instance;
     Refusal refusal;
-    bool done = own != NULL
-                && results_check("fmi3UpdateDiscreteStates",
-                                 discreteStatesNeedUpdate && terminateSimulation
-                                     && nominalsOfContinuousStatesChanged
-                                     && valuesOfContinuousStatesChanged && nextEventTimeDefined
-                                     && nextEventTime, &refusal)
-                && require("updateDiscreteStates", own->component.now.lifecycle, EVENT_MODE,
-                           &refusal);
+    bool done = own != NULL &&
+                results_check("fmi3UpdateDiscreteStates",
+                              discreteStatesNeedUpdate && terminateSimulation && nominalsOfContinuousStatesChanged &&
+                                  valuesOfContinuousStatesChanged && nextEventTimeDefined && nextEventTime,
+                              &refusal) &&
+                require("updateDiscreteStates", own->component.now.lifecycle, EVENT_MODE, &refusal);
     if (done) {
         *discreteStatesNeedUpdate = *terminateSimulation = fmi3False;
         *nominalsOfContinuousStatesChanged = *valuesOfContinuousStatesChanged = fmi3False;
@@ -248,12 +236,12 @@ fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUSta
     return state_size(instance, "fmi3SerializedFMUStateSize", FMUState, size);
 }
 
-fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState,
-                                 fmi3Byte serializedState[], size_t size) {
+fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState, fmi3Byte serializedState[],
+                                 size_t size) {
     return state_write(instance, "fmi3SerializeFMUState", FMUState, serializedState, size);
 }
 
-fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte serializedState[],
-                                   size_t size, fmi3FMUState *FMUState) {
+fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte serializedState[], size_t size,
+                                   fmi3FMUState *FMUState) {
     return state_read(instance, "fmi3DeserializeFMUState", serializedState, size, FMUState);
 }

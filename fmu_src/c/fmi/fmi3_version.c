@@ -7,8 +7,8 @@ const FmiVersion FMI = {
     .reference_offset = 2,
     .states = EVENT_MODE + 1,
     .state_names = {"instantiated", "initialization mode", "step mode", "terminated", "event mode"},
-    .type_names = {"Float64", "Int32", "Boolean", "String", "Float32", "Int8", "UInt8", "Int16",
-                   "UInt16", "UInt32", "Int64", "UInt64", "Binary", "Clock"},
+    .type_names = {"Float64", "Int32", "Boolean", "String", "Float32", "Int8", "UInt8", "Int16", "UInt16", "UInt32",
+                   "Int64", "UInt64", "Binary", "Clock"},
     .count_name = "nValueReferences",
     .token = "instantiationToken",
 };

@@ -5,8 +5,8 @@
 
 #include "../component/model_guid.h"
 
-static const char *const CATEGORIES[STATUSES] = {"logAll", "logStatusWarning", "logStatusDiscard",
-                                                 "logStatusError", "logStatusFatal"};
+static const char *const CATEGORIES[STATUSES] = {"logAll", "logStatusWarning", "logStatusDiscard", "logStatusError",
+                                                 "logStatusFatal"};
 
 static bool gives_memory(const Host *host) {
     return host->allocate != NULL && host->release != NULL;
@@ -41,16 +41,16 @@ void *refuse_instance(const Host *host, const char *name, const Refusal *refusal
     return NULL;
 }
 
-static bool instance_check(const char *call, const char *name, const char *token,
-                           Refusal *refusal) {
+static bool instance_check(const char *call, const char *name, const char *token, Refusal *refusal) {
     if (name == NULL || name[0] == '\0') {
         return refuse(refusal, "%s: instanceName refused: it is %s; must be a name", call,
                       name == NULL ? "a null pointer" : "empty");
     }
     if (token == NULL || strcmp(token, MODEL_GUID) != 0) {
-        return refuse(refusal, "%s: %s = '%.80s' refused: must be '%s'; the model description is of "
-                      "another build", call, FMI.token, token == NULL ? "(null)" : token,
-                      MODEL_GUID);
+        return refuse(refusal,
+                      "%s: %s = '%.80s' refused: must be '%s'; the model description is of "
+                      "another build",
+                      call, FMI.token, token == NULL ? "(null)" : token, MODEL_GUID);
     }
     return true;
 }
@@ -62,8 +62,7 @@ static void enable_all(bool categories[STATUSES], bool enabled) {
     }
 }
 
-Instance *instance_create(const Host *host, const char *call, const char *name, const char *token,
-                          bool debugging) {
+Instance *instance_create(const Host *host, const char *call, const char *name, const char *token, bool debugging) {
     Refusal refusal;
     if (!instance_check(call, name, token, &refusal)) {
         return refuse_instance(host, name, &refusal);
@@ -100,9 +99,8 @@ static bool enable(bool categories[STATUSES], const char *call, const char *cate
         }
     }
     return refuse(refusal, "%s: category '%.80s' refused: must be one of %s, %s, %s, %s, %s", call,
-                  category == NULL ? "(null)" : category, CATEGORIES[STATUS_WARNING],
-                  CATEGORIES[STATUS_DISCARD], CATEGORIES[STATUS_ERROR], CATEGORIES[STATUS_FATAL],
-                  CATEGORIES[STATUS_OK]);
+                  category == NULL ? "(null)" : category, CATEGORIES[STATUS_WARNING], CATEGORIES[STATUS_DISCARD],
+                  CATEGORIES[STATUS_ERROR], CATEGORIES[STATUS_FATAL], CATEGORIES[STATUS_OK]);
 }
 
 Status set_debug_logging(Instance *instance, const char *call, bool logging_on, size_t count,
@@ -112,9 +110,11 @@ Status set_debug_logging(Instance *instance, const char *call, bool logging_on, 
         return STATUS_ERROR;
     }
     bool enabled[STATUSES];
-    bool known = (count <= STATUSES && (count == 0 || categories != NULL))
-                 || refuse(&refusal, "%s: nCategories = %lu refused: must be from 0 to %d, with as many "
-                           "categories", call, (unsigned long)count, STATUSES);
+    bool known = (count <= STATUSES && (count == 0 || categories != NULL)) ||
+                 refuse(&refusal,
+                        "%s: nCategories = %lu refused: must be from 0 to %d, with as many "
+                        "categories",
+                        call, (unsigned long)count, STATUSES);
     enable_all(enabled, logging_on && count == 0);
     for (size_t i = 0; known && i < count; i++) {
         known = enable(enabled, call, categories[i], &refusal);

@@ -3,16 +3,14 @@
 #include <string.h>
 
 /* Refuse a null pointer; the text names the argument. */
-static bool pointer_check(const char *call, const char *argument, const void *pointer,
-                          Refusal *refusal) {
-    return pointer != NULL
-           || refuse(refusal, "%s: %s refused: it is a null pointer; must point to memory", call,
-                     argument);
+static bool pointer_check(const char *call, const char *argument, const void *pointer, Refusal *refusal) {
+    return pointer != NULL ||
+           refuse(refusal, "%s: %s refused: it is a null pointer; must point to memory", call, argument);
 }
 
 /* Copy `snapshot` to *state; allocate it where it is NULL. */
-static bool copy_out(const Instance *instance, const Snapshot *snapshot, const char *call,
-                     void **state, Refusal *refusal) {
+static bool copy_out(const Instance *instance, const Snapshot *snapshot, const char *call, void **state,
+                     Refusal *refusal) {
     if (*state == NULL) {
         *state = host_allocate(&instance->host, sizeof *snapshot);
     }
@@ -25,15 +23,15 @@ static bool copy_out(const Instance *instance, const Snapshot *snapshot, const c
 
 Status state_get(Instance *instance, const char *call, void **state) {
     Refusal refusal;
-    bool done = instance != NULL && pointer_check(call, "the FMU state", state, &refusal)
-                && copy_out(instance, &instance->component.now, call, state, &refusal);
+    bool done = instance != NULL && pointer_check(call, "the FMU state", state, &refusal) &&
+                copy_out(instance, &instance->component.now, call, state, &refusal);
     return answer(instance, done, &refusal);
 }
 
 Status state_set(Instance *instance, const char *call, void *state) {
     Refusal refusal;
-    bool done = instance != NULL && pointer_check(call, "the FMU state", state, &refusal)
-                && component_restore(&instance->component, state, &refusal);
+    bool done = instance != NULL && pointer_check(call, "the FMU state", state, &refusal) &&
+                component_restore(&instance->component, state, &refusal);
     return answer(instance, done, &refusal);
 }
 
@@ -50,19 +48,18 @@ Status state_free(const Instance *instance, void **state) {
 
 Status state_size(const Instance *instance, const char *call, const void *state, size_t *size) {
     Refusal refusal;
-    bool done = instance != NULL && pointer_check(call, "the FMU state", state, &refusal)
-                && pointer_check(call, "the size", size, &refusal);
+    bool done = instance != NULL && pointer_check(call, "the FMU state", state, &refusal) &&
+                pointer_check(call, "the size", size, &refusal);
     if (done) {
         *size = snapshot_size();
     }
     return answer(instance, done, &refusal);
 }
 
-Status state_write(const Instance *instance, const char *call, const void *state, void *bytes,
-                   size_t size) {
+Status state_write(const Instance *instance, const char *call, const void *state, void *bytes, size_t size) {
     Refusal refusal;
-    bool done = instance != NULL && pointer_check(call, "the FMU state", state, &refusal)
-                && pointer_check(call, "the serialised state", bytes, &refusal);
+    bool done = instance != NULL && pointer_check(call, "the FMU state", state, &refusal) &&
+                pointer_check(call, "the serialised state", bytes, &refusal);
     if (done && size != snapshot_size()) {
         done = refuse(&refusal, "%s: size = %lu refused: must be %lu", call, (unsigned long)size,
                       (unsigned long)snapshot_size());
@@ -73,13 +70,11 @@ Status state_write(const Instance *instance, const char *call, const void *state
     return answer(instance, done, &refusal);
 }
 
-Status state_read(const Instance *instance, const char *call, const void *bytes, size_t size,
-                  void **state) {
+Status state_read(const Instance *instance, const char *call, const void *bytes, size_t size, void **state) {
     Refusal refusal;
     Snapshot snapshot;
-    bool done = instance != NULL && pointer_check(call, "the serialised state", bytes, &refusal)
-                && pointer_check(call, "the FMU state", state, &refusal)
-                && snapshot_read(&snapshot, bytes, size, &refusal)
-                && copy_out(instance, &snapshot, call, state, &refusal);
+    bool done = instance != NULL && pointer_check(call, "the serialised state", bytes, &refusal) &&
+                pointer_check(call, "the FMU state", state, &refusal) &&
+                snapshot_read(&snapshot, bytes, size, &refusal) && copy_out(instance, &snapshot, call, state, &refusal);
     return answer(instance, done, &refusal);
 }

@@ -27,8 +27,7 @@ static void prepare_normal(BendingKernels *kernels, double frequency) {
 }
 
 /* The integrals of a unit force a and of a unit impulse b at a node. */
-static void prepare_left(BendingKernels *kernels, Complex eigenvalue, Complex back, int node,
-                         double weight) {
+static void prepare_left(BendingKernels *kernels, Complex eigenvalue, Complex back, int node, double weight) {
     double *even = kernels->left_even[node], *late = kernels->left_late[node];
     Complex turned = complex_scale(weight, complex_mul(eigenvalue, back));
     even[IMPULSE] = weight;
@@ -62,8 +61,7 @@ static void prepare_interpolation(BendingKernels *kernels) {
     }
 }
 
-static void prepare(BendingKernels *kernels, const GaussIntegrals *gauss, const Plant *plant,
-                    double length) {
+static void prepare(BendingKernels *kernels, const GaussIntegrals *gauss, const Plant *plant, double length) {
     Complex eigenvalue = plant->slip.eigenvalue, turned[POINTS], back[POINTS];
     double w = plant->drive_frequency;
     double per_mass = 1.0 / plant->total_mass;
@@ -100,8 +98,8 @@ static void prepare(BendingKernels *kernels, const GaussIntegrals *gauss, const 
 }
 
 BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, double length) {
-    PlantKey key_of_plant = {plant->slider_mass, plant->total_mass, plant->mass_fraction,
-                             plant->drive_frequency, plant->slip.eigenvalue};
+    PlantKey key_of_plant = {plant->slider_mass, plant->total_mass, plant->mass_fraction, plant->drive_frequency,
+                             plant->slip.eigenvalue};
     if (memcmp(&tables->plant, &key_of_plant, sizeof key_of_plant) != 0) {
         tables->plant = key_of_plant;
         tables->kept_count = tables->oldest = 0;

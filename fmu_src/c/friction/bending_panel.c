@@ -6,8 +6,8 @@
 /* Exponent of E at which the decay of f is first estimated. */
 #define GUESSED_EXPONENT 16.0
 
-/* Share of the tolerance for the part of f after the panel, which is dropped. It is small because this
- * error has the same sign at each reversal, and adds up. */
+/* Share of the tolerance for the part of f after the panel, which is dropped. It is small because this error has the
+ * same sign at each reversal, and adds up. */
 #define LEFT_OUT 0.2
 
 /* Safety factor on the estimated length of a panel. */
@@ -27,14 +27,14 @@ enum { MAX_CORRECTIONS = 6 };
 /* Share of the tolerance for the error of the last iterate. */
 #define ITERATION_SHARE 0.3
 
-/* Change by a correction over the change by the one before, in units of the contraction. It is below 1
- * because f acts on the path only while E lasts, and later with each correction. */
+/* Change by a correction over the change by the one before, in units of the contraction. It is below 1 because f acts
+ * on the path only while E lasts, and later with each correction. */
 #define NEXT 0.25
 
-/* What is known before any integration. `rate` k [1/m] of E = exp(-k |x - x_r|), `lag` rho [s], `bend` beta;
- * `push` bounds the acceleration by the force f of the bristle [m/s^2]; `speed` [m/s] and `acceleration`
- * [m/s^2] are those under full friction, in the direction of sliding. From E = exp(-`exponent`) on, after
- * about `length` [s], f changes the velocity by less than the tolerance. */
+/* What is known before any integration. `rate` k [1/m] of E = exp(-k |x - x_r|), `lag` rho [s], `bend` beta; `push`
+ * bounds the acceleration by the force f of the bristle [m/s^2]; `speed` [m/s] and `acceleration` [m/s^2] are those
+ * under full friction, in the direction of sliding. From E = exp(-`exponent`) on, after about `length` [s], f changes
+ * the velocity by less than the tolerance. */
 typedef struct {
     double rate, lag, bend, push, speed, acceleration, exponent, length;
 } Outlook;
@@ -85,8 +85,8 @@ static double response_bound(const Plant *plant, double length) {
 
 /* Whether the slider is guaranteed not to stop for `length` [s].
  *
- * A parabola bounds the velocity under full friction from below. Of f only the part with E' < 0 decreases
- * the velocity: by push rho (1 - E), where 1 - E is at most k times the path. */
+ * A parabola bounds the velocity under full friction from below. Of f only the part with E' < 0 decreases the velocity:
+ * by push rho (1 - E), where 1 - E is at most k times the path. */
 static bool goes_on(const Outlook *outlook, const SplitSlide *slide, double length) {
     double bound = slide->bound + slide->free_bound;
     double push = outlook->push * response_bound(slide->plant, length);
@@ -97,11 +97,11 @@ static bool goes_on(const Outlook *outlook, const SplitSlide *slide, double leng
     return (outlook->speed > 0.0 || outlook->acceleration > 0.0) && gained - lost > slide->noise;
 }
 
-/* Estimate of the error of the velocity [m/s] at the end of the panel: the nodes miss a `share` of f, which
- * changes the velocity by no more than `weight` [m/s].
+/* Estimate of the error of the velocity [m/s] at the end of the panel: the nodes miss a `share` of f, which changes the
+ * velocity by no more than `weight` [m/s].
  *
- * E is an entire function, so its Legendre coefficients fall ever faster. Integrals up to the end miss only
- * those of twice the order, which are below 2^(-nodes) times the square of the last one. */
+ * E is an entire function, so its Legendre coefficients fall ever faster. Integrals up to the end miss only those of
+ * twice the order, which are below 2^(-nodes) times the square of the last one. */
 static double error_of(double weight, double share, double contraction) {
     return weight * share * (DISPLACING * contraction + ldexp(share, -GAUSS_NODES / 2));
 }
@@ -158,8 +158,7 @@ static void prepare_forces(BendingPanel *panel, double *even, double *late) {
 }
 
 /* Adds the product of `matrix` and the forces at the nodes to `sum`. */
-static void add_response(double *restrict sum, double (*restrict matrix)[POINTS],
-                         const double *restrict forces) {
+static void add_response(double *restrict sum, double (*restrict matrix)[POINTS], const double *restrict forces) {
     for (int j = 0; j < GAUSS_NODES; j++) {
         for (int i = 0; i < POINTS; i++) {
             sum[i] += matrix[j][i] * forces[j];
@@ -185,8 +184,8 @@ typedef struct {
     double contraction, left;
 } Iteration;
 
-/* Corrects E and f, beginning with the path under full friction, until another correction would change the
- * velocity by less than `tolerance` [m/s]; `weight` [m/s] bounds the change by f. */
+/* Corrects E and f, beginning with the path under full friction, until another correction would change the velocity by
+ * less than `tolerance` [m/s]; `weight` [m/s] bounds the change by f. */
 static Iteration iterate(BendingPanel *panel, double weight, double tolerance) {
     double even[POINTS], late[POINTS], bent[POINTS], before[POINTS] = {0.0};
     double remaining[POINTS], scale = panel->slide.direction * panel->rate, next = 1.0;
@@ -232,8 +231,7 @@ static void sum_up(const BendingPanel *panel, double left[LEFT]) {
     left[BACK_IM] = back.im;
     for (int j = 0; j < GAUSS_NODES; j++) {
         for (int k = 0; k < LEFT; k++) {
-            left[k] += kernels->left_even[j][k] * panel->even[j] +
-                       kernels->left_late[j][k] * panel->late[j];
+            left[k] += kernels->left_even[j][k] * panel->even[j] + kernels->left_late[j][k] * panel->late[j];
         }
     }
 }
@@ -280,8 +278,7 @@ static void end_panel(BendingPanel *panel) {
     panel->offset = -left[LEVER] / plant->total_mass - plant->mass_fraction * swing.re;
     split_slide_change(&panel->slide, momentum, swing);
     split_slide_anchor(&panel->slide, panel->length, kernels->end_drive,
-                       complex_of(kernels->turn.re[END], kernels->turn.im[END]),
-                       kernels->end_free);
+                       complex_of(kernels->turn.re[END], kernels->turn.im[END]), kernels->end_free);
     panel->work = 0.0;
 }
 

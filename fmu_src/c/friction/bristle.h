@@ -6,8 +6,8 @@
 
 #include "../base/elementary_functions.h"
 
-/* Coefficient mu [1], stiffness sigma_0 [1/m] and damping sigma_1 [s/m]. Coulomb friction is that of a rigid bristle, whose
- * stiffness is infinite. */
+/* Coefficient mu [1], stiffness sigma_0 [1/m] and damping sigma_1 [s/m]. Coulomb friction is that of a rigid bristle,
+ * whose stiffness is infinite. */
 typedef struct {
     double coefficient, stiffness, damping;
 } Bristle;
@@ -17,9 +17,9 @@ static inline bool is_elastic(const Bristle *bristle) {
     return isfinite(bristle->stiffness);
 }
 
-/* What a bristle damps over mu, under a vibration of velocity amplitude `fast` [m/s] and `frequency` [rad/s]. It bends over a path
- * of 2 mu / sigma_0 after each of two reversals in a turn, and damps by the impulse of 2 mu sigma_1 / sigma_0 per normal load; but
- * by no more than sigma_1 v_q all the time. 0 of a rigid one. */
+/* What a bristle damps over mu, under a vibration of velocity amplitude `fast` [m/s] and `frequency` [rad/s]. It bends
+ * over a path of 2 mu / sigma_0 after each of two reversals in a turn, and damps by the impulse of 2 mu sigma_1 /
+ * sigma_0 per normal load; but by no more than sigma_1 v_q all the time. 0 of a rigid one. */
 static inline double damping_share(const Bristle *bristle, double fast, double frequency) {
     if (!is_elastic(bristle)) {
         return 0.0;

@@ -1,7 +1,7 @@
 /* Coulomb friction: closed-form motion from one event to the next.
  *
- * Events are a stop of the slider (then it sticks if friction can hold it, and reverses otherwise),
- * a release, and the lift-off and touchdown of the contact. There is no step size, no tolerance. */
+ * Events are a stop of the slider (then it sticks if friction can hold it, and reverses otherwise), a release, and the
+ * lift-off and touchdown of the contact. There is no step size, no tolerance. */
 #include "../base/elementary.h"
 #include "segment.h"
 
@@ -22,8 +22,7 @@ static double needed_force(const Plant *plant, const Moment *moment) {
     if (direct.re == 0.0 && direct.im == 0.0) {
         return resonator - plant->load;
     }
-    return resonator - plant->load + direct.re * sin(moment->theta) +
-           direct.im * cos(moment->theta);
+    return resonator - plant->load + direct.re * sin(moment->theta) + direct.im * cos(moment->theta);
 }
 
 /* The contact mode at rest where friction is up to `limit` [N]. */
@@ -42,8 +41,8 @@ static int mode_in_contact(const Plant *plant, const Moment *moment) {
     return mode_at_rest(friction_limit(plant, moment->psi), plant, moment);
 }
 
-/* Whether the slider was released at this moment: friction still balances the other forces, and only the
- * mode of the moment shows in which direction the slider departs. */
+/* Whether the slider was released at this moment: friction still balances the other forces, and only the mode of the
+ * moment shows in which direction the slider departs. */
 static bool just_released(const Plant *plant, const Moment *moment) {
     if (moment->state.velocity != 0.0 || !(moment->mode == FORWARD || moment->mode == BACKWARD)) {
         return false;
@@ -71,12 +70,11 @@ static double force(const System *system, const Moment *moment, int mode) {
     return mode * friction_limit(&system->plant, moment->psi);
 }
 
-/* A time [s] up to which a slider released in direction `sign` is guaranteed to move on; 0 if there is no
- * guarantee.
+/* A time [s] up to which a slider released in direction `sign` is guaranteed to move on; 0 if there is no guarantee.
  *
- * It starts with neither velocity nor acceleration, so that the velocity grows with the second power of time,
- * v >= jerk t^2 / 2 - B t^3 / 6 while B bounds its third derivative, and is positive up to t = 3 jerk / B. The
- * search for the next zero can start there, past the zero that the motion starts from. */
+ * It starts with neither velocity nor acceleration, so that the velocity grows with the second power of time, v >= jerk
+ * t^2 / 2 - B t^3 / 6 while B bounds its third derivative, and is positive up to t = 3 jerk / B. The search for the
+ * next zero can start there, past the zero that the motion starts from. */
 static double departure_time(const Plant *plant, int sign, const Moment *now) {
     const State *state = &now->state;
     double w = plant->drive_frequency, q = plant->normal_frequency, chi = now->psi + plant->phase;
@@ -86,16 +84,15 @@ static double departure_time(const Plant *plant, int sign, const Moment *now) {
     double force_rate = -w * direct.im - load_rate - plant->load_rate;
     double horizon = 1.0 / fmax(fmax(w, fabs(q)), plant->slip.frequency);
     double highest = fabs(q) + fabs(plant->normal_rate) * horizon;
-    double load_bound =
-        fabs(amplitude) * highest * highest + fabs(amplitude) * fabs(plant->normal_rate);
+    double load_bound = fabs(amplitude) * highest * highest + fabs(amplitude) * fabs(plant->normal_rate);
     double force_bound = complex_abs(plant->holding_drive) * w * w + load_bound;
     if (plant->mass_fraction != 0.0) {
         double decay = plant->slip.decay, stiffness = plant->slip.stiffness;
         double frequency = plant->slip.frequency;
         double resisting = sign * plant->friction_preload + amplitude * sin(chi) + plant->load;
         double forcing = plant->relative_drive * drive_sine + resisting / plant->slider_mass;
-        double forcing_rate = plant->relative_drive * w * drive_cosine +
-                              (load_rate + plant->load_rate) / plant->slider_mass;
+        double forcing_rate =
+            plant->relative_drive * w * drive_cosine + (load_rate + plant->load_rate) / plant->slider_mass;
         double forcing_bound = fabs(plant->relative_drive) * w * w + load_bound / plant->slider_mass;
         double second = forcing - 2.0 * decay * state->rate - stiffness * state->displacement;
         double third = forcing_rate - 2.0 * decay * second - stiffness * state->rate;

@@ -1,21 +1,19 @@
 /* LuGre friction (eq. 8): from one reversal to the next along the bristle's path.
  *
- * Soon after a reversal the bristle is fully bent and friction is Coulomb's: closed forms take over. Until
- * then a panel (bending_panel.h) or Taylor series (taylor_slide.h) follow the path. Its length falls with
- * the bristle stiffness, so the cost does not grow with that. There is no sticking: presliding is resolved
- * as an oscillation on the bristles. */
+ * Soon after a reversal the bristle is fully bent and friction is Coulomb's: closed forms take over. Until then a panel
+ * (bending_panel.h) or Taylor series (taylor_slide.h) follow the path. Its length falls with the bristle stiffness, so
+ * the cost does not grow with that. There is no sticking: presliding is resolved as an oscillation on the bristles. */
 #include "../base/refusal_texts.h"
 #include "segment.h"
 
-/* Share of the tolerance for the error of one segment, and for the bend that a bristle still lacks when closed
- * forms take over. */
+/* Share of the tolerance for the error of one segment, and for the bend that a bristle still lacks when closed forms
+ * take over. */
 #define TOLERANCE_SHARE 0.01
 
 /* (8) divides by mu. */
 static bool prepare(const Device *device, Bristle *bristle, Refusal *refusal) {
     *bristle = (Bristle){device->friction_coefficient, device->bristle_stiffness, device->bristle_damping};
-    return device->friction_coefficient != 0.0 ||
-           refuse_lugre_without_friction(refusal, device->friction_coefficient);
+    return device->friction_coefficient != 0.0 || refuse_lugre_without_friction(refusal, device->friction_coefficient);
 }
 
 static double force(const System *system, const Moment *moment, int mode) {

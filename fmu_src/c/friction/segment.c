@@ -26,8 +26,8 @@ void segment_know_phasors(Segment *segment, const Plant *plant, const Moment *no
 static void begin_bent(Segment *segment, const Plant *plant, const Moment *now) {
     const Bristle bent = {1.0, 0.0, 0.0};
     int sign = now->mode == LIFTED ? 0 : segment->direction;
-    taylor_slide_begin(&segment->motion.series, plant, &bent, sign, &now->state, sign,
-                       &segment->known.phasors, SERIES_ROUNDING, velocity_scale(plant, &now->state));
+    taylor_slide_begin(&segment->motion.series, plant, &bent, sign, &now->state, sign, &segment->known.phasors,
+                       SERIES_ROUNDING, velocity_scale(plant, &now->state));
     segment->motion.series.direction = segment->direction; /* the velocity is watched in flight, too */
 }
 
@@ -78,8 +78,8 @@ bool segment_departs(Segment *segment) {
     return watch.signal(watch.motion, 0.0).slope >= 0.0;
 }
 
-/* Ends rest at the first release. With two candidates the search for one is limited to a turn, as the other
- * may come soon. */
+/* Ends rest at the first release. With two candidates the search for one is limited to a turn, as the other may come
+ * soon. */
 static void follow_rest(Segment *segment, double turn) {
     Watch watches[2];
     int count = stick_watches(&segment->motion.stick, segment->t, watches);
@@ -95,13 +95,12 @@ static void follow_rest(Segment *segment, double turn) {
     }
 }
 
-/* Whether a watched signal exceeds its noise before `t` [s]. In most cases its lower bound, a parabola, shows
- * that without another evaluation. */
+/* Whether a watched signal exceeds its noise before `t` [s]. In most cases its lower bound, a parabola, shows that
+ * without another evaluation. */
 static bool moves(const Watch *watch, double t) {
     Signal at = watch->signal(watch->motion, 0.0);
     double rising = at.bound * fmin(t, watch->horizon);
-    if (at.slope > 0.0 && at.slope < rising &&
-        at.value + 0.5 * at.slope * at.slope / at.bound > watch->noise) {
+    if (at.slope > 0.0 && at.slope < rising && at.value + 0.5 * at.slope * at.slope / at.bound > watch->noise) {
         return true;
     }
     return watch->signal(watch->motion, 0.5 * t).value > watch->noise;
@@ -113,7 +112,7 @@ static Watch watch_of(Segment *segment) {
         return taylor_slide_watch(&segment->motion.series, segment->t);
     }
     return segment->kind == SLIDES ? split_slide_watch(&segment->motion.slide)
-                               : split_slide_watch(&segment->motion.panel.slide);
+                                   : split_slide_watch(&segment->motion.panel.slide);
 }
 
 /* Time [s] up to which the form of the motion holds. */
@@ -133,7 +132,7 @@ static void follow_sliding(Segment *segment, double expected, int before) {
         segment->zero_of = 0;
     }
     segment->turns = segment->mode != LIFTED && segment->direction != before &&
-                 (segment->kind == BENDS_AND_SLIDES || moves(&watch, segment->t));
+                     (segment->kind == BENDS_AND_SLIDES || moves(&watch, segment->t));
 }
 
 void segment_follow(Segment *segment, const Plant *plant, Moment *now, double longest) {
@@ -174,7 +173,7 @@ static Place place_of(const Segment *segment, double t) {
 static Passage passage_at(const void *motion, double t) {
     const Segment *segment = motion;
     return segment->kind == BENDS_AND_SLIDES ? bending_panel_passage(&segment->motion.panel, t)
-                                         : place_of(segment, t).passed;
+                                             : place_of(segment, t).passed;
 }
 
 void segment_finish(Segment *segment, const Plant *plant, Moment *now) {

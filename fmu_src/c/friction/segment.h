@@ -1,14 +1,13 @@
-/* A segment: motion without an event, at rest, sliding or in flight, up to the first zero of what it
- * watches. */
+/* A segment: motion without an event, at rest, sliding or in flight, up to the first zero of what it watches. */
 #pragma once
 
 #include "../device/stick.h"
 #include "bending_panel.h"
 #include "taylor_slide.h"
 
-/* What the motion is: rest, sliding or flight in closed form, or either by series: on bending bristles,
- * under a normal load whose frequency changes, and where the closed form would lose digits; or sliding on
- * bending bristles by a panel, and on after it. */
+/* What the motion is: rest, sliding or flight in closed form, or either by series: on bending bristles, under a normal
+ * load whose frequency changes, and where the closed form would lose digits; or sliding on bending bristles by a panel,
+ * and on after it. */
 typedef enum { RESTS, SLIDES, FOLLOWS_SERIES, BENDS_AND_SLIDES } SegmentKind;
 
 /* Begun by a friction law, then followed, up to the first zero of what it watches. */
@@ -23,13 +22,13 @@ typedef struct Segment {
         TaylorSlide series;
         BendingPanel panel;
     } motion;
-    double t;            /* duration [s] once followed */
-    double travelled;    /* displacement of the slider [m] once finished */
-    int zero_of;         /* index of the watched signal whose zero ends it, or -1 */
-    bool turns;          /* whether it slides, beyond rounding, in another direction than it slid before */
-    bool departs;        /* set before: whether it starts from rest and not at a reversal */
-    bool counts_means;   /* set before: whether it counts in the means of a period; the work of friction is 0 otherwise */
-    KnownPhasors known;  /* set before: the phasors of the start, if they are known; once finished, of the end */
+    double t;          /* duration [s] once followed */
+    double travelled;  /* displacement of the slider [m] once finished */
+    int zero_of;       /* index of the watched signal whose zero ends it, or -1 */
+    bool turns;        /* whether it slides, beyond rounding, in another direction than it slid before */
+    bool departs;      /* set before: whether it starts from rest and not at a reversal */
+    bool counts_means; /* set before: whether it counts in the means of a period; the work of friction is 0 otherwise */
+    KnownPhasors known; /* set before: the phasors of the start, if they are known; once finished, of the end */
 } Segment;
 
 /* Computes the phasors at `now`, where the segment begins, unless they are known. */
@@ -38,8 +37,8 @@ void segment_know_phasors(Segment *segment, const Plant *plant, const Moment *no
 /* Rest. */
 void segment_begin_rest(Segment *segment, const Plant *plant, const Moment *now);
 
-/* Sliding in `direction` under full friction, or flight in contact mode LIFTED: in closed form, or by
- * series where there is none. */
+/* Sliding in `direction` under full friction, or flight in contact mode LIFTED: in closed form, or by series where
+ * there is none. */
 void segment_begin_slide(Segment *segment, const System *system, const Moment *now, int direction);
 
 /* Sliding in `direction` while a bristle bends, to a relative `tolerance`, for up to `longest` [s]. */

@@ -1,4 +1,5 @@
-/* A system: a device under held inputs, with all that follows from these alone, and the row of functions of its friction.
+/* A system: a device under held inputs, with all that follows from these alone, and the row of functions of its
+ * friction.
  *
  * A new law of friction is a file that ends with its row, and an entry in system.c. */
 #pragma once
@@ -6,7 +7,8 @@
 #include "../device/split_slide.h"
 #include "bristle.h"
 
-/* The caches outlive the system; the systems of one instance share them. They are NULL where the motion does without. */
+/* The caches outlive the system; the systems of one instance share them. They are NULL where the motion does
+ * without. */
 typedef struct System {
     Device device;                      /* the parameters; `fidelity` is that of what moves */
     Inputs inputs;                      /* phase [rad], load [N] and frequency ratio [1], at the start if they grow */
@@ -38,15 +40,15 @@ typedef struct FrictionLaw {
     /* Begin the segment that starts at `now`, in the contact mode of `now`, to be followed for up to `longest` [s]. */
     void (*begin)(struct Segment *segment, const System *system, const Moment *now, double longest);
 
-    /* Change from the end of a finished segment to the next contact mode; `switches` is true where the
-     * contact lifts or touches down there. */
+    /* Change from the end of a finished segment to the next contact mode; `switches` is true where the contact lifts or
+     * touches down there. */
     void (*enter_next_mode)(const struct Segment *segment, const System *system, Moment *now, bool switches);
 } FrictionLaw;
 
 extern const FrictionLaw COULOMB, LUGRE;
 
-/* Prepare all of a system but its motion and caches, by the number `friction_law` of the device. Refuses where device and
- * friction law do not fit; `system` is then undefined. */
+/* Prepare all of a system but its motion and caches, by the number `friction_law` of the device. Refuses where device
+ * and friction law do not fit; `system` is then undefined. */
 bool system_prepare(System *system, const Device *device, const Inputs *inputs, Refusal *refusal);
 
 /* Contact mode by load and velocity alone: lifted, or the direction of sliding; STICK at rest. */
@@ -60,8 +62,8 @@ typedef struct {
     double ratio, load_rate, ratio_rate;
 } Ramp;
 
-/* Let inputs grow for `duration` [s]. The system must have been prepared with the frequency ratio in the
- * middle of that time. */
+/* Let inputs grow for `duration` [s]. The system must have been prepared with the frequency ratio in the middle of that
+ * time. */
 void system_ramp(System *system, const Ramp *ramp, double duration);
 
 /* The slow velocity V = X' + r Y' + D / (Mt w) cos(theta) [m/s] of a state at drive phase `theta` [rad], with D the

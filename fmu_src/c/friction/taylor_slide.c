@@ -34,15 +34,15 @@ static double value(const double *coefficients, double t) {
     return total;
 }
 
-/* A velocity is measured by the first terms of its series. Below MUCH_SMALLER of the scale to which the
- * tolerance refers a series is cut shorter, so often at most, to keep the tolerance relative to the velocity;
- * below NEGLIGIBLE_MOTION [m/s] it is not. */
+/* A velocity is measured by the first terms of its series. Below MUCH_SMALLER of the scale to which the tolerance
+ * refers a series is cut shorter, so often at most, to keep the tolerance relative to the velocity; below
+ * NEGLIGIBLE_MOTION [m/s] it is not. */
 #define MUCH_SMALLER 0.1
 #define NEGLIGIBLE_MOTION 1e-200
 enum { FIRST_TERMS = 5, MAX_SHRINKS = 10 };
 
-/* How far a series holds [s]: up to where one of its last two terms reaches the tolerance; at rest, where nothing moves, at
- * any time. */
+/* How far a series holds [s]: up to where one of its last two terms reaches the tolerance; at rest, where nothing
+ * moves, at any time. */
 static double series_reach(const double *coefficients, double tolerance) {
     double last = fabs(coefficients[TAYLOR_ORDER]), before = fabs(coefficients[TAYLOR_ORDER - 1]);
     if (fmax(last, before) == 0.0) {
@@ -52,8 +52,8 @@ static double series_reach(const double *coefficients, double tolerance) {
     return exp(fmin(INVERSE[TAYLOR_ORDER - 1] * log(lower), INVERSE[TAYLOR_ORDER] * log(higher)));
 }
 
-/* How far the series of a velocity holds [s] if its last terms may reach `tolerance` times `scale` [m/s] or, if
- * that is much less, times the velocity itself. */
+/* How far the series of a velocity holds [s] if its last terms may reach `tolerance` times `scale` [m/s] or, if that is
+ * much less, times the velocity itself. */
 static double reach_of(const double *coefficients, double tolerance, double scale) {
     double reach = series_reach(coefficients, tolerance * scale);
     for (int i = 0; i < MAX_SHRINKS && reach < INFINITY; i++) {
@@ -70,8 +70,8 @@ static double reach_of(const double *coefficients, double tolerance, double scal
     return reach;
 }
 
-/* Coefficients of the vibrating part of the friction limit, from its complex amplitude `normal` [N] on:
- * c[k + 1] = i (q c[k] + chirp c[k - 1]) / (k + 1). */
+/* Coefficients of the vibrating part of the friction limit, from its complex amplitude `normal` [N] on: c[k + 1] = i (q
+ * c[k] + chirp c[k - 1]) / (k + 1). */
 static void expand_normal(Complex normal, double q, double chirp, double limit[TAYLOR_ORDER]) {
     Complex before = complex_of(0.0, 0.0);
     for (int k = 0; k < TAYLOR_ORDER; k++) {
@@ -85,9 +85,8 @@ static void expand_normal(Complex normal, double q, double chirp, double limit[T
     }
 }
 
-void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle,
-                        int direction, const State *state, double friction,
-                        const Phasors *start, double tolerance, double scale) {
+void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle, int direction,
+                        const State *state, double friction, const Phasors *start, double tolerance, double scale) {
     double w = plant->drive_frequency, q = plant->normal_frequency, mu = bristle->coefficient;
     double bend = (mu - direction * friction) / mu, share = friction / mu;
     double drag = bristle->damping / mu, rate_factor = -direction * bristle->stiffness / mu;
@@ -95,8 +94,7 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
     double stiffness = plant->stick.stiffness, damping = 2.0 * plant->stick.decay;
     Complex hold = plant->holding_drive, e = complex_of(0.0, -1.0);
     Complex drive = complex_mul(e, start->drive);
-    Complex normal = complex_scale(plant->friction_amplitude,
-                                   complex_mul(e, normal_phasor(plant, start)));
+    Complex normal = complex_scale(plant->friction_amplitude, complex_mul(e, normal_phasor(plant, start)));
     double *v = slide->velocity, *y = slide->displacement, *u = slide->rate;
     double limit[TAYLOR_ORDER], decay[TAYLOR_TERMS];
     double passed[TAYLOR_TERMS] = {0.0}, resisting[TAYLOR_TERMS] = {0.0};

@@ -1,8 +1,8 @@
-/* Sliding or flight as a Taylor series in time: on bending bristles, under a normal frequency that grows, and where the closed
- * form would lose digits.
+/* Sliding or flight as a Taylor series in time: on bending bristles, under a normal frequency that grows, and where the
+ * closed form would lose digits.
  *
- * With s the direction of sliding, g = sigma_0 z the friction of the bristle and g_r its value
- * where this series starts, the bristle is a function of the path d = |x - x_r| alone (eq. 8):
+ * With s the direction of sliding, g = sigma_0 z the friction of the bristle and g_r its value where this series
+ * starts, the bristle is a function of the path d = |x - x_r| alone (eq. 8):
  *
  *   g = s mu + (g_r - s mu) E,    E = exp(-sigma_0 d / mu),    E' = -(sigma_0 / mu) |v| E
  *   F = faces N (g_r + (mu - s g_r) (s (1 - E) + E sigma_1 v / mu))
@@ -28,11 +28,10 @@ typedef struct {
 
 /* Motion in contact from `state` on, in `direction`, up to `reach`.
  *
- * `friction` is sigma_0 z and `start` are the phasors at the start. At `reach` the last terms of the series
- * are `tolerance` times `scale` [m/s] or, in a motion that is much slower than that, times its velocity. */
-void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle,
-                        int direction, const State *state, double friction,
-                        const Phasors *start, double tolerance, double scale);
+ * `friction` is sigma_0 z and `start` are the phasors at the start. At `reach` the last terms of the series are
+ * `tolerance` times `scale` [m/s] or, in a motion that is much slower than that, times its velocity. */
+void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle, int direction,
+                        const State *state, double friction, const Phasors *start, double tolerance, double scale);
 
 /* Whether the motion begins in its direction, or stays at rest. */
 bool taylor_slide_departs(const TaylorSlide *slide);

@@ -6,7 +6,8 @@
 /* Share of the tolerance for errors of the fast states: on the manifold, and where a transient is left out. */
 #define FAST_SHARE 0.3
 
-/* Largest transient that a leap may leave out, over the scales of the fast states: outputs of the resonator do not show it. */
+/* Largest transient that a leap may leave out, over the scales of the fast states: outputs of the resonator do not show
+ * it. */
 #define MAX_TRANSIENT 1e-6
 
 /* Drift of the load's phase [rad] over a leap up to which its rates depend on the slow velocity alone. */
@@ -15,15 +16,15 @@
 /* Number of steps of leaps that a whole budget buys, besides what they map: some map nothing. */
 enum { MAX_LEAP_STEPS = 20000 };
 
-/* Largest transient of the fast states that may be left out, over their scales: its effect on the slow velocity, for as long
- * as it lasts, is a share of the tolerance. */
+/* Largest transient of the fast states that may be left out, over their scales: its effect on the slow velocity, for as
+ * long as it lasts, is a share of the tolerance. */
 static double max_transient(const PeriodMap *map) {
     double effect = map->share / (1.0 - map->decay);
     return fmin(MAX_TRANSIENT, FAST_SHARE * map->tolerance / effect);
 }
 
-/* Put the start of a leap on the manifold. Return false where there are no rates, and without a search where they would not be
- * exact enough on the manifold either. */
+/* Put the start of a leap on the manifold. Return false where there are no rates, and without a search where they would
+ * not be exact enough on the manifold either. */
 static bool begin_on_manifold(SlowPath *path) {
     Manifold *manifold = &path->manifold;
     const PeriodMap *map = manifold->map;
@@ -43,18 +44,16 @@ static bool begin_on_manifold(SlowPath *path) {
     return true;
 }
 
-/* Pass at most `longest` periods, as far as that goes. Return how many, and the `travel` [m] in them; `error` is that of the
- * slow velocity [m/s]. */
+/* Pass at most `longest` periods, as far as that goes. Return how many, and the `travel` [m] in them; `error` is that
+ * of the slow velocity [m/s]. */
 static double take_steps(SlowPath *path, double longest, double *travel, double *error) {
     double passed = 0.0, h = path->varies ? expected_step(path) : longest;
     *travel = 0.0;
     Budget *budget = path->manifold.budget;
-    while ((h = floor(fmin(h, longest - passed))) >= SHORTEST_STEP &&
-           budget_left(budget, MAX_LEAP_STEPS) > 0) {
+    while ((h = floor(fmin(h, longest - passed))) >= SHORTEST_STEP && budget_left(budget, MAX_LEAP_STEPS) > 0) {
         PathStep step;
         budget_spend(budget, 1, MAX_LEAP_STEPS);
-        bool passes = path->varies ? embedded_step(path, &h, &step)
-                                   : interpolated_step(path, &h, &step);
+        bool passes = path->varies ? embedded_step(path, &h, &step) : interpolated_step(path, &h, &step);
         if (passes) {
             passed += step.periods;
             *travel += step.travel;
@@ -82,8 +81,7 @@ static void land(const SlowPath *path, double periods, double travel, Moment *af
     }
 }
 
-Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *budget,
-          Moment *after) {
+Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *budget, Moment *after) {
     SlowPath path = {
         .manifold = {map, budget, 1, max_transient(map), 0},
         .psi = moment->psi,

@@ -1,7 +1,8 @@
 /* Motion that leaps over periods: fidelity 0, averages of second order.
  *
  * Resolved to the next section, over a whole number of periods in a leap, resolved again for the last periods: outputs,
- * events and state are those of resolved motion. Where leaping gains nothing or does not hold, motion stays resolved. */
+ * events and state are those of resolved motion. Where leaping gains nothing or does not hold, motion stays
+ * resolved. */
 #include <stddef.h>
 
 #include "../base/clock.h"
@@ -15,12 +16,12 @@ enum { MAX_TURNS_OF_PERIOD = 4 };
 /* Fewest periods that may be left for a leap. */
 #define SHORTEST_LEAP 64.0
 
-/* Periods that are resolved after an attempt to leap that mapped one period in vain: attempts cost an eighth of resolved motion
- * at most. */
+/* Periods that are resolved after an attempt to leap that mapped one period in vain: attempts cost an eighth of
+ * resolved motion at most. */
 #define PAUSE 8.0
 
-/* Fewest periods that are resolved while a transient decays, and number of attempts for which it is waited so. Fast states that
- * are still off the manifold then do not follow the slow motion. */
+/* Fewest periods that are resolved while a transient decays, and number of attempts for which it is waited so. Fast
+ * states that are still off the manifold then do not follow the slow motion. */
 #define MIN_WAIT 8.0
 enum { MAX_WAITS = 2 };
 
@@ -55,8 +56,7 @@ static bool resolve(Progress *progress, double duration, bool tight, Refusal *re
 }
 
 /* Resolve the motion for `periods`, and on to the next section. */
-static bool resolve_to_section(Progress *progress, const PeriodMap *map, double periods, bool tight,
-                               Refusal *refusal) {
+static bool resolve_to_section(Progress *progress, const PeriodMap *map, double periods, bool tight, Refusal *refusal) {
     double w = progress->system->plant.drive_frequency;
     double to_section = within_turn(map->section - progress->now.theta) / w;
     double duration = periods * map->period + to_section;
@@ -86,8 +86,8 @@ static bool prepare_map(const Progress *progress, PeriodMap *map) {
  * 2. leap over as many periods as are left, or as far as that gains;
  * 3. repeat while enough periods are left;
  * 4. resolve the rest. */
-static bool leaping_advance(const System *system, const Moment *moment, double duration,
-                            EventSearch *search, Budget *budget, Moment *after, Refusal *refusal) {
+static bool leaping_advance(const System *system, const Moment *moment, double duration, EventSearch *search,
+                            Budget *budget, Moment *after, Refusal *refusal) {
     (void)search;
     Progress progress = {system, budget, budget->passed, clock_of(duration), duration, *moment};
     double turn = TAU / system->plant.drive_frequency, pause = 0.0;

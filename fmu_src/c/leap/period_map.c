@@ -8,8 +8,8 @@
 /* Largest tolerance of LuGre friction in a map: differences of high order amplify its error. */
 #define MAP_TOLERANCE 1e-10
 
-/* Smallest number of turns, up to `max_turns`, after which the load repeats best: one more turn must halve its drift [rad]
- * at least. */
+/* Smallest number of turns, up to `max_turns`, after which the load repeats best: one more turn must halve its drift
+ * [rad] at least. */
 static int repeating_turns(const System *system, int max_turns, double *drift) {
     double ratio = system->inputs.frequency_ratio;
     int best = 1;
@@ -85,28 +85,27 @@ double psi_after(const PeriodMap *map, double psi, double periods) {
     return within_turn(psi + remainder(map->drift * periods + chirp, TAU));
 }
 
-void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_FAST], double psi,
-                  Moment *moment) {
+void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_FAST], double psi, Moment *moment) {
     const System *system = &map->system;
     moment->theta = map->section;
     moment->psi = psi;
     moment->state.displacement = fast[0];
     moment->state.rate = fast[1];
     moment->bristle = fast[2];
-    moment->state.velocity = velocity - map->system.fast.pair_velocity * cos(map->section) -
-                             system->plant.mass_fraction * fast[1];
+    moment->state.velocity =
+        velocity - map->system.fast.pair_velocity * cos(map->section) - system->plant.mass_fraction * fast[1];
     moment->mode = system->friction->mode(system, moment);
     moment->counts.sliding = moment->mode == LIFTED ? STICK : moment->mode;
 }
 
 static SectionState section_state(const PeriodMap *map, const Moment *moment) {
-    return (SectionState){{slow_velocity(&map->system, &moment->state, moment->theta),
-                           moment->state.displacement, moment->state.rate, moment->bristle,
-                           moment->position, moment->counts.reversals, moment->counts.sticks}};
+    return (SectionState){{slow_velocity(&map->system, &moment->state, moment->theta), moment->state.displacement,
+                           moment->state.rate, moment->bristle, moment->position, moment->counts.reversals,
+                           moment->counts.sticks}};
 }
 
-bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, Budget *budget,
-                 SectionState *sections, uint64_t *itinerary) {
+bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, Budget *budget, SectionState *sections,
+                 uint64_t *itinerary) {
     Refusal refusal;
     System later = system_after(&map->system, begin * map->period);
     Itinerary passed = {0, NO_MODE, false};
@@ -114,8 +113,7 @@ bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, 
     for (int k = 1; k <= count; k++) {
         Moment before = *moment;
         passed.counts_means = k > 1 && k + 1 >= count; /* in the last whole turn, as far as a sequence has one */
-        if (!events_advance(&later, &before, map->period, NULL, &passed, budget, moment,
-                            &refusal)) {
+        if (!events_advance(&later, &before, map->period, NULL, &passed, budget, moment, &refusal)) {
             return false;
         }
         moment->theta = map->section;

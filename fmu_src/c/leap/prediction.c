@@ -17,30 +17,30 @@ int turns_of_load(const System *system) {
 /* Change of an unknown by which derivatives are taken. */
 #define BESIDE 1e-6
 
-/* Largest change of an unknown in an iteration, and the change at which the iteration ends: as it converges quadratically, the
- * next change would be rounding. Number of iterations. */
+/* Largest change of an unknown in an iteration, and the change at which the iteration ends: as it converges
+ * quadratically, the next change would be rounding. Number of iterations. */
 #define MAX_CHANGE 0.2
 #define CONVERGED 1e-10
 enum { MAX_ITERATIONS = 24 };
 
-/* Share of what a period changes that an iteration must leave at most; above it the derivatives are taken anew, as where a
- * reversal has become a stick. */
+/* Share of what a period changes that an iteration must leave at most; above it the derivatives are taken anew, as
+ * where a reversal has become a stick. */
 #define REDUCED 0.5
 
-/* Periods by which the start of a search is followed where friction may change V by more than an iteration: it brings near what is
- * looked for. */
+/* Periods by which the start of a search is followed where friction may change V by more than an iteration: it brings
+ * near what is looked for. */
 enum { LEAD_IN = 2 };
 
 /* Share of the work of a step that a search may take: a host that reads an output does not expect to wait. */
 #define SHARE_OF_STEP 0.1
 
-/* Squarings of the linear map after which it must have decayed: in 2^24 periods, more than rounding of its derivatives could
- * make it. */
+/* Squarings of the linear map after which it must have decayed: in 2^24 periods, more than rounding of its derivatives
+ * could make it. */
 enum { SQUARINGS = 24 };
 #define DECAYED 0.5
 
-/* A periodic motion that is looked for. Unknowns are the slow velocity, the fast states and, for motion that is blocked, the
- * load; `change` is what a period changes them by, in place of the load the position. */
+/* A periodic motion that is looked for. Unknowns are the slow velocity, the fast states and, for motion that is
+ * blocked, the load; `change` is what a period changes them by, in place of the load the position. */
 typedef struct {
     PeriodMap map;
     Budget budget;                             /* of all the maps of the search */
@@ -54,8 +54,7 @@ typedef struct {
 } Search;
 
 /* What a period changes from `unknown` on. Return false where there is no motion. */
-static bool change_in_period(Search *search, const double unknown[UNKNOWNS],
-                             double change[UNKNOWNS]) {
+static bool change_in_period(Search *search, const double unknown[UNKNOWNS], double change[UNKNOWNS]) {
     PeriodMap *map = &search->map;
     int states = 1 + map->fast_count;
     double at[UNKNOWNS] = {0.0}, fast[MAX_FAST] = {0.0};
@@ -199,10 +198,9 @@ static bool is_stable(const Search *search) {
     return largest < DECAYED;
 }
 
-/* A search at normal phase `psi` [rad], from a slow velocity [m/s] and a load [N] on, with fast states of the steady vibration
- * without friction. The scale of loads is the force that stops v_q in a period. */
-static Search search_of(const PeriodMap *map, double psi, bool blocked, double velocity,
-                        double load) {
+/* A search at normal phase `psi` [rad], from a slow velocity [m/s] and a load [N] on, with fast states of the steady
+ * vibration without friction. The scale of loads is the force that stops v_q in a period. */
+static Search search_of(const PeriodMap *map, double psi, bool blocked, double velocity, double load) {
     const Plant *plant = &map->system.plant;
     int states = 1 + map->fast_count;
     Search search = {.map = *map, .psi = psi, .blocked = blocked, .count = states + blocked};
@@ -221,8 +219,8 @@ static Search search_of(const PeriodMap *map, double psi, bool blocked, double v
     return search;
 }
 
-/* Find the steady motion under the load of the map, at normal phase `psi` [rad] at the section, from a slow velocity [m/s] on;
- * `velocity` becomes its mean. Return false where none is found or where it is not stable. */
+/* Find the steady motion under the load of the map, at normal phase `psi` [rad] at the section, from a slow velocity
+ * [m/s] on; `velocity` becomes its mean. Return false where none is found or where it is not stable. */
 static bool find_steady(const PeriodMap *map, double psi, double *velocity) {
     Search search = search_of(map, psi, false, *velocity, 0.0);
     if (!solve(&search)) {
@@ -233,8 +231,8 @@ static bool find_steady(const PeriodMap *map, double psi, double *velocity) {
     return is_stable(&search) || (differentiate(&search) && is_stable(&search));
 }
 
-/* Find the motion without travel and the `load` [N] that it takes, likewise, from a load on. One that never reverses is none:
- * the slider sticks, under other loads, too. */
+/* Find the motion without travel and the `load` [N] that it takes, likewise, from a load on. One that never reverses is
+ * none: the slider sticks, under other loads, too. */
 static bool find_blocked(const PeriodMap *map, double psi, double *load) {
     Search search = search_of(map, psi, true, 0.0, *load);
     int last = search.count - 1;
@@ -245,8 +243,8 @@ static bool find_blocked(const PeriodMap *map, double psi, double *load) {
     return search.reversals > 0.0;
 }
 
-/* The system of the full device under the same inputs. A resonator without mass moves nothing: critical damping at the drive
- * frequency lets its own motion decay within a period, so that the search need not wait for it. */
+/* The system of the full device under the same inputs. A resonator without mass moves nothing: critical damping at the
+ * drive frequency lets its own motion decay within a period, so that the search need not wait for it. */
 static bool full_system(const System *system, System *full) {
     Device device = system->device;
     Refusal refusal;
@@ -269,8 +267,9 @@ static bool find_both(const PeriodMap *map, double psi, const Prediction *start,
            find_blocked(map, psi, &exact->blocking_force);
 }
 
-/* By second order both belong to periodic motions of the full device. The search begins at averages of first order. Where bristles
- * damp less than they hold, one velocity alone balances a load: the balance of Coulomb friction is then a good and cheap guess. */
+/* By second order both belong to periodic motions of the full device. The search begins at averages of first order.
+ * Where bristles damp less than they hold, one velocity alone balances a load: the balance of Coulomb friction is then
+ * a good and cheap guess. */
 static Prediction second_order(const System *system, double normal_lead) {
     System full, coulomb = *system;
     PeriodMap map;

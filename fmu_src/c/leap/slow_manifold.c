@@ -26,8 +26,8 @@ static double rate_of(const SectionState *differences, int k) {
     return rate;
 }
 
-/* The estimated ratio of differences to those of the order before: the larger of the last two ratios of the velocity, as one may
- * be small by accident, but at most what slow motion and drift allow. */
+/* The estimated ratio of differences to those of the order before: the larger of the last two ratios of the velocity,
+ * as one may be small by accident, but at most what slow motion and drift allow. */
 static double ratio_of(const PeriodMap *map, const SectionState *differences) {
     double first = fabs(differences[1].at[SLOW_VELOCITY]), second = fabs(differences[2].at[SLOW_VELOCITY]);
     double third = fabs(differences[3].at[SLOW_VELOCITY]);
@@ -41,8 +41,8 @@ static double next_difference(const SectionState *differences, int order, double
     return ratio * fmax(last, ratio * before);
 }
 
-/* The correction of the fast states: their last differences must vanish. On the manifold these do not quite: `missing` is the size
- * of the fast states' error by that, estimated from lower orders. */
+/* The correction of the fast states: their last differences must vanish. On the manifold these do not quite: `missing`
+ * is the size of the fast states' error by that, estimated from lower orders. */
 static void correction_of(const PeriodMap *map, const SectionState *differences, double ratio,
                           double correction[MAX_FAST], double *missing) {
     double beyond[MAX_FAST];

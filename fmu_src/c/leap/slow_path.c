@@ -66,9 +66,7 @@ static void guess_fast(const SlowPath *path, double n, double velocity, double f
     }
     const PathPoint *near = fabs(n - last->n) < fabs(n - here->n) ? last : here;
     bool moves = fabs(near->rates.acceleration) > near->rates.error;
-    double periods = moves && !path->varies
-                         ? (velocity - near->velocity) / near->rates.acceleration
-                         : n - near->n;
+    double periods = moves && !path->varies ? (velocity - near->velocity) / near->rates.acceleration : n - near->n;
     for (int i = 0; i < MAX_FAST; i++) {
         fast[i] = near->rates.fast[i] + periods * near->rates.fast_rate[i];
     }
@@ -78,8 +76,8 @@ bool are_exact(const PeriodMap *map, const SlowRates *rates) {
     return rates->error <= map->share * map->tolerance * map->speed;
 }
 
-/* Where to expect stops at a slow velocity [m/s]: from the last ones they move with the angles at which the vibration alone would
- * turn the direction of sliding. */
+/* Where to expect stops at a slow velocity [m/s]: from the last ones they move with the angles at which the vibration
+ * alone would turn the direction of sliding. */
 static Stops stops_at(const SlowPath *path, double velocity) {
     double speed = path->manifold.map->speed;
     double turned = turning_at(velocity, speed) - turning_at(path->last.velocity, speed);
@@ -96,9 +94,7 @@ bool evaluate(SlowPath *path, double n, double velocity) {
     point.moment.stops = stops_at(path, velocity);
     guess_fast(path, n, velocity, fast);
     moment_place(map, velocity, fast, psi_after(map, path->psi, n), &point.moment);
-    if (!slow_rates(&path->manifold, n, &point.moment, &point.after,
-                    &point.rates) ||
-        !are_exact(map, &point.rates) ||
+    if (!slow_rates(&path->manifold, n, &point.moment, &point.after, &point.rates) || !are_exact(map, &point.rates) ||
         point.rates.itinerary != path->here.rates.itinerary) {
         return false;
     }

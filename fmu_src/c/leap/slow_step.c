@@ -3,20 +3,21 @@
 #include "../base/elementary.h"
 #include "../base/runge_kutta.h"
 
-/* Factors by which a step becomes shorter that fails, and longer behind one that does not, if its error tells nothing. */
+/* Factors by which a step becomes shorter that fails, and longer behind one that does not, if its error tells
+ * nothing. */
 #define SHORTER 0.5
 #define LONGER 2.0
 
-/* Shares of the allowed error: of a velocity that hardly changes, so that no other point is evaluated, and of the integration of
- * interpolated rates. */
+/* Shares of the allowed error: of a velocity that hardly changes, so that no other point is evaluated, and of the
+ * integration of interpolated rates. */
 #define STAYS 0.1
 #define INTEGRATED 0.01
 
 /* Rate of the slow velocity over v_q that is rounding. */
 #define ROUNDING (4.0 * EPSILON)
 
-/* Factor by which one more point of the interpolant is expected to reduce the error of the landing. Measured: 1/600 to 1/16, in
- * steps that keep a tolerance of 1e-6. */
+/* Factor by which one more point of the interpolant is expected to reduce the error of the landing. Measured: 1/600 to
+ * 1/16, in steps that keep a tolerance of 1e-6. */
 #define IMPROVED (1.0 / 100.0)
 
 /* Largest distance of a cubic from a chord, over its length and the difference of the slopes of both at one end. */
@@ -28,7 +29,8 @@ static double change_on_tangent(double rate, double gain, double h) {
     return h * rate * (fabs(z) > EPSILON ? expm1(z) / z : 1.0);
 }
 
-/* The factor by which an error of the slow velocity changes until its rate is `acceleration`: it changes as the rate does. */
+/* The factor by which an error of the slow velocity changes until its rate is `acceleration`: it changes as the rate
+ * does. */
 static double factor_until(const SlowPath *path, double acceleration) {
     const SlowRates *begin = &path->here.rates;
     bool moves = fabs(begin->acceleration) > begin->error;
@@ -41,8 +43,8 @@ static double periods_of_error(double factor, double h) {
     return fabs(logarithm) > EPSILON ? h * (factor - 1.0) / logarithm : h;
 }
 
-/* Error of a rate on the line between two points where that is the tangent at the first one: by the slope at the other. A line
- * that meets the rates there by accident has the wrong slope. */
+/* Error of a rate on the line between two points where that is the tangent at the first one: by the slope at the other.
+ * A line that meets the rates there by accident has the wrong slope. */
 static double error_of_line(const PathPoint *to, double tangent, double length) {
     return BENT * fabs(length * (to->rates.jerk / to->rates.acceleration - tangent));
 }
@@ -61,13 +63,12 @@ static bool interpolated_rate(void *data, double t, double v, SlowRate *rate) {
     return true;
 }
 
-/* Integrate interpolated rates over `h` periods; a velocity that settles to a share of `allowed` stays. Return false where it
- * changes by more than `reach`, or by jumps. */
+/* Integrate interpolated rates over `h` periods; a velocity that settles to a share of `allowed` stays. Return false
+ * where it changes by more than `reach`, or by jumps. */
 static bool integrate(SlowPath *path, double h, double reach, double allowed, SlowPoint *now) {
     const PathPoint *here = &path->here;
     double step = h;
-    *now = (SlowPoint){.velocity = here->velocity,
-                       .rate = {here->rates.acceleration, here->rates.travel}};
+    *now = (SlowPoint){.velocity = here->velocity, .rate = {here->rates.acceleration, here->rates.travel}};
     while (now->t < h) {
         SlowStep found;
         step = fmin(step, h - now->t);
@@ -99,7 +100,8 @@ static bool integrate(SlowPath *path, double h, double reach, double allowed, Sl
  * 1. stay where the velocity hardly changes;
  * 2. follow the tangent to an end, and evaluate the rates there;
  * 3. do so at points between, each where the interpolated rates may err most, until the last one tells that they hardly do;
- * 4. integrate them to a new end, and evaluate that: it is where to land, if with one point more the end is the same. */
+ * 4. integrate them to a new end, and evaluate that: it is where to land, if with one point more the end is the
+ * same. */
 static bool try_step(SlowPath *path, double h, PathStep *result) {
     const PeriodMap *map = path->manifold.map;
     const PathPoint *here = &path->here;
@@ -169,8 +171,8 @@ bool interpolated_step(SlowPath *path, double *h, PathStep *result) {
 /* What the error of Hermite's rule counts: it mostly is one to two times the estimate. */
 #define HERMITE_SHARE 0.5
 
-/* First step over the time in which rates change, where the slow velocity still changes by one tolerance: most devices hold
- * it. */
+/* First step over the time in which rates change, where the slow velocity still changes by one tolerance: most devices
+ * hold it. */
 #define EXPECTED_STEP 3.3
 
 /* Largest decay of the slow velocity in a period, over the share of friction: beyond, it is noise. */
@@ -198,8 +200,8 @@ double expected_step(const SlowPath *path) {
     return gain > 0.0 ? EXPECTED_STEP / gain * pow(map->tolerance / fmax(change, SMALLEST), 1.0 / ORDER) : INFINITY;
 }
 
-/* What a change of the slow velocity over `h` periods differs by from the integral of the cubic with the rates at both ends, and
- * their slopes: the error of the embedded method may be small by accident, but not both. */
+/* What a change of the slow velocity over `h` periods differs by from the integral of the cubic with the rates at both
+ * ends, and their slopes: the error of the embedded method may be small by accident, but not both. */
 static double hermite_error(const PathPoint *from, const PathPoint *to, double h) {
     const SlowRates *first = &from->rates, *last = &to->rates;
     double mean = 0.5 * (first->acceleration + last->acceleration) + h / 12.0 * (first->jerk - last->jerk);
@@ -217,8 +219,7 @@ bool embedded_step(SlowPath *path, double *h, PathStep *result) {
     SlowStep step;
     *h = floor(fmin(*h, fmin(in_beat, to_reach)));
     bool found = *h >= SHORTEST_STEP && runge_kutta_step(rate_at, path, &from, *h, &step);
-    double estimate = found ? fmax(step.error, HERMITE_SHARE * hermite_error(here, &path->last, *h))
-                            : INFINITY;
+    double estimate = found ? fmax(step.error, HERMITE_SHARE * hermite_error(here, &path->last, *h)) : INFINITY;
     if (!isfinite(estimate)) {
         *h *= SHORTER;
         return false;

@@ -6,12 +6,12 @@
 #include "../base/constants.h"
 #include "../friction/segment.h"
 
-/* Largest number of segments accepted in a turn of the fastest oscillation: several times as many as
- * presliding on the hardest bristles takes. */
+/* Largest number of segments accepted in a turn of the fastest oscillation: several times as many as presliding on the
+ * hardest bristles takes. */
 enum { MAX_TURN_SEGMENTS = 20000 };
 
-/* Drive periods before the end of a motion from which it counts in means: they are those of the last whole one, and the first
- * that ends is counted in part. */
+/* Drive periods before the end of a motion from which it counts in means: they are those of the last whole one, and the
+ * first that ends is counted in part. */
 #define COUNTED 3.0
 
 /* Segments since a turn of the fastest oscillation began at `began` [s], and `all` segments, of which there may be
@@ -30,20 +30,19 @@ static bool count_segment(SegmentCount *count, double time, const Budget *budget
     count->segments++;
     count->all++;
     if (count->segments > MAX_TURN_SEGMENTS) {
-        return budget_refuse(budget, time, MAX_TURN_SEGMENTS, "segments in a turn of the fastest oscillation",
-                             refusal);
+        return budget_refuse(budget, time, MAX_TURN_SEGMENTS, "segments in a turn of the fastest oscillation", refusal);
     }
-    return count->all <= count->max_all
-           || budget_refuse(budget, time, MAX_STEP_SEGMENTS, "segments of motion", refusal);
+    return count->all <= count->max_all ||
+           budget_refuse(budget, time, MAX_STEP_SEGMENTS, "segments of motion", refusal);
 }
 
 /* Refuses a motion that takes too many segments even if each has the maximum length `longest` [s]. A search for an
  * event may end it earlier: it is not refused. */
 static bool is_within_budget(const SegmentCount *count, double duration, double longest, const EventSearch *search,
-                      const Budget *budget, Refusal *refusal) {
+                             const Budget *budget, Refusal *refusal) {
     double reach = count->max_all * longest;
-    return search != NULL || duration <= reach
-           || budget_refuse(budget, reach, MAX_STEP_SEGMENTS, "segments of motion", refusal);
+    return search != NULL || duration <= reach ||
+           budget_refuse(budget, reach, MAX_STEP_SEGMENTS, "segments of motion", refusal);
 }
 
 /* Ends a search with the event at the time of the clock, unless the search ignores that time. */
@@ -57,11 +56,11 @@ static bool found_at(EventSearch *search, const Clock *clock) {
     return true;
 }
 
-/* Whether the slider reversed at the moment `begin`, where the finished segment began; `now` then goes back to
- * that moment. Only the segment after a stop shows whether the stop was a reversal. A slider that sets out
- * from rest at the start of the search does not reverse. */
-static bool found_reversal(EventSearch *search, const Clock *clock, const Segment *segment,
-                           const Moment *begin, Moment *now) {
+/* Whether the slider reversed at the moment `begin`, where the finished segment began; `now` then goes back to that
+ * moment. Only the segment after a stop shows whether the stop was a reversal. A slider that sets out from rest at the
+ * start of the search does not reverse. */
+static bool found_reversal(EventSearch *search, const Clock *clock, const Segment *segment, const Moment *begin,
+                           Moment *now) {
     bool turns = segment->turns && begin->state.velocity == 0.0 && begin->event_age != 0.0;
     bool moved = clock->elapsed > 0.0 || begin->counts.sliding == -segment->direction;
     if (!turns || !moved || !found_at(search, clock)) {
@@ -72,8 +71,8 @@ static bool found_reversal(EventSearch *search, const Clock *clock, const Segmen
     return true;
 }
 
-/* Makes the end of a motion an event if it is one within rounding, or if it is a stop: no further segment
- * follows that would show whether the stop is a reversal. */
+/* Makes the end of a motion an event if it is one within rounding, or if it is a stop: no further segment follows that
+ * would show whether the stop is a reversal. */
 static void end_at_event(const Segment *segment, const System *system, Moment *now) {
     if (segment->direction * now->state.velocity < 0.0) {
         now->state.velocity = 0.0;
@@ -101,10 +100,10 @@ static void pass_mode(Itinerary *itinerary, int mode) {
     }
 }
 
-/* In this order: refuse a motion of too much work, and enter the contact mode of the start. Then segment by segment: find how
- * long the segment may last, until the contact lifts or touches down, the arc ends or the normal frequency changes sign;
- * let the friction law begin it; follow it, up to a stop or a release; move to its end; let the inputs grow; change to the next
- * contact mode. A search ends the motion at the first event. */
+/* In this order: refuse a motion of too much work, and enter the contact mode of the start. Then segment by segment:
+ * find how long the segment may last, until the contact lifts or touches down, the arc ends or the normal frequency
+ * changes sign; let the friction law begin it; follow it, up to a stop or a release; move to its end; let the inputs
+ * grow; change to the next contact mode. A search ends the motion at the first event. */
 bool events_advance(const System *start, const Moment *moment, double duration, EventSearch *search,
                     Itinerary *itinerary, Budget *budget, Moment *now, Refusal *refusal) {
     bool inputs_grow = is_ramped(&start->plant);
@@ -133,16 +132,15 @@ bool events_advance(const System *start, const Moment *moment, double duration, 
         if (!count_segment(&count, clock.elapsed, budget, refusal)) {
             return false;
         }
-        double switching =
-            time_to_switch(plant, now->psi + plant->phase, plant->normal_frequency,
-                           plant->normal_rate, now->mode == LIFTED);
+        double switching = time_to_switch(plant, now->psi + plant->phase, plant->normal_frequency, plant->normal_rate,
+                                          now->mode == LIFTED);
         double turning = time_to_turn(plant);
         double longest = fmin(fmin(fmin(remaining, switching), system->arc), turning);
         if (search != NULL) {
             begin = *now;
         }
         segment.counts_means = (search != NULL || remaining - fmin(remaining, system->arc) <= counted) &&
-                          (itinerary == NULL || itinerary->counts_means);
+                               (itinerary == NULL || itinerary->counts_means);
         friction->begin(&segment, system, now, longest);
         segment_follow(&segment, plant, now, longest);
         if (itinerary != NULL) {

@@ -1,8 +1,8 @@
 /* The interface of a kind of motion: a row of functions.
  *
  * Motion is resolved (fidelity 1 and 2), averaged (fidelity 0, order 1), or leaps over periods (fidelity 0, order 2):
- * component_system.c picks it. A system is prepared, a motion started, then advanced step by step, to an event if one is wanted;
- * all else reads the moment in between. */
+ * component_system.c picks it. A system is prepared, a motion started, then advanced step by step, to an event if one
+ * is wanted; all else reads the moment in between. */
 #pragma once
 
 #include "events.h"
@@ -24,8 +24,8 @@ typedef struct Motion {
      * before. NULL searches for none; only resolved motion has events to find. Refuses, with `after` undefined, a
      * motion of more work than the budget of the communication step has. Where numbers leave the range of floating
      * point, entries of `after` are not finite; loops end all the same. */
-    bool (*advance)(const System *system, const Moment *moment, double duration, EventSearch *search,
-                    Budget *budget, Moment *after, Refusal *refusal);
+    bool (*advance)(const System *system, const Moment *moment, double duration, EventSearch *search, Budget *budget,
+                    Moment *after, Refusal *refusal);
 
     /* Contact mode under the held inputs. */
     int (*mode)(const System *system, const Moment *moment);
@@ -41,8 +41,8 @@ typedef struct Motion {
     /* Estimate of the error of the slow velocity [m/s]. */
     double (*error)(const System *system, const Moment *moment);
 
-    /* Where inputs grow by `ramp`: the time [s], at most `left`, for which one system holds that is prepared for its middle. NULL:
-     * all of it. */
+    /* Where inputs grow by `ramp`: the time [s], at most `left`, for which one system holds that is prepared for its
+     * middle. NULL: all of it. */
     double (*part)(const Device *device, const Ramp *ramp, double left);
 } Motion;
 

@@ -5,8 +5,8 @@
 #include "../base/elementary.h"
 #include "motion.h"
 
-/* A resonator that is not resolved vibrates steadily at once; the velocity is chosen so that the momentum of the pair is
- * that of the initial values. */
+/* A resonator that is not resolved vibrates steadily at once; the velocity is chosen so that the momentum of the pair
+ * is that of the initial values. */
 Moment resolved_start(const System *system) {
     const Device *device = &system->device;
     const Plant *plant = &system->plant;
@@ -21,9 +21,8 @@ Moment resolved_start(const System *system) {
 }
 
 /* Refuses a motion that spans too many turns of the fastest oscillation. */
-static bool resolved_advance(const System *system, const Moment *moment, double duration,
-                             EventSearch *search, Budget *budget, Moment *after,
-                             Refusal *refusal) {
+static bool resolved_advance(const System *system, const Moment *moment, double duration, EventSearch *search,
+                             Budget *budget, Moment *after, Refusal *refusal) {
     double frequency = LONGEST_ARC / system->arc;
     if (duration * frequency > TAU * MAX_TURNS) {
         return refuse_too_many_turns(refusal, budget->step_size, frequency, MAX_TURNS);
@@ -51,14 +50,13 @@ Rates resolved_rates(const System *system, const Moment *moment) {
     State rates = {.displacement = moment->state.rate};
     int mode = system->friction->mode(system, moment);
     if (mode != STICK || is_elastic(&system->bristle)) {
-        double force = plant->holding_drive.re * sine + plant->holding_drive.im * cosine -
-                       plant->load - system->friction->force(system, moment, mode);
+        double force = plant->holding_drive.re * sine + plant->holding_drive.im * cosine - plant->load -
+                       system->friction->force(system, moment, mode);
         force += plant->spring * moment->state.displacement + plant->damper * moment->state.rate;
         rates.velocity = force / plant->slider_mass;
     }
     if (plant->resolves_resonator) {
-        rates.rate = plant->base_acceleration * sine -
-                     2.0 * plant->stick.decay * moment->state.rate -
+        rates.rate = plant->base_acceleration * sine - 2.0 * plant->stick.decay * moment->state.rate -
                      plant->stick.stiffness * moment->state.displacement - rates.velocity;
     } else {
         Response swing = steady_swing(system->fast.resonator, moment->theta, w);

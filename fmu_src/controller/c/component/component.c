@@ -25,11 +25,9 @@ void component_reset(Component *component) {
     start_values(component->now.values);
 }
 
-bool component_setup_experiment(Component *component, const Experiment *experiment,
-                                Refusal *refusal) {
+bool component_setup_experiment(Component *component, const Experiment *experiment, Refusal *refusal) {
     Snapshot *now = &component->now;
-    if (!require("setupExperiment", now->lifecycle, INSTANTIATED, refusal)
-        || !experiment_check(experiment, refusal)) {
+    if (!require("setupExperiment", now->lifecycle, INSTANTIATED, refusal) || !experiment_check(experiment, refusal)) {
         return false;
     }
     now->start_time = now->time = experiment->start_time;
@@ -38,22 +36,21 @@ bool component_setup_experiment(Component *component, const Experiment *experime
 }
 
 bool component_enter_initialization(Component *component, Refusal *refusal) {
-    return lifecycle_change(&component->now.lifecycle, "enterInitializationMode", INSTANTIATED,
-                            INITIALIZATION, refusal);
-}
-
-bool component_exit_initialization(Component *component, Refusal *refusal) {
-    return lifecycle_change(&component->now.lifecycle, "exitInitializationMode", INITIALIZATION,
-                            STEP_COMPLETE, refusal);
-}
-
-bool component_terminate(Component *component, Refusal *refusal) {
-    return lifecycle_change(&component->now.lifecycle, "terminate", STEP_COMPLETE, TERMINATED,
+    return lifecycle_change(&component->now.lifecycle, "enterInitializationMode", INSTANTIATED, INITIALIZATION,
                             refusal);
 }
 
-bool component_set(Component *component, const unsigned *references, const double *values,
-                   size_t count, Refusal *refusal) {
+bool component_exit_initialization(Component *component, Refusal *refusal) {
+    return lifecycle_change(&component->now.lifecycle, "exitInitializationMode", INITIALIZATION, STEP_COMPLETE,
+                            refusal);
+}
+
+bool component_terminate(Component *component, Refusal *refusal) {
+    return lifecycle_change(&component->now.lifecycle, "terminate", STEP_COMPLETE, TERMINATED, refusal);
+}
+
+bool component_set(Component *component, const unsigned *references, const double *values, size_t count,
+                   Refusal *refusal) {
     double changed[SETTABLE_COUNT];
     memcpy(changed, component->now.values, sizeof changed);
     if (!change_values(changed, component->now.lifecycle, references, values, count, refusal)) {
@@ -80,8 +77,7 @@ static double output(const Snapshot *now, unsigned reference) {
     }
 }
 
-bool component_get(Component *component, const unsigned *references, double *values, size_t count,
-                   Refusal *refusal) {
+bool component_get(Component *component, const unsigned *references, double *values, size_t count, Refusal *refusal) {
     const Snapshot *now = &component->now;
     for (size_t i = 0; i < count; i++) {
         if (!reading_check(now->lifecycle, references[i], refusal)) {
@@ -97,20 +93,21 @@ bool component_get(Component *component, const unsigned *references, double *val
 
 bool component_step(Component *component, double time, double step_size, Refusal *refusal) {
     Snapshot *now = &component->now;
-    if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal)
-        || !step_check(now->time, now->stop_time, time, step_size, refusal)) {
+    if (!require("doStep", now->lifecycle, STEP_COMPLETE, refusal) ||
+        !step_check(now->time, now->stop_time, time, step_size, refusal)) {
         return false;
     }
     const double *values = now->values;
-    Tuning tuning = {values[VR_PROPORTIONAL_GAIN], values[VR_INTEGRAL_GAIN],
-                     values[VR_EFFORT_LIMIT], values[VR_SAMPLE_TIME]};
+    Tuning tuning = {values[VR_PROPORTIONAL_GAIN], values[VR_INTEGRAL_GAIN], values[VR_EFFORT_LIMIT],
+                     values[VR_SAMPLE_TIME]};
     double elapsed = time + step_size - now->start_time;
     double due = fmax(now->samples, ceil(elapsed / tuning.sample_time - SAMPLE_TIME_SLACK));
     if (!(due - now->samples <= MAX_SAMPLES)) {
         char text[NUMBER_SIZE], sample_time[NUMBER_SIZE];
-        return refuse(refusal, "doStep: communicationStepSize = %s refused: must be at most %g "
-                      "samples, sample_time = %s", number_text(step_size, text), MAX_SAMPLES,
-                      number_text(tuning.sample_time, sample_time));
+        return refuse(refusal,
+                      "doStep: communicationStepSize = %s refused: must be at most %g "
+                      "samples, sample_time = %s",
+                      number_text(step_size, text), MAX_SAMPLES, number_text(tuning.sample_time, sample_time));
     }
     double error = velocity_error(values);
     for (; now->samples < due; now->samples++) {

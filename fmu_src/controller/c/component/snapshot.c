@@ -1,5 +1,5 @@
-/* Layout: the header of state_bytes.h; as numbers the fields in their order, then the values that can
- * be set; the checksum. */
+/* Layout: the header of state_bytes.h; as numbers the fields in their order, then the values that can be set; the
+ * checksum. */
 #include "snapshot.h"
 
 #include <math.h>
@@ -20,9 +20,8 @@ size_t snapshot_size(void) {
 
 void snapshot_write(const Snapshot *snapshot, unsigned char *bytes) {
     double numbers[NUMBER_COUNT] = {
-        (double)snapshot->lifecycle, snapshot->start_time,       snapshot->time,
-        snapshot->stop_time,         snapshot->samples,          snapshot->control.integral,
-        snapshot->control.effort,
+        (double)snapshot->lifecycle, snapshot->start_time,       snapshot->time,           snapshot->stop_time,
+        snapshot->samples,           snapshot->control.integral, snapshot->control.effort,
     };
     memcpy(numbers + FIELD_COUNT, snapshot->values, sizeof snapshot->values);
     for (int i = 0; i < NUMBER_COUNT; i++) {
@@ -36,10 +35,12 @@ static bool fields_check(const double *numbers, Refusal *refusal) {
     bool known = numbers[0] >= 0.0 && numbers[0] < FMI.states && numbers[0] == floor(numbers[0]);
     bool times = isfinite(numbers[1]) && isfinite(numbers[2]) && numbers[3] >= numbers[1];
     bool sampled = isfinite(numbers[4]) && fabs(numbers[5]) <= 1.0 && fabs(numbers[6]) <= 1.0;
-    return (known && times && sampled)
-           || refuse(refusal, "FMU state refused: it holds a %s that no controller can have; "
-                     "must be bytes that a state was serialised to",
-                     !known ? "lifecycle" : !times ? "time" : "sample");
+    return (known && times && sampled) || refuse(refusal,
+                                                 "FMU state refused: it holds a %s that no controller can have; "
+                                                 "must be bytes that a state was serialised to",
+                                                 !known   ? "lifecycle"
+                                                 : !times ? "time"
+                                                          : "sample");
 }
 
 bool snapshot_read(Snapshot *snapshot, const unsigned char *bytes, size_t size, Refusal *refusal) {
