@@ -117,21 +117,11 @@ SineCosine elementary_sine_cosine(double x) {
 }
 
 double elementary_sin(double x) {
-    if (!(fabs(x) < MAX_ANGLE)) {
-        return sin(x);
-    }
-    Quarters quarters = quarters_of(x);
-    double size = quarters.count & 1 ? cosine_within(quarters.rest) : sine_within(quarters.rest);
-    return quarters.count & 2 ? -size : size;
+    return elementary_sine_cosine(x).sine;
 }
 
 double elementary_cos(double x) {
-    if (!(fabs(x) < MAX_ANGLE)) {
-        return cos(x);
-    }
-    Quarters quarters = quarters_of(x);
-    double size = quarters.count & 1 ? sine_within(quarters.rest) : cosine_within(quarters.rest);
-    return (quarters.count + 1) & 2 ? -size : size;
+    return elementary_sine_cosine(x).cosine;
 }
 
 double elementary_asin(double x) {
