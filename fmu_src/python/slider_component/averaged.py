@@ -15,15 +15,14 @@ The bristle follows the motion periodically; it has no state here.
 from dataclasses import replace
 from math import hypot, inf, pi, sin, tau
 
-from .budget import Budget
 from .constants import MAX_SLOW_STEPS, PYTHON_SLOWDOWN
-from .contact import LIFTED, direction_of
-from .device import System, Vibration, full_friction
+from .contact import LIFTED, VibratingLoad, direction_of, turns_to_repeat
+from .device import System, Vibration
 from .mean_friction import MAX_WAVES, MeanFriction
 from .moment import Moment
 from .resolved import Resolved, initial_moment
 from .slow_equation import Rates, SlowEquation
-from .vibrating_load import VibratingLoad, max_turns, turns_to_repeat
+from .values import Budget
 
 NEAR = 0.1
 """Largest distance of the frequency ratio from an integer at which the phase counts as slow; under
@@ -34,9 +33,6 @@ TOLERANCE = 2e-10
 
 STILL = 1e-6
 """Frequency [rad/s] of a drive that moves nothing, so low that it ends no segment."""
-
-FIRST_ORDER = 2.0
-"""Error of averages, and of what they leave out, in friction shares and v_q."""
 
 
 class Averaged:
@@ -52,36 +48,35 @@ class Averaged:
         device, ratio = system.device, system.inputs.frequency_ratio
         self.system, self.fast = system, Vibration(device)
         self.law = MeanFriction(device, self.fast.velocity)
-        turns = turns_to_repeat(ratio, max_turns(system.normal_load), NEAR)
+        turns = turns_to_repeat(ratio, system.normal_load.max_turns, NEAR)
         self.waves = round(turns * ratio) / turns if turns else ratio
         self.drift = (ratio - self.waves) * device.drive_frequency
         self.beat = tau / (turns * abs(self.drift)) if turns and self.drift else inf
-        self.max_steps = MAX_SLOW_STEPS // PYTHON_SLOWDOWN
-        if self.law.bends:  # Quadratures take longer the more waves the load has.
-            self.max_steps = int(self.max_steps / (1.0 + min(abs(self.waves), MAX_WAVES)))
+        # Quadratures take longer the more waves the load has.
+        waves = min(abs(self.waves), MAX_WAVES) if self.law.bends else 0.0
+        self.max_steps = int(MAX_SLOW_STEPS / PYTHON_SLOWDOWN / (1.0 + waves))
 
     def start(self) -> Moment:
         """Initial velocities determine the momentum of the pair, not the vibration."""
-        device = self.system.device
-        now = initial_moment(device)
+        now = initial_moment(self.system.device)
         now.mode, now.complete = self.mode(now), True
         now.mean_velocity = self._slow_velocity(now)
         return now
 
     def advance(self, moment: Moment, duration: float) -> Moment:
         """The moment `duration` > 0 [s] later. Raises Refusal for too many steps."""
-        system, fast, now = self.system, self.fast, moment.copied()
-        w, share = system.drive_frequency, fast.mass_fraction
-        reach = fast.pair_velocity / w
+        fast, now = self.fast, moment.copied()
+        w, share, reach = fast.frequency, fast.mass_fraction, fast.pair_velocity / fast.frequency
         slow = self._slow_velocity(now)
         centre = now.position + share * now.displacement + reach * sin(now.theta)
         if fast.velocity > 0.0:
             slow, moved = self._integrated(self._load_phase(now), slow, duration)
         else:
-            later = self._still().advance(Moment(slow, 0.0, 0.0, 0.0, psi=now.psi), duration)
+            motion, still = self._still(now)
+            later = motion.advance(still, duration)
             slow, moved = later.velocity, later.position
         now.theta = (now.theta + w * duration) % tau
-        now.psi = (now.psi + system.normal_frequency * duration) % tau
+        now.psi = (now.psi + self.system.normal_frequency * duration) % tau
         now.displacement, now.rate = fast.swing(now.theta)
         now.velocity = slow - fast.ahead(now.theta, now.rate)
         now.position = centre + moved - reach * sin(now.theta) - share * now.displacement
@@ -94,18 +89,16 @@ class Averaged:
 
     def friction_force(self, now: Moment) -> float:
         """Mean friction force [N] over a drive period, positive against +X."""
-        velocity = self._slow_velocity(now)
-        if self.fast.velocity == 0.0:
-            return self._still().friction_force(Moment(velocity, 0.0, 0.0, 0.0, psi=now.psi))
-        return self._mean_friction(self._load_phase(now), velocity)
+        if self.fast.velocity > 0.0:
+            return self._mean_friction(self._load_phase(now), self._slow_velocity(now))
+        motion, still = self._still(now)
+        return motion.friction_force(still)
 
     def friction_power(self, now: Moment) -> float:
         """Mean power of friction [W] over a drive period, of slow motion and vibration."""
-        if self.fast.velocity == 0.0:
-            return self.friction_force(now) * self._slow_velocity(now)
-        system, phase = self.system, self._load_phase(now)
-        load = VibratingLoad(system.normal_load, self.waves, phase, MAX_WAVES)
-        return system.device.friction_faces * self.law.power(load, self._slow_velocity(now))
+        normal, phase = self.system.normal_load, self._load_phase(now)
+        load = VibratingLoad(normal, self.waves, phase, MAX_WAVES)
+        return self.law.power(load, self._slow_velocity(now))
 
     def resonator(self, now: Moment) -> tuple[float, float]:
         """Displacement [m] and velocity [m/s] of the steady vibration."""
@@ -114,13 +107,13 @@ class Averaged:
     def slow_motion_error(self, now: Moment) -> float:
         """The estimate of the error of the slow velocity [m/s].
 
-        Averages expand by the velocity that friction changes in a radian of the drive, faces mu
-        N0 / (Mt w), over v_q. Bristles damp by the impulse of 2 mu s1/s0 per normal load at each of
-        two reversals in a turn, but by no more than s1 v_q all the time. What averages leave out
-        lasts as long as the slowest transient of resonator and bristle.
+        Averages, and what they leave out, err by twice the velocity that friction changes in a
+        radian of the drive, faces mu N0 / (Mt w). Bristles damp by the impulse of 2 mu s1/s0 per
+        normal load at each of two reversals in a turn, but by no more than s1 v_q all the time.
+        What averages leave out lasts as long as the slowest transient of resonator and bristle.
         """
-        device, w, fast = self.system.device, self.system.drive_frequency, self.fast.velocity
-        friction, decay = full_friction(device), inf
+        device, w, fast = self.system.device, self.fast.frequency, self.fast.velocity
+        friction, mu, decay = device.full_friction, device.friction_coefficient, inf
         vibrates = fast > 0.0 or (device.normal_amplitude > 0.0 and self.system.normal_frequency)
         if not (vibrates and friction > 0.0):
             return 0.0
@@ -128,28 +121,26 @@ class Averaged:
             decay = -self.system.slip.eigenvalues[0].real * tau / w
         if device.friction_law == 1:
             stiffness, damping = device.bristle_stiffness, device.bristle_damping
-            bend_rate = stiffness / device.friction_coefficient
-            damped = damping * fast / device.friction_coefficient
+            damped = damping * fast / mu
             if stiffness and fast:
                 damped = min(damped, 2.0 / pi * damping / stiffness * w)
             friction *= hypot(1.0, damped)
-            decay = min(decay, bend_rate * 4.0 * fast / w)
+            decay = min(decay, stiffness / mu * 4.0 * fast / w)
         changed = friction / (device.total_mass * w)
         swing = 1.0 + (1.0 / decay if decay > 0.0 else inf)
-        return min(FIRST_ORDER * changed * swing, max(fast, changed))
+        return min(2.0 * changed * swing, max(fast, changed))
 
-    def _still(self) -> Resolved:
+    def _still(self, now: Moment) -> tuple[Resolved, Moment]:
         """The pair without vibration: only the load is averaged, unless it is slow itself."""
-        device, inputs, w = self.system.device, self.system.inputs, STILL
+        drift = 0.0 if self.waves else self.drift
+        w = max(abs(drift), STILL)
+        device = replace(self.system.device, fidelity=1, friction_law=0, drive_frequency=w)
         if self.waves:
             mean = device.normal_load.mean
             device = replace(device, normal_preload=mean, normal_amplitude=0.0)
-        else:
-            w = max(abs(self.drift), w)
-            inputs = replace(inputs, frequency_ratio=self.drift / w)
-        return Resolved(
-            System(replace(device, fidelity=1, friction_law=0, drive_frequency=w), inputs)
-        )
+        inputs = replace(self.system.inputs, frequency_ratio=drift / w)
+        still = Moment(self._slow_velocity(now), 0.0, 0.0, 0.0, psi=now.psi)
+        return Resolved(System(device, inputs)), still
 
     def _slow_velocity(self, now: Moment) -> float:
         return now.velocity + self.fast.ahead(now.theta, now.rate)
@@ -159,9 +150,9 @@ class Averaged:
         return self.system.phase + now.psi - self.waves * (now.theta - self.fast.lag)
 
     def _mean_friction(self, phase: float, velocity: float) -> float:
-        """Mean friction [N] of all faces at a phase of the load [rad] and a slow velocity [m/s]."""
+        """Mean friction [N] at a phase of the load [rad] and a slow velocity [m/s]."""
         load = VibratingLoad(self.system.normal_load, self.waves, phase, self.law.max_waves)
-        return self.system.device.friction_faces * self.law.mean(load, self.law.turning(velocity))
+        return self.law.mean(load, self.law.turning(velocity))
 
     def _integrated(self, phase: float, velocity: float, duration: float) -> tuple[float, float]:
         """Slow velocity [m/s] and displacement [m] after `duration` [s]."""

@@ -3,11 +3,11 @@
 import cmath
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import astuple, replace
+from dataclasses import asdict, astuple, replace
 from math import inf, isfinite, log10, nan, remainder, tau, ulp
 from typing import Any
 
-from . import refusal_texts
+from . import refusal_texts as texts
 from .averaged import Averaged
 from .constants import MAX_TURNS, PYTHON_SLOWDOWN, STOP_TIME_SLACK, TIME_SLACK
 from .device import Device, System
@@ -17,7 +17,7 @@ from .outputs import OUTPUTS, Motion
 from .parameters import Inputs
 from .prediction import theory_range
 from .resolved import Resolved
-from .snapshot import Lifecycle, State, from_plain, to_plain
+from .snapshot import FORMAT, Lifecycle, State, from_plain
 from .values import BY_NAME, SETTABLE, Refusal, checked
 from .variable import Variable
 
@@ -41,14 +41,13 @@ class Component:
         """
         state = self._required("setupExperiment", Lifecycle.INSTANTIATED)
         if not isfinite(start_time):
-            raise Refusal(refusal_texts.BAD_START_TIME, start_time=start_time)
-        if stop_time is not None and not stop_time >= start_time:
-            times = {"stop_time": stop_time, "start_time": start_time}
-            raise Refusal(refusal_texts.BAD_STOP_TIME, **times)
+            raise Refusal(texts.BAD_START_TIME, start_time=start_time)
+        stop = inf if stop_time is None else stop_time
+        if not stop >= start_time:
+            raise Refusal(texts.BAD_STOP_TIME, stop_time=stop, start_time=start_time)
         if tolerance is not None and not (isfinite(tolerance) and tolerance > 0.0):
-            raise Refusal(refusal_texts.BAD_TOLERANCE, tolerance=tolerance)
-        state.time = float(start_time)
-        state.stop_time = inf if stop_time is None else float(stop_time)
+            raise Refusal(texts.BAD_TOLERANCE, tolerance=tolerance)
+        state.time, state.stop_time = float(start_time), float(stop)
 
     def enter_initialization(self) -> None:
         """Begin initialization mode."""
@@ -75,10 +74,9 @@ class Component:
         for name, value in new.items():
             variable = BY_NAME[name]
             if variable.causality == "output":
-                raise Refusal(refusal_texts.OUTPUT_SET, name=name, value=repr(value))
+                raise Refusal(texts.OUTPUT_SET, name=name, value=repr(value))
             if variable.variability == "fixed" and running:
-                text = refusal_texts.FIXED_WHILE_RUNNING
-                raise Refusal(text, name=name, value=repr(value))
+                raise Refusal(texts.FIXED_WHILE_RUNNING, name=name, value=repr(value))
             values[name] = checked(variable, value)
         if values != state.values:
             self._prepared = _prepare(values) if running else None
@@ -93,19 +91,19 @@ class Component:
         """Advance from the present `time` [s] by `step_size` > 0 [s], inputs held; return True."""
         state = self._required("doStep", Lifecycle.STEP_COMPLETE)
         if not (isfinite(step_size) and step_size > 0.0):
-            raise Refusal(refusal_texts.BAD_STEP_SIZE, step_size=step_size)
+            raise Refusal(texts.BAD_STEP_SIZE, step_size=step_size)
         # Hosts sum up time themselves, so theirs may differ from this one by rounding.
         slack = TIME_SLACK * step_size + 4.0 * ulp(state.time)
         if not abs(time - state.time) <= slack:
-            raise Refusal(refusal_texts.BAD_STEP_START, time=time, now=state.time)
+            raise Refusal(texts.BAD_STEP_START, time=time, now=state.time)
         end = time + step_size
         if end > state.stop_time + slack + STOP_TIME_SLACK * abs(state.stop_time):
-            limits = {"step_size": step_size, "stop_time": state.stop_time}
-            raise Refusal(refusal_texts.STEP_BEYOND_STOP, **limits)
+            stop = state.stop_time
+            raise Refusal(texts.STEP_BEYOND_STOP, step_size=step_size, stop_time=stop)
         frequency, max_turns = self._motion.system.fastest, MAX_TURNS // PYTHON_SLOWDOWN
         if state.values["fidelity"] > 0 and step_size * frequency > tau * max_turns:
             limits = {"frequency": frequency, "max_turns": max_turns}
-            raise Refusal(refusal_texts.TOO_MANY_TURNS, step_size=step_size, **limits)
+            raise Refusal(texts.TOO_MANY_TURNS, step_size=step_size, **limits)
         with suppress(ArithmeticError, ValueError):
             now = self._motion.advance(self._present(), step_size)
             numbers = now.position, now.velocity, now.displacement, now.rate, now.psi, now.theta
@@ -113,11 +111,11 @@ class Component:
                 now.time = state.time = end
                 state.moment = now
                 return True
-        raise Refusal(refusal_texts.INFINITE_MOTION, step_size=step_size)
+        raise Refusal(texts.INFINITE_MOTION, step_size=step_size)
 
     def snapshot(self) -> dict[str, Any]:
         """Return the complete state, of plain numbers and names."""
-        return to_plain(self._state)
+        return {"format": FORMAT, **asdict(self._state)}
 
     def restore(self, plain: Mapping[str, Any]) -> None:
         """Restore a snapshot, of this or another instance. Raises Refusal for anything else."""
@@ -127,15 +125,14 @@ class Component:
 
     def _required(self, call: str, required: Lifecycle) -> State:
         """Return the state. Raises Refusal for a call in any state of life but `required`."""
-        if self._state.lifecycle != required:
-            names = {"state": self._state.lifecycle, "required": required}
-            raise Refusal(refusal_texts.WRONG_STATE, call=call, **names)
+        state = self._state.lifecycle
+        if state != required:
+            raise Refusal(texts.WRONG_STATE, call=call, state=state, required=required)
         return self._state
 
     @property
     def _motion(self) -> Motion:
-        if self._prepared is None:
-            self._prepared = _prepare(self._state.values)
+        self._prepared = self._prepared or _prepare(self._state.values)
         return self._prepared
 
     def _present(self) -> Moment:
@@ -153,37 +150,37 @@ class Component:
         with suppress(ArithmeticError, ValueError):
             value = OUTPUTS[name](motion, now)
         if not isfinite(value):
-            raise Refusal(refusal_texts.INFINITE_OUTPUT, name=name, value=value)
+            raise Refusal(texts.INFINITE_OUTPUT, name=name, value=value)
         return value
 
 
 def _prepare(values: Mapping[str, Any]) -> Motion:
-    device = Device(**{v.name: values[v.name] for v in SETTABLE if v.causality == "parameter"})
+    """The motion under all values. Raises Refusal for values under which there is none."""
     inputs = Inputs(**{v.name: values[v.name] for v in SETTABLE if v.causality == "input"})
+    device = Device(**{v.name: values[v.name] for v in SETTABLE if v.causality == "parameter"})
     device = _driven(device, inputs)
-    inputs = replace(inputs, phase=remainder(inputs.phase, tau))
     with suppress(ArithmeticError):
-        motion = motion_of(device, inputs)
+        motion = motion_of(device, replace(inputs, phase=remainder(inputs.phase, tau)))
         system = motion.system
         numbers = [*vars(system).values(), *astuple(system.slip), *astuple(system.stick)]
-        numbers += theory_range(device)
-        finite = all(cmath.isfinite(x) for x in numbers if isinstance(x, (float, complex)))
+        numbers = [x for x in numbers if isinstance(x, (float, complex))]
+        finite = all(map(cmath.isfinite, [*numbers, *theory_range(device)]))
         if finite and system.mass_fraction < 1.0:  # beside it, the slider's mass counts
             return motion
-    raise _extreme(values)
+    # Together the values leave the range of floating point numbers. The text names the one that is
+    # the most decades away from its start value.
+    furthest = max(SETTABLE, key=lambda v: _decades_from_start(v, values[v.name]))
+    shown = {"value": repr(values[furthest.name]), "start": repr(furthest.start)}
+    raise Refusal(texts.EXTREME_VALUE, name=furthest.name, **shown)
 
 
 def _driven(device: Device, inputs: Inputs) -> Device:
     """The device with the deviations of its drive. Raises Refusal for too slow a drive."""
-    w = device.drive_frequency * (1.0 + inputs.frequency_deviation)
-    variable, amplitude = BY_NAME["drive_frequency"], 1.0 + inputs.amplitude_deviation
+    deviation, amplitude = inputs.frequency_deviation, 1.0 + inputs.amplitude_deviation
+    variable, w = BY_NAME["drive_frequency"], device.drive_frequency * (1.0 + deviation)
     if variable.minimum is not None and w < variable.minimum:
-        raise Refusal(
-            refusal_texts.DRIVE_TOO_SLOW,
-            frequency_deviation=inputs.frequency_deviation,
-            drive_frequency=w,
-            requirement=variable.requirement,
-        )
+        shown = {"drive_frequency": w, "requirement": variable.requirement}
+        raise Refusal(texts.DRIVE_TOO_SLOW, frequency_deviation=deviation, **shown)
     return replace(
         device,
         base_amplitude=device.base_amplitude * amplitude,
@@ -199,23 +196,12 @@ def motion_of(device: Device, inputs: Inputs) -> Motion:
     resonance leaves no steady vibration that fidelity 1 or averages of first order need.
     """
     if device.friction_law == 1 and device.friction_coefficient == 0.0:
-        raise Refusal(refusal_texts.LUGRE_WITHOUT_FRICTION, friction_coefficient=0.0)
+        raise Refusal(texts.LUGRE_WITHOUT_FRICTION, friction_coefficient=0.0)
     if device.fidelity == 0 and device.averaging_order == 2:
         return Leaping(System(replace(device, fidelity=2), inputs))
     system = System(device, inputs)
     return Resolved(system) if device.fidelity > 0 else Averaged(system)
 
 
-def _extreme(values: Mapping[str, Any]) -> Refusal:
-    """Return the refusal of values that together leave the range of floating point numbers.
-
-    The text names the value that is the most decades away from its start value.
-    """
-
-    def distance(variable: Variable) -> float:
-        value = values[variable.name]
-        return abs(log10(abs(value)) - log10(variable.start or 1.0)) if value else 0.0
-
-    furthest = max(SETTABLE, key=distance)
-    shown = {"value": repr(values[furthest.name]), "start": repr(furthest.start)}
-    return Refusal(refusal_texts.EXTREME_VALUE, name=furthest.name, **shown)
+def _decades_from_start(variable: Variable, value: float) -> float:
+    return abs(log10(abs(value)) - log10(variable.start or 1.0)) if value else 0.0

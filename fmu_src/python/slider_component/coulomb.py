@@ -6,42 +6,30 @@ release, and the lift-off and touchdown of the contact.
 
 from cmath import rect
 
-from .contact import BACKWARD, FORWARD, LIFTED, STICK, direction_of
+from .closed_form import ClosedForm
+from .contact import BACKWARD, EXACT, FORWARD, LIFTED, STICK, direction_of
 from .device import System
 from .moment import Moment
 from .series import Series
-from .sliding import Exponentials
 
-Segment = Exponentials | Series
+Segment = ClosedForm | Series
 """Motion from a moment on, inputs held, contact mode unchanged."""
-
-BALANCED = 1e-12
-"""Relative difference of the forces on a slider up to which they count as balanced."""
 
 
 class Coulomb:
     """A friction law, as the loop over events needs it."""
 
     def mode(self, system: System, now: Moment) -> int:
-        """Contact mode under the held inputs."""
-        if system.is_lifted(now.psi):
-            return LIFTED
+        """Contact mode under the held inputs, in contact."""
         return now.mode if _just_released(system, now) else _mode_in_contact(system, now)
 
     def force(self, system: System, now: Moment, mode: int) -> float:
         """Friction force [N] on the slider in contact mode `mode`, positive against +X."""
-        if mode == LIFTED:
-            return 0.0
-        if mode == STICK:
-            return _needed_force(system, now)
-        return mode * system.friction_limit(now.psi)
+        return mode * system.friction_limit(now.psi) if mode else _needed_force(system, now)
 
     def begin(self, system: System, now: Moment) -> Segment:
         """The motion on from `now`."""
-        if now.mode == STICK:
-            split = system.rest_split is not None
-            return (Exponentials if split else Series)(system, now, 0, rests=True)
-        return slide(system, now, 0 if now.mode == LIFTED else now.mode)
+        return motion(system, now, 0 if now.mode == LIFTED else now.mode)
 
     def enter_next_mode(
         self, system: System, now: Moment, travelled: float, zero_of: int | None, switches: bool
@@ -53,18 +41,19 @@ class Coulomb:
         """
         if zero_of is not None and now.mode == STICK:
             now.enter(FORWARD if zero_of == 0 else BACKWARD)
-        elif zero_of is not None:
+        elif switches and now.mode != LIFTED:
+            now.enter(LIFTED)
+        elif switches or zero_of is not None:
             now.enter(_mode_in_contact(system, now))
-        elif switches:
-            now.enter(_mode_in_contact(system, now) if now.mode == LIFTED else LIFTED)
 
 
-def slide(system: System, now: Moment, direction: int) -> Segment:
-    """Sliding in `direction` under full friction, or flight in contact mode LIFTED.
+def motion(system: System, now: Moment, direction: int) -> Segment:
+    """Sliding in `direction` under full friction, flight in contact mode LIFTED, or rest.
 
     The velocity is watched in `direction`, unless that is 0.
     """
-    return (Series if system.slide_split is None else Exponentials)(system, now, direction)
+    mode = system.free if direction or now.mode == LIFTED else system.held
+    return (Series if mode.responses is None else ClosedForm)(system, now, direction)
 
 
 def _needed_force(system: System, now: Moment) -> float:
@@ -83,7 +72,7 @@ def _just_released(system: System, now: Moment) -> bool:
         return False
     limit = system.friction_limit(now.psi)
     excess = now.mode * _needed_force(system, now) - limit
-    return abs(excess) <= BALANCED * (limit + system.friction_preload + abs(system.load))
+    return abs(excess) <= EXACT * (limit + system.friction_preload + abs(system.load))
 
 
 def _mode_in_contact(system: System, now: Moment) -> int:

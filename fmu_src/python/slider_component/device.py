@@ -13,10 +13,10 @@ where e = -i exp(i theta). At fidelity 1 the resonator acts through its steady f
 from cmath import phase as argument
 from cmath import rect
 from dataclasses import dataclass
-from math import cos, inf, pi
+from math import cos, pi
 from typing import NamedTuple
 
-from . import refusal_texts
+from . import refusal_texts as texts
 from .contact import NormalLoad
 from .oscillator import SLOW, Oscillator
 from .parameters import Inputs, Parameters
@@ -28,10 +28,6 @@ EPSILON = 2.0**-52
 AT_RESONANCE = 8.0 * EPSILON
 """Relative difference of two squared frequencies that is due to rounding: without damping the
 steady force has no correct digit there."""
-
-LONGEST_ARC = 60.0
-"""The longest segment, as an angle [rad] of the fastest oscillation: avoids the rounding errors of
-large arguments of sine and cosine."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,17 +49,16 @@ class Device(Parameters):
         """The normal load of each face."""
         return NormalLoad(self.normal_preload, self.normal_amplitude)
 
-    @property
-    def slip_oscillator(self) -> Oscillator:
-        """The resonator against a free slider (eq. 31 divided by 1 - r_m)."""
-        share, wn = self.slider_mass / self.total_mass, self.resonator_frequency
+    def oscillator(self, held: bool) -> Oscillator:
+        """The resonator against a `held` slider, or a free one (eq. 31 divided by 1 - r_m)."""
+        share, wn = 1.0 if held else self.slider_mass / self.total_mass, self.resonator_frequency
         return Oscillator(self.damping_ratio * wn / share, wn * wn / share)
 
     @property
-    def stick_oscillator(self) -> Oscillator:
-        """The resonator against a held slider."""
-        wn = self.resonator_frequency
-        return Oscillator(self.damping_ratio * wn, wn * wn)
+    def full_friction(self) -> float:
+        """Mean friction [N] of sliding in one direction, but for the shape of a clipped load."""
+        normal = max(self.normal_preload, self.normal_amplitude / pi)
+        return self.friction_faces * self.friction_coefficient * normal
 
 
 class Vibration:
@@ -72,20 +67,21 @@ class Vibration:
     Its `frequency` [rad/s], velocity amplitudes [m/s], `lag` theta_1 [rad], and complex amplitudes
     of e: of the `force` on slider and resonator together, F_T* exp(-i theta_1) [N], and of the
     `resonator` [m]. `velocity` is v_q of the slider, `pair_velocity` the one that the drive force
-    gives to the pair, of which the resonator has the `mass_fraction`.
+    gives to the pair, of which the resonator has the `mass_fraction`. On a `held` slider, of
+    infinite mass, the force is that which must hold it.
     """
 
-    def __init__(self, device: Device) -> None:
+    def __init__(self, device: Device, held: bool = False) -> None:
         """Raises Refusal where undamped resonance leaves no steady vibration."""
         w, m, direct = device.drive_frequency, device.resonator_mass, device.tangential_force
-        if _is_unbounded(device, device.slip_oscillator):
-            shown = {"damping_ratio": device.damping_ratio, "drive_frequency": w}
-            raise Refusal(refusal_texts.UNBOUNDED_RESONANCE, **shown)
-        base, inertia = device.base_amplitude * w * w, device.total_mass * w
+        oscillator, square, damping = device.oscillator(held), w * w, device.damping_ratio
+        if damping == 0.0 and abs(oscillator.stiffness - square) <= AT_RESONANCE * square:
+            raise Refusal(texts.UNBOUNDED_RESONANCE, damping_ratio=damping, drive_frequency=w)
+        base, inertia = device.base_amplitude * square, device.total_mass * w
         self.frequency, self.mass_fraction = w, device.mass_fraction
-        relative = base - direct / device.slider_mass
-        self.resonator = relative * device.slip_oscillator.transfer(w)
-        self.force = m * (w * w) * (device.base_amplitude + self.resonator) + direct
+        relative = base if held else base - direct / device.slider_mass
+        self.resonator = relative * oscillator.transfer(w)
+        self.force = m * square * (device.base_amplitude + self.resonator) + direct
         self.velocity, self.lag = abs(self.force) / inertia, -argument(self.force)
         self.pair_velocity = (m * base + direct) / inertia
 
@@ -103,76 +99,59 @@ class Vibration:
         return self.mass_fraction * rate + self.pair_velocity * cos(theta)
 
 
-def held_amplitude(device: Device) -> float:
-    """Amplitude of the steady force of resonator and direct drive on a held slider [N]."""
-    w, oscillator = device.drive_frequency, device.stick_oscillator
-    if _is_unbounded(device, oscillator):
-        return inf
-    amplitude = device.base_amplitude * (1.0 + w * w * oscillator.transfer(w))
-    return abs(device.resonator_mass * w * w * amplitude + device.tangential_force)
-
-
-def _is_unbounded(device: Device, oscillator: Oscillator) -> bool:
-    square = device.drive_frequency * device.drive_frequency
-    near = abs(oscillator.stiffness - square) <= AT_RESONANCE * square
-    return near and device.damping_ratio == 0.0
-
-
-def full_friction(device: Device) -> float:
-    """Mean friction [N] of sliding in one direction, but for the shape of a clipped load."""
-    normal = max(device.normal_preload, device.normal_amplitude / pi)
-    return device.friction_faces * device.friction_coefficient * normal
-
-
 Term = tuple[complex, complex, complex]
 """Rate z [1/s] of an exponential, velocity v_z of the slider, displacement y_z of the resonator."""
 
 
-class Split(NamedTuple):
-    """Motion in a contact mode, split into forced terms and the free motion of an `oscillator`.
+@dataclass(frozen=True, slots=True)
+class Mode:
+    """The equations with a free slider, or with a held one: its mass is infinite.
 
-    The terms are per unit exp(i theta) and, for s = 1, per unit exp(i chi). `compliance` is the
-    displacement of the resonator by a constant force [m/N]; in free motion the slider moves by
-    -`mass_fraction` times what the resonator does.
+    A force accelerates the slider by the `mobility` [1/kg] and the pair by the `pair_mobility`. The
+    resonator, an `oscillator` against the slider, has the `mass_fraction` of the pair. A constant
+    force displaces it by the `compliance` [m/N]. The steady `responses`, per unit exp(i theta) of
+    the drive and, for s = 1, exp(i chi) of the normal load, are None where splitting the motion
+    into these and free motion loses digits.
     """
 
-    drive: Term
-    normal: Term
     oscillator: Oscillator
+    mobility: float
+    pair_mobility: float
     mass_fraction: float
     compliance: float
+    responses: tuple[Term, Term] | None
 
 
 class System:
     """A device under held inputs (SI units; complex numbers are amplitudes of e).
 
-    The full device (`is_full`) follows its resonator. At fidelity 1 this acts by its steady force
-    only: `slider_mass` is the total mass, `mass_fraction`, `spring`, `damper` and the `coupling` of
-    accelerations to the resonator are 0, and it vibrates in a `steady` way. `direct` is the force
-    of the drive on the slider [N], `drive` that on the pair per total mass [m/s^2]. The splits are
-    None where splitting loses digits. `friction` is mu of all faces. `fastest` [rad/s] is the
-    highest frequency, `arc` [s] the longest segment: after it a motion begins anew from its state.
-    Neither depends on `phase` and `load`.
+    The full device (`is_full`) follows its resonator. At fidelity 1 this vibrates in a `steady` way
+    and acts by its steady force only, on a slider of the total mass: `mass_fraction`, `spring`,
+    `damper`, `base_acceleration` and the `coupling` of accelerations to the resonator are 0. The
+    drive forces are the `direct` one on the slider and the `drive` on the pair [N]. `friction` is
+    mu of all faces. `fastest` [rad/s] is the highest frequency, `arc` [s] the longest segment:
+    after it a motion begins anew from its state. Neither depends on `phase` and `load`. The
+    equations are those of a `free` and of a `held` slider.
     """
 
     def __init__(self, device: Device, inputs: Inputs) -> None:
         """Raises Refusal at fidelity 1 where the steady force of the resonator is unbounded."""
-        w, m, wn = device.drive_frequency, device.resonator_mass, device.resonator_frequency
+        w, m = device.drive_frequency, device.resonator_mass
         self.device, self.inputs = device, inputs
         self.phase, self.load = inputs.phase, inputs.load
         self.drive_frequency, self.normal_frequency = w, inputs.frequency_ratio * w
-        self.normal_load = device.normal_load
+        self.normal_load, self.total_mass = device.normal_load, device.total_mass
         self.friction = device.friction_faces * device.friction_coefficient
         self.friction_preload = self.friction * device.normal_preload
         self.friction_amplitude = self.friction * device.normal_amplitude
-        self.total_mass, self.base_acceleration = device.total_mass, device.base_amplitude * w * w
-        self.slip, self.stick = device.slip_oscillator, device.stick_oscillator
+        self.slip, self.stick = device.oscillator(held=False), device.oscillator(held=True)
         self.fastest = max(w, abs(self.normal_frequency))
         self.is_full = device.fidelity == 2
         self.coupling = float(self.is_full)
+        self.base_acceleration = self.coupling * device.base_amplitude * w * w
         if self.is_full:
             self.slider_mass, self.mass_fraction = device.slider_mass, device.mass_fraction
-            self.spring, self.damper = m * wn * wn, 2.0 * device.damping_ratio * m * wn
+            self.spring, self.damper = m * self.stick.stiffness, 2.0 * m * self.stick.decay
             self.direct = complex(device.tangential_force)
             swinging = [o.frequency for o in (self.slip, self.stick) if o.decay < o.frequency]
             self.fastest = max([self.fastest, *swinging])
@@ -181,36 +160,35 @@ class System:
             self.spring = self.damper = 0.0
             self.steady = Vibration(device)
             self.direct = self.steady.force
-        self.drive = (self.coupling * m * self.base_acceleration + self.direct) / device.total_mass
-        self.arc = LONGEST_ARC / self.fastest
-        self.slide_split, self.rest_split = self._slide_split(), self._rest_split()
+        self.drive = m * self.base_acceleration + self.direct
+        # Large arguments of sine and cosine have rounding errors.
+        self.arc = 60.0 / self.fastest
+        self.free, self.held = self._mode(held=False), self._mode(held=True)
 
-    def _slide_split(self) -> Split | None:
-        w, q, slip, coupling = self.drive_frequency, self.normal_frequency, self.slip, self.coupling
-        if 0.0 < abs(q) < SLOW * w or (self.is_full and not slip.splits(w, q)):
-            return None
-        friction = self.friction_amplitude
-        base = coupling * (self.base_acceleration - self.direct / self.slider_mass)
-        drive = self._term(w, slip, base, self.drive)
-        by_friction = coupling * friction / self.slider_mass
-        normal = self._term(q, slip, by_friction, -friction / self.total_mass)
-        compliance = coupling / (slip.stiffness * self.slider_mass)
-        return Split(drive, normal, slip, self.mass_fraction, compliance)
+    def _mode(self, held: bool) -> Mode:
+        w, q = self.drive_frequency, 0.0 if held else self.normal_frequency
+        oscillator = self.stick if held else self.slip
+        mobility, pair_mobility, mass_fraction = 0.0, 0.0, 0.0
+        if not held:
+            mobility, pair_mobility = 1.0 / self.slider_mass, 1.0 / self.total_mass
+            mass_fraction = self.mass_fraction
+        by_slider = self.coupling * mobility
 
-    def _rest_split(self) -> Split | None:
-        w, stick = self.drive_frequency, self.stick
-        if self.is_full and not stick.splits(w):
-            return None
-        z, _, swing = self._term(w, stick, self.coupling * self.base_acceleration, 0.0)
-        return Split((z, 0j, swing), (0j, 0j, 0j), stick, 0.0, 0.0)
+        def response(f: float, relative: complex, pair: complex) -> Term:
+            """By accelerations of the resonator relative to the slider, and of the pair."""
+            z, swing = complex(0.0, f), -1j * relative * oscillator.transfer(f) if relative else 0j
+            return z, (-pair / f if f else 0j) - mass_fraction * z * swing, swing
 
-    def _term(self, f: float, oscillator: Oscillator, relative: complex, pair: complex) -> Term:
-        """Steady motion at `f` [rad/s].
-
-        By accelerations of the resonator relative to the slider, and of the pair.
-        """
-        z, swing = complex(0.0, f), -1j * relative * oscillator.transfer(f) if relative else 0j
-        return z, (-pair / f if f else 0j) - self.mass_fraction * z * swing, swing
+        responses = None
+        if not 0.0 < abs(q) < SLOW * w and (oscillator.splits(w, q) or not self.is_full):
+            relative = self.base_acceleration - by_slider * self.direct
+            friction = self.friction_amplitude
+            responses = (
+                response(w, relative, self.drive * pair_mobility),
+                response(q, by_slider * friction, -friction * pair_mobility),
+            )
+        compliance = by_slider / oscillator.stiffness
+        return Mode(oscillator, mobility, pair_mobility, mass_fraction, compliance, responses)
 
     def friction_limit(self, psi: float) -> float:
         """Friction force [N] of all faces at normal phase `psi` [rad] when sliding, 0 in flight."""

@@ -35,9 +35,6 @@ to this, which bounds the work on signals that stay within rounding of zero."""
 
 GROWTH = 1.035
 
-MAX_NEWTON_STEPS = 80
-"""Steps of Newton's method towards a zero that is simple, far more than it takes."""
-
 RESOLUTION = 1e-16
 """Angle [rad] of the highest frequency to which zeros are located."""
 
@@ -68,15 +65,14 @@ def first_zero(watch: Watch, limit: float) -> float | None:
             step = (slope + root) / bound if bound > 0.0 else inf
         if step * fastest < SHORT:
             shortest = min(GROWTH * shortest, SHORT / fastest)
-        before = t
-        t += max(step, shortest)
+        before, t = t, t + max(step, shortest)
     return None
 
 
 def _newton(watch: Watch, t: float) -> float:
     """The downward zero near `t` [s], by Newton's method, or infinity if none is found."""
     signal, noise, fastest = watch
-    for _ in range(MAX_NEWTON_STEPS):
+    for _ in range(80):  # far more steps than a simple zero takes
         value, slope, bound = signal(t)
         if not slope < 0.0:
             break

@@ -13,14 +13,13 @@ from contextlib import suppress
 from math import floor, inf, tau
 from typing import NamedTuple
 
-from .budget import Budget
+from .contact import MAX_TURNS_TO_REPEAT
 from .device import System
 from .moment import Moment
-from .period_map import Fast, PeriodMap
+from .period_map import Numbers, PeriodMap
 from .resolved import Resolved
 from .slow_equation import NoRatesError, Rates, SlowEquation
-from .values import Refusal
-from .vibrating_load import MAX_TURNS_TO_REPEAT
+from .values import Budget, Refusal
 
 ORDER = 3
 """Order of the differences: a sequence maps so many periods."""
@@ -40,9 +39,6 @@ SHORTEST_STEP = 12.0 * ORDER
 SHORTEST_LEAP = 64.0
 """Fewest periods that may be left for a leap."""
 
-TO_GRAZING = 0.5
-"""Part of the way to a grazing velocity that a step may pass: there rates are singular."""
-
 PAUSE = 12.0
 """Periods that are resolved after an attempt, by period mapped in vain, or by that of one sequence:
 attempts cost a twelfth of resolved motion at most. In them kinks pass and transients decay."""
@@ -51,27 +47,20 @@ attempts cost a twelfth of resolved motion at most. In them kinks pass and trans
 class Point(NamedTuple):
     """A point of the slow manifold, after a number of periods.
 
-    The slow `velocity` [m/s] and the fast states; the rates of V and of the position by period, and
-    the error of the former; the contact `modes` over a sequence and the moments at its `sections`.
+    The fast states; the rates of V [m/s] and of the position [m] by period, and the error of the
+    former; the contact `modes` over a sequence and the moments at its `sections`.
     """
 
-    velocity: float
-    fast: Fast
-    acceleration: float
-    travel: float
+    fast: Numbers
+    rates: Rates
     error: float
     modes: list[int]
     sections: list[Moment]
 
 
-def _third(a: float, b: float, c: float, d: float) -> float:
-    """The third difference of a sequence."""
-    return (d - a) - 3.0 * (c - b)
-
-
-def _rate(a: float, b: float, c: float, d: float) -> float:
-    """Rate of a smooth sequence: the logarithm of the shift operator, a series of differences."""
-    return (b - a) - (c - 2.0 * b + a) / 2.0 + _third(a, b, c, d) / 3.0
+def _differences(a: float, b: float, c: float, d: float) -> tuple[float, float, float]:
+    """The first, second and third difference of a sequence."""
+    return b - a, c - 2.0 * b + a, (d - a) - 3.0 * (c - b)
 
 
 class SlowMotion:
@@ -84,10 +73,54 @@ class SlowMotion:
     def __init__(self, period_map: PeriodMap, begin: Moment, budget: Budget) -> None:
         """Raises NoRatesError for a moment off the manifold."""
         self.map, self.begin, self.budget, self.maps = period_map, begin, budget, 0
-        velocity, _, *fast = period_map.numbers(begin)
-        self.here = self.last = self.point(0.0, velocity, fast, before=0.0)
+        self.velocity, *fast, _ = period_map.numbers(begin)
+        self.here = self.last = self._point(0.0, self.velocity, fast, before=0.0)
 
-    def point(self, n: float, velocity: float, fast: Fast, before: float = inf) -> Point:
+    def leap(self, longest: float) -> tuple[Moment, float]:
+        """The moment behind up to `longest` periods and ORDER resolved ones, and their number.
+
+        Along the leap the error of V is added up. It is the moment `begin` where no step holds.
+        """
+        speed, drift, share, landing = self.map.speed, self.map.drift, self.map.share, self.begin
+        slow_time, beat = (1.0 / share if share else inf), (tau / abs(drift) if drift else inf)
+        tolerance = self.map.tolerance / ERROR_SHARE
+        equation = SlowEquation(self._rates, speed, tolerance, slow_time, beat, SHORTEST_STEP)
+        n, travel, error = 0.0, 0.0, landing.leap_error
+        for step in equation.steps(self.velocity, self.here.rates, longest):
+            here, self.here = self.here, self.last
+            # Without drift V obeys V' = g(V): its errors grow and decay as g does.
+            before, after = here.rates[0], self.here.rates[0]
+            error *= min(1.0, abs(after / before)) if before and not drift else 1.0
+            error += ERROR_SHARE * step.error + step.length * max(here.error, self.here.error)
+            n, travel = n + step.length, travel + step.travel
+        if n == 0.0:
+            return landing, 0.0
+        last_but_one, landing = self.here.sections[-2:]
+        landing.position += travel
+        landing.leap_error = error
+        landing.reversals += round(n * (landing.reversals - last_but_one.reversals))
+        landing.sticks += round(n * (landing.sticks - last_but_one.sticks))
+        landing.time += n * self.map.period
+        if landing.last_event_time > self.begin.time:
+            landing.last_event_time += n * self.map.period
+        return landing, n + ORDER
+
+    def _rates(self, n: float, velocity: float) -> Rates:
+        """The rates at `n` periods and V [m/s].
+
+        Raises NoRatesError where contact modes do not repeat as they did at the start of the step:
+        the rates have a kink in between.
+        """
+        try:
+            found = self._point(n, velocity, self.last.fast)
+        except (ArithmeticError, ValueError, Refusal):
+            raise NoRatesError from None
+        if found.modes != self.here.modes:
+            raise NoRatesError
+        self.last = found
+        return found.rates
+
+    def _point(self, n: float, velocity: float, fast: Numbers, before: float = inf) -> Point:
         """The point at `n` periods and V [m/s], by Newton's method from `fast` on.
 
         After a correction of size `before`. Raises NoRatesError where none is found, or its rates
@@ -98,64 +131,23 @@ class SlowMotion:
             now = period_map.place(self.begin, velocity, fast, n)
             sections, modes = period_map.sections(now, ORDER, self.budget)
             self.maps += ORDER
-            numbers = list(zip(*map(period_map.numbers, sections), strict=True))
-            correction = period_map.resolvent(ORDER, [-_third(*of) for of in numbers[2:]])
+            sequences = zip(*map(period_map.numbers, sections), strict=True)
+            slow, *others, moved = (_differences(*sequence) for sequence in sequences)
+            correction = period_map.resolvent(ORDER, [-third for _, _, third in others])
             fast = [y + c for y, c in zip(fast, correction, strict=True)]
             size = period_map.size(correction)
             if size > max(MAX_CONTRACTION * before, FAST_SHARE * period_map.tolerance):
                 raise NoRatesError
             before = size
-        # The next term of the rate, if terms go on to shrink as they did, and the correction's.
-        a, b, c, _ = numbers[0]
-        second, third = abs(c - 2.0 * b + a), abs(_third(*numbers[0]))
+        # Rates are the logarithm of the shift operator. Its next term is that by which they err, if
+        # terms go on to shrink as they did, beside the last correction.
+        acceleration, travel = (b - c / 2.0 + d / 3.0 for b, c, d in (slow, moved))
+        second, third = abs(slow[1]), abs(slow[2])
         error = third * min(1.0, third / second if second else 1.0) / (ORDER + 1)
         error += period_map.share * period_map.speed * size
         if error > period_map.share * period_map.speed * period_map.tolerance:
             raise NoRatesError
-        return Point(a, fast, _rate(*numbers[0]), _rate(*numbers[1]), error, modes, sections)
-
-    def rates(self, n: float, velocity: float) -> Rates:
-        """The rates at `n` periods and V [m/s].
-
-        Raises NoRatesError where contact modes do not repeat as they did at the start of the step:
-        the rates have a kink in between.
-        """
-        try:
-            found = self.point(n, velocity, self.last.fast)
-        except (ArithmeticError, ValueError, Refusal):
-            raise NoRatesError from None
-        if found.modes != self.here.modes:
-            raise NoRatesError
-        self.last = found
-        return found.acceleration, found.travel
-
-    def integrate(self, longest: float, error: float) -> tuple[float, float, float]:
-        """Return up to `longest` periods that a leap passes, the travel [m], and the error of V."""
-        speed, drift, n, travel = self.map.speed, self.map.drift, 0.0, 0.0
-
-        def longest_step(velocity: float, acceleration: float) -> float:
-            to_grazing = TO_GRAZING * abs(abs(velocity) - speed)
-            return to_grazing / abs(acceleration) if acceleration else inf
-
-        equation = SlowEquation(
-            self.rates,
-            speed,
-            self.map.tolerance / ERROR_SHARE,
-            slow_time=1.0 / self.map.share if self.map.share else inf,
-            beat=tau / abs(drift) if drift else inf,
-            longest=longest_step,
-            shortest=SHORTEST_STEP,
-        )
-        first = self.here.acceleration, self.here.travel
-        for step in equation.steps(self.here.velocity, first, longest):
-            here, self.here = self.here, self.last
-            # Without drift V obeys V' = g(V): its errors grow and decay as g does.
-            known = not drift and here.acceleration != 0.0
-            decay = min(1.0, abs(self.here.acceleration / here.acceleration)) if known else 1.0
-            error = decay * error + ERROR_SHARE * step.error
-            error += step.length * max(here.error, self.here.error)
-            n, travel = n + step.length, travel + step.travel
-        return n, travel, error
+        return Point(fast, (acceleration, travel), error, modes, sections)
 
 
 class Leaping(Resolved):
@@ -176,33 +168,12 @@ class Leaping(Resolved):
             wait = pause * period_map.period + (period_map.section - now.theta) % tau / w
             now = self.resolve(now, wait, budget)
             now.theta = period_map.section
-            longest = floor((left - wait) / period_map.period)
-            now, passed, pause = _leap(period_map, now, longest, budget)
-            left -= wait + passed * period_map.period
+            left -= wait
+            passed, maps = 0.0, ORDER
+            with suppress(ArithmeticError, ValueError, Refusal):
+                slow = SlowMotion(period_map, now, budget)
+                now, passed = slow.leap(floor(left / period_map.period) - ORDER)
+                maps = slow.maps
+            left -= passed * period_map.period
+            pause = PAUSE * max(ORDER, maps - passed)
         return self.resolve(now, left, budget)
-
-
-def _leap(
-    period_map: PeriodMap, begin: Moment, longest: float, budget: Budget
-) -> tuple[Moment, float, float]:
-    """Leap from a moment at the section over at most `longest` periods.
-
-    Returns the moment a few resolved periods behind the landing, the periods passed, and how many
-    are to be resolved before the next leap.
-    """
-    now, passed, maps = begin, 0.0, ORDER
-    with suppress(ArithmeticError, ValueError, Refusal):
-        slow = SlowMotion(period_map, begin, budget)
-        n, travel, error = slow.integrate(longest - ORDER, begin.leap_error)
-        maps = slow.maps
-        if n > 0.0:
-            before, now = slow.here.sections[-2:]
-            passed = n + ORDER
-            now.position += travel
-            now.leap_error = error
-            now.reversals += round(n * (now.reversals - before.reversals))
-            now.sticks += round(n * (now.sticks - before.sticks))
-            now.time += n * period_map.period
-            if now.last_event_time > begin.time:
-                now.last_event_time += n * period_map.period
-    return now, passed, PAUSE * max(ORDER, maps - passed)

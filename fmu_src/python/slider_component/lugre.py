@@ -13,7 +13,7 @@ There is no sticking: presliding is resolved as an oscillation on the bristles.
 from math import copysign, expm1
 
 from .contact import FORWARD, LIFTED, direction_of
-from .coulomb import Segment, slide
+from .coulomb import Segment, motion
 from .device import System
 from .moment import Moment
 from .series import Series
@@ -22,21 +22,16 @@ TOLERANCE_SHARE = 0.01
 """Share of the tolerance for the error of one series, and for the bend that a bristle still lacks
 when closed forms take over."""
 
-SOON = 1e-3
-"""Share of a radian, or of a series, after which the slider moves as it began, beyond rounding."""
-
 
 class LuGre:
     """A friction law, with the methods of `Coulomb`."""
 
     def mode(self, system: System, now: Moment) -> int:
-        """Contact mode under the held inputs."""
-        return LIFTED if system.is_lifted(now.psi) else direction_of(now.velocity)
+        """As of `Coulomb`: presliding is no sticking."""
+        return direction_of(now.velocity)
 
     def force(self, system: System, now: Moment, mode: int) -> float:
-        """Friction force [N] on the slider in contact mode `mode` (eq. 8), positive against +X."""
-        if mode == LIFTED:
-            return 0.0
+        """As of `Coulomb` (eq. 8)."""
         mu = system.device.friction_coefficient
         drag = now.velocity - abs(now.velocity) * now.bristle / mu
         share = (now.bristle + system.device.bristle_damping * drag) / mu
@@ -47,7 +42,8 @@ class LuGre:
         direction = direction_of(now.velocity) or -now.sliding or FORWARD
         segment = _segment(system, now, direction)
         if now.velocity == 0.0:
-            soon = SOON * min(segment.reach, 1.0 / system.fastest)
+            # After a thousandth of a radian, or of a series, the slider still moves as it began.
+            soon = 1e-3 * min(segment.reach, 1.0 / system.fastest)
             if direction * segment.at(soon)[0] < 0.0:
                 segment = _segment(system, now, -direction)
         return segment
@@ -69,5 +65,5 @@ def _segment(system: System, now: Moment, direction: int) -> Segment:
     """Motion in `direction`, in closed form where the bristle is fully bent."""
     mu, tolerance = system.device.friction_coefficient, TOLERANCE_SHARE * system.device.tolerance
     if now.mode == LIFTED or abs(mu - direction * now.bristle) <= tolerance * mu:
-        return slide(system, now, direction)
+        return motion(system, now, direction)
     return Series(system, now, direction, bends=True, tolerance=tolerance)

@@ -11,8 +11,8 @@ from itertools import pairwise
 from math import acos, cos, exp, expm1, inf, pi, sin, tau
 from typing import NamedTuple
 
+from .contact import VibratingLoad
 from .device import EPSILON, Device
-from .vibrating_load import VibratingLoad
 
 NODES = 44
 """Nodes of the quadrature: they follow exp(-BENT x^2) over an arc to 1e-13."""
@@ -33,7 +33,7 @@ friction per unit normal load or the path since then [m]."""
 
 
 class MeanFriction:
-    """Friction of a device under a fast motion of amplitude `fast` [m/s].
+    """Friction of all `faces` of a device under a fast motion of amplitude `fast` [m/s].
 
     It has a friction `coefficient`. Where a bristle `bends`, each mean costs a quadrature: one of
     some `stiffness` sigma_0 [1/m] and `damping` sigma_1 [s/m]. Its `drag` is the largest friction
@@ -43,12 +43,11 @@ class MeanFriction:
 
     def __init__(self, device: Device, fast: float) -> None:
         """Without vibration a bristle is always fully bent: friction is Coulomb's."""
-        self.fast, self._frequency = fast, device.drive_frequency
-        self.coefficient = device.friction_coefficient
+        self.fast, self._reach = fast, fast / device.drive_frequency
+        self.faces, self.coefficient = device.friction_faces, device.friction_coefficient
         self.bends = device.friction_law == 1 and fast > 0.0
-        self.stiffness = device.bristle_stiffness if self.bends else 0.0
-        self.damping = device.bristle_damping if self.bends else 0.0
-        self.drag = self.damping * fast
+        self.stiffness, self.damping = device.bristle_stiffness, device.bristle_damping
+        self.drag = self.damping * fast if self.bends else 0.0
         self.max_waves = MAX_WAVES if self.bends else inf
 
     def turning(self, velocity: float) -> float:
@@ -58,29 +57,31 @@ class MeanFriction:
         return acos(velocity / self.fast)
 
     def mean(self, load: VibratingLoad, turning: float) -> float:
-        """Mean friction [N] of one face when sliding turns forward at tau = `turning` [rad]."""
-        nodes = self._bending(turning, load) if self.bends else []
+        """Mean friction [N] when sliding turns forward at tau = `turning` [rad]."""
         total = load.integral(turning, tau - turning) - load.integral(-turning, turning)
-        return (self.coefficient * total + sum(w * force for w, _, force in nodes)) / tau
+        bending = sum(w * force for w, _, force in self._bending(turning, load))
+        return self.faces * (self.coefficient * total + bending) / tau
 
     def power(self, load: VibratingLoad, velocity: float) -> float:
-        """Mean power of friction [W] of one face at a slow velocity [m/s]."""
+        """Mean power of friction [W] at a slow velocity [m/s]."""
         turning = self.turning(velocity)
         beyond = velocity - self.fast * cos(turning)
-        nodes = self._bending(turning, load) if self.bends else []
+        nodes = self._bending(turning, load)
         for arc in self._arcs(turning):
             full = arc.direction * self.coefficient
             nodes += [(w, swing, full) for w, swing, _ in arc.nodes(arc.length, load)]
-        return sum(w * (swing * self.fast + beyond) * force for w, swing, force in nodes) / tau
+        work = sum(w * (swing * self.fast + beyond) * force for w, swing, force in nodes)
+        return self.faces * work / tau
 
     def _arcs(self, turning: float) -> list["_Arc"]:
         """Sliding forward and backward."""
-        reach = self.fast / self._frequency
-        forward = _Arc(reach, 1, turning, tau - 2.0 * turning)
-        return [forward, _Arc(reach, -1, -turning, 2.0 * turning)]
+        forward = _Arc(self._reach, 1, turning, tau - 2.0 * turning)
+        return [forward, _Arc(self._reach, -1, -turning, 2.0 * turning)]
 
     def _bending(self, turning: float, load: VibratingLoad) -> list[Node]:
         """Quadrature over both arcs of the friction that a bristle lacks before it is bent."""
+        if not self.bends:
+            return []
         mu, stiffness, arcs = self.coefficient, self.stiffness, self._arcs(turning)
         forward, backward = (-expm1(-stiffness * arc.way(arc.length)[1] / mu) for arc in arcs)
         # By the share of the bend that it makes up over each arc, friction where they begin.

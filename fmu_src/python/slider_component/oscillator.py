@@ -1,6 +1,5 @@
 """A damped oscillator y'' + 2 decay y' + stiffness y = g(t)."""
 
-from cmath import exp
 from cmath import sqrt as complex_sqrt
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,13 +9,13 @@ APART = 0.87
 """Distance of the eigenvalues, over the undamped frequency, from which on they are well apart: at
 damping ratios below 0.9 and above 1.1."""
 
-SLOW = 0.02
-"""Share of the drive frequency below which an oscillator or a forcing counts as slow: its steady
-response would be far larger than the response between two reversals."""
+DISTINCT = 1e-8
+"""Half the distance of two equal eigenvalues, over each: what it changes is rounding, squared."""
 
-RESONANT = 0.02
-"""Relative distance of forcing frequency and eigenvalue below which the steady response grows too
-large."""
+SLOW = 0.02
+"""Share of the drive frequency below which an oscillator or a forcing counts as slow, and relative
+distance of forcing frequency and eigenvalue in resonance: there the steady response would be far
+larger than the response between two reversals."""
 
 
 @dataclass(frozen=True)
@@ -33,8 +32,11 @@ class Oscillator:
 
     @cached_property
     def eigenvalues(self) -> tuple[complex, complex]:
-        """Both eigenvalues [1/s]: conjugate with the upper one first, or the slow one first."""
-        root = complex_sqrt(self.decay * self.decay - self.stiffness)
+        """Both eigenvalues [1/s]: conjugate with the upper one first, or the slow one first.
+
+        Two that are equal count as `DISTINCT`: free motion is a sum of two exponentials.
+        """
+        root = complex_sqrt(self.decay * self.decay - self.stiffness) or DISTINCT * self.decay
         fast = -self.decay - root
         return (self.stiffness / fast if fast else 0j), fast
 
@@ -43,7 +45,7 @@ class Oscillator:
         slow, fast = self.eigenvalues
         if self.frequency < SLOW * max(map(abs, frequencies)):
             return False
-        resonant = (abs(slow - complex(0.0, abs(f))) < RESONANT * abs(slow) for f in frequencies)
+        resonant = (abs(slow - complex(0.0, abs(f))) < SLOW * abs(slow) for f in frequencies)
         return abs(slow - fast) > APART * self.frequency and not any(resonant)
 
     def transfer(self, frequency: float) -> complex:
@@ -61,12 +63,3 @@ class Oscillator:
             return [(slow, complex(y, (slow.real * y - u) / slow.imag))]
         of_slow = (u - fast * y) / (slow - fast)
         return [(slow, of_slow), (fast, y - of_slow)]
-
-    def free_map(self, t: float) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Displacement and rate after `t` [s] without forcing, each by the initial ones."""
-        slow, fast = self.eigenvalues
-        grown = exp(slow * t)
-        sine = (grown - exp(fast * t)) / (slow - fast) if slow != fast else t * grown
-        rate = sine.real
-        cosine = (grown - slow * sine).real
-        return (cosine, rate), (-self.stiffness * rate, cosine - 2.0 * self.decay * rate)

@@ -9,10 +9,6 @@ from .moment import Moment
 from .prediction import Prediction, prediction, turns_of_load
 from .resolved import Resolved
 
-LEAD_DIGITS = 12
-"""Decimals to which leads of the normal load [rad] are rounded: without the rounding errors of
-phases, predictions are the same from one period to the next."""
-
 Motion = Resolved | Averaged
 """A device under held inputs; `Leaping` is one that is resolved."""
 
@@ -22,7 +18,8 @@ def _theory(motion: Motion, now: Moment) -> Prediction:
     ratio = inputs.frequency_ratio
     turns = turns_of_load(device, ratio)
     lead = remainder(now.psi - ratio * now.theta, tau / turns) if turns else 0.0
-    return prediction(device, inputs, round(lead, LEAD_DIGITS))
+    # Without the rounding errors of phases it is the same from one period to the next.
+    return prediction(device, inputs, round(lead, 12))
 
 
 OUTPUTS: dict[str, Callable[[Motion, Moment], float]] = {

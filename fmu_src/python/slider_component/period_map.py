@@ -7,32 +7,26 @@ fast state is the resonator's Y and Y' and, with LuGre friction, the bristle. Fr
 both change slowly and smoothly (stroboscopic averaging: Calvo, Chartier, Murua, Sanz-Serna 2011).
 """
 
+from cmath import exp
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import replace
-from math import exp, isfinite, pi, remainder, tau
+from math import isfinite, pi, remainder, tau
 
-from .budget import Budget
-from .contact import LIFTED, STICK
-from .device import System, Vibration, full_friction
+from .contact import LIFTED, STICK, turns_to_repeat
+from .device import System, Vibration
 from .moment import Moment
 from .resolved import Resolved
 from .slow_equation import NoRatesError
-from .vibrating_load import turns_to_repeat
+from .values import Budget
 
 NEAR = 0.014
 """Largest distance of q times the frequency ratio from an integer, times q, at which a load counts
 as repeating after q turns."""
 
-MAP_TOLERANCE = 1e-10
-"""Largest tolerance of LuGre friction in a map: differences of high order amplify its error."""
-
 Numbers = Sequence[float]
-"""V [m/s] and X [m] at a section, and the fast states: Y [m], Y' [m/s], and the bristle's friction
-per unit load."""
-
-Fast = Sequence[float]
-"""The three fast states of these."""
+"""The fast states Y [m], Y' [m/s] and, with LuGre friction, that of the bristle per unit load; at a
+section with V [m/s] before and X [m] behind."""
 
 
 class PeriodMap:
@@ -53,26 +47,24 @@ class PeriodMap:
         device, w = system.device, system.drive_frequency
         self.vibration = fast = Vibration(device)
         self.tolerance, self.speed = device.tolerance, fast.velocity
-        tight = replace(device, tolerance=min(device.tolerance, MAP_TOLERANCE))
+        # Differences of high order amplify the error of LuGre friction in a map.
+        tight = replace(device, tolerance=min(device.tolerance, 1e-10))
         self.motion = Resolved(System(tight, system.inputs))
         ratio = system.inputs.frequency_ratio if device.normal_amplitude > 0.0 else 0.0
-        turns = turns_to_repeat(ratio, max_turns, NEAR)
+        turns, self._bends = turns_to_repeat(ratio, max_turns, NEAR), device.friction_law == 1
         if turns is None or not self.speed > 0.0:
             raise NoRatesError
         self.drift = tau * (turns * ratio - round(turns * ratio))
         self.period, self.section = tau * turns / w, (fast.lag + pi) % tau
-        self.share = full_friction(device) * self.period / (device.total_mass * self.speed)
+        self.share = device.full_friction * self.period / (device.total_mass * self.speed)
         swing = abs(fast.resonator) or self.speed / w
         if device.resonator_mass > 0.0:
             swing = min(swing, self.speed / (device.mass_fraction * w))
         mu, path = device.friction_coefficient, 4.0 * turns * self.speed / w
-        bends = device.friction_law == 1
-        self.scale = self.speed, self.speed * self.period, swing, swing * w, mu if bends else 1.0
-        self._kept = exp(-device.bristle_stiffness * path / mu) if bends else 0.0
-        self._free_map = (a, b), (c, d) = system.slip.free_map(self.period)
-        self._determinant = (a - 1.0) * (d - 1.0) - b * c
-        decay = max(self._kept, exp(system.slip.eigenvalues[0].real * self.period))
-        if not (decay < 1.0 and self._determinant != 0.0):
+        fast_scale = [swing, swing * w, *([mu] if self._bends else [])]
+        self.scale = [self.speed, *fast_scale, self.speed * self.period]
+        self._kept = abs(exp(-device.bristle_stiffness * path / mu)) if self._bends else 0.0
+        if not max(self._kept, abs(exp(system.slip.eigenvalues[0] * self.period))) < 1.0:
             raise NoRatesError
 
     def under_load(self, load: float) -> "PeriodMap":
@@ -82,16 +74,17 @@ class PeriodMap:
         return other
 
     def numbers(self, now: Moment) -> Numbers:
-        """V, X and the fast states at the section."""
+        """V, the fast states and X at the section."""
         velocity = now.velocity + self.vibration.ahead(now.theta, now.rate)
-        return velocity, now.position, now.displacement, now.rate, now.bristle
+        bristle = [now.bristle] if self._bends else []
+        return [velocity, now.displacement, now.rate, *bristle, now.position]
 
-    def place(self, begin: Moment, velocity: float, fast: Fast, periods: float = 0.0) -> Moment:
+    def place(self, begin: Moment, velocity: float, fast: Numbers, periods: float = 0.0) -> Moment:
         """The moment at V [m/s] and fast states at the section, some periods after `begin`."""
         placed = begin.copied()
         placed.theta = self.section
         placed.psi = (begin.psi + remainder(self.drift * periods, tau)) % tau
-        placed.displacement, placed.rate, placed.bristle = fast
+        placed.displacement, placed.rate, placed.bristle = *fast, *([] if self._bends else [0.0])
         placed.velocity = velocity - self.vibration.ahead(self.section, placed.rate)
         placed.mode = self.motion.mode(placed)
         placed.sliding = STICK if placed.mode == LIFTED else placed.mode
@@ -111,19 +104,18 @@ class PeriodMap:
             raise NoRatesError
         return sections, modes
 
-    def resolvent(self, times: int, change: Fast) -> Fast:
+    def resolvent(self, times: int, change: Numbers) -> Numbers:
         """The change of the fast state that undoes their differences of the order `times`.
 
-        By the inverse of the map without friction, less 1; a bristle forgets within a period.
+        By the inverse of the map without friction, less 1, which is a number for each exponential
+        of free motion. A bristle forgets within a period.
         """
-        y, u, bristle = change
-        (a, b), (c, d) = self._free_map
-        for _ in range(times):
-            y, u = (d - 1.0) * y - b * u, (a - 1.0) * u - c * y
-            y, u = y / self._determinant, u / self._determinant
-            bristle /= self._kept - 1.0
-        return y, u, bristle
+        y, u, *bristle = change
+        free = self.motion.system.slip.free(y, u)
+        undone = [(z, a / (exp(z * self.period) - 1.0) ** times) for z, a in free]
+        bent = [b / (self._kept - 1.0) ** times for b in bristle]
+        return [sum(a.real for _, a in undone), sum((z * a).real for z, a in undone), *bent]
 
-    def size(self, change: Fast) -> float:
+    def size(self, change: Numbers) -> float:
         """Size of a change of the fast state, over the scales."""
-        return max(abs(part) / scale for part, scale in zip(change, self.scale[2:], strict=True))
+        return max(abs(part) / scale for part, scale in zip(change, self.scale[1:-1], strict=True))

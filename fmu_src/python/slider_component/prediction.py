@@ -9,19 +9,16 @@ met and the mean load counts.
 from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache
-from math import copysign, cos, pi, tau
+from math import copysign, cos, inf, pi, tau
 from typing import NamedTuple
 
-from .device import EPSILON, Device, System, Vibration, held_amplitude
+from .contact import VibratingLoad, turns_to_repeat
+from .device import EPSILON, Device, System, Vibration
 from .mean_friction import MeanFriction
 from .parameters import Inputs
 from .period_map import PeriodMap
 from .steady_motion import periodic_motion
 from .values import Refusal
-from .vibrating_load import VibratingLoad, turns_to_repeat
-
-BISECTIONS = 52
-"""Halvings of [0, pi] in which the angle of balance is found."""
 
 ROUNDING = 8.0
 """Rounding error of a mean friction, in units of the last place of the largest friction."""
@@ -53,22 +50,19 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
     first = first_order(device, inputs, normal_lead)
     if device.averaging_order == 1:
         return first
-    turns = turns_of_load(device, inputs.frequency_ratio)
-    if turns is None or not first.holds:
-        return first._replace(valid=False)
-    full = replace(device, fidelity=2)
+    full, turns = replace(device, fidelity=2), turns_of_load(device, inputs.frequency_ratio)
     if device.resonator_mass == 0.0:
         # It moves nothing: one that settles within a period takes its place, so that the search
         # need not wait for it.
-        w = device.drive_frequency
-        full = replace(full, resonator_frequency=w, damping_ratio=1.0)
+        full = replace(full, resonator_frequency=device.drive_frequency, damping_ratio=1.0)
     with suppress(ArithmeticError, ValueError, Refusal):
-        period_map = PeriodMap(System(full, inputs), turns)
-        psi = (normal_lead + inputs.frequency_ratio * period_map.section) % tau
-        start = first.steady_velocity, inputs.load
-        velocity = periodic_motion(period_map, psi, *start, blocked=False)
-        force = periodic_motion(period_map, psi, 0.0, first.blocking_force, blocked=True)
-        return Prediction(velocity, force, holds=True, valid=True)
+        if turns is not None and first.holds:
+            period_map = PeriodMap(System(full, inputs), turns)
+            psi = (normal_lead + inputs.frequency_ratio * period_map.section) % tau
+            start = first.steady_velocity, inputs.load
+            velocity = periodic_motion(period_map, psi, *start, blocked=False)
+            force = periodic_motion(period_map, psi, 0.0, first.blocking_force, blocked=True)
+            return Prediction(velocity, force, holds=True, valid=True)
     return first._replace(valid=False)
 
 
@@ -101,36 +95,36 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
     Both results are 0 without vibration, and where undamped resonance leaves no steady vibration.
     In these cases, and where the vibration does not break the contact loose, they are not `valid`.
     """
-    fast, none = None, Prediction(0.0, 0.0, holds=False, valid=False)
+    fast, holding, none = None, inf, Prediction(0.0, 0.0, holds=False, valid=False)
     with suppress(Refusal):
         fast = Vibration(device)
+        holding = abs(Vibration(device, held=True).force)
     if fast is None or fast.velocity == 0.0:
         return none
-    w, faces, mu = device.drive_frequency, device.friction_faces, device.friction_coefficient
+    w, mu = device.drive_frequency, device.friction_coefficient
     delta = inputs.phase + normal_lead + inputs.frequency_ratio * fast.lag
     law = MeanFriction(device, fast.velocity)
     load = VibratingLoad(device.normal_load, inputs.frequency_ratio, delta, law.max_waves)
-    sliding, backward = (faces * law.mean(load, turning) for turning in (0.0, pi))
+    sliding, backward = (law.mean(load, turning) for turning in (0.0, pi))
     if sliding == backward:
         # No friction: every velocity is steady without a load, and none with one.
-        return none._replace(
-            steady_velocity=-copysign(fast.velocity, inputs.load) if inputs.load else 0.0
-        )
+        velocity = -copysign(fast.velocity, inputs.load) if inputs.load else 0.0
+        return none._replace(steady_velocity=velocity)
     # The vibration alone must overcome friction: by its force on the pair and on a held slider.
     # One far shorter than mu / sigma_0 only bends the bristles.
     bend = abs(complex(law.stiffness, w * law.damping)) * fast.velocity / w
     grip = sliding * (min(mu, bend) / mu if law.bends else 1.0)
     holds = abs(inputs.load) < sliding
-    valid = holds and min(abs(fast.force), held_amplitude(device)) > grip
+    valid = holds and min(abs(fast.force), holding) > grip
     # Friction and load fall through 0 at the angle of balance. Where they are 0 within rounding
     # over a range (even ratios, with flight while sliding turns) it is the end of the highest
     # velocity.
     normal = device.normal_preload + device.normal_amplitude
-    noise = ROUNDING * EPSILON * faces * (mu + law.drag) * normal
+    noise = ROUNDING * EPSILON * law.faces * (mu + law.drag) * normal
     low, high = 0.0, pi
-    for _ in range(BISECTIONS):
+    for _ in range(52):  # halvings to the last digit
         middle = 0.5 * (low + high)
-        above = faces * law.mean(load, middle) + inputs.load > noise
+        above = law.mean(load, middle) + inputs.load > noise
         low, high = (middle, high) if above else (low, middle)
     velocity = fast.velocity * cos(0.5 * (low + high))
-    return Prediction(velocity, -faces * law.mean(load, 0.5 * pi), holds, valid)
+    return Prediction(velocity, -law.mean(load, 0.5 * pi), holds, valid)

@@ -7,13 +7,13 @@ touches down. Another contact mode succeeds it. There is no step size.
 
 from math import tau
 
-from .budget import Budget
 from .contact import LIFTED
 from .coulomb import Coulomb
 from .device import Device, System
 from .first_zero import first_zero
 from .lugre import LuGre
 from .moment import Moment
+from .values import Budget
 
 COUNTED = 3.0
 """Drive periods before the end of a motion from which outputs count: means are those of the last
@@ -49,6 +49,7 @@ class Resolved:
         now = initial_moment(device)
         if not system.is_full:
             now.velocity += device.mass_fraction * (now.rate - system.steady.swing(0.0)[1])
+            now.displacement = now.rate = 0.0
         if device.friction_law == 1:
             now.bristle = device.bristle_stiffness * device.initial_bristle_deflection
         now.mode = self.mode(now)
@@ -56,11 +57,13 @@ class Resolved:
 
     def mode(self, now: Moment) -> int:
         """Contact mode under the held inputs."""
-        return self.law.mode(self.system, now)
+        lifted = self.system.is_lifted(now.psi)
+        return LIFTED if lifted else self.law.mode(self.system, now)
 
     def friction_force(self, now: Moment) -> float:
         """Friction force [N] on the slider, positive against +X."""
-        return self.law.force(self.system, now, self.mode(now))
+        mode = self.mode(now)
+        return 0.0 if mode == LIFTED else self.law.force(self.system, now, mode)
 
     def friction_power(self, now: Moment) -> float:
         """Mean power of friction [W] of the last whole period, or since the start, or there."""

@@ -9,7 +9,7 @@ from itertools import accumulate
 from math import hypot, inf
 from operator import mul, truediv
 
-from .contact import LIFTED
+from .contact import LIFTED, STICK
 from .device import EPSILON, System
 from .first_zero import Watch
 from .moment import Moment, Place
@@ -22,9 +22,6 @@ _COUNT = range(1, ORDER + 2)
 
 _STEPS = tuple(1.0 / count for count in range(1, ORDER + 1))
 """By which integration multiplies each coefficient."""
-
-NEGLIGIBLE_MOTION = 1e-200
-"""Motion [m/s] that is not measured."""
 
 ROUNDING = 2.0 * EPSILON
 """Tolerance of a series of Coulomb friction."""
@@ -46,18 +43,19 @@ class Series:
         direction: int,
         bends: bool = False,
         tolerance: float = ROUNDING,
-        rests: bool = False,
     ) -> None:
-        w, q, mass = system.drive_frequency, system.normal_frequency, system.slider_mass
-        sign, coupling = 0 if now.mode == LIFTED else direction, system.coupling
+        rests = not direction and now.mode == STICK
+        mobility = (system.held if rests else system.free).mobility
+        w, q, coupling = system.drive_frequency, system.normal_frequency, system.coupling
+        sign = 0 if now.mode == LIFTED else direction
         stiffness, damping = system.stick.stiffness, 2.0 * system.stick.decay
         drive, chi = -1j * rect(1.0, now.theta), now.psi + system.phase
         pulls = _sinusoid(system.direct * drive, w)
         pulls[0] -= system.load
-        bases = _sinusoid(coupling * system.base_acceleration * drive, w)
+        bases = _sinusoid(system.base_acceleration * drive, w)
         limit = _sinusoid(-1j * system.friction_amplitude * rect(1.0, chi), q)
         limit[0] += system.friction_preload
-        displacement, rate = coupling * now.displacement, coupling * now.rate
+        displacement, rate = now.displacement, now.rate
         v, y, u = [now.velocity], [displacement], [rate]
         needed, force, shares = list[float](), list[float](), list[float]()
         mu, bristle = system.device.friction_coefficient, now.bristle
@@ -74,7 +72,7 @@ class Series:
                 unbent.append(-direction * bristle / mu)
                 friction = sum(map(mul, limit, reversed(shares)))
             force.append(friction)
-            acceleration = 0.0 if rests else (pull - friction) / mass
+            acceleration = (pull - friction) * mobility
             v.append(acceleration * step)
             swing = bases[k] - damping * rate - stiffness * displacement - coupling * acceleration
             displacement, rate = rate * step, swing * step
@@ -87,7 +85,7 @@ class Series:
         # change in a radian of it, and of those of slider and resonator.
         forces = system.friction_preload + system.friction_amplitude + abs(system.load)
         swing = hypot(now.rate, system.stick.frequency * now.displacement)
-        scale = abs(system.drive) / w + forces / (system.total_mass * w)
+        scale = (abs(system.drive) + forces) / (system.total_mass * w)
         scale += abs(now.velocity) + system.mass_fraction * swing
         of_rate = scale / (system.mass_fraction or 1.0)
         self.reach = min(_reach(v, tolerance, scale), _reach(u, tolerance, of_rate))
@@ -96,7 +94,7 @@ class Series:
             self.reach = min(self.reach, *(_reach_of_last(c, scale) for c in (limit, needed)))
 
     def watches(self, horizon: float) -> tuple[Watch, ...]:
-        """As of `Exponentials`."""
+        """As of `ClosedForm`."""
         if self.rests:
             pairs = list(zip(self._limit, self._needed, strict=False))
             sizes = [abs(limit) + abs(needed) for limit, needed in pairs]
@@ -108,13 +106,13 @@ class Series:
         return (_watch(watched, list(map(abs, watched)), horizon),)
 
     def at(self, t: float) -> Place:
-        """As of `Exponentials`."""
+        """As of `ClosedForm`."""
         series = self._velocity, self._displacement, self._rate, self._position
         velocity, displacement, rate, travelled = (_value(c, t) for c in series)
         return velocity, displacement, rate, travelled
 
     def work(self, t: float, travelled: float) -> float:
-        """As of `Exponentials`."""
+        """As of `ClosedForm`."""
         force, velocity = self._force, self._velocity
         powers = (sum(map(mul, force, reversed(velocity[: k + 1]))) for k in range(ORDER))
         return _value([0.0, *map(truediv, powers, _COUNT)], t)
@@ -148,8 +146,8 @@ def _value(coefficients: list[float], t: float) -> float:
 def _reach(coefficients: list[float], tolerance: float, scale: float) -> float:
     """How far the series of a velocity holds [s]; see Series."""
     reach = _reach_of_last(coefficients, tolerance * scale)
-    size = _value(list(map(abs, coefficients)), reach)
-    return _reach_of_last(coefficients, tolerance * min(scale, 10.0 * max(size, NEGLIGIBLE_MOTION)))
+    size = max(_value(list(map(abs, coefficients)), reach), 1e-200)  # less is not measured
+    return _reach_of_last(coefficients, tolerance * min(scale, 10.0 * size))
 
 
 def _reach_of_last(coefficients: list[float], tolerance: float) -> float:

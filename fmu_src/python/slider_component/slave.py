@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 
 from pythonfmu import Fmi2Slave
 
-from . import refusal_texts
+from . import refusal_texts as texts
 from .component import Component
 from .snapshot import from_bytes, to_bytes
 from .values import Refusal
@@ -42,20 +42,18 @@ def _call(answer: Callable[..., R]) -> Callable[..., R]:
 
 def _get(kind: str, convert: Callable[[float], R]) -> Callable[..., list[R]]:
     """The function that returns values of one type, by value reference."""
-
-    def get(component: Component, references: list[int]) -> list[R]:
-        return list(map(convert, component.get(*_names(kind, references))))
-
-    return _call(get)
+    return _call(
+        lambda component, references: list(map(convert, component.get(*_names(kind, references))))
+    )
 
 
 def _set(kind: str) -> Callable[..., None]:
     """The function that sets values of one type: all of them or, if one is refused, none."""
-
-    def set_values(component: Component, references: list[int], values: list[object]) -> None:
-        component.set(dict(zip(_names(kind, references), values, strict=True)))
-
-    return _call(set_values)
+    return _call(
+        lambda component, references, values: component.set(
+            dict(zip(_names(kind, references), values, strict=True))
+        )
+    )
 
 
 class SliderResonatorPy(Fmi2Slave):  # type: ignore[misc]
@@ -123,15 +121,13 @@ def _release_interpreter_at_exit(unpacked: Path) -> None:
 def _names(kind: str, references: list[int]) -> list[str]:
     """The names of variables by value reference. Raises Refusal for one of another type."""
     found = []
+    last = len(VARIABLES) - 1
     for reference in references:
-        if not 0 <= reference < len(VARIABLES):
-            last = len(VARIABLES) - 1
-            raise Refusal(refusal_texts.UNKNOWN_REFERENCE, reference=reference, first=0, last=last)
-        variable = VARIABLES[reference]
-        if variable.type != kind:
-            types = {"own": variable.type, "requested": kind}
-            raise Refusal(
-                refusal_texts.WRONG_TYPE, name=variable.name, reference=reference, **types
-            )
-        found.append(variable.name)
+        if not 0 <= reference <= last:
+            raise Refusal(texts.UNKNOWN_REFERENCE, reference=reference, first=0, last=last)
+        name, own = VARIABLES[reference].name, VARIABLES[reference].type
+        if own != kind:
+            types = {"own": own, "requested": kind}
+            raise Refusal(texts.WRONG_TYPE, name=name, reference=reference, **types)
+        found.append(name)
     return found

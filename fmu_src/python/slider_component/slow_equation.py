@@ -18,9 +18,6 @@ FIRST_STEP = 0.1
 BEAT_SHARE = 0.125
 """Part of a beat that a step may have: its stages then see all phases of the normal load."""
 
-NO_DECAY = 1e-6
-"""Decay of V in a step below which no balance is near."""
-
 Rates = tuple[float, float]
 """Rates of the velocity and of the travel."""
 
@@ -45,8 +42,8 @@ class SlowEquation:
 
     `rates` at a time and V raises NoRatesError where there are none. Steps may err by the
     `tolerance`, over the `speed`; in the `slow_time` rates may change V by that. Rates repeat after
-    a `beat`; if that is infinite they depend on V alone. `longest` limits steps, by V and its rate.
-    Steps are whole numbers of at least `shortest`, unless that is 0.
+    a `beat`; if that is infinite they depend on V alone. Steps are whole numbers of at least
+    `shortest` that stay off grazing, where V is the speed, unless that is 0.
     """
 
     rates: Callable[[float, float], Rates]
@@ -54,7 +51,6 @@ class SlowEquation:
     tolerance: float
     slow_time: float
     beat: float
-    longest: Callable[[float, float], float] = lambda velocity, acceleration: inf
     shortest: float = 0.0
 
     def steps(self, velocity: float, here: Rates, duration: float) -> Iterator[Step]:
@@ -63,14 +59,14 @@ class SlowEquation:
         size = max(self.shortest, FIRST_STEP * self.slow_time)
         while t < duration and isfinite(velocity):
             to = None
-            if self.beat == inf and gain * (duration - t) < -NO_DECAY:
-                with suppress(NoRatesError):
-                    to = self._to_balance(t, velocity, duration - t, here, gain)
+            with suppress(NoRatesError):
+                to = self._to_balance(t, velocity, duration - t, here, gain)
             if to is None:
-                longest = min(BEAT_SHARE * self.beat, self.longest(velocity, here[0]))
-                size = min(size, duration - t, longest)
+                size = min(size, duration - t, BEAT_SHARE * self.beat)
                 if self.shortest:
-                    size = float(floor(size))
+                    # At most half of the way to a grazing velocity: there rates are singular.
+                    to_grazing = 0.5 * abs(abs(velocity) - self.speed)
+                    size = floor(min(size, to_grazing / abs(here[0]) if here[0] else inf))
                     if size < self.shortest:
                         return
                 try:
@@ -87,19 +83,21 @@ class SlowEquation:
                 gain = (to.rates[0] - here[0]) / changed if changed else 0.0
                 velocity, here = to.velocity, to.rates
 
-    def _to_balance(self, t: float, v: float, h: float, first: Rates, gain: float) -> Step | None:
+    def _to_balance(self, t: float, v: float, h: float, first: Rates, gain: float) -> Step:
         """A step, however long it is, near a balance: a is linear in V, with slope `gain` < 0.
 
-        The rate at its end confirms it. None for too large a change of V or error.
+        The rate at its end confirms it. Raises NoRatesError for too large a change of V or error.
         """
+        if self.beat < inf or not gain * h < -1e-6:  # V hardly decays.
+            raise NoRatesError
         (a, x), decayed, reach = first, exp(gain * h), expm1(gain * h) / gain
         allowed = self.tolerance * self.speed
         if abs(a * reach) > LINEAR * sqrt(allowed * self.speed):
-            return None
+            raise NoRatesError
         end = self.rates(t + h, v + a * reach)
         error = reach * abs(end[0] - decayed * a)
         if error > BALANCE_SHARE * allowed:
-            return None
+            raise NoRatesError
         travel = h * end[1] + (x - end[1]) * (reach - h * decayed) / (1.0 - decayed)
         return Step(h, v + a * reach, travel, error, end)
 

@@ -3,7 +3,7 @@
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from enum import StrEnum
 from math import inf
 from typing import Any
@@ -41,27 +41,20 @@ class State:
     moment: Moment | None = None
 
 
-def to_plain(state: State) -> dict[str, Any]:
-    """Return a snapshot of the state, of plain numbers and names."""
-    return {"format": FORMAT, **asdict(state)}
-
-
 def from_plain(plain: Mapping[str, Any]) -> State:
     """Return the state of a snapshot. Raises Refusal for one of another build, and for damage."""
     if plain["format"] != FORMAT:
-        formats = {"found": plain["format"], "own": FORMAT}
-        raise Refusal("FMU state refused: its format is {found!r}; must be {own!r}", **formats)
-    stored = {name: entry for name, entry in plain.items() if name != "format"}
-    stored["lifecycle"] = Lifecycle(stored["lifecycle"])
-    stored["values"] = dict(stored["values"])
-    stored["moment"] = stored["moment"] and Moment(**stored["moment"])
-    return State(**stored)
+        text = "FMU state refused: its format is {found!r}; must be {own!r}"
+        raise Refusal(text, found=plain["format"], own=FORMAT)
+    lifecycle, moment = Lifecycle(plain["lifecycle"]), plain["moment"]
+    moment = None if moment is None else Moment(**moment)
+    return State(lifecycle, plain["time"], plain["stop_time"], dict(plain["values"]), moment)
 
 
 def to_bytes(plain: Mapping[str, Any]) -> bytes:
     """Return a snapshot in bytes, after their checksum."""
     body = json.dumps(plain, sort_keys=True).encode()
-    return _checksum(body) + b"\n" + body
+    return hashlib.sha256(body).hexdigest().encode() + b"\n" + body
 
 
 def from_bytes(data: bytes) -> dict[str, Any]:
@@ -71,11 +64,7 @@ def from_bytes(data: bytes) -> dict[str, Any]:
     snapshot is refused.
     """
     checksum, _, body = data.partition(b"\n")
-    if checksum != _checksum(body):
+    if checksum != hashlib.sha256(body).hexdigest().encode():
         return {"format": f"damaged: {len(data)} bytes that do not match their checksum"}
     plain: dict[str, Any] = json.loads(body)
     return plain
-
-
-def _checksum(body: bytes) -> bytes:
-    return hashlib.sha256(body).hexdigest().encode()

@@ -1,15 +1,16 @@
 """Periodic motion of the full device as a fixed point of the period map, by Newton's method."""
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from math import inf
+from operator import mul
 
-from .budget import MAX_SEGMENTS, Budget
 from .moment import Moment
 from .period_map import PeriodMap
 from .slow_equation import NoRatesError
+from .values import MAX_SEGMENTS, Budget
 
 Vector = list[float]
-Matrix = list[Vector]
+Matrix = Sequence[Sequence[float]]
 
 BESIDE = 1e-6
 """Change of an unknown by which derivatives are taken; unknowns are over their scales."""
@@ -24,9 +25,6 @@ CONVERGED = 1e-10
 """Change at which the iteration ends: the next one would be rounding."""
 
 MAX_ITERATIONS = 24
-
-LEAD_IN = 2
-"""Periods of motion before a search: they bring near what is looked for, under strong friction."""
 
 SHARE_OF_STEP = 0.1
 """Share of the work of a step that a search may take: a host that reads an output does not expect
@@ -49,39 +47,44 @@ def periodic_motion(
     """
     device, speed = period_map.motion.system.device, period_map.speed
     budget = Budget(period_map.period, 0.0, int(SHARE_OF_STEP * MAX_SEGMENTS))
-    # The slow velocity, the load, by the force that stops v_q in a period, and the fast states.
+    vibrating = Moment(0.0, *period_map.vibration.swing(period_map.section), 0.0, psi=psi)
+    vibrating.bristle = device.friction_coefficient
+    _, *fast, _ = period_map.numbers(vibrating)
+    # The slow velocity, the fast states and, if unknown, the load, by the force that stops v_q in a
+    # period. A period of periodic motion changes none of the former, nor, if blocked, the position.
     force = device.total_mass * speed / period_map.period
-    scales = [speed, force, *period_map.scale[2:]]
+    scales = [*period_map.scale[:-1], force]
+    start = [velocity, *fast, *([load] if blocked else [])]
+    unknowns = [x / s for x, s in zip(start, scales, strict=False)]
 
-    def excess(unknowns: Vector) -> tuple[Vector, Moment]:
-        """What a period changes that periodic motion leaves, over the scales; and its end."""
-        slow, pull, *fast = (u * s for u, s in zip(unknowns, scales, strict=True))
-        loaded = period_map.under_load(pull)
-        begin = loaded.place(Moment(0.0, 0.0, 0.0, 0.0, psi=psi), slow, fast)
+    def changes(unknowns: Vector) -> tuple[Vector, Moment]:
+        """What a period changes, over the scales, and its end."""
+        slow, *fast = (u * s for u, s in zip(unknowns, scales, strict=False))
+        loaded = period_map.under_load(fast.pop() if blocked else load)
+        begin = loaded.place(vibrating, slow, fast)
         (_, end), _ = loaded.sections(begin, 1, budget)
         first, last = loaded.numbers(begin), loaded.numbers(end)
         changed = [(b - a) / s for a, b, s in zip(first, last, period_map.scale, strict=True)]
-        if not blocked:
-            changed[1] = load / force - unknowns[1]
-        if device.friction_law == 0:
-            changed[-1] = -unknowns[-1]
-        return changed, end
+        return changed if blocked else changed[:-1], end
 
-    swing = period_map.vibration.swing(period_map.section)
-    bristle = device.friction_coefficient if device.friction_law == 1 else 0.0
-    start = velocity, load, *swing, bristle
-    unknowns = [x / s for x, s in zip(start, scales, strict=True)]
-    for _ in range(LEAD_IN):
-        (first, travelled, *others), _ = excess(unknowns)
-        changes = [first - travelled * blocked, 0.0, *others]
-        unknowns = [u + c for u, c in zip(unknowns, changes, strict=True)]
+    # Two periods of motion bring near what is looked for, under strong friction.
+    for _ in range(2):
+        changed, _ = changes(unknowns)
+        if blocked:
+            changed[0], changed[-1] = changed[0] - changed[-1], 0.0
+        unknowns = [u + c for u, c in zip(unknowns, changed, strict=True)]
     largest = inf
     for _ in range(MAX_ITERATIONS):
-        now, end = excess(unknowns)
+        now, end = changes(unknowns)
         if largest > NEAR:
-            jacobian = _jacobian(lambda beside: excess(beside)[0], unknowns, now)
+            columns = []
+            for j in range(len(unknowns)):
+                beside = [u + BESIDE * (i == j) for i, u in enumerate(unknowns)]
+                differences = zip(changes(beside)[0], now, strict=True)
+                columns.append([(b - a) / BESIDE for b, a in differences])
+            jacobian = list(zip(*columns, strict=True))
         elif largest <= CONVERGED and blocked and end.reversals > 0:
-            return unknowns[1] * force
+            return unknowns[-1] * force
         elif largest <= CONVERGED and not blocked and _is_stable(jacobian):
             return end.position / period_map.period
         step = solved(jacobian, [-e for e in now])
@@ -89,16 +92,6 @@ def periodic_motion(
         share = min(1.0, MAX_CHANGE / largest) if largest > 0.0 else 1.0
         unknowns = [u + share * s for u, s in zip(unknowns, step, strict=True)]
     raise NoRatesError
-
-
-def _jacobian(function: Callable[[Vector], Vector], at: Vector, value: Vector) -> Matrix:
-    columns = []
-    for j in range(len(at)):
-        beside = list(at)
-        beside[j] += BESIDE
-        changed = function(beside)
-        columns.append([(b - e) / BESIDE for b, e in zip(changed, value, strict=True)])
-    return [list(row) for row in zip(*columns, strict=True)]
 
 
 def solved(matrix: Matrix, right: Vector) -> Vector:
@@ -123,9 +116,5 @@ def _is_stable(jacobian: Matrix) -> bool:
     """Whether the linear map of a period decays: its high powers do."""
     power = [[x + (i == j) for j, x in enumerate(row)] for i, row in enumerate(jacobian)]
     for _ in range(SQUARINGS):
-        columns = list(zip(*power, strict=True))
-        power = [
-            [sum(a * b for a, b in zip(row, column, strict=True)) for column in columns]
-            for row in power
-        ]
+        power = [[sum(map(mul, row, c)) for c in zip(*power, strict=True)] for row in power]
     return all(abs(x) < 0.5 for row in power for x in row)

@@ -1,14 +1,19 @@
-"""The bounds of values, and what is raised for others."""
+"""The bounds of values and of the work of a step, and what is raised beyond them."""
 
 from contextlib import suppress
-from math import isfinite
+from dataclasses import dataclass
+from math import floor, isfinite, log10
 
-from . import refusal_texts
+from . import refusal_texts as texts
+from .constants import MAX_STEP_SEGMENTS, PYTHON_SLOWDOWN
 from .variable import Variable
 from .variables import VARIABLES
 
 BY_NAME = {variable.name: variable for variable in VARIABLES}
 SETTABLE = tuple(variable for variable in VARIABLES if variable.causality != "output")
+
+MAX_SEGMENTS = MAX_STEP_SEGMENTS // PYTHON_SLOWDOWN
+"""Segments of motion in one communication step up to which its work is accepted."""
 
 
 class Refusal(Exception):
@@ -32,5 +37,29 @@ def checked(variable: Variable, value: object) -> float:
             and (variable.type == "Real" or value == int(value))
         ):
             return float(value) if variable.type == "Real" else int(value)
-    shown = {"name": variable.name, "value": repr(value), "requirement": variable.requirement}
-    raise Refusal(refusal_texts.OUT_OF_BOUNDS, **shown)
+    bounds = variable.requirement
+    raise Refusal(texts.OUT_OF_BOUNDS, name=variable.name, value=repr(value), requirement=bounds)
+
+
+@dataclass(slots=True)
+class Budget:
+    """The work of a step of `step_size` [s] from a start [s] on: all its parts share a `limit`."""
+
+    step_size: float
+    start: float
+    limit: int = MAX_SEGMENTS
+    what: str = "segments of motion"
+    spent: int = 0
+
+    def spend(self, time: float) -> None:
+        """Spend one more at a time [s]. Raises Refusal beyond the limit.
+
+        A step up to that time takes less: the text names the power of ten below it.
+        """
+        self.spent += 1
+        if self.spent > self.limit:
+            work = {"step_size": self.step_size, "max_count": self.limit, "what": self.what}
+            if time > self.start:
+                exponent = floor(log10(time - self.start))
+                raise Refusal(texts.TOO_MUCH_WORK, exponent=exponent, **work)
+            raise Refusal(texts.TOO_MUCH_WORK_AT_ONCE, **work)

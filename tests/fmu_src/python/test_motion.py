@@ -7,7 +7,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fmu_src.python.slider_component import mean_friction
-from fmu_src.python.slider_component.contact import BACKWARD, FORWARD, LIFTED, STICK, NormalLoad
+from fmu_src.python.slider_component.closed_form import ClosedForm
+from fmu_src.python.slider_component.contact import (
+    BACKWARD,
+    FORWARD,
+    LIFTED,
+    STICK,
+    NormalLoad,
+    VibratingLoad,
+)
 from fmu_src.python.slider_component.device import Device, System
 from fmu_src.python.slider_component.mean_friction import (
     MAX_WAVES,
@@ -19,8 +27,6 @@ from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.oscillator import Oscillator
 from fmu_src.python.slider_component.parameters import Inputs
 from fmu_src.python.slider_component.series import Series
-from fmu_src.python.slider_component.sliding import Exponentials
-from fmu_src.python.slider_component.vibrating_load import VibratingLoad
 
 W = 40.0
 
@@ -42,9 +48,9 @@ def test_exponentials_and_series_agree(ratio: float, mode: int, damping: float) 
     system = System(device, Inputs(phase=0.3, load=0.02, frequency_ratio=ratio))
     velocity = 0.1 * mode if mode != LIFTED else 0.1
     now = Moment(velocity, 2e-4, -1.1, 0.0, theta=1.0, psi=1.7, mode=mode)
-    direction, rests = 0 if mode == LIFTED else mode, mode == STICK
-    fast = Exponentials(system, now, direction, rests)
-    slow = Series(system, now, direction, rests=rests)
+    direction = 0 if mode == LIFTED else mode
+    fast = ClosedForm(system, now, direction)
+    slow = Series(system, now, direction)
     assert slow.reach > 1e-5
     for t in (1e-7, 0.5 * slow.reach, slow.reach):
         assert fast.at(t) == pytest.approx(slow.at(t), rel=1e-12, abs=1e-14)
@@ -95,7 +101,9 @@ def test_on_a_boundary_the_direction_decides(share: float, past: float) -> None:
 def test_twice_the_nodes_change_no_mean(
     monkeypatch: pytest.MonkeyPatch, stiffness: float, n: float
 ) -> None:
-    device = Device(friction_law=1, bristle_stiffness=stiffness, bristle_damping=0.01)
+    device = Device(
+        friction_law=1, friction_faces=1, bristle_stiffness=stiffness, bristle_damping=0.01
+    )
     friction = MeanFriction(device, 0.2366)
     load = VibratingLoad(NormalLoad(1.0, 1.5), n, 0.7)
     turnings = (1e-3, 0.3, 1.1, 2.0, 3.1)
@@ -106,7 +114,7 @@ def test_twice_the_nodes_change_no_mean(
 
 
 def test_beyond_a_thousand_waves_only_the_mean_counts() -> None:
-    friction = MeanFriction(Device(friction_law=1, bristle_stiffness=1e4), 0.2366)
+    friction = MeanFriction(Device(friction_law=1, friction_faces=1, bristle_stiffness=1e4), 0.2366)
     contact, most = NormalLoad(1.0, 1.0), friction.max_waves
     counted, beyond = (
         friction.mean(VibratingLoad(contact, float(MAX_WAVES + more), 0.4, most), 1.1)

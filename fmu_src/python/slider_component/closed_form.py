@@ -11,13 +11,10 @@ of drive, normal load and free resonator, and friction s (F0 + F1 sin(chi)),
 from cmath import exp, rect, sinh
 from math import inf
 
-from .contact import LIFTED
+from .contact import LIFTED, STICK
 from .device import EPSILON, System
 from .first_zero import Watch
 from .moment import Moment, Place
-
-SURE = 0.999999
-"""Share of the smallest limit of friction below which forces cannot reach it, beyond rounding."""
 
 
 def _watch(k0: float, k1: float, terms: list[tuple[complex, complex]], fastest: float) -> Watch:
@@ -37,7 +34,7 @@ def _watch(k0: float, k1: float, terms: list[tuple[complex, complex]], fastest: 
     return Watch(signal, 2.0 * EPSILON * size, fastest)
 
 
-class Exponentials:
+class ClosedForm:
     """Motion from `now` on: rest, sliding in `direction` under full friction, or flight.
 
     It holds up to its `reach` [s]; its velocity is watched in `direction` unless that is 0.
@@ -45,36 +42,35 @@ class Exponentials:
 
     reach = inf
 
-    def __init__(self, system: System, now: Moment, direction: int, rests: bool = False) -> None:
-        split = system.rest_split if rests else system.slide_split
-        assert split is not None
+    def __init__(self, system: System, now: Moment, direction: int) -> None:
+        self.rests = not direction and now.mode == STICK
+        mode = system.held if self.rests else system.free
+        assert mode.responses is not None
+        (p, v, y), (q, w, x) = mode.responses
         sign, chi = 0 if now.mode == LIFTED else direction, now.psi + system.phase
         turn, turned = rect(1.0, now.theta), rect(sign, chi)
         constant, swinging = sign * system.friction_preload, system.friction_amplitude * turned
         if not system.normal_frequency:
             constant, swinging = constant + swinging.imag, 0j
-        z, v, y = split.drive
-        terms = [(z, v * turn, y * turn)]
-        if swinging:
-            q, w, x = split.normal
-            if q == z:
-                terms = [(z, v * turn + w * turned, y * turn + x * turned)]
-            else:
-                terms.append((q, w * turned, x * turned))
-        resisting = 0.0 if rests else constant + system.load
-        offset = resisting * split.compliance
+        terms = [(p, v * turn, y * turn)]
+        if swinging and q == p:
+            terms = [(p, v * turn + w * turned, y * turn + x * turned)]
+        elif swinging:
+            terms.append((q, w * turned, x * turned))
+        resisting = constant + system.load
+        offset = resisting * mode.compliance
         k0, displacement, rate = now.velocity, now.displacement - offset, now.rate
         for z, v, y in terms:
             k0 -= v.real
             displacement -= y.real
             rate += z.imag * y.imag
         if system.is_full:
-            for z, y in split.oscillator.free(displacement, rate):
-                v = -split.mass_fraction * z * y
+            for z, y in mode.oscillator.free(displacement, rate):
+                v = -mode.mass_fraction * z * y
                 k0 -= v.real
                 terms.append((z, v, y))
-        self.direction, self.rests, self._system = direction, rests, system
-        self._k0, self._k1, self._offset = k0, -resisting / system.total_mass, offset
+        self.direction, self._system = direction, system
+        self._k0, self._k1, self._offset = k0, -resisting * mode.pair_mobility, offset
         self._terms, self._turn, self._chi = terms, turn, chi
         self._constant, self._swinging = constant, swinging
 
@@ -114,22 +110,18 @@ class Exponentials:
         The velocity in the direction of sliding; at rest the spare friction forwards and backwards,
         unless forces stay below its smallest limit.
         """
-        if self.rests:
-            return self._margins()
-        if self.direction == 0:
+        system, side = self._system, self.direction
+        if side:
+            terms = [(z, side * v) for z, v, _ in self._terms]
+            return (_watch(side * self._k0, side * self._k1, terms, system.fastest),)
+        if not self.rests:
             return ()
-        side, fastest = self.direction, self._system.fastest
-        terms = [(z, side * v) for z, v, _ in self._terms]
-        return (_watch(side * self._k0, side * self._k1, terms, fastest),)
-
-    def _margins(self) -> tuple[Watch, ...]:
-        system, load = self._system, self._system.load
-        w, q = system.drive_frequency, system.normal_frequency
+        load, w, q = system.load, system.drive_frequency, system.normal_frequency
         needed = [(complex(0.0, w), -1j * system.direct * self._turn)]
         needed += [(z, (system.spring + system.damper * z) * y) for z, _, y in self._terms]
         pull = abs(load) + sum(abs(a) for _, a in needed)
-        if pull == 0.0 or pull < SURE * (system.friction_preload - system.friction_amplitude):
-            return ()
+        if pull == 0.0 or pull < 0.999999 * (system.friction_preload - system.friction_amplitude):
+            return ()  # Forces cannot reach the smallest limit of friction, beyond rounding.
         fastest = max(w, abs(q), system.stick.frequency)
         limit = complex(0.0, q), -1j * system.friction_amplitude * rect(1.0, self._chi)
         forward = [limit, *((z, -a) for z, a in needed)]
