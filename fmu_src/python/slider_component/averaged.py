@@ -1,15 +1,14 @@
 """Averaged motion of first order: the slow motion of the pair under mean friction.
 
-With D the amplitude of the drive force on the pair, its momentum over the total mass is
-P = X' + r_m Y' = V - D cos(theta) / (w (M + m)), and its centre is X + r_m Y. Both are continuous,
-also where a parameter is tuned. V is the slow velocity: (M + m) V' = -mean friction - load. The
-fast parts of all outputs are the steady vibration (32)-(33), added in closed form.
+The momentum of the pair over its mass is X' + r_m Y' = V - D cos(theta) / (w (M + m)), D being the
+amplitude of the drive force on it, and its centre is X + r_m Y. Both are continuous, also where a
+parameter is tuned. For the slow velocity V, (M + m) V' = -mean friction - load. The fast parts of
+all outputs are the steady vibration (32)-(33), added in closed form. A bristle follows the motion
+periodically; it has no state here.
 
 The normal load counts with its phase near integer frequency ratios n, where that phase drifts by
 (ratio - n) w (Appendix A for n = 1), and with its mean elsewhere. A load that lifts the contact has
 harmonics, and counts with its phase near fractions too.
-
-The bristle follows the motion periodically; it has no state here.
 """
 
 from dataclasses import replace
@@ -17,7 +16,7 @@ from math import hypot, inf, pi, sin, tau
 
 from .constants import MAX_SLOW_STEPS, PYTHON_SLOWDOWN
 from .contact import LIFTED, VibratingLoad, direction_of, turns_to_repeat
-from .device import System, Vibration
+from .device import System
 from .mean_friction import MAX_WAVES, MeanFriction
 from .moment import Moment
 from .resolved import Resolved, initial_moment
@@ -31,9 +30,6 @@ a lifting contact, of q times the ratio, times q."""
 TOLERANCE = 2e-10
 """Error per step of the slow motion, relative to the fast velocity."""
 
-STILL = 1e-6
-"""Frequency [rad/s] of a drive that moves nothing, so low that it ends no segment."""
-
 
 class Averaged:
     """Motion averaged to first order (methods as of `Resolved`).
@@ -44,9 +40,8 @@ class Averaged:
     """
 
     def __init__(self, system: System) -> None:
-        """Raises Refusal where undamped resonance leaves no steady vibration."""
         device, ratio = system.device, system.inputs.frequency_ratio
-        self.system, self.fast = system, Vibration(device)
+        self.system, self.fast = system, system.steady
         self.law = MeanFriction(device, self.fast.velocity)
         turns = turns_to_repeat(ratio, system.normal_load.max_turns, NEAR)
         self.waves = round(turns * ratio) / turns if turns else ratio
@@ -96,13 +91,8 @@ class Averaged:
 
     def friction_power(self, now: Moment) -> float:
         """Mean power of friction [W] over a drive period, of slow motion and vibration."""
-        normal, phase = self.system.normal_load, self._load_phase(now)
-        load = VibratingLoad(normal, self.waves, phase, MAX_WAVES)
+        load = VibratingLoad(self.system.normal_load, self.waves, self._load_phase(now), MAX_WAVES)
         return self.law.power(load, self._slow_velocity(now))
-
-    def resonator(self, now: Moment) -> tuple[float, float]:
-        """Displacement [m] and velocity [m/s] of the steady vibration."""
-        return self.fast.swing(now.theta)
 
     def slow_motion_error(self, now: Moment) -> float:
         """The estimate of the error of the slow velocity [m/s].
@@ -133,7 +123,7 @@ class Averaged:
     def _still(self, now: Moment) -> tuple[Resolved, Moment]:
         """The pair without vibration: only the load is averaged, unless it is slow itself."""
         drift = 0.0 if self.waves else self.drift
-        w = max(abs(drift), STILL)
+        w = max(abs(drift), 1e-6)  # a drive that moves nothing, so slow that it ends no segment
         device = replace(self.system.device, fidelity=1, friction_law=0, drive_frequency=w)
         if self.waves:
             mean = device.normal_load.mean

@@ -19,7 +19,6 @@ from .prediction import theory_range
 from .resolved import Resolved
 from .snapshot import FORMAT, Lifecycle, State, from_plain
 from .values import BY_NAME, SETTABLE, Refusal, checked
-from .variable import Variable
 
 
 class Component:
@@ -169,7 +168,10 @@ def _prepare(values: Mapping[str, Any]) -> Motion:
             return motion
     # Together the values leave the range of floating point numbers. The text names the one that is
     # the most decades away from its start value.
-    furthest = max(SETTABLE, key=lambda v: _decades_from_start(v, values[v.name]))
+    furthest = max(
+        (v for v in SETTABLE if values[v.name]),
+        key=lambda v: abs(log10(abs(values[v.name])) - log10(v.start or 1.0)),
+    )
     shown = {"value": repr(values[furthest.name]), "start": repr(furthest.start)}
     raise Refusal(texts.EXTREME_VALUE, name=furthest.name, **shown)
 
@@ -181,12 +183,8 @@ def _driven(device: Device, inputs: Inputs) -> Device:
     if variable.minimum is not None and w < variable.minimum:
         shown = {"drive_frequency": w, "requirement": variable.requirement}
         raise Refusal(texts.DRIVE_TOO_SLOW, frequency_deviation=deviation, **shown)
-    return replace(
-        device,
-        base_amplitude=device.base_amplitude * amplitude,
-        tangential_force=device.tangential_force * amplitude,
-        drive_frequency=w,
-    )
+    base, direct = device.base_amplitude * amplitude, device.tangential_force * amplitude
+    return replace(device, base_amplitude=base, tangential_force=direct, drive_frequency=w)
 
 
 def motion_of(device: Device, inputs: Inputs) -> Motion:
@@ -201,7 +199,3 @@ def motion_of(device: Device, inputs: Inputs) -> Motion:
         return Leaping(System(replace(device, fidelity=2), inputs))
     system = System(device, inputs)
     return Resolved(system) if device.fidelity > 0 else Averaged(system)
-
-
-def _decades_from_start(variable: Variable, value: float) -> float:
-    return abs(log10(abs(value)) - log10(variable.start or 1.0)) if value else 0.0

@@ -13,9 +13,8 @@ EXACT = 1e-12
 boundary that is due to rounding. The shortest flight that these can describe is 3e-8 rad long."""
 
 MAX_TURNS_TO_REPEAT = 4
-"""Largest number of turns of the drive after which a clipped load may repeat for its phase to
-count. The more turns, the weaker are the harmonics of the clipping that meet the drive; beyond, the
-mean counts."""
+"""Most turns of the drive after which a clipped load may repeat for its phase to count beside its
+mean: the more turns, the weaker are the harmonics of the clipping that meet the drive."""
 
 
 def direction_of(velocity: float) -> int:
@@ -27,12 +26,14 @@ class NormalLoad:
     """N = max(0, preload + amplitude sin(chi)) [N].
 
     If the amplitude is larger, it `lifts` the contact at chi = pi + `dip` and touches down at
-    2 pi - `dip`. Its `mean` is that over a turn [N].
+    2 pi - `dip`. Its `mean` is that over a turn [N]. In averages its phase counts if it repeats
+    after `max_turns` of the drive: without flight it is a sine, and averages out over several.
     """
 
     def __init__(self, preload: float, amplitude: float) -> None:
         self.preload, self.amplitude, self.lifts = preload, amplitude, amplitude > preload
         self.dip = asin(preload / amplitude) if self.lifts else 0.5 * pi
+        self.max_turns = MAX_TURNS_TO_REPEAT if self.lifts else 1
         self.mean = (preload * (pi + 2.0 * self.dip) + 2.0 * amplitude * cos(self.dip)) / tau
 
     def at(self, chi: float) -> float:
@@ -45,14 +46,6 @@ class NormalLoad:
         within = min(chi + self.dip - turns * tau, pi + 2.0 * self.dip)
         sine = cos(self.dip) - cos(within - self.dip)
         return turns * tau * self.mean + self.preload * within + self.amplitude * sine
-
-    @property
-    def max_turns(self) -> int:
-        """Turns of the drive after which it may repeat for its phase to count in averages.
-
-        Without flight it is a sine: over several turns it would average out.
-        """
-        return MAX_TURNS_TO_REPEAT if self.lifts else 1
 
     def is_lifted(self, chi: float, frequency: float) -> bool:
         """Whether the contact is lifted at phase `chi` [rad]. With no load at all it always is.
@@ -68,10 +61,7 @@ class NormalLoad:
         return height < 0.0
 
     def time_to_switch(self, chi: float, frequency: float, lifted: bool) -> float:
-        """Time [s] until the contact lifts, or touches down when `lifted`; infinite if never.
-
-        `frequency` [rad/s] is that of the normal load and may be negative.
-        """
+        """Time [s] until the contact lifts, or touches down when `lifted`; infinite if never."""
         if frequency == 0.0 or not self.lifts:
             return inf
         boundary = -self.dip if lifted == (frequency > 0.0) else pi + self.dip
@@ -94,18 +84,16 @@ class VibratingLoad:
     """N(n tau + delta) in N, as a function of the drive angle within a turn.
 
     It has `waves` waves over a turn of the drive. Averages are taken over the turns after which it
-    repeats, see `turns_to_repeat`; if it never does, or has more than `max_waves`, its mean counts.
+    repeats, see `turns_to_repeat`; if it never does, or has more than `most`, its mean counts.
     """
 
-    def __init__(
-        self, load: NormalLoad, waves: float, delta: float, max_waves: float = inf
-    ) -> None:
+    def __init__(self, load: NormalLoad, waves: float, delta: float, most: float = inf) -> None:
         turns = turns_to_repeat(waves, load.max_turns)
         # The phase of the load [rad] at the begin of each of its turns.
         self._phases = [delta + waves * tau * turn for turn in range(turns or 1)]
         self._load, self.waves = load, waves
         constant = abs(waves) <= EXACT  # the integral below would lose its digits to 1 / n
-        if constant or turns is None or abs(waves) > max_waves:
+        if constant or turns is None or abs(waves) > most:
             mean = self.at(0.0) if constant else load.mean
             self._load, self.waves, self._phases = NormalLoad(mean, 0.0), 1.0, [0.0]
 

@@ -6,14 +6,10 @@ release, and the lift-off and touchdown of the contact.
 
 from cmath import rect
 
-from .closed_form import ClosedForm
 from .contact import BACKWARD, EXACT, FORWARD, LIFTED, STICK, direction_of
 from .device import System
 from .moment import Moment
-from .series import Series
-
-Segment = ClosedForm | Series
-"""Motion from a moment on, inputs held, contact mode unchanged."""
+from .segment import Segment, motion
 
 
 class Coulomb:
@@ -47,15 +43,6 @@ class Coulomb:
             now.enter(_mode_in_contact(system, now))
 
 
-def motion(system: System, now: Moment, direction: int) -> Segment:
-    """Sliding in `direction` under full friction, flight in contact mode LIFTED, or rest.
-
-    The velocity is watched in `direction`, unless that is 0.
-    """
-    mode = system.free if direction or now.mode == LIFTED else system.held
-    return (Series if mode.responses is None else ClosedForm)(system, now, direction)
-
-
 def _needed_force(system: System, now: Moment) -> float:
     """Friction force [N] that holds a slider at rest."""
     held = system.spring * now.displacement + system.damper * now.rate - system.load
@@ -65,8 +52,7 @@ def _needed_force(system: System, now: Moment) -> float:
 def _just_released(system: System, now: Moment) -> bool:
     """Whether the slider was released right now.
 
-    Friction still balances the other forces, and only the mode of the moment shows in which
-    direction the slider departs.
+    Friction still balances the other forces; the mode alone shows where the slider departs to.
     """
     if now.velocity != 0.0 or now.mode not in (FORWARD, BACKWARD):
         return False

@@ -4,30 +4,84 @@ With theta the phase of the drive, chi = psi + phase that of the normal load, s 
 sliding (0 in flight) and Y the resonator relative to the slider:
 
     slip:   Y'' + 2 decay Y' + stiffness Y = relative_drive sin(theta) + (F + load) / M
-            (M + m) X'' = (M + m) Re(drive e) - F - load - m Y'',      F = s (F0 + F1 sin(chi))
-    stick:  Y'' + 2 xi wn Y' + wn^2 Y = A w^2 sin(theta),              X' = 0
+            (M + m) X'' = Re(drive e) - F - load - m Y'',      F = s (F0 + F1 sin(chi))
+    stick:  Y'' + 2 xi wn Y' + wn^2 Y = A w^2 sin(theta),      X' = 0
 
-where e = -i exp(i theta). At fidelity 1 the resonator acts through its steady force (34) alone.
+where e = -i exp(i theta). A held slider is one of infinite mass: the first two lines with 1 / M = 0
+are the third. At fidelity 1 the resonator acts through its steady force (34) alone.
 """
 
 from cmath import phase as argument
 from cmath import rect
+from cmath import sqrt as complex_sqrt
 from dataclasses import dataclass
-from math import cos, pi
-from typing import NamedTuple
+from functools import cached_property
+from math import cos, pi, sqrt
 
 from . import refusal_texts as texts
 from .contact import NormalLoad
-from .oscillator import SLOW, Oscillator
+from .moment import Moment
 from .parameters import Inputs, Parameters
 from .values import Refusal
 
 EPSILON = 2.0**-52
 """Spacing of floating point numbers above 1: the unit of rounding errors."""
 
-AT_RESONANCE = 8.0 * EPSILON
-"""Relative difference of two squared frequencies that is due to rounding: without damping the
-steady force has no correct digit there."""
+APART = 0.87
+"""Distance of the eigenvalues, over the undamped frequency, from which on they are well apart: at
+damping ratios below 0.9 and above 1.1."""
+
+DISTINCT = 1e-8
+"""Half the distance of two equal eigenvalues, over each: what it changes is rounding, squared."""
+
+SLOW = 0.02
+"""Share of the drive frequency below which an oscillator or a forcing counts as slow, and relative
+distance of forcing frequency and eigenvalue in resonance: there the steady response would be far
+larger than the response between two reversals."""
+
+
+@dataclass(frozen=True)
+class Oscillator:
+    """y'' + 2 `decay` y' + `stiffness` y = g(t), coefficients in 1/s and 1/s^2."""
+
+    decay: float
+    stiffness: float
+
+    @property
+    def frequency(self) -> float:
+        """Undamped angular frequency [rad/s]."""
+        return sqrt(self.stiffness)
+
+    @cached_property
+    def eigenvalues(self) -> tuple[complex, complex]:
+        """Both eigenvalues [1/s]: conjugate with the upper one first, or the slow one first.
+
+        Two that are equal count as `DISTINCT`: free motion is a sum of two exponentials.
+        """
+        root = complex_sqrt(self.decay * self.decay - self.stiffness) or DISTINCT * self.decay
+        fast = -self.decay - root
+        return (self.stiffness / fast if fast else 0j), fast
+
+    def splits(self, *frequencies: float) -> bool:
+        """Whether free motion and steady responses at `frequencies` [rad/s] lose few digits."""
+        slow, fast = self.eigenvalues
+        if self.frequency < SLOW * max(map(abs, frequencies)):
+            return False
+        resonant = (abs(slow - complex(0.0, abs(f))) < SLOW * abs(slow) for f in frequencies)
+        return abs(slow - fast) > APART * self.frequency and not any(resonant)
+
+    def transfer(self, frequency: float) -> complex:
+        """Steady response to exp(i frequency t), as a complex amplitude [s^2]."""
+        damping = 2.0 * self.decay * frequency
+        return 1.0 / complex(self.stiffness - frequency * frequency, damping)
+
+    def free(self, y: float, u: float) -> list[tuple[complex, complex]]:
+        """Rates z and amplitudes a of free motion from `y` and `u` on: a sum of Re(a exp(z t))."""
+        slow, fast = self.eigenvalues
+        if slow.imag:
+            return [(slow, complex(y, (slow.real * y - u) / slow.imag))]
+        of_slow = (u - fast * y) / (slow - fast)
+        return [(slow, of_slow), (fast, y - of_slow)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +129,8 @@ class Vibration:
         """Raises Refusal where undamped resonance leaves no steady vibration."""
         w, m, direct = device.drive_frequency, device.resonator_mass, device.tangential_force
         oscillator, square, damping = device.oscillator(held), w * w, device.damping_ratio
-        if damping == 0.0 and abs(oscillator.stiffness - square) <= AT_RESONANCE * square:
+        # Within rounding of undamped resonance the steady force has no correct digit.
+        if damping == 0.0 and abs(oscillator.stiffness - square) <= 8.0 * EPSILON * square:
             raise Refusal(texts.UNBOUNDED_RESONANCE, damping_ratio=damping, drive_frequency=w)
         base, inertia = device.base_amplitude * square, device.total_mass * w
         self.frequency, self.mass_fraction = w, device.mass_fraction
@@ -125,18 +180,18 @@ class Mode:
 class System:
     """A device under held inputs (SI units; complex numbers are amplitudes of e).
 
-    The full device (`is_full`) follows its resonator. At fidelity 1 this vibrates in a `steady` way
-    and acts by its steady force only, on a slider of the total mass: `mass_fraction`, `spring`,
-    `damper`, `base_acceleration` and the `coupling` of accelerations to the resonator are 0. The
-    drive forces are the `direct` one on the slider and the `drive` on the pair [N]. `friction` is
-    mu of all faces. `fastest` [rad/s] is the highest frequency, `arc` [s] the longest segment:
-    after it a motion begins anew from its state. Neither depends on `phase` and `load`. The
-    equations are those of a `free` and of a `held` slider.
+    The full device (`is_full`) follows its resonator. Otherwise this vibrates in a `steady` way
+    and acts by its steady force only, on a slider of the total mass: it has no mass itself, no
+    `base_acceleration`, and no `coupling` to accelerations of the slider. The drive forces are the
+    `direct` one on the slider and the `drive` on the pair [N]. `friction` is mu of all faces.
+    `fastest` [rad/s] is the highest frequency, `arc` [s] the longest segment: after it a motion
+    begins anew from its state. Neither depends on `phase` and `load`. The equations are those of a
+    `free` and of a `held` slider.
     """
 
     def __init__(self, device: Device, inputs: Inputs) -> None:
-        """Raises Refusal at fidelity 1 where the steady force of the resonator is unbounded."""
-        w, m = device.drive_frequency, device.resonator_mass
+        """Raises Refusal below fidelity 2 where the steady force of the resonator is unbounded."""
+        w, self.is_full = device.drive_frequency, device.fidelity == 2
         self.device, self.inputs = device, inputs
         self.phase, self.load = inputs.phase, inputs.load
         self.drive_frequency, self.normal_frequency = w, inputs.frequency_ratio * w
@@ -145,21 +200,17 @@ class System:
         self.friction_preload = self.friction * device.normal_preload
         self.friction_amplitude = self.friction * device.normal_amplitude
         self.slip, self.stick = device.oscillator(held=False), device.oscillator(held=True)
-        self.fastest = max(w, abs(self.normal_frequency))
-        self.is_full = device.fidelity == 2
-        self.coupling = float(self.is_full)
-        self.base_acceleration = self.coupling * device.base_amplitude * w * w
+        self.fastest, self.coupling = max(w, abs(self.normal_frequency)), float(self.is_full)
         if self.is_full:
-            self.slider_mass, self.mass_fraction = device.slider_mass, device.mass_fraction
-            self.spring, self.damper = m * self.stick.stiffness, 2.0 * m * self.stick.decay
-            self.direct = complex(device.tangential_force)
+            self.slider_mass, m = device.slider_mass, device.resonator_mass
+            self.direct, amplitude = complex(device.tangential_force), device.base_amplitude
             swinging = [o.frequency for o in (self.slip, self.stick) if o.decay < o.frequency]
             self.fastest = max([self.fastest, *swinging])
         else:
-            self.slider_mass, self.mass_fraction = device.total_mass, 0.0
-            self.spring = self.damper = 0.0
-            self.steady = Vibration(device)
-            self.direct = self.steady.force
+            self.slider_mass, m, self.steady = device.total_mass, 0.0, Vibration(device)
+            self.direct, amplitude = self.steady.force, 0.0
+        self.mass_fraction, self.base_acceleration = m / self.total_mass, amplitude * w * w
+        self.spring, self.damper = m * self.stick.stiffness, 2.0 * m * self.stick.decay
         self.drive = m * self.base_acceleration + self.direct
         # Large arguments of sine and cosine have rounding errors.
         self.arc = 60.0 / self.fastest
@@ -189,6 +240,10 @@ class System:
             )
         compliance = by_slider / oscillator.stiffness
         return Mode(oscillator, mobility, pair_mobility, mass_fraction, compliance, responses)
+
+    def resonator(self, now: Moment) -> tuple[float, float]:
+        """Displacement [m] and velocity [m/s] of the resonator: its own or the steady ones."""
+        return (now.displacement, now.rate) if self.is_full else self.steady.swing(now.theta)
 
     def friction_limit(self, psi: float) -> float:
         """Friction force [N] of all faces at normal phase `psi` [rad] when sliding, 0 in flight."""

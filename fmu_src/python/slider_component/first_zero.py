@@ -30,20 +30,15 @@ SHORTEST = 1e-7
 that enclose a dip within rounding, and count as a touch."""
 
 SHORT = 0.01
-"""Steps [rad] below this count as short. After each of them the shortest step grows by `GROWTH`, up
-to this, which bounds the work on signals that stay within rounding of zero."""
-
-GROWTH = 1.035
+"""Steps [rad] below this count as short. After each of them the shortest step grows a little, up to
+this, which bounds the work on signals that stay within rounding of zero."""
 
 RESOLUTION = 1e-16
 """Angle [rad] of the highest frequency to which zeros are located."""
 
 
 def first_zero(watch: Watch, limit: float) -> float | None:
-    """Time of the first downward zero in [0, limit) [s], or None.
-
-    The signal is non-negative at 0, up to its noise.
-    """
+    """Time of the first downward zero in [0, limit) [s], or None, of a signal not negative at 0."""
     signal, noise, fastest = watch
     t = before = 0.0
     shortest = SHORTEST / fastest
@@ -64,7 +59,7 @@ def first_zero(watch: Watch, limit: float) -> float | None:
         else:
             step = (slope + root) / bound if bound > 0.0 else inf
         if step * fastest < SHORT:
-            shortest = min(GROWTH * shortest, SHORT / fastest)
+            shortest = min(1.035 * shortest, SHORT / fastest)
         before, t = t, t + max(step, shortest)
     return None
 

@@ -24,9 +24,6 @@ from .values import Budget, Refusal
 ORDER = 3
 """Order of the differences: a sequence maps so many periods."""
 
-MAX_CONTRACTION = 0.5
-"""Largest ratio of successive corrections by which Newton's method converges."""
-
 FAST_SHARE = 0.3
 """Share of the tolerance for errors of the fast states."""
 
@@ -82,7 +79,7 @@ class SlowMotion:
         Along the leap the error of V is added up. It is the moment `begin` where no step holds.
         """
         speed, drift, share, landing = self.map.speed, self.map.drift, self.map.share, self.begin
-        slow_time, beat = (1.0 / share if share else inf), (tau / abs(drift) if drift else inf)
+        slow_time, beat = 1.0 / share if share else inf, tau / abs(drift) if drift else inf
         tolerance = self.map.tolerance / ERROR_SHARE
         equation = SlowEquation(self._rates, speed, tolerance, slow_time, beat, SHORTEST_STEP)
         n, travel, error = 0.0, 0.0, landing.leap_error
@@ -108,8 +105,7 @@ class SlowMotion:
     def _rates(self, n: float, velocity: float) -> Rates:
         """The rates at `n` periods and V [m/s].
 
-        Raises NoRatesError where contact modes do not repeat as they did at the start of the step:
-        the rates have a kink in between.
+        Raises NoRatesError where contact modes are not those at the start of the step: at a kink.
         """
         try:
             found = self._point(n, velocity, self.last.fast)
@@ -135,9 +131,10 @@ class SlowMotion:
             slow, *others, moved = (_differences(*sequence) for sequence in sequences)
             correction = period_map.resolvent(ORDER, [-third for _, _, third in others])
             fast = [y + c for y, c in zip(fast, correction, strict=True)]
-            size = period_map.size(correction)
-            if size > max(MAX_CONTRACTION * before, FAST_SHARE * period_map.tolerance):
-                raise NoRatesError
+            fast_scale = period_map.scale[1:-1]
+            size = max(abs(c) / scale for c, scale in zip(correction, fast_scale, strict=True))
+            if size > max(0.5 * before, FAST_SHARE * period_map.tolerance):
+                raise NoRatesError  # Newton's method does not converge.
             before = size
         # Rates are the logarithm of the shift operator. Its next term is that by which they err, if
         # terms go on to shrink as they did, beside the last correction.

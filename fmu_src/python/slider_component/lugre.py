@@ -13,14 +13,9 @@ There is no sticking: presliding is resolved as an oscillation on the bristles.
 from math import copysign, expm1
 
 from .contact import FORWARD, LIFTED, direction_of
-from .coulomb import Segment, motion
 from .device import System
 from .moment import Moment
-from .series import Series
-
-TOLERANCE_SHARE = 0.01
-"""Share of the tolerance for the error of one series, and for the bend that a bristle still lacks
-when closed forms take over."""
+from .segment import Segment, Series, motion
 
 
 class LuGre:
@@ -62,8 +57,11 @@ class LuGre:
 
 
 def _segment(system: System, now: Moment, direction: int) -> Segment:
-    """Motion in `direction`, in closed form where the bristle is fully bent."""
-    mu, tolerance = system.device.friction_coefficient, TOLERANCE_SHARE * system.device.tolerance
+    """Motion in `direction`, in closed form where the bristle is fully bent.
+
+    A hundredth of the tolerance is for the bend that it lacks there, and for the error of a series.
+    """
+    mu, tolerance = system.device.friction_coefficient, 0.01 * system.device.tolerance
     if now.mode == LIFTED or abs(mu - direction * now.bristle) <= tolerance * mu:
         return motion(system, now, direction)
-    return Series(system, now, direction, bends=True, tolerance=tolerance)
+    return Series(system, now, direction, bending=tolerance)

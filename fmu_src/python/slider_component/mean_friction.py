@@ -28,8 +28,7 @@ MAX_WAVES = 1000
 add to mean friction and power falls with their number, to less than 1e-3 of full friction."""
 
 Node = tuple[float, float, float]
-"""Weight with the normal load [N rad], velocity over v_q beyond that where the slider turns, and
-friction per unit normal load or the path since then [m]."""
+"""Weight with the load [N rad], velocity over v_q, and friction per unit load or path [m]."""
 
 
 class MeanFriction:
@@ -126,7 +125,8 @@ class _Arc(NamedTuple):
     def nodes(self, last: float, load: VibratingLoad) -> list[Node]:
         """Quadrature up to `last` [rad] ahead: weights with the load, velocities and paths.
 
-        Panels part at kinks of the load, and none is wider than WIDEST of it.
+        Velocities are those beyond where the slider turns, paths those since then. Panels part at
+        kinks of the load, and none is wider than WIDEST of it.
         """
         kinks = (kink - self.begin for kink in load.kinks(self.begin, self.begin + last))
         found = []

@@ -6,8 +6,7 @@ from operator import attrgetter
 from .contact import STICK
 
 Place = tuple[float, float, float, float]
-"""Velocity of the slider [m/s], displacement [m] and rate [m/s] of the resonator, and how far
-the slider has moved [m]."""
+"""Slider velocity [m/s], resonator displacement [m] and rate [m/s], and slider travel [m]."""
 
 
 @dataclass(slots=True)

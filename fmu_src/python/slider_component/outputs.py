@@ -15,8 +15,7 @@ Motion = Resolved | Averaged
 
 def _theory(motion: Motion, now: Moment) -> Prediction:
     device, inputs = motion.system.device, motion.system.inputs
-    ratio = inputs.frequency_ratio
-    turns = turns_of_load(device, ratio)
+    ratio, turns = inputs.frequency_ratio, turns_of_load(device, inputs.frequency_ratio)
     lead = remainder(now.psi - ratio * now.theta, tau / turns) if turns else 0.0
     # Without the rounding errors of phases it is the same from one period to the next.
     return prediction(device, inputs, round(lead, 12))
@@ -26,8 +25,8 @@ OUTPUTS: dict[str, Callable[[Motion, Moment], float]] = {
     "position": lambda motion, now: now.position,
     "velocity": lambda motion, now: now.velocity,
     "mean_velocity": lambda motion, now: now.mean(now.mean_velocity, now.travel, now.velocity),
-    "resonator_displacement": lambda motion, now: motion.resonator(now)[0],
-    "resonator_velocity": lambda motion, now: motion.resonator(now)[1],
+    "resonator_displacement": lambda motion, now: motion.system.resonator(now)[0],
+    "resonator_velocity": lambda motion, now: motion.system.resonator(now)[1],
     "normal_force": lambda motion, now: motion.system.normal_load.at(now.psi + motion.system.phase),
     "friction_force": lambda motion, now: motion.friction_force(now),
     "contact_mode": lambda motion, now: float(motion.mode(now)),

@@ -40,18 +40,17 @@ class PeriodMap:
 
     def __init__(self, system: System, max_turns: int) -> None:
         """Raises NoRatesError without vibration, where transients do not decay, and where the load
-        is far from repeating after up to `max_turns` turns of the drive.
-
-        Raises Refusal where undamped resonance leaves no steady vibration.
+        is far from repeating after up to `max_turns` turns of the drive; Refusal at resonance.
         """
         device, w = system.device, system.drive_frequency
         self.vibration = fast = Vibration(device)
         self.tolerance, self.speed = device.tolerance, fast.velocity
+        self._bends = device.friction_law == 1
         # Differences of high order amplify the error of LuGre friction in a map.
         tight = replace(device, tolerance=min(device.tolerance, 1e-10))
         self.motion = Resolved(System(tight, system.inputs))
         ratio = system.inputs.frequency_ratio if device.normal_amplitude > 0.0 else 0.0
-        turns, self._bends = turns_to_repeat(ratio, max_turns, NEAR), device.friction_law == 1
+        turns = turns_to_repeat(ratio, max_turns, NEAR)
         if turns is None or not self.speed > 0.0:
             raise NoRatesError
         self.drift = tau * (turns * ratio - round(turns * ratio))
@@ -84,7 +83,8 @@ class PeriodMap:
         placed = begin.copied()
         placed.theta = self.section
         placed.psi = (begin.psi + remainder(self.drift * periods, tau)) % tau
-        placed.displacement, placed.rate, placed.bristle = *fast, *([] if self._bends else [0.0])
+        placed.displacement, placed.rate, *bristle = fast
+        placed.bristle = sum(bristle)
         placed.velocity = velocity - self.vibration.ahead(self.section, placed.rate)
         placed.mode = self.motion.mode(placed)
         placed.sliding = STICK if placed.mode == LIFTED else placed.mode
@@ -115,7 +115,3 @@ class PeriodMap:
         undone = [(z, a / (exp(z * self.period) - 1.0) ** times) for z, a in free]
         bent = [b / (self._kept - 1.0) ** times for b in bristle]
         return [sum(a.real for _, a in undone), sum((z * a).real for z, a in undone), *bent]
-
-    def size(self, change: Numbers) -> float:
-        """Size of a change of the fast state, over the scales."""
-        return max(abs(part) / scale for part, scale in zip(change, self.scale[1:-1], strict=True))

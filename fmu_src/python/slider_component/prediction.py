@@ -1,34 +1,42 @@
 """Steady velocity and blocking force for the present inputs, by averaged theory (20)-(22).
 
-Under `averaging_order` 2 both are exact, by periodic motions of the full device; the theory is
-where they start. It holds for any integer frequency ratio n, for lifting contact and for LuGre
-friction: the mean friction of `mean_friction` balances the load. At any other ratio all phases are
-met and the mean load counts.
+There mean friction balances the load, at any integer frequency ratio n, for lifting contact and for
+LuGre friction; at any other ratio all phases are met and the mean load counts. From there on
+`averaging_order` 2 finds both exactly, by periodic motions of the full device.
 """
 
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache
 from math import copysign, cos, inf, pi, tau
+from operator import mul
 from typing import NamedTuple
 
 from .contact import VibratingLoad, turns_to_repeat
 from .device import EPSILON, Device, System, Vibration
 from .mean_friction import MeanFriction
+from .moment import Moment
 from .parameters import Inputs
-from .period_map import PeriodMap
-from .steady_motion import periodic_motion
-from .values import Refusal
-
-ROUNDING = 8.0
-"""Rounding error of a mean friction, in units of the last place of the largest friction."""
+from .period_map import Numbers, PeriodMap
+from .slow_equation import NoRatesError
+from .values import MAX_SEGMENTS, Budget, Refusal
 
 MAX_TURNS = 32
 """Largest number of turns of the drive after which the normal load may repeat."""
 
+BESIDE = 1e-6
+"""Change of an unknown by which derivatives are taken; unknowns are over their scales."""
+
+NEAR = 1e-3
+"""Change from which on the last derivatives serve to the end."""
+
+CONVERGED = 1e-10
+"""Change at which the iteration ends: the next one would be rounding."""
+
 
 class Prediction(NamedTuple):
-    """Steady velocity [m/s] and blocking force [N], and whether they apply.
+    """Steady velocity [m/s] and blocking force [N], and whether they are `valid`: they apply.
 
     Friction `holds` a load below that of sliding.
     """
@@ -92,8 +100,8 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
     """Averaged theory at the present inputs (eqs 20-22 with both faces).
 
     Where the load exceeds full friction the velocity is the limit v_q of the theory, with its sign.
-    Both results are 0 without vibration, and where undamped resonance leaves no steady vibration.
-    In these cases, and where the vibration does not break the contact loose, they are not `valid`.
+    Both are 0 without vibration, and where undamped resonance leaves no steady one. In these cases,
+    and where the vibration does not break the contact loose, they are not `valid`.
     """
     fast, holding, none = None, inf, Prediction(0.0, 0.0, holds=False, valid=False)
     with suppress(Refusal):
@@ -101,7 +109,6 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
         holding = abs(Vibration(device, held=True).force)
     if fast is None or fast.velocity == 0.0:
         return none
-    w, mu = device.drive_frequency, device.friction_coefficient
     delta = inputs.phase + normal_lead + inputs.frequency_ratio * fast.lag
     law = MeanFriction(device, fast.velocity)
     load = VibratingLoad(device.normal_load, inputs.frequency_ratio, delta, law.max_waves)
@@ -112,6 +119,7 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
         return none._replace(steady_velocity=velocity)
     # The vibration alone must overcome friction: by its force on the pair and on a held slider.
     # One far shorter than mu / sigma_0 only bends the bristles.
+    w, mu = fast.frequency, law.coefficient
     bend = abs(complex(law.stiffness, w * law.damping)) * fast.velocity / w
     grip = sliding * (min(mu, bend) / mu if law.bends else 1.0)
     holds = abs(inputs.load) < sliding
@@ -120,7 +128,7 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
     # over a range (even ratios, with flight while sliding turns) it is the end of the highest
     # velocity.
     normal = device.normal_preload + device.normal_amplitude
-    noise = ROUNDING * EPSILON * law.faces * (mu + law.drag) * normal
+    noise = 8.0 * EPSILON * law.faces * (mu + law.drag) * normal
     low, high = 0.0, pi
     for _ in range(52):  # halvings to the last digit
         middle = 0.5 * (low + high)
@@ -128,3 +136,86 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
         low, high = (middle, high) if above else (low, middle)
     velocity = fast.velocity * cos(0.5 * (low + high))
     return Prediction(velocity, -law.mean(load, 0.5 * pi), holds, valid)
+
+
+def periodic_motion(
+    period_map: PeriodMap, psi: float, velocity: float, load: float, blocked: bool
+) -> float:
+    """The mean velocity [m/s] of the steady motion under a load [N], or the load that blocks it.
+
+    Blocked motion has no travel; the given load is a guess. The search begins at a slow velocity
+    [m/s], the steady vibration without friction, and normal phase `psi` [rad] at the section. All
+    its maps draw from one budget. Raises NoRatesError where none is found, where it is not stable,
+    and where the blocked slider never reverses: it sticks, under other loads, too.
+    """
+    device, speed = period_map.motion.system.device, period_map.speed
+    # A host that reads an output does not expect to wait as for a step.
+    budget = Budget(period_map.period, 0.0, MAX_SEGMENTS // 10)
+    vibrating = Moment(0.0, *period_map.vibration.swing(period_map.section), 0.0, psi=psi)
+    vibrating.bristle = device.friction_coefficient
+    _, *fast, _ = period_map.numbers(vibrating)
+    # The slow velocity, the fast states and, if unknown, the load, by the force that stops v_q in a
+    # period. A period of periodic motion changes none of the former, nor, if blocked, the position.
+    force = device.total_mass * speed / period_map.period
+    scales = [*period_map.scale[:-1], force]
+    start = [velocity, *fast, *([load] if blocked else [])]
+    unknowns = [x / s for x, s in zip(start, scales, strict=False)]
+
+    def changes(unknowns: Numbers) -> tuple[list[float], Moment]:
+        """What a period changes, over the scales, and its end."""
+        slow, *fast = (u * s for u, s in zip(unknowns, scales, strict=False))
+        loaded = period_map.under_load(fast.pop() if blocked else load)
+        begin = loaded.place(vibrating, slow, fast)
+        (_, end), _ = loaded.sections(begin, 1, budget)
+        first, last = loaded.numbers(begin), loaded.numbers(end)
+        changed = [(b - a) / s for a, b, s in zip(first, last, period_map.scale, strict=True)]
+        return changed if blocked else changed[:-1], end
+
+    # Two periods of motion bring near what is looked for, under strong friction.
+    for _ in range(2):
+        changed, _ = changes(unknowns)
+        if blocked:
+            changed[0], changed[-1] = changed[0] - changed[-1], 0.0
+        unknowns = [u + c for u, c in zip(unknowns, changed, strict=True)]
+    largest = inf
+    for _ in range(24):
+        now, end = changes(unknowns)
+        if largest > NEAR:
+            columns = []
+            for j in range(len(unknowns)):
+                beside = [u + BESIDE * (i == j) for i, u in enumerate(unknowns)]
+                differences = zip(changes(beside)[0], now, strict=True)
+                columns.append([(b - a) / BESIDE for b, a in differences])
+            jacobian = list(zip(*columns, strict=True))
+        elif largest <= CONVERGED and blocked and end.reversals > 0:
+            return unknowns[-1] * force
+        elif largest <= CONVERGED and not blocked and _is_stable(jacobian):
+            return end.position / period_map.period
+        step = solved(jacobian, [-e for e in now])
+        largest = max(map(abs, step))
+        share = min(1.0, 0.2 / largest) if largest > 0.0 else 1.0  # from afar by small changes
+        unknowns = [u + share * s for u, s in zip(unknowns, step, strict=True)]
+    raise NoRatesError
+
+
+def solved(matrix: Sequence[Numbers], right: Numbers) -> Numbers:
+    """The solution x of `matrix` x = `right`. Raises NoRatesError for a singular matrix."""
+    rows = [[*row, value] for row, value in zip(matrix, right, strict=True)]
+    for k in range(len(rows)):
+        pivot = max(range(k, len(rows)), key=lambda i: abs(rows[i][k]))
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        if not 0.0 < abs(rows[k][k]) < inf:
+            raise NoRatesError
+        for i in range(len(rows)):
+            if i != k:
+                factor = rows[i][k] / rows[k][k]
+                rows[i] = [a - factor * b for a, b in zip(rows[i], rows[k], strict=True)]
+    return [row[-1] / row[k] for k, row in enumerate(rows)]
+
+
+def _is_stable(jacobian: Sequence[Numbers]) -> bool:
+    """Whether the linear map of a period has halved in 2^24 periods, unlike rounding alone."""
+    power = [[x + (i == j) for j, x in enumerate(row)] for i, row in enumerate(jacobian)]
+    for _ in range(24):
+        power = [[sum(map(mul, row, c)) for c in zip(*power, strict=True)] for row in power]
+    return all(abs(x) < 0.5 for row in power for x in row)

@@ -70,12 +70,6 @@ class Resolved:
         momentary = self.friction_force(now) * now.velocity
         return now.mean(now.friction_power, now.work, momentary)
 
-    def resonator(self, now: Moment) -> tuple[float, float]:
-        """Displacement [m] and velocity [m/s] of the resonator: its own or the steady ones."""
-        if self.system.is_full:
-            return now.displacement, now.rate
-        return self.system.steady.swing(now.theta)
-
     def slow_motion_error(self, now: Moment) -> float:
         """The estimate of the error of the slow velocity [m/s]; 0 for motion that never leaps."""
         return now.leap_error
@@ -114,10 +108,9 @@ class Resolved:
 
     def _follow(self, now: Moment, longest: float, counts: bool) -> float:
         """Advance `now` by one segment of up to `longest` [s], and return its time [s]."""
-        system = self.system
-        switching = system.normal_load.time_to_switch(
-            now.psi + system.phase, system.normal_frequency, now.mode == LIFTED
-        )
+        system, chi = self.system, now.psi + self.system.phase
+        q, lifted = system.normal_frequency, now.mode == LIFTED
+        switching = system.normal_load.time_to_switch(chi, q, lifted)
         segment = self.law.begin(system, now)
         t, zero_of = min(longest, switching, segment.reach), None
         watches = segment.watches(t) if t > 0.0 else ()
@@ -138,7 +131,7 @@ class Resolved:
             now.sticking += t if segment.rests else 0.0
             now.elapsed += t
         now.theta += system.drive_frequency * t
-        now.psi = (now.psi + system.normal_frequency * t) % tau
+        now.psi = (now.psi + q * t) % tau
         now.position += travelled
         now.time += t
         switches = zero_of is None and t == switching

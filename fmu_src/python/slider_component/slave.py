@@ -127,7 +127,6 @@ def _names(kind: str, references: list[int]) -> list[str]:
             raise Refusal(texts.UNKNOWN_REFERENCE, reference=reference, first=0, last=last)
         name, own = VARIABLES[reference].name, VARIABLES[reference].type
         if own != kind:
-            types = {"own": own, "requested": kind}
-            raise Refusal(texts.WRONG_TYPE, name=name, reference=reference, **types)
+            raise Refusal(texts.WRONG_TYPE, name=name, reference=reference, own=own, requested=kind)
         found.append(name)
     return found

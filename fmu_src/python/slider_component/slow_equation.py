@@ -6,15 +6,6 @@ from dataclasses import dataclass
 from math import exp, expm1, floor, inf, isfinite, sqrt
 from typing import NamedTuple
 
-LINEAR = 0.3
-"""Change of V up to which its rate may be linear, over the speed and the root of the tolerance."""
-
-BALANCE_SHARE = 0.1
-"""Share of the tolerance for the error of a step to a balance: no other one corrects it."""
-
-FIRST_STEP = 0.1
-"""First step, as a share of the time in which rates may change V by the speed."""
-
 BEAT_SHARE = 0.125
 """Part of a beat that a step may have: its stages then see all phases of the normal load."""
 
@@ -56,7 +47,7 @@ class SlowEquation:
     def steps(self, velocity: float, here: Rates, duration: float) -> Iterator[Step]:
         """The steps from a V, with the rates `here`, for a duration; they may end before."""
         t, gain, allowed = 0.0, 0.0, self.tolerance * self.speed
-        size = max(self.shortest, FIRST_STEP * self.slow_time)
+        size = max(self.shortest, 0.1 * self.slow_time)
         while t < duration and isfinite(velocity):
             to = None
             with suppress(NoRatesError):
@@ -92,11 +83,11 @@ class SlowEquation:
             raise NoRatesError
         (a, x), decayed, reach = first, exp(gain * h), expm1(gain * h) / gain
         allowed = self.tolerance * self.speed
-        if abs(a * reach) > LINEAR * sqrt(allowed * self.speed):
+        if abs(a * reach) > 0.3 * sqrt(allowed * self.speed):  # V changes too much.
             raise NoRatesError
         end = self.rates(t + h, v + a * reach)
         error = reach * abs(end[0] - decayed * a)
-        if error > BALANCE_SHARE * allowed:
+        if error > 0.1 * allowed:  # No other step corrects it.
             raise NoRatesError
         travel = h * end[1] + (x - end[1]) * (reach - h * decayed) / (1.0 - decayed)
         return Step(h, v + a * reach, travel, error, end)

@@ -58,10 +58,9 @@ def to_bytes(plain: Mapping[str, Any]) -> bytes:
 
 
 def from_bytes(data: bytes) -> dict[str, Any]:
-    """Invert `to_bytes`. Bytes that are not a snapshot become one whose format says so.
+    """Invert `to_bytes`. Other bytes become a snapshot whose format says so: setting it is refused.
 
-    It raises nothing, because there is no instance yet that could report an error. Setting such a
-    snapshot is refused.
+    Nothing is raised here: there is no instance yet that could report an error.
     """
     checksum, _, body = data.partition(b"\n")
     if checksum != hashlib.sha256(body).hexdigest().encode():

@@ -60,6 +60,5 @@ class Budget:
         if self.spent > self.limit:
             work = {"step_size": self.step_size, "max_count": self.limit, "what": self.what}
             if time > self.start:
-                exponent = floor(log10(time - self.start))
-                raise Refusal(texts.TOO_MUCH_WORK, exponent=exponent, **work)
+                raise Refusal(texts.TOO_MUCH_WORK, exponent=floor(log10(time - self.start)), **work)
             raise Refusal(texts.TOO_MUCH_WORK_AT_ONCE, **work)

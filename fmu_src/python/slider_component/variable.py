@@ -41,6 +41,4 @@ class Variable:
             return f"{kind} from {self.minimum:g} to {self.maximum:g}{unit}"
         if self.minimum is not None:
             return f"{kind} of at least {self.minimum:g}{unit}"
-        if self.maximum is not None:
-            return f"{kind} of at most {self.maximum:g}{unit}"
         return kind

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from fmu_src.python.slider_component import lugre, resolved, steady_motion
+from fmu_src.python.slider_component import lugre, prediction, resolved
 from fmu_src.python.slider_component.component import Component, motion_of
 from fmu_src.python.slider_component.device import Device
 from fmu_src.python.slider_component.first_zero import Watch, first_zero
@@ -14,7 +14,7 @@ from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.outputs import OUTPUTS
 from fmu_src.python.slider_component.parameters import Inputs
 from fmu_src.python.slider_component.period_map import PeriodMap
-from fmu_src.python.slider_component.series import Series
+from fmu_src.python.slider_component.segment import Series
 from fmu_src.python.slider_component.snapshot import from_bytes, to_bytes
 from fmu_src.python.slider_component.values import BY_NAME, SETTABLE, Refusal, checked
 from fmu_src.python.slider_component.variables import VARIABLES
@@ -135,7 +135,7 @@ def test_a_long_step_takes_few_maps(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_work_is_bounded_in_a_search(monkeypatch: pytest.MonkeyPatch) -> None:
     # Enough for each map of a search, but not for all. A prediction that was made is kept.
-    monkeypatch.setattr(steady_motion, "MAX_SEGMENTS", 500)
+    monkeypatch.setattr(prediction, "MAX_SEGMENTS", 500)
     assert one(running(normal_amplitude=1.51), "prediction_valid") == 0.0
     monkeypatch.undo()
     assert one(running(normal_amplitude=1.52), "prediction_valid") == 1.0

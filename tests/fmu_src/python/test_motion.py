@@ -7,7 +7,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fmu_src.python.slider_component import mean_friction
-from fmu_src.python.slider_component.closed_form import ClosedForm
 from fmu_src.python.slider_component.contact import (
     BACKWARD,
     FORWARD,
@@ -16,7 +15,7 @@ from fmu_src.python.slider_component.contact import (
     NormalLoad,
     VibratingLoad,
 )
-from fmu_src.python.slider_component.device import Device, System
+from fmu_src.python.slider_component.device import Device, Oscillator, System
 from fmu_src.python.slider_component.mean_friction import (
     MAX_WAVES,
     NODES,
@@ -24,9 +23,8 @@ from fmu_src.python.slider_component.mean_friction import (
     fejer,
 )
 from fmu_src.python.slider_component.moment import Moment
-from fmu_src.python.slider_component.oscillator import Oscillator
 from fmu_src.python.slider_component.parameters import Inputs
-from fmu_src.python.slider_component.series import Series
+from fmu_src.python.slider_component.segment import ClosedForm, Series
 
 W = 40.0
 

@@ -9,18 +9,18 @@ from tests.harness.public_json import assert_public_keys
 
 
 def test_the_list_shows_names_and_diffs(python_fmu: Path) -> None:
-    result = call("mutants", python_fmu, "--list", "--file", "budget.py", "--sample", "3")
+    result = call("mutants", python_fmu, "--list", "--file", "values.py", "--sample", "3")
     assert result.exit_code == 0, result.output
-    assert result.output.count("--- budget.py") == 3
+    assert result.output.count("--- values.py") == 3
     assert "3 variants" in result.output
 
 
 def test_the_list_as_json(python_fmu: Path) -> None:
-    files = ("--file", "budget.py", "--file", "modelDescription.xml")
+    files = ("--file", "values.py", "--file", "modelDescription.xml")
     result = call("mutants", python_fmu, "--list", "--json", *files)
     assert_public_keys("mutants --list", result.output)
     mutants = json.loads(result.output)["mutants"]
-    assert {m["file"] for m in mutants} == {"budget.py", "modelDescription.xml"}
+    assert {m["file"] for m in mutants} == {"values.py", "modelDescription.xml"}
 
 
 @pytest.mark.slow
@@ -40,7 +40,7 @@ def test_rejected_mutants_pass_the_command(python_fmu: Path, tmp_path: Path) -> 
 def test_mutation_runs_that_cannot_start_are_refused(python_fmu: Path, tmp_path: Path) -> None:
     for arguments, reason in (
         ([tmp_path / "no.fmu"], "no such file"),
-        ([python_fmu, "--file", "budgt.py"], "did you mean 'budget.py'"),
+        ([python_fmu, "--file", "valus.py"], "did you mean 'values.py'"),
         ([python_fmu, "--file", "__init__.py"], "nothing to change"),
     ):
         assert reason in refused("mutants", *arguments)
