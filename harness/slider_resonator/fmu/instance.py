@@ -31,13 +31,8 @@ _loading = Lock()
 """Held while fmpy loads a library: in its folder, where the process stays if that fails."""
 
 
-@dataclass(frozen=True)
-class _Plan:
-    """How a set of variables is read and written: Integers one by one, Reals in one call."""
-
-    integers: Mapping[str, int]
-    reals: Sequence[str]
-    block: Block
+_Plan = tuple[Mapping[str, int], Sequence[str], Block]
+"""How variables are read and written: Integers one by one by reference, the Reals in one call."""
 
 
 def load(fmu: Fmu, name: str) -> FMU2Slave | FMU3Slave:
@@ -98,7 +93,7 @@ class Instance:
         self.time = 0.0
         self._used = False
         self._initialised = False
-        self._block = cache(self._new_block)
+        self._block = cache(lambda names: Block(self.slave, [*map(self.fmu.reference, names)]))
         self._settable = cache(partial(self._plan, self.fmu.settable))
         self._readable = cache(partial(self._plan, self.fmu.variable))
         self._inputs = self.block(list(INPUTS))
@@ -110,9 +105,6 @@ class Instance:
     def block(self, names: Sequence[str]) -> Block:
         """Return a block of Real variables of the FMU; FmuError for an unknown name."""
         return self._block(tuple(names))
-
-    def _new_block(self, names: tuple[str, ...]) -> Block:
-        return Block(self.slave, [self.fmu.reference(name) for name in names])
 
     def start(
         self,
@@ -168,14 +160,14 @@ class Instance:
         Integers are set one by one and all Reals in one call, each of which costs a drive period.
         """
         values = self.fmu.settings(values)
-        plan = self._settable(tuple(values))
-        for name, reference in plan.integers.items():
+        integers, reals, block = self._settable(tuple(values))
+        for name, reference in integers.items():
             try:
                 check_integer(name, values[name])
             except ValueError as error:
                 raise FmuError(str(error)) from error
             self.slave.setInteger([reference], [int(values[name])])
-        plan.block.write([values[name] for name in plan.reals])
+        block.write([values[name] for name in reals])
 
     def terminate(self) -> None:
         """End a run."""
@@ -225,9 +217,9 @@ class Instance:
 
     def read(self, names: Sequence[str]) -> dict[str, float]:
         """Return the current values of variables; FmuError for an unknown name."""
-        plan = self._readable(tuple(names))
-        found = dict(zip(plan.reals, plan.block.read(), strict=True))
-        for name, reference in plan.integers.items():
+        integers, reals, block = self._readable(tuple(names))
+        found = dict(zip(reals, block.read(), strict=True))
+        for name, reference in integers.items():
             found[name] = float(self.slave.getInteger([reference])[0])
         return found
 
@@ -251,7 +243,7 @@ class Instance:
         found = {name: find(name) for name in names}
         integers = {n: v.valueReference for n, v in found.items() if v.type == "Integer"}
         reals = [name for name in names if name not in integers]
-        return _Plan(integers, reals, self.block(reals))
+        return integers, reals, self.block(reals)
 
     @contextmanager
     def explained(self) -> Iterator[None]:
@@ -283,7 +275,10 @@ def instantiate(fmu: Fmu) -> Iterator[Instance]:
 
 @dataclass(frozen=True)
 class SavedState:
-    """A state of an instance at a time (s); must be freed with `free` before the instance is."""
+    """A state of an instance at a time (s).
+
+    It must be freed before the instance is: with `free`, or by the end of a `with` block.
+    """
 
     instance: Instance
     time: float
@@ -313,6 +308,14 @@ class SavedState:
         finally:
             other.slave.freeFMUstate(handle)
         other.resumed(self.time)
+
+    def __enter__(self) -> "SavedState":
+        """Return this."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Free the state."""
+        self.free()
 
     def free(self) -> None:
         """Free the memory of the state."""

@@ -132,18 +132,18 @@ class Running:
         return len(self._times) - 1
 
     @property
-    def stop_time(self) -> float:
-        """Time (s) of the end as the FMU gets it."""
-        return float(self._schedule.start_time + self._times[-1])
+    def span(self) -> dict[str, float]:
+        """Start and end (s) of the run as the FMU gets them, arguments of `Instance.start`."""
+        start = self._schedule.start_time
+        return {"stop_time": float(start + self._times[-1]), "start_time": start}
 
     def start(self, parameters: Mapping[str, float]) -> None:
         """Start the instance with parameters and `first`.
 
         Raises as `Instance.start` and `Instance.check_steps` do.
         """
-        values, start = {**parameters, **self.first}, self._schedule.start_time
-        self.instance.start(values, self.stop_time, start_time=start)
-        self.instance.check_steps(start + self._schedule.times[1:])
+        self.instance.start({**parameters, **self.first}, **self.span)
+        self.instance.check_steps(self._schedule.start_time + self._schedule.times[1:])
 
     def read(self) -> None:
         """Read the outputs into a new row."""
@@ -183,7 +183,11 @@ class Running:
             self.instance.step_to(target)
         self.read()
 
-    def finish(self, step: int = 0) -> None:
-        """Advance from a step on to the end."""
-        for index in range(step, self.steps):
-            self.advance(index)
+    def finish(
+        self, begin: int = 0, end: int | None = None, before: Callable[[int], object] | None = None
+    ) -> None:
+        """Advance from a step on to another or to the end, with a call before each step."""
+        for step in range(begin, self.steps if end is None else end):
+            if before is not None:
+                before(step)
+            self.advance(step)

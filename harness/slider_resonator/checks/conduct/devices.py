@@ -7,6 +7,7 @@ from math import isfinite, sqrt
 
 from fmpy.fmi1 import FMICallException
 
+from slider_resonator.checks.conduct.findings import outputs_after
 from slider_resonator.checks.conduct.refusals import Trial
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
@@ -64,9 +65,7 @@ def device_faults(fmu: FmuSide) -> list[str]:
 
 def _start(instance: Instance, device: Values) -> None:
     """Start a run and step."""
-    instance.set_up()
-    instance.set(device)
-    instance.call("fmi2EnterInitializationMode")
+    instance.initialise(device)
     instance.begin()
     instance.step_by(STEP)
 
@@ -108,13 +107,11 @@ def _in_a_run(instance: Instance, what: str, device: Values, cause: Values) -> l
     trial = Trial(instance, [], instance.fmu.outputs)
     with instance.explained():
         _start(instance, {**device, **good})
-        instance.step_by(STEP)
-        expected = instance.outputs()
+        expected = outputs_after(instance, STEP)
         _start(instance, {**device, **good})
     trial.refuses(f"{what} in a run", partial(instance.set, cause), (*device, *cause))
     if not trial.faults:
         with instance.explained():
-            instance.step_by(STEP)
-            if instance.outputs() != expected:
+            if outputs_after(instance, STEP) != expected:
                 trial.faults.append(f"a run goes on differently after {what} is refused in it")
     return trial.faults

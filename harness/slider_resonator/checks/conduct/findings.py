@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from typing import TypeVar
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
@@ -17,6 +18,7 @@ SMOOTH = (
     *("normal_force", "friction_force", "reversals", "last_event_time"),
 )
 """Outputs that show whether a call moves anything; predictions would cost too much."""
+Answer = TypeVar("Answer")
 UNKNOWN = 0x7FFFFFFF
 """The value reference of no variable."""
 
@@ -54,6 +56,13 @@ def other_value(name: str, value: float) -> float:
     return value + SHARE * (abs(value) or variable.nominal or 1.0)
 
 
+def outputs_after(instance: Instance, size: float, count: int = 1) -> dict[str, float]:
+    """Return all outputs after some steps of a size (s)."""
+    for _ in range(count):
+        instance.step_by(size)
+    return instance.outputs()
+
+
 def unequal(instance: Instance, values: Mapping[str, float], when: str) -> Iterator[str]:
     """Yield which variables do not have these values."""
     for name, found in instance.read(list(values)).items():
@@ -73,10 +82,14 @@ def adding_refusal(instance: Instance, faults: list[str]) -> Iterator[None]:
         faults.append(f"and then {error}")
 
 
-def is_refused(attempt: Callable[[], object]) -> bool:
+def is_refused(call: Callable[..., object], *arguments: object) -> bool:
     """Make a call of FMI; return whether it fails."""
+    return answer_of(lambda: (call(*arguments),)) is None
+
+
+def answer_of(call: Callable[..., Answer], *arguments: object) -> Answer | None:
+    """Make a call of FMI; return what it answers, None where it fails."""
     try:
-        attempt()
+        return call(*arguments)
     except FMICallException:
-        return True
-    return False
+        return None

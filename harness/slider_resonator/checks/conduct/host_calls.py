@@ -1,18 +1,19 @@
 """Answers of an FMU that belong to no run: what it is, whom it serves, and what it logs."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import suppress
 from ctypes import byref, c_char_p, c_double, c_int, c_uint
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import (
     FMU2Slave,
+    fmi2CallbackFunctions,
     fmi2CallbackLoggerTYPE,
     fmi2CoSimulation,
+    fmi2DoStepStatus,
     fmi2ModelExchange,
     fmi2OK,
     fmi2PendingStatus,
@@ -20,7 +21,7 @@ from fmpy.fmi2 import (
 )
 
 from slider_resonator.checks.conduct.event_mode import event_mode_faults
-from slider_resonator.checks.conduct.findings import is_refused
+from slider_resonator.checks.conduct.findings import answer_of, is_refused
 from slider_resonator.checks.conduct.process import (
     crowd_faults,
     instance_leaks,
@@ -31,18 +32,17 @@ from slider_resonator.checks.conduct.refusals import explains
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import NotApplicable
 from slider_resonator.fmu import fmu_log
-from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.instance import Instance
 
 ANSWERS = {"fmi2GetVersion": "2.0", "fmi2GetTypesPlatform": "default"}
 """Functions without an instance, and what FMI 2.0 demands of them."""
 
-BESIDE = b"an instance beside another one"
+BESIDE = "an instance beside another one"
 """The name of another instance."""
 
-STATUSES = [f"logStatus{name}".encode() for name in ("OK", "Warning", "Discard", "Error", "Fatal")]
+STATUSES = [f"logStatus{name}" for name in ("OK", "Warning", "Discard", "Error", "Fatal")]
 """Log categories, each for messages of a status."""
-WARNINGS, EVERYTHING = b"logStatusWarning", b"logAll"
+WARNINGS, EVERYTHING = "logStatusWarning", "logAll"
 """Log categories: one to which no refusal belongs, and that of all messages."""
 
 CATEGORY, FORMAT = "logs of ", "%d"
@@ -65,13 +65,13 @@ def host_faults(fmu: FmuSide) -> list[str]:
     An FMU that runs in Python is not tried with bad instances: pythonfmu checks none of them.
     """
     instance = fmu.instance
-    slave = instance.slave
-    if isinstance(slave, Fmi3Slave):
+    slave, is_native = instance.slave, instance.fmu.runs_without_python
+    if not isinstance(slave, FMU2Slave):
         if not instance.fmu.offers.hasEventMode:
             raise NotApplicable("needs FMI 2.0, whose calls are tried, or hasEventMode = true")
         return [*event_mode_faults(instance), *process_faults(instance), *step_leaks(instance)]
     faults = [*_version_faults(slave)]
-    if instance.fmu.runs_without_python:
+    if is_native:
         faults += _instance_faults(instance, slave)
     with instance.explained():
         instance.start({})
@@ -80,28 +80,23 @@ def host_faults(fmu: FmuSide) -> list[str]:
         faults += _switching_faults(instance)
     except FMICallException as error:  # no FMU may refuse to switch logging off or on
         faults.append(str(error))
-    if instance.fmu.runs_without_python:
+    if is_native:
         faults += _other_host_faults(instance, slave)
     faults += _many_values_faults(instance)
-    if is_refused(partial(instance.call, "fmi2GetReal", None, 0, None)):
+    if is_refused(instance.call, "fmi2GetReal", None, 0, None):
         faults.append("a call for no values at all is refused")
     faults += _offer_faults(instance, slave)
     with instance.explained():
         instance.terminate()
-    if instance.fmu.runs_without_python:
+    if is_native:
         slave.dll.fmi2FreeInstance(None)  # which is no error, and must not crash
-        faults += crowd_faults(instance)
-        faults += process_faults(instance)
-    faults += step_leaks(instance)
-    faults += instance_leaks(instance)
-    return faults
+        faults += [*crowd_faults(instance), *process_faults(instance)]
+    return [*faults, *step_leaks(instance), *instance_leaks(instance)]
 
 
 def _version_faults(slave: FMU2Slave) -> Iterator[str]:
     for name, needed in ANSWERS.items():
-        function = getattr(slave.dll, name)
-        function.restype = c_char_p
-        found = (function() or b"").decode("utf-8", "replace")
+        found = (getattr(slave, name)() or b"").decode("utf-8", "replace")
         if found != needed:
             yield f"{name} returns {found!r}, must be {needed!r}"
 
@@ -114,17 +109,10 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     """
     folder, guid = _resources(instance), instance.fmu.description.guid
 
-    def made(
-        name: str = "other",
-        kind: int = fmi2CoSimulation,
-        token: str = guid,
-        location: str = folder,
-        visible: bool = False,
-    ) -> tuple[bool, list[str]]:
+    def made(name: str = "other", **arguments: Any) -> tuple[bool, list[str]]:
         """Make an instance and free it; return whether there was one, and the log."""
         messages, callbacks = fmu_log.collect(name)
-        arguments = name.encode(), kind, token.encode(), location.encode(), byref(callbacks)
-        component = slave.dll.fmi2Instantiate(*arguments, visible, True)
+        component = _instantiated(instance, callbacks, name, **arguments)
         if component:
             slave.dll.fmi2DoStep(component, 0.0, -1.0, True)  # which is refused with a message
             slave.dll.fmi2SetupExperiment(component, False, 0.0, 0.0, False, 0.0)
@@ -164,6 +152,24 @@ def _resources(instance: Instance) -> str:
     return Path(instance.fmu.folder, "resources").as_uri()
 
 
+def _instantiated(
+    instance: Instance,
+    callbacks: fmi2CallbackFunctions,
+    name: str,
+    *,
+    kind: int = fmi2CoSimulation,
+    token: str = "",
+    location: str = "",
+    visible: bool = False,
+    logs: bool = True,
+) -> Any:
+    """Make another instance, with the GUID and the resources of the FMU where none are given."""
+    texts = token or instance.fmu.description.guid, location or _resources(instance)
+    token_, location_ = (text.encode() for text in texts)
+    arguments = name.encode(), kind, token_, location_, byref(callbacks), visible, logs
+    return instance.slave.dll.fmi2Instantiate(*arguments)
+
+
 def _switching_faults(instance: Instance) -> Iterator[str]:
     """Step with logging off; make a call that is refused with it on, and on for other messages."""
     instance.call("fmi2SetDebugLogging", False, 0, None)
@@ -171,38 +177,36 @@ def _switching_faults(instance: Instance) -> Iterator[str]:
     instance.step_by(STEP)
     if instance.messages:
         yield "a step is logged after logging is switched off"
-    warnings = (c_char_p * 1)(WARNINGS)
-    if _has_category(instance, WARNINGS) and _refusal_is_logged(instance, True, 1, warnings):
+    if _has_category(instance, WARNINGS) and _refusal_is_logged(instance, WARNINGS):
         yield "a refusal is logged though only warnings were asked for"
-    everything = (c_char_p * 1)(EVERYTHING)
     # pythonfmu logs a refusal without a category.
     categorised = _has_category(instance, EVERYTHING) and instance.fmu.runs_without_python
-    if categorised and not _refusal_is_logged(instance, True, 1, everything):
+    if categorised and not _refusal_is_logged(instance, EVERYTHING):
         yield "a refusal is not logged though all messages were asked for"
-    if not _refusal_is_logged(instance, True):
+    if not _refusal_is_logged(instance):
         yield "a refusal is not logged after logging is switched on"
     # A category whose name looks like a format, which a logger must get as a text.
     del instance.messages[:]
-    with suppress(FMICallException):
-        name = (c_char_p * 1)((CATEGORY + FORMAT).encode())
-        instance.call("fmi2SetDebugLogging", True, 1, name)
+    is_refused(instance.slave.setDebugLogging, True, [CATEGORY + FORMAT])
     for message in instance.messages:
         if CATEGORY in message and CATEGORY + FORMAT not in message:
             yield f"a message takes {FORMAT} for a format: {message}"
 
 
-def _refusal_is_logged(instance: Instance, on: bool, *categories: object) -> bool:
-    """Switch logging for some categories, all without any, and make a call that is refused."""
-    instance.call("fmi2SetDebugLogging", on, *(categories or (0, None)))
+def _refusal_is_logged(instance: Instance, *categories: str) -> bool:
+    """Switch logging on for some categories, all without any, and make a call that is refused."""
+    if categories:
+        instance.slave.setDebugLogging(True, categories)
+    else:
+        instance.call("fmi2SetDebugLogging", True, 0, None)
     del instance.messages[:]
-    with suppress(FMICallException):
-        instance.set({"load": math.nan})
+    is_refused(instance.set, {"load": math.nan})
     return bool(instance.messages)
 
 
-def _has_category(instance: Instance, category: bytes) -> bool:
-    description = Path(instance.fmu.folder, "modelDescription.xml").read_bytes()
-    return b'<Category name="%s"' % category in description
+def _has_category(instance: Instance, category: str) -> bool:
+    description = Path(instance.fmu.folder, "modelDescription.xml").read_text(encoding="utf-8")
+    return f'<Category name="{category}"' in description
 
 
 def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
@@ -216,25 +220,20 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
         environment: int | None, name: bytes, status: int, category: bytes, *_: object
     ) -> None:
         environments.append(environment)
-        if name != BESIDE:
+        called = (category or b"").decode("utf-8", "replace")
+        if name != BESIDE.encode():
             wrong.append("with the name of another instance")
         if status <= fmi2Warning:
             wrong.append("as a success")
-        if (category or b"") in STATUSES and STATUSES.index(category) != status:
+        if called in STATUSES and STATUSES.index(called) != status:
             wrong.append("in the category of another status")
-        if _has_category(instance, EVERYTHING) and not _has_category(instance, category or b""):
+        if _has_category(instance, EVERYTHING) and not _has_category(instance, called):
             wrong.append("in a category that is not declared")
 
-    messages, callbacks = fmu_log.collect(BESIDE.decode())
+    messages, callbacks = fmu_log.collect(BESIDE)
     callbacks.logger = fmi2CallbackLoggerTYPE(listen)
     callbacks.componentEnvironment = OTHER_HOST
-    folder, guid = _resources(instance), instance.fmu.description.guid
-    make = partial(
-        slave.dll.fmi2Instantiate,
-        *(BESIDE, fmi2CoSimulation, guid.encode(), folder.encode(), byref(callbacks)),
-        *(False, False),
-    )
-    made, again = make(), make()
+    made, again = (_instantiated(instance, callbacks, BESIDE, logs=False) for _ in range(2))
     if not (made and again):
         yield "an instance beside another, or a further one of the same name, is not made"
         return
@@ -248,7 +247,7 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
         yield "good calls are logged without debug logging"
     slave.dll.fmi2DoStep(made, STEP, -1.0, True)
     slave.dll.fmi2FreeInstance(made)
-    fmu_log.forget(BESIDE.decode())
+    fmu_log.forget(BESIDE)
     if messages or instance.messages or set(environments) - {OTHER_HOST}:
         yield "an instance beside another reports to the host of that one"
     yield from (f"a refusal is logged {how}" for how in dict.fromkeys(wrong))
@@ -272,48 +271,36 @@ def _many_values_faults(instance: Instance) -> Iterator[str]:
 def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     """Ask for what is offered and for what is lacking, and about a step that was refused."""
     yield from derivative_offer_faults(instance)
-    status = c_int(-1)
-    text, number = c_char_p(), c_int()
-    pending = slave.dll.fmi2GetStringStatus(slave.component, fmi2PendingStatus, byref(text))
-    if fmi2OK in (pending, slave.dll.fmi2GetIntegerStatus(slave.component, 0, byref(number))):
+    pending = is_refused(instance.call, "fmi2GetStringStatus", fmi2PendingStatus, byref(c_char_p()))
+    number = is_refused(instance.call, "fmi2GetIntegerStatus", fmi2DoStepStatus, byref(c_int()))
+    if not (pending and number):
         yield "a status is given of a step that is not pending"
-    with suppress(FMICallException):
-        instance.call("fmi2DoStep", instance.time, -1.0, True)
-    if slave.dll.fmi2GetStatus(slave.component, 0, byref(status)) == fmi2OK and status.value == 0:
+    is_refused(instance.call, "fmi2DoStep", instance.time, -1.0, True)
+    if answer_of(slave.getStatus, fmi2DoStepStatus) == fmi2OK:
         yield "fmi2GetStatus calls a refused step a success"
-    if not is_refused(partial(instance.call, "fmi2CancelStep")):
+    if not is_refused(slave.cancelStep):
         yield "fmi2CancelStep is accepted though no step is pending"
 
 
 def derivative_offer_faults(instance: Instance) -> Iterator[str]:
     """Ask for each kind of derivative that the description offers, and for those it does not."""
-    offers = instance.fmu.offers
+    offers, slave = instance.fmu.offers, instance.slave
     position, velocity, load = map(instance.fmu.reference, ("position", "velocity", "load"))
-
-    def derivatives(references: Sequence[int], order: int) -> list[float]:
-        count = len(references)
-        orders, values = (c_int * count)(*[order] * count), (c_double * count)()
-        asked = (c_uint * count)(*references)
-        instance.call("fmi2GetRealOutputDerivatives", asked, count, orders, values)
-        return list(values)
-
-    order = offers.maxOutputDerivativeOrder or 0
-    if order > 0 and is_refused(partial(derivatives, [position], order)):
+    derivatives, order = slave.getRealOutputDerivatives, offers.maxOutputDerivativeOrder or 0
+    if order > 0 and is_refused(derivatives, [position], [order]):
         yield f"maxOutputDerivativeOrder is {order}, but position has no such derivative"
     for what, reference, wrong in (
         (f"order {order + 1}", position, order + 1),
         ("order 0", position, 0),
         ("an input", load, 1),
     ):
-        if not is_refused(partial(derivatives, [reference], wrong)):
+        if not is_refused(derivatives, [reference], [wrong]):
             yield f"an output derivative of {what} is given"
     if order > 0:
-        both = derivatives([position, velocity], 1)
-        if both != [*derivatives([position], 1), *derivatives([velocity], 1)]:
+        both = derivatives([position, velocity], [1, 1])
+        if both != [*derivatives([position], [1]), *derivatives([velocity], [1])]:
             yield "derivatives of outputs are others together than one by one"
-    known, unknown = byref(c_uint(load)), byref(c_uint(position))
-    arguments = (unknown, 1, known, 1, byref(c_double(1.0)), byref(c_double()))
-    refused = is_refused(partial(instance.call, "fmi2GetDirectionalDerivative", *arguments))
+    refused = is_refused(slave.getDirectionalDerivative, [position], [load], [1.0])
     if refused and offers.providesDirectionalDerivative:
         yield "providesDirectionalDerivative is true, but that of position by load is refused"
     if not (refused or offers.providesDirectionalDerivative):

@@ -1,9 +1,11 @@
 """The same ramps set in other ways, each of which must give the same outputs to the last bit."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
+from slider_resonator.checks.conduct.findings import outputs_after
 from slider_resonator.checks.conduct.replays import Replay, Rows
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INPUTS, TUNABLES
@@ -54,11 +56,7 @@ def _rows(plain: Replay, set_inputs: Callable[[Instance, Schedule, int], None]) 
 def _begun(fmu: FmuSide) -> list[str]:
     """Set derivatives before a reset, where they must end, and before initialization ends."""
     instance, parameters = fmu.instance, fmu.scene.parameters
-
-    def after_a_step() -> Mapping[str, float]:
-        instance.step_by(AWAY)
-        return instance.outputs()
-
+    after_a_step = partial(outputs_after, instance, AWAY)
     faults: list[str] = []
     with instance.explained():
         instance.start(parameters)
@@ -103,12 +101,11 @@ def _through_a_state(instance: Instance) -> None:
     offers = instance.fmu.offers
     if not (offers.canGetAndSetFMUstate and offers.canSerializeFMUstate):
         return
-    state = SavedState.of(instance)
-    instance.step_by(AWAY)
-    instance.set_inputs([0.1, 0.2, 1.3])
-    instance.set_input_rates(RATES)
-    state.transfer(instance)
-    state.free()
+    with SavedState.of(instance) as state:
+        instance.step_by(AWAY)
+        instance.set_inputs([0.1, 0.2, 1.3])
+        instance.set_input_rates(RATES)
+        state.transfer(instance)
 
 
 def _without_zeros(instance: Instance, schedule: Schedule, step: int) -> None:

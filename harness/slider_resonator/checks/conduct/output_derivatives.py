@@ -1,20 +1,17 @@
 """First derivatives of outputs, where an FMU offers them, against two short steps."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from ctypes import byref, c_double, c_int
 from math import tau
 
 from fmpy.fmi2 import (
     FMU2Slave,
     fmi2DoStepStatus,
     fmi2LastSuccessfulTime,
-    fmi2OK,
     fmi2Terminated,
-    fmi2ValueReference,
     fmi2Warning,
 )
 
-from slider_resonator.fmu.fmi3_slave import Fmi3Slave
+from slider_resonator.checks.conduct.findings import answer_of
 from slider_resonator.fmu.instance import Instance, SavedState
 
 OUTPUTS = (
@@ -51,9 +48,8 @@ def derivative_faults(
     Nothing is compared over an event. `frequency` is that of the drive, rad/s, `peaks` are those of
     the outputs in a run.
     """
-    slave = instance.slave
     offered = instance.fmu.offers.maxOutputDerivativeOrder or 0
-    if isinstance(slave, Fmi3Slave) or offered < 1:
+    if not isinstance(instance.slave, FMU2Slave) or offered < 1:
         return []
     step = SHORT * tau / frequency
     order = "averaging_order"
@@ -61,9 +57,7 @@ def derivative_faults(
     averaged = first_order and instance.value("fidelity") == 0.0
     outputs = (*OUTPUTS, SLOW) if averaged else OUTPUTS
     held = [name for name in HELD if name not in outputs]
-    reported = {
-        name: _derivative(slave, instance.fmu.reference(name)) for name in (*outputs, *held)
-    }
+    reported = {name: _derivative(instance, name) for name in (*outputs, *held)}
     rows = [instance.read((*outputs, *HELD))]
     for _ in range(2):
         instance.step_by(step)
@@ -94,16 +88,14 @@ def read_derivatives(instance: Instance) -> None:
     """Read the derivatives of outputs, where there are any."""
     if isinstance(instance.slave, FMU2Slave):
         for name in OUTPUTS:
-            _derivative(instance.slave, instance.fmu.reference(name))
+            _derivative(instance, name)
 
 
-def _derivative(slave: FMU2Slave, reference: int) -> float | None:
+def _derivative(instance: Instance, name: str) -> float | None:
     """Return the first derivative of an output, None where the FMU has none."""
-    value, order = c_double(), c_int(1)
-    status = slave.dll.fmi2GetRealOutputDerivatives(
-        slave.component, byref(fmi2ValueReference(reference)), 1, byref(order), byref(value)
-    )
-    return value.value if status == fmi2OK else None
+    reference = instance.fmu.reference(name)
+    found = answer_of(instance.slave.getRealOutputDerivatives, [reference], [1])
+    return float(found[0]) if found else None
 
 
 RESOLUTION = 1e-9
@@ -115,22 +107,18 @@ def status_faults(instance: Instance, *, refused: bool = False) -> Iterator[str]
 
     An FMU need not answer them, and FMI 3.0 does not have them.
     """
-    after = "a refused" if refused else "a good"
-    slave = instance.slave
-    if isinstance(slave, Fmi3Slave):
+    after, slave = "a refused" if refused else "a good", instance.slave
+    if not isinstance(slave, FMU2Slave):
         return
-    dll, component = slave.dll, slave.component
-    reached, ended, status = c_double(), c_int(), c_int()
-    if dll.fmi2GetRealStatus(component, fmi2LastSuccessfulTime, byref(reached)) == fmi2OK:
-        apart = abs(reached.value - instance.time)
-        if not apart <= RESOLUTION * max(1.0, abs(instance.time)):
-            yield (
-                f"the last successful time is {reached.value!r} s after {after} step, must be "
-                f"{instance.time!r} s"
-            )
-    asked = dll.fmi2GetBooleanStatus(component, fmi2Terminated, byref(ended))
-    if asked == fmi2OK and ended.value:
+    reached = answer_of(slave.getRealStatus, fmi2LastSuccessfulTime)
+    allowed = RESOLUTION * max(1.0, abs(instance.time))
+    if reached is not None and not abs(reached - instance.time) <= allowed:
+        yield (
+            f"the last successful time is {reached!r} s after {after} step, must be "
+            f"{instance.time!r} s"
+        )
+    if answer_of(slave.getBooleanStatus, fmi2Terminated):
         yield f"the FMU wants to end the run after {after} step"
-    answered = dll.fmi2GetStatus(component, fmi2DoStepStatus, byref(status)) == fmi2OK
-    if answered and not refused and status.value > fmi2Warning:
-        yield f"fmi2GetStatus gives {status.value} after a good step"
+    status = answer_of(slave.getStatus, fmi2DoStepStatus)
+    if status is not None and not refused and status > fmi2Warning:
+        yield f"fmi2GetStatus gives {status} after a good step"

@@ -4,7 +4,6 @@ import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
-from ctypes import c_double, c_int, c_uint
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -63,7 +62,8 @@ EXPERIMENTS: Mapping[str, tuple[object, ...]] = {
 }
 """Experiments, as arguments of fmi2SetupExperiment, that must be refused."""
 
-STEP_SIZES = (0.0, -0.0, -1e-3, math.nan, math.inf, -math.inf)
+NOT_FINITE = (math.nan, math.inf, -math.inf)
+STEP_SIZES = (0.0, -0.0, -1e-3, *NOT_FINITE)
 OTHER_TIME = 5.0
 """The start time (s) of an experiment before."""
 LARGE = 1e7
@@ -163,10 +163,9 @@ class Trial:
         *others, last = variables
         good = {v: other_value(v.name, v.start or 0.0) for v in others}
         bad = bad_values(last)[0]
-        what = f"{last.name} = {bad!r} after {len(others)} good values {when}"
-        self.refuses(what, partial(self._set, {**good, last: bad}), [last.name])
-        what = f"{last.name} = {bad!r} before {len(others)} good values {when}"
-        self.refuses(what, partial(self._set, {last: bad, **good}), [last.name])
+        for where, both in (("after", {**good, last: bad}), ("before", {last: bad, **good})):
+            what = f"{last.name} = {bad!r} {where} {len(others)} good values {when}"
+            self.refuses(what, partial(self._set, both), [last.name])
         references = [self.instance.fmu.reference(v.name) for v in others]
         wrongs = {"an unknown variable": UNKNOWN}
         if last.kind == "Real":
@@ -195,27 +194,27 @@ class Trial:
 
     def refuses_derivatives(self, variables: Sequence[Variable]) -> None:
         """Set derivatives that are not finite, of another order or of what is no input."""
+        derive = self.instance.slave.setRealInputDerivatives
         for variable in variables:
             if variable.kind != "Real":
                 continue
             name, reference = variable.name, self.instance.fmu.reference(variable.name)
             if variable.causality != "input":
-                derive = partial(self._derive, (reference, 1, 0.1))
-                self.refuses(f"a derivative of {name}", derive, [name])
+                one = partial(derive, [reference], [1], [0.1])
+                self.refuses(f"a derivative of {name}", one, [name])
                 continue
-            for bad in (math.nan, math.inf, -math.inf):
-                derive = partial(self._derive, (reference, 1, bad))
-                self.refuses(f"a derivative of {name} = {bad!r}", derive, [name], [bad])
-            for order in DERIVATIVE_ORDERS:
-                derive = partial(self._derive, (reference, order, 0.1))
-                self.refuses(f"a derivative of {name} of order {order}", derive, [name], [order])
+            wrong = [(f"= {bad!r}", 1, bad, bad) for bad in NOT_FINITE]
+            wrong += [(f"of order {order}", order, 0.1, order) for order in DERIVATIVE_ORDERS]
+            for what, order, value, told in wrong:
+                one = partial(derive, [reference], [order], [value])
+                self.refuses(f"a derivative of {name} {what}", one, [name], [told])
         load, phase = (self.instance.fmu.reference(name) for name in ("load", "phase"))
-        for what, second in (
-            ("phase = nan", (phase, 1, math.nan)),
-            ("phase of order 2", (phase, 2, 0.1)),
-            ("an unknown variable", (UNKNOWN, 1, 0.1)),
+        for what, second, order, value in (
+            ("phase = nan", phase, 1, math.nan),
+            ("phase of order 2", phase, 2, 0.1),
+            ("an unknown variable", UNKNOWN, 1, 0.1),
         ):
-            both = partial(self._derive, (load, 1, 7.0), second)
+            both = partial(derive, [load, second], [1, order], [7.0, value])
             self.refuses(f"a derivative of {what} after one of load", both)
 
     def refuses_types(self, present: Sequence[Variable]) -> None:
@@ -261,14 +260,16 @@ class Trial:
                 if kept:
                     self._set({variable: kept[variable.name]})
 
-    def _derive(self, *derivatives: tuple[int, int, float]) -> None:
-        """Set derivatives of inputs, each of a reference, an order and a value, in one call."""
-        count, (references, orders, values) = len(derivatives), zip(*derivatives, strict=True)
-        self.instance.call(
-            "fmi2SetRealInputDerivatives",
-            *((c_uint * count)(*references), count),
-            *((c_int * count)(*orders), (c_double * count)(*values)),
-        )
+    def refuses_step(self, what: str, time: float, size: float, names: Sequence[str] = ()) -> None:
+        """Make a step from a time (s); the log must have one of the `names`, and the size then."""
+        step = partial(self.instance.call, "fmi2DoStep", time, size, True)
+        self.refuses(what, step, names, [size] if names else ())
+
+    def refuses_jumps(self) -> None:
+        """Make steps that begin at another time than the present one."""
+        for jump in JUMPS:
+            what = f"a step {jump!r} s away from the present time"
+            self.refuses_step(what, self.instance.time + jump, STEP)
 
     def _set(self, values: Mapping[Variable, float]) -> None:
         """Set variables of one type in one call."""
@@ -302,9 +303,9 @@ def bad_values(variable: Variable) -> list[float]:
         assert low is not None
         assert high is not None
         return [low - 1.0, high + 1.0]
-    beyond = [math.nan, math.inf, -math.inf]
-    beyond += [] if low is None else [math.nextafter(low, -math.inf), low - 1.0]
-    return beyond + ([] if high is None else [math.nextafter(high, math.inf), high + 1.0])
+    below = [] if low is None else [math.nextafter(low, -math.inf), low - 1.0]
+    above = [] if high is None else [math.nextafter(high, math.inf), high + 1.0]
+    return [*NOT_FINITE, *below, *above]
 
 
 def refusal_faults(fmu: FmuSide) -> list[str]:
@@ -316,22 +317,21 @@ def refusal_faults(fmu: FmuSide) -> list[str]:
     settable = [v for v in present if v.causality != "output"]
     with adding_refusal(instance, trial.faults):
         _before_the_run(trial, settable)
-        start = {**plain.parameters, **running.first}
-        instance.initialise(start, running.stop_time, start_time=plain.schedule.start_time)
+        instance.initialise({**plain.parameters, **running.first}, **running.span)
         trial.reads = True
         trial.outputs = [name for name in SMOOTH if name in instance.fmu.variables]
         trial.refuses_values("in initialisation mode", settable)
         trial.refuses_calls("in initialisation mode")
         instance.begin()
         running.read()
-        _refuse_jumps(trial)
+        trial.refuses_jumps()
         for step in range(running.steps):
             tried = step in (1, running.steps // 2 + 1)
             # After derivatives of inputs are set, which a refused call must not drop.
             trying = partial(_in_the_run, trial, present, restores=step > 1)
             running.advance(step, trying if tried else None)
-        beyond = STEP + 1e-3 * abs(running.stop_time)
-        trial.refuses("a step beyond the stop", partial(_step, instance, instance.time, beyond))
+        beyond = STEP + 1e-3 * abs(running.span["stop_time"])
+        trial.refuses_step("a step beyond the stop", instance.time, beyond)
         instance.terminate()
         trial.refuses_calls("after a run")
         trial.faults += plain.differences("a run with refused calls", running.rows)
@@ -343,7 +343,7 @@ def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
     instance.set_up(start_time=OTHER_TIME)
     instance.call("fmi2Reset")
     instance.time = 0.0
-    trial.reads = not is_refused(partial(instance.value, "load"))
+    trial.reads = not is_refused(instance.value, "load")
     for what, arguments in EXPERIMENTS.items():
         trial.refuses(what, partial(_set_up_experiment, instance, arguments))
     with suppress(FMICallException):  # an FMU may ask for another experiment first
@@ -380,32 +380,16 @@ def _in_the_run(trial: Trial, present: list[Variable], *, restores: bool) -> Non
         trial.refuses_derivatives(present)
     restores = restores and bool(instance.fmu.offers.canGetAndSetFMUstate)
     state = SavedState.of(instance) if restores else None
-    explained = explains(instance)
+    names = ["communicationStepSize"] if explains(instance) else []
     for size in STEP_SIZES:
-        told = (["communicationStepSize"], [size]) if explained else ()
-        trial.refuses(f"a step of {size!r} s", partial(_step, instance, instance.time, size), *told)
+        trial.refuses_step(f"a step of {size!r} s", instance.time, size, names)
     beyond = BEYOND * (instance.time + STEP)
-    trial.refuses("a step far beyond the stop", partial(_step, instance, instance.time, beyond))
-    _refuse_jumps(trial)
+    trial.refuses_step("a step far beyond the stop", instance.time, beyond)
+    trial.refuses_jumps()
     trial.faults += status_faults(instance, refused=True)
     trial.accepts_bounds("in a run", anytime)
     if state is not None:
         state.restore()
         state.free()
-        trial.refuses(
-            "a step far beyond the stop after a state is restored",
-            partial(_step, instance, instance.time, beyond),
-        )
-
-
-def _refuse_jumps(trial: Trial) -> None:
-    instance = trial.instance
-    for jump in JUMPS:
-        trial.refuses(
-            f"a step {jump!r} s away from the present time",
-            partial(_step, instance, instance.time + jump, STEP),
-        )
-
-
-def _step(instance: Instance, time: float, size: float) -> None:
-    instance.call("fmi2DoStep", time, size, True)
+        what = "a step far beyond the stop after a state is restored"
+        trial.refuses_step(what, instance.time, beyond)

@@ -1,7 +1,7 @@
 """The same run in other ways, each of which must give the same outputs to the last bit."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import replace
 
 import numpy as np
@@ -84,8 +84,7 @@ def reset_differences(fmu: FmuSide) -> list[str]:
     found = first.differences("after a reset", first.again())
     with fmu.instance.explained():
         running = first.started()
-        for step in range(running.steps // 2):
-            running.advance(step)
+        running.finish(end=running.steps // 2)
         fmu.instance.terminate()
     return found + first.differences("after a run that was terminated and reset", first.again())
 
@@ -97,43 +96,39 @@ def restored_differences(fmu: FmuSide) -> list[str]:
     start of averages of first order, whose fast part sets in with the first step.
     """
     fmu.instance.fmu.require("canGetAndSetFMUstate")
-    plain = Replay.of(fmu)
-    instance = fmu.instance
-    found: list[str] = []
+    plain, instance, device = Replay.of(fmu), fmu.instance, fmu.scene.device
     wrong: list[str] = []
-    device = fmu.scene.device
     begins_resolved = device.fidelity > 0 or device.averaging_order == 2
     largest = np.abs(np.array(plain.rows)).max(axis=0).tolist()
     peaks = dict(zip(instance.fmu.outputs, largest, strict=True))
-    with instance.explained():
+    with instance.explained(), ExitStack() as states:
         running = plain.started()
-        steps = sorted({int(share * running.steps) for share in SAVED_AT})
+        steps = {int(share * running.steps) for share in SAVED_AT}
         saved: list[tuple[int, int, SavedState]] = []
-        try:
-            for step in range(running.steps):
-                if step in steps:
-                    saved.append((step, len(running.rows), SavedState.of(instance)))
-                    if begins_resolved or step > 0:
-                        frequency = instance.value("drive_frequency")
-                        wrong += derivative_faults(instance, saved[-1][-1], frequency, peaks)
-                running.advance(step)
-            found += plain.differences("while states are saved", running.rows)
-            for step, rows, state in reversed(saved):
-                state.restore()
-                # A detour: other inputs and tunables for a few steps.
-                present = {**running.first, **instance.read(TUNABLES)}
-                instance.set({name: other_value(name, value) for name, value in present.items()})
-                for index in range(step, min(step + DETOUR, running.steps)):
-                    instance.step_by(running.step_size(index))
-                state.restore()
-                running.rows = []
-                running.read()
-                running.finish(step)
-                what = f"restored after step {step}"
-                found += plain.differences(what, running.rows, begin=rows - 1)
-        finally:
-            for _, _, state in saved:
-                state.free()
+
+        def save(step: int) -> None:
+            if step in steps:
+                state = states.enter_context(SavedState.of(instance))
+                saved.append((step, len(running.rows), state))
+                if begins_resolved or step > 0:
+                    frequency = instance.value("drive_frequency")
+                    wrong.extend(derivative_faults(instance, state, frequency, peaks))
+
+        running.finish(before=save)
+        found = plain.differences("while states are saved", running.rows)
+        for step, rows, state in reversed(saved):
+            state.restore()
+            # A detour: other inputs and tunables for a few steps.
+            present = {**running.first, **instance.read(TUNABLES)}
+            instance.set({name: other_value(name, value) for name, value in present.items()})
+            for index in range(step, min(step + DETOUR, running.steps)):
+                instance.step_by(running.step_size(index))
+            state.restore()
+            running.rows = []
+            running.read()
+            running.finish(step)
+            what = f"restored after step {step}"
+            found += plain.differences(what, running.rows, begin=rows - 1)
     return found + wrong
 
 
@@ -141,52 +136,44 @@ def transferred_differences(fmu: FmuSide) -> list[str]:
     """Go on in another instance, at first new and then used, from serialised states."""
     fmu.instance.fmu.require("canGetAndSetFMUstate")
     fmu.instance.fmu.require("canSerializeFMUstate")
-    plain = Replay.of(fmu)
-    instance = fmu.instance
+    plain, instance = Replay.of(fmu), fmu.instance
     found: list[str] = []
     with _another(instance) as other, instance.explained():
-        running = plain.started()
-        taken = Running(other, plain.schedule)
+        running, taken = plain.started(), Running(other, plain.schedule)
         steps = {int(share * running.steps) for share in TRANSFERRED_AT}
-        for step in range(running.steps):
+
+        def take_over(step: int) -> None:
             if step in steps:
-                state = SavedState.of(instance)
-                try:
+                with SavedState.of(instance) as state:
                     state.transfer(other)
-                finally:
-                    state.free()
                 taken.rows = []
                 taken.read()
                 taken.finish(step)
                 what = f"in another instance from step {step} on"
-                found += plain.differences(what, taken.rows, begin=len(running.rows) - 1)
-            running.advance(step)
-        found += plain.differences("while its state is taken over", running.rows)
-    return found
+                found.extend(plain.differences(what, taken.rows, begin=len(running.rows) - 1))
+
+        running.finish(before=take_over)
+    return found + plain.differences("while its state is taken over", running.rows)
 
 
 def beside_differences(fmu: FmuSide) -> list[str]:
     """Step two instances in turn, the second started later, and compare each with itself alone."""
-    assert fmu.scene.beside is not None
     beside = fmu.scene.beside
+    assert beside is not None
     plain = Replay.of(fmu)
     own = replace(plain.schedule, signals=beside.signals, tuning={})
     with _another(fmu.instance) as other, fmu.instance.explained(), other.explained():
         alone = Replay(other, beside.parameters, own)
         first = plain.started()
         late = min(1, first.steps)
-        for step in range(late):
-            first.advance(step)
+        first.finish(end=late)
         second = alone.started()
         for step in range(first.steps):
             if step + late < first.steps:
                 first.advance(step + late)
             second.advance(step)
         found = plain.differences("beside another instance", first.rows)
-        for run, when in (
-            (plain, "beside another instance"),
-            (alone, "in the other instance"),
-        ):
+        for run, when in ((plain, "beside another instance"), (alone, "in the other instance")):
             kept = {n: value for n, value in run.parameters.items() if n not in TUNABLES}
             found += unequal(run.instance, kept, when)
         return found + alone.differences("the other instance", second.rows)
@@ -197,14 +184,18 @@ def overwritten_differences(fmu: FmuSide) -> list[str]:
 
     Before the run outputs are read under the other values.
     """
-    plain = Replay.of(fmu)
-    instance, running = fmu.instance, Running(fmu.instance, plain.schedule)
+    plain, instance = Replay.of(fmu), fmu.instance
+    running = Running(instance, plain.schedule)
     values = dict(instance.fmu.settings({**plain.parameters, **running.first}))
-    with instance.explained():
-        instance.set_up(running.stop_time, start_time=plain.schedule.start_time)
+
+    def set_twice(values: Mapping[str, float]) -> None:
         for name, value in values.items():
             instance.set({name: other_value(name, value)})
         instance.set(values)
+
+    with instance.explained():
+        instance.set_up(**running.span)
+        set_twice(values)
         instance.call("fmi2EnterInitializationMode")
         for name, value in reversed(values.items()):
             instance.set({name: other_value(name, value)})
@@ -213,12 +204,7 @@ def overwritten_differences(fmu: FmuSide) -> list[str]:
             instance.set({name: value})
         instance.begin()
         running.read()
-        for step in range(running.steps):
-            present = running.values_at(step)
-            for name, value in present.items():
-                instance.set({name: other_value(name, value)})
-            instance.set(present)
-            running.advance(step)
+        running.finish(before=lambda step: set_twice(running.values_at(step)))
     return plain.differences("with values set again", running.rows)
 
 
@@ -228,32 +214,32 @@ def separate_differences(fmu: FmuSide) -> list[str]:
     Initialization ends under a load that breaks a stick; that of the scene is set after it, as many
     hosts do.
     """
-    plain = Replay.of(fmu)
-    instance, running = fmu.instance, Running(fmu.instance, plain.schedule)
-    before = running.first
-    load = before["load"]
-    loaded = {**plain.parameters, **before, "load": load + BREAKING_LOAD}
-    instance.start(loaded, running.stop_time, start_time=plain.schedule.start_time)
+    plain, instance = Replay.of(fmu), fmu.instance
+    running = Running(instance, plain.schedule)
+    present = dict(running.first)
+
+    def set_changes(step: int) -> None:
+        for name, value in reversed(running.values_at(step).items()):
+            if value != present[name]:
+                instance.set({name: value})
+                present[name] = value
+
+    broken = {"load": present["load"] + BREAKING_LOAD}
+    instance.start({**plain.parameters, **present, **broken}, **running.span)
     with instance.explained():
-        instance.set({"load": load})
+        instance.set({"load": present["load"]})
         running.read()
-        for step in range(running.steps):
-            present = running.values_at(step)
-            for name, value in reversed(present.items()):
-                if value != before[name]:
-                    instance.set({name: value})
-            before = present
-            running.advance(step)
+        running.finish(before=set_changes)
     return plain.differences("with values set one by one", running.rows)
 
 
 def reading_differences(fmu: FmuSide) -> list[str]:
     """Read all variables, one by one and backwards, and the status, between any two calls."""
-    plain = Replay.of(fmu)
-    instance, running = fmu.instance, Running(fmu.instance, plain.schedule)
+    plain, instance = Replay.of(fmu), fmu.instance
+    running = Running(instance, plain.schedule)
     names = [name for name, v in instance.fmu.variables.items() if v.type == "Real"]
     blocks = [instance.block([name]) for name in names]
-    backwards = instance.block(list(reversed(names)))
+    backwards = instance.block(names[::-1])
     changed: list[str] = []
 
     def read_all() -> None:
@@ -265,8 +251,7 @@ def reading_differences(fmu: FmuSide) -> list[str]:
         read_derivatives(instance)
 
     with instance.explained():
-        start = {**plain.parameters, **running.first}
-        instance.initialise(start, running.stop_time, start_time=plain.schedule.start_time)
+        instance.initialise({**plain.parameters, **running.first}, **running.span)
         read_all()
         instance.begin()
         read_all()
@@ -293,10 +278,9 @@ def other_device_differences(fmu: FmuSide) -> list[str]:
         if name not in instance.fmu.variables or name in plain.schedule.tuning:
             continue
         value = plain.parameters.get(name, VARIABLES[name].start or 0.0)
-        other = {**plain.parameters, name: other_value(name, value)}
         instance.renew()  # for the other device to be the first one that is prepared
         try:
-            Replay(instance, other, plain.schedule)
+            Replay(instance, {**plain.parameters, name: other_value(name, value)}, plain.schedule)
         except Refusal:
             continue
         found += plain.differences(f"after a device of another {name}", plain.again())

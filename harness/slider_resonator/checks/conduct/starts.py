@@ -4,7 +4,12 @@ from collections.abc import Iterator, Mapping
 from functools import partial
 from itertools import product
 
-from slider_resonator.checks.conduct.findings import is_refused, other_value, unequal
+from slider_resonator.checks.conduct.findings import (
+    is_refused,
+    other_value,
+    outputs_after,
+    unequal,
+)
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import HELD, INPUTS, INTEGERS, PARAMETERS, VARIABLES
 from slider_resonator.fmu.instance import Instance
@@ -83,8 +88,7 @@ def _set_in_initialization(instance: Instance, others: Mapping[str, float]) -> I
     for law in (0.0, 1.0):
         values = {**others, "friction_law": law}
         instance.start(values)
-        instance.step_by(STEP)
-        expected = instance.outputs()
+        expected = outputs_after(instance, STEP)
         instance.initialise({})
         instance.set(values)
         instance.begin()

@@ -9,7 +9,12 @@ from itertools import product
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
-from slider_resonator.checks.conduct.findings import adding_refusal, is_refused, other_value
+from slider_resonator.checks.conduct.findings import (
+    adding_refusal,
+    is_refused,
+    other_value,
+    outputs_after,
+)
 from slider_resonator.checks.conduct.output_derivatives import status_faults
 from slider_resonator.checks.conduct.process import state_leaks
 from slider_resonator.checks.fmu_side import FmuSide
@@ -142,11 +147,9 @@ def _process_faults(instance: Instance) -> Iterator[str]:
     """
     instance.start({"load": LOAD})
     instance.step_by(STEP)
-    state = SavedState.of(instance)
-    content = bytes(instance.slave.serializeFMUstate(state.handle))
-    state.free()
-    instance.step_by(STEP)
-    expected = instance.outputs()
+    with SavedState.of(instance) as state:
+        content = bytes(instance.slave.serializeFMUstate(state.handle))
+    expected = outputs_after(instance, STEP)
     try:
         isolated = IsolatedFmu(instance.fmu.file, TIME_LIMIT)
     except (FmuError, OSError):  # there may be one instance, or no other process
@@ -169,8 +172,7 @@ def _outputs_after(instance: Instance, content: bytes) -> dict[str, float]:
         instance.slave.setFMUstate(handle)
         instance.slave.freeFMUstate(handle)
         instance.resumed(STEP)
-        instance.step_by(STEP)
-        return instance.outputs()
+        return outputs_after(instance, STEP)
 
 
 def _later_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterator[str]:
@@ -178,9 +180,8 @@ def _later_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
     instance.start(parameters)
     states, rows = [], []
     for _ in range(STATES):
-        instance.step_by(STEP)
+        rows.append(outputs_after(instance, STEP))
         states.append(SavedState.of(instance))
-        rows.append(instance.outputs())
     for state in [SavedState.of(instance) for _ in range(MANY)]:
         state.free()
     ways: dict[str, Callable[[], object]] = {
@@ -219,8 +220,7 @@ def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
     The state goes back as it is and, where the FMU offers that, in serialised form.
     """
     instance.start(parameters)
-    instance.step_by(STEP)
-    expected = instance.outputs()
+    expected = outputs_after(instance, STEP)
     ways: list[Callable[[SavedState], None]] = [SavedState.restore]
     if instance.fmu.offers.canSerializeFMUstate:
         ways.append(lambda state: state.transfer(instance))
@@ -229,23 +229,22 @@ def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
         instance.set(parameters)
         if when == "in":
             instance.call("fmi2EnterInitializationMode")
-        state = SavedState.of(instance)
-        instance.set({name: other_value(name, VARIABLES[name].start or 0.0) for name in CHANGED})
-        if when == "in":
-            instance.begin()
-        else:
-            instance.call("fmi2EnterInitializationMode")
-        instance.outputs()
-        try:
-            go_back(state)
+        with SavedState.of(instance) as state:
+            others = {name: other_value(name, VARIABLES[name].start or 0.0) for name in CHANGED}
+            instance.set(others)
             if when == "before":
                 instance.call("fmi2EnterInitializationMode")
-            instance.begin()
-            instance.step_by(STEP)
-        except FMICallException as error:
-            yield f"a run cannot go on from a state saved {when} initialization: {error}"
-            return
-        finally:
-            state.free()
+            else:
+                instance.begin()
+            instance.outputs()
+            try:
+                go_back(state)
+                if when == "before":
+                    instance.call("fmi2EnterInitializationMode")
+                instance.begin()
+                instance.step_by(STEP)
+            except FMICallException as error:
+                yield f"a run cannot go on from a state saved {when} initialization: {error}"
+                return
         if instance.outputs() != expected:
             yield f"a state saved {when} initialization keeps the values set after it"
