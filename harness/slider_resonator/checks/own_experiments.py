@@ -1,9 +1,9 @@
 """The experiments that an FMU carries (FMI-LS-REF): run them and compare with their results."""
 
 import re
-from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from operator import attrgetter
 from pathlib import Path
 from time import perf_counter
 from xml.etree import ElementTree as ET
@@ -11,20 +11,19 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.compare import Comparison, Curves, compare
+from slider_resonator.checks.compare import Comparison
 from slider_resonator.checks.measuring import Measurement
-from slider_resonator.checks.validate import RunFailure, Validation
+from slider_resonator.checks.validate import Judged, RunFailure, Validation, judge_points
 from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import INPUTS, PARAMETERS
 from slider_resonator.device.values import finite_number
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
-from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
-from slider_resonator.fmu.opening import lacking, open_fmu
-from slider_resonator.fmu.provenance import identity_of
-from slider_resonator.fmu.run import run
+from slider_resonator.fmu.isolation.process import TIME_LIMIT
+from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.run import Record
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.scenes.csv_signal import csv_rows, csv_signal
-from slider_resonator.scenes.scene import Scene, ScenePoint, scene_from
+from slider_resonator.scenes.scene import ScenePoint, scene_from
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 OWN_NAME = "org.fmi-standard.fmi-ls-ref"
@@ -36,16 +35,19 @@ ALLOWED = "slider-resonator.deviation-of-peak"
 """Type of the annotation with the allowed deviation, as a share of the peak of each result."""
 USUAL_DEVIATION = 1e-4
 """Allowed deviation of results without that annotation."""
+WHY = "the FMU carries this result of its experiment"
 
 
-@dataclass(frozen=True)
-class OwnExperiment:
-    """An experiment of an FMU: `results` by output at `times` (s), shape (n,)."""
+@dataclass(frozen=True, eq=False)
+class OwnExperiment(ScenePoint):
+    """An experiment of an FMU: `results` by output at `times` (s), shape (n,).
 
-    scene: Scene
-    times: Array
-    results: Mapping[str, Array]
-    allowed: float
+    They may deviate by `allowed`, a share of the peak of each.
+    """
+
+    times: Array = field(default_factory=lambda: np.zeros(0))
+    results: Mapping[str, Array] = field(default_factory=dict)
+    allowed: float = USUAL_DEVIATION
 
 
 def own_experiments(fmu: Path) -> list[OwnExperiment]:
@@ -86,49 +88,24 @@ def validate_own(
 
 
 def _validate(fmu: Path, progress: Progress, time_limit: float) -> Validation:
-    began, judged, failures = perf_counter(), list[Curves](), list[RunFailure]()
+    began = perf_counter()
     try:
         experiments = own_experiments(fmu)
     except HarnessError as error:
         return Validation(str(fmu), (), perf_counter() - began, (RunFailure.of(fmu, None, error),))
-    for index, experiment in enumerate(experiments):
-        point = ScenePoint(experiment.scene)
-        progress(f"{fmu.name}: {experiment.scene.name}", index / len(experiments))
-        try:
-            judged += _judged(fmu, experiment, point, time_limit)
-        except HarnessError as error:
-            failures.append(RunFailure.of(fmu, point, error))
-    return Validation(
-        str(fmu),
-        tuple(one.check for one in judged),
-        perf_counter() - began,
-        tuple(failures),
-        tuple(one for one in judged if not one.check.passed),
-        lacking(fmu),
-        identity=identity_of(fmu),
-    )
+    return judge_points(fmu, experiments, attrgetter("record"), _judged, progress, time_limit)
 
 
-def _judged(
-    fmu: Path, experiment: OwnExperiment, point: ScenePoint, time_limit: float
-) -> list[Curves]:
-    """Return the check of each result, with its signals."""
+def _judged(experiment: OwnExperiment, record: Record) -> Iterator[Judged]:
+    """Yield each result with what the FMU gives; SceneError for one between two steps."""
     scene, times = experiment.scene, experiment.times
-    with IsolatedFmu(fmu, time_limit) as isolated:
-        task = partial(run, parameters=scene.parameters, schedule=scene.schedule())
-        record = isolated.run(task)
     rows = np.abs(record.times[:, None] - times).argmin(axis=0)
     late = np.abs(record.times[rows] - times) > 1e-6 * (scene.step_size or 0.0)
     if late.any():
         raise SceneError(f"result at time = {times[late][0]:.9g}: must be a communication point")
-    judged = []
     for name, expected in experiment.results.items():
-        measured = Measurement(record[name][rows], times=times)
-        why = "the FMU carries this result of its experiment"
-        comparison = Comparison(name, "own result", why, relative=experiment.allowed)
-        check = compare(comparison, measured, expected, point)
-        judged.append(Curves(check, times, measured.value, expected))
-    return judged
+        comparison = Comparison(name, "own result", WHY, relative=experiment.allowed)
+        yield comparison, Measurement(record[name][rows], times=times), expected
 
 
 def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
@@ -176,7 +153,7 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
         allowed = finite_number(f"{where}: {ALLOWED}", annotation.text)
     if not 0.0 < allowed < 1.0:
         raise SceneError(f"{where}: {ALLOWED} = {allowed:g}: must be a share between 0 and 1")
-    return OwnExperiment(scene, np.array(found[columns[0]].times), results, allowed)
+    return OwnExperiment(scene, {}, np.array(found[columns[0]].times), results, allowed)
 
 
 def _parameters(file: Path) -> dict[str, float]:

@@ -1,9 +1,8 @@
 """Run scenes on isolated FMUs and compare the results with the references."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, fields
-from itertools import count
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -17,14 +16,14 @@ from slider_resonator.checks.compare import (
     overview_of,
 )
 from slider_resonator.checks.expecting import ExpectedValues
-from slider_resonator.checks.fmu_side import measure_points
-from slider_resonator.checks.measuring import measure_all
+from slider_resonator.checks.fmu_side import FmuSide, Point, measure_points
+from slider_resonator.checks.measuring import Measurement, measure_all
 from slider_resonator.checks.verdict import place, sentence, title
 from slider_resonator.errors import SceneError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import lacking
 from slider_resonator.fmu.provenance import FmuIdentity, Provenance, identity_of, provenance_of
-from slider_resonator.output.progress import Progress, counted, no_progress
+from slider_resonator.output.progress import Progress, counted, no_progress, part_of
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.scenes.scene import Scene, ScenePoint
@@ -166,15 +165,23 @@ def validate(
     that expects nothing; what is wrong with an FMU is among the run failures of its validation.
     """
     points = [point for scene in scenes for point in points_to_check(scene)]
-    total, steps = len(fmu_paths) * len(points), count()
 
-    def report(point: ScenePoint) -> None:
-        done = next(steps)
-        progress(counted(point.scene.name, done, total), done / total)
+    def judge(point: ScenePoint, measured: Sequence[Measurement]) -> Iterator[Judged]:
+        comparisons = map(Comparison.of, point.scene.expect)
+        return zip(comparisons, measured, expected.at(point), strict=True)
 
     with ExpectedValues(points, jobs) as expected:
         validations = tuple(
-            _validated(path, points, expected, report, time_limit, jobs) for path in fmu_paths
+            judge_points(
+                path,
+                points,
+                measure_all,
+                judge,
+                part_of(progress, index, len(fmu_paths)),
+                time_limit,
+                jobs,
+            )
+            for index, path in enumerate(fmu_paths)
         )
     progress("", 1.0)
     return validations
@@ -189,37 +196,49 @@ def points_to_check(scene: Scene) -> tuple[ScenePoint, ...]:
     return scene.points()
 
 
-def _validated(
+Judged = tuple[Comparison, Measurement, Any]
+"""A comparison, the measurement and the expected value, or the SceneError where there is none."""
+
+
+def judge_points(
     path: Path,
-    points: Sequence[ScenePoint],
-    expected: ExpectedValues,
-    report: Callable[[ScenePoint], None],
+    points: Sequence[Point],
+    measure: Callable[[FmuSide], Any],
+    judge: Callable[[Point, Any], Iterable[Judged]],
+    progress: Progress,
     time_limit: float,
-    jobs: int,
+    jobs: int = 1,
 ) -> Validation:
-    """Run an FMU at all points, and judge each while it runs at the next ones."""
+    """Run an FMU at all points, and judge each while it runs at the next ones.
+
+    `judge` gets a point and what `measure` gives there; a SceneError of it is a run failure.
+    """
     began, identity = perf_counter(), identity_of(path)
     checks, curves = list[Check](), list[Curves]()
     run_failures, not_applied = list[RunFailure](), list[NotApplied]()
-    overviews: dict[str, Curves | None] = {}
-    with closing(measure_points(path, points, measure_all, time_limit, jobs)) as outcomes:
-        for point, outcome in outcomes:
+    overviews = dict[str, Curves | None]()
+    with closing(measure_points(path, points, measure, time_limit, jobs)) as outcomes:
+        for done, (point, outcome) in enumerate(outcomes):
             if point is not None:
-                report(point)
+                progress(counted(point.scene.name, done, len(points)), done / len(points))
             if point is None or outcome.error is not None:
                 run_failures.append(RunFailure.of(path, point, outcome.error))
                 continue
             name, at, signals = point.scene.name, point.at, list[Curves]()
-            judged = zip(point.scene.expect, outcome.value, expected.at(point), strict=True)
-            for expect, measured, value in judged:
+            try:
+                judged = list(judge(point, outcome.value))
+            except SceneError as error:
+                run_failures.append(RunFailure.of(path, point, error))
+                continue
+            for comparison, measured, expected in judged:
                 if not measured.applicable:
-                    not_applied.append(NotApplied(name, expect.quantity, measured.note, at))
-                elif isinstance(value, SceneError):
-                    run_failures.append(RunFailure(name, str(value), at))
+                    not_applied.append(NotApplied(name, comparison.quantity, measured.note, at))
+                elif isinstance(expected, SceneError):
+                    run_failures.append(RunFailure.of(path, point, expected))
                 else:
-                    check = compare(Comparison.of(expect), measured, value, point)
+                    check = compare(comparison, measured, expected, point)
                     checks.append(check)
-                    if shown := curves_of(check, measured, value):
+                    if shown := curves_of(check, measured, expected):
                         signals.append(shown)
             curves += [shown for shown in signals if not shown.check.passed]
             if name not in overviews:
