@@ -5,9 +5,6 @@ from functools import partial
 from operator import attrgetter, methodcaller
 from typing import Any
 
-import numpy as np
-
-from slider_resonator.checks.measures import no_tube, slow_displacement
 from slider_resonator.checks.period_means import (
     last_events,
     mean_velocities,
@@ -46,59 +43,47 @@ def _resolved(method: str, *arguments: Any) -> Mapping[str, Expected]:
     return {name: methodcaller(method, name, *arguments) for name in RESOLVED}
 
 
-_OF_VELOCITY: Mapping[str, Expected] = {
-    "closed_form": lambda references: references.steady.of_paper.predicted_velocity,
-    "averaged": lambda references: references.steady.predicted_velocity,
-}
-_OF_FORCE: Mapping[str, Expected] = {
-    "closed_form": lambda references: references.steady.of_paper.predicted_blocking_force,
-    "averaged": lambda references: references.steady.predicted_blocking_force,
-}
+def _steady(located: str, predicted: str) -> Mapping[str, Expected]:
+    """Return the references under constant inputs: what is located, the formula and averages."""
+    return {
+        "located_events": attrgetter(f"steady.{located}"),
+        "closed_form": attrgetter(f"steady.of_paper.{predicted}"),
+        "averaged": attrgetter(f"steady.{predicted}"),
+    }
+
+
+def _at_end(located: str, predicted: str) -> Mapping[str, Expected]:
+    """Return the references for a prediction at the end of a run."""
+    return {
+        "located_events": attrgetter(f"steady_at_end.full_device.{located}"),
+        "averaged": attrgetter(f"steady_at_end.{predicted}"),
+    }
+
+
+_VELOCITY, _FORCE = "predicted_velocity", "predicted_blocking_force"
+_SIGNALS = (
+    *("position", "velocity", "resonator_displacement", "resonator_velocity", "normal_force"),
+)
 EXPECTED: Mapping[str, Mapping[str, Expected]] = {
-    "steady_velocity": {"located_events": attrgetter("steady.steady_velocity"), **_OF_VELOCITY},
-    "blocking_force": {"located_events": attrgetter("steady.blocking_force"), **_OF_FORCE},
-    "predicted_velocity": {
-        "located_events": attrgetter("steady.full_device.steady_velocity"),
-        **_OF_VELOCITY,
-    },
-    "predicted_blocking_force": {
-        "located_events": attrgetter("steady.full_device.blocking_force"),
-        **_OF_FORCE,
-    },
-    "predicted_velocity_in_run": {"averaged": methodcaller("predictions", "predicted_velocity")},
-    "predicted_blocking_force_in_run": {
-        "averaged": methodcaller("predictions", "predicted_blocking_force")
-    },
-    "final_predicted_velocity": {
-        "located_events": lambda references: references.steady_at_end.full_device.steady_velocity,
-        "averaged": lambda references: references.steady_at_end.predicted_velocity,
-    },
-    "final_predicted_blocking_force": {
-        "located_events": lambda references: references.steady_at_end.full_device.blocking_force,
-        "averaged": lambda references: references.steady_at_end.predicted_blocking_force,
-    },
-    "prediction_valid": {"averaged": lambda references: references.steady_at_end.prediction_valid},
+    "steady_velocity": _steady("steady_velocity", _VELOCITY),
+    "blocking_force": _steady("blocking_force", _FORCE),
+    "predicted_velocity": _steady("full_device.steady_velocity", _VELOCITY),
+    "predicted_blocking_force": _steady("full_device.blocking_force", _FORCE),
+    "predicted_velocity_in_run": {"averaged": methodcaller("predictions", _VELOCITY)},
+    "predicted_blocking_force_in_run": {"averaged": methodcaller("predictions", _FORCE)},
+    "final_predicted_velocity": _at_end("steady_velocity", _VELOCITY),
+    "final_predicted_blocking_force": _at_end("blocking_force", _FORCE),
+    "prediction_valid": {"averaged": attrgetter("steady_at_end.prediction_valid")},
     **{
         output: {**_resolved(method, output), "averaged": attrgetter(f"averaged_motion.{output}")}
-        for output, method in (
-            ("position", "signal"),
-            ("velocity", "signal"),
-            ("resonator_displacement", "signal"),
-            ("resonator_velocity", "signal"),
-            ("normal_force", "signal"),
-            ("friction_force", "beside_events"),
-            ("contact_mode", "beside_events"),
+        for outputs, method in (
+            (_SIGNALS, "signal"),
+            (("friction_force", "contact_mode"), "beside_events"),
         )
+        for output in outputs
     },
     "slow_displacement": {
-        "located_events": lambda references: slow_displacement(
-            references.times,
-            references.signal("located_events", "position"),
-            references.scene.drive_period,
-        ),
-        "averaged": lambda references: slow_displacement(
-            references.times, references.averaged_motion.position, references.scene.drive_period
-        ),
+        name: methodcaller("slow_displacement", name) for name in ("located_events", "averaged")
     },
     "mean_velocity": {
         **_resolved("at_end", mean_velocities),
@@ -106,27 +91,24 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     },
     "mean_velocity_in_run": {
         **_resolved("in_run", mean_velocities),
-        "averaged": lambda references: references.averaged_motion.mean_velocity,
+        "averaged": attrgetter("averaged_motion.mean_velocity"),
     },
     "stick_fraction": _resolved("at_end", stick_fractions),
     "stick_fraction_in_run": {
         **_resolved("in_run", stick_fractions),
-        "averaged": lambda references: np.zeros_like(references.times),
+        "averaged": attrgetter("nothing"),
     },
     "friction_power": _resolved("friction_power"),
     "reversals": _resolved("at_end", reversal_counts),
     "reversals_in_run": {
         **_resolved("in_run", reversal_counts),
-        "averaged": lambda references: no_tube(np.zeros_like(references.times)),
+        "averaged": attrgetter("nothing"),
     },
-    "event_times": {
-        **_resolved("in_run", last_events),
-        "averaged": lambda references: no_tube(np.zeros_like(references.times)),
-    },
+    "event_times": {**_resolved("in_run", last_events), "averaged": attrgetter("nothing")},
     "last_event_time": _resolved("last_event_time"),
-    "ripple_amplitude": {"closed_form": lambda references: references.steady.ripple_amplitude},
+    "ripple_amplitude": {"closed_form": attrgetter("steady.ripple_amplitude")},
     "ripple_frequency": {"closed_form": lambda references: 1.0 / references.scene.drive_period},
-    "beat_frequency": {"closed_form": lambda references: references.steady.difference_frequency},
+    "beat_frequency": {"closed_form": attrgetter("steady.difference_frequency")},
 }
 """Quantity to its references, by name, each with the function that gives its value."""
 
@@ -148,8 +130,7 @@ class ExpectedValues:
         count = max(1, min(jobs, len(points) // MIN_POINTS))
         self._processes = LocalProcesses(None, TIME_LIMIT, count)
         self._values = {
-            point: self._processes.submit(partial(_values_ahead, scene=point.scene))
-            for point in points
+            point: self._processes.submit(partial(values_in, point.scene)) for point in points
         }
 
     def __enter__(self) -> "ExpectedValues":
@@ -178,8 +159,11 @@ class ExpectedValues:
         return values
 
 
-def values_in(scene: Scene) -> list[Any]:
-    """Return a value for each expectation of a scene, or the SceneError where there is none."""
+def values_in(scene: Scene, _: None = None) -> list[Any]:
+    """Return a value for each expectation of a scene, or the SceneError where there is none.
+
+    A process of its own runs it as a task, without an FMU.
+    """
     references = ReferenceSide(scene)
     values: list[Any] = []
     for expect in scene.expect:
@@ -188,8 +172,3 @@ def values_in(scene: Scene) -> list[Any]:
         except SceneError as error:
             values.append(error)
     return values
-
-
-def _values_ahead(_: None, scene: Scene) -> list[Any]:
-    """Return the same in a process of its own."""
-    return values_in(scene)

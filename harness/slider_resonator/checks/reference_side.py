@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.checks.measures import Tube, no_tube
+from slider_resonator.checks.measures import Tube, no_tube, slow_displacement
 from slider_resonator.checks.period_means import COINCIDENCE, last_events, quadrature
 from slider_resonator.device.device import FULL, Device
 from slider_resonator.device.drive_periods import DrivePeriods
@@ -179,6 +179,17 @@ class ReferenceSide:
         lower = np.where(coincide, around.lower, signal)
         upper = np.where(coincide, around.upper, signal)
         return Tube(signal, lower, upper)
+
+    def slow_displacement(self, reference: str) -> Array:
+        """Return the position averaged over a drive period, by a trajectory or by averages."""
+        averaged = reference == "averaged"
+        position = self.averaged_motion.position if averaged else self.signal(reference, "position")
+        return slow_displacement(self.times, position, self.scene.drive_period)
+
+    @property
+    def nothing(self) -> Array:
+        """What averaged motion has of events: 0 at each communication point, shape (n,)."""
+        return np.zeros_like(self.times)
 
     def in_run(
         self, reference: str, measure: Callable[[Trajectory, Array, DrivePeriods], Any]
