@@ -56,14 +56,14 @@ def unit_problems(unit: str, definitions: Sequence[Unit]) -> list[str]:
 
 def _definition_problems(unit: str, definition: Unit) -> Iterator[str]:
     if (base := definition.baseUnit) is not None:
-        expected = DIMENSIONS[unit]
         found = {name: getattr(base, name) for name in _EXPONENTS if getattr(base, name)}
-        if found != dict(expected):
-            yield f"unit {unit} is defined as {_dimension(found)}, must be {_dimension(expected)}"
-        if base.factor != 1.0:
-            yield f"unit {unit} is defined with factor {base.factor!r}, must be 1"
-        if base.offset != 0.0:
-            yield f"unit {unit} is defined with offset {base.offset!r}, must be 0"
+        for what, is_, must_be in (
+            ("as", _dimension(found), _dimension(DIMENSIONS[unit])),
+            ("with factor", base.factor, 1),
+            ("with offset", base.offset, 0),
+        ):
+            if is_ != must_be:
+                yield f"unit {unit} is defined {what} {is_}, must be {must_be}"
     for display in definition.displayUnits:
         factor = _factor(unit, str(display.name))
         if factor is None:
@@ -79,17 +79,15 @@ def _factor(unit: str, display: str) -> float | None:
     """Return the factor from `unit` to a display unit, None for unknown names."""
     if display == unit:
         return 1.0
-    named = _DISPLAYED.get(unit, {})
-    if display in named:
-        return named[display]
     if unit in ("m", "m/s", "s", "N", "W") and display[1:] == unit:
         return _PREFIXES.get(display[0])
-    return None
+    return _DISPLAYED.get(unit, {}).get(display)
 
 
 def _dimension(exponents: Mapping[str, int]) -> str:
-    """Return exponents as text, such as "kg m s^-2"."""
-    parts = [name if power == 1 else f"{name}^{power}" for name, power in exponents.items()]
+    """Return exponents as text, such as "kg m s^-2", those above 0 first."""
+    ordered = sorted(exponents.items(), key=lambda one: one[1] < 0)
+    parts = [name if power == 1 else f"{name}^{power}" for name, power in ordered]
     return " ".join(parts) or "1"
 
 
@@ -149,10 +147,9 @@ def description_faults(description: ModelDescription) -> list[str]:
         if found.name in VARIABLES:
             faults += _other_values(found, VARIABLES[found.name])
             unit, shown = _attribute(found, "unit"), _attribute(found, "displayUnit")
-            if unit is not None and shown is not None and shown not in units.get(unit, {shown}):
-                faults.append(
-                    f"displayUnit of {found.name} is {shown}, which {unit} does not define"
-                )
+            if shown is not None and shown not in units.get(unit, {shown}):
+                wrong = f"displayUnit of {found.name} is {shown}, which {unit} does not define"
+                faults.append(wrong)
     declared = {unknown.variable.name: unknown.dependencies for unknown in description.outputs}
     names = {variable.name for variable in description.modelVariables}
     for name, variable in VARIABLES.items():
@@ -174,10 +171,9 @@ def description_faults(description: ModelDescription) -> list[str]:
     for unknown in description.initialUnknowns:
         name = unknown.variable.name
         at_start = {other.name for other in unknown.dependencies or ()} & {*INPUTS, *DEVIATIONS}
+        wrong = "at the start, which does not act on it"
         for other in sorted(at_start - INPUTS_AT_START.get(name, at_start)):
-            faults.append(
-                f"{name} is declared to depend on {other} at the start, which does not act on it"
-            )
+            faults.append(f"{name} is declared to depend on {other} {wrong}")
     if description.coSimulation.needsExecutionTool:
         faults.append("needsExecutionTool is true, must be false: hosts refuse the FMU")
     return faults
@@ -233,12 +229,10 @@ def _experiment_faults(experiment: DefaultExperiment | None) -> Iterator[str]:
             yield f"{name} of the default experiment is {value!r}"
             return
     start, stop = values.get("startTime", 0.0), values.get("stopTime")
-    if stop is None:
-        return
-    if not stop > start:
+    step = values.get("stepSize", 0.0)
+    if stop is not None and not stop > start:
         yield f"the default experiment ends at {stop!r} s, must be after its start at {start!r} s"
-    elif values.get("stepSize", 0.0) > stop - start:
-        step = values["stepSize"]
+    elif stop is not None and step > stop - start:
         yield f"stepSize of the default experiment is {step!r} s, longer than all of it"
 
 
@@ -258,12 +252,11 @@ def _other_values(found: ModelVariable, variable: Variable) -> Iterator[str]:
     for attribute, needed in attributes.items():
         text = _attribute(found, attribute)
         given = None if text is None else float(text)
+        is_free = attribute == "nominal" and needed is None
         may_be_left_out = attribute == "nominal" or variable.causality == "output"
-        either = needed is None and attribute == "nominal"
-        if given != needed and not (may_be_left_out and given is None) and not either:
-            given_text = "none" if given is None else repr(given)
-            needed_text = "none" if needed is None else repr(float(needed))
-            yield f"{attribute} of {name} is {given_text}, must be {needed_text}"
+        if given != needed and not is_free and not (may_be_left_out and given is None):
+            said = ["none" if one is None else repr(float(one)) for one in (given, needed)]
+            yield f"{attribute} of {name} is {said[0]}, must be {said[1]}"
 
 
 def _attribute(variable: ModelVariable, name: str) -> str | None:

@@ -92,13 +92,13 @@ class Fmu:
         A variable that it lacks must have the value that the interface assumes without it; raises
         NotApplicable for another one.
         """
-        if values.keys() <= self.variables.keys():
-            return values
-        lacking = [name for name in values if name in VARIABLES and name not in self.variables]
-        for name in lacking:
-            if values[name] != VARIABLES[name].without:
-                raise self._lacks(name, values[name])
-        return {name: value for name, value in values.items() if name not in lacking}
+        kept = {}
+        for name, value in values.items():
+            if name in self.variables or name not in VARIABLES:
+                kept[name] = value
+            elif value != VARIABLES[name].without:
+                raise self._lacks(name, value)
+        return kept
 
     def _lacks(self, name: str, value: float | None = None) -> NotApplicable:
         setting = "" if value is None else f" = {value:g}"
@@ -158,10 +158,9 @@ def lacking(path: Path) -> tuple[str, ...]:
 
 
 def _read_description(path: Path) -> ModelDescription:
-    if path.is_dir():
-        raise FmuError(f"{path}: is a directory; must be an FMU file")
     if not path.is_file():
-        raise FmuError(f"{path}: no such file")
+        problem = "is a directory; must be an FMU file" if path.is_dir() else "no such file"
+        raise FmuError(f"{path}: {problem}")
     if not zipfile.is_zipfile(path):
         raise FmuError(f"{path}: not an FMU: it is no zip archive")
     try:
@@ -193,9 +192,8 @@ def _leave_out_dependencies(path: Path, description: ModelDescription) -> None:
         read = description.outputs if kind == "Output" else description.initialUnknowns
         # FMI 2.0 has them in a list.
         listed = root.findall(f"ModelStructure/{kind}s/Unknown")
-        for unknown, found in zip(
-            read, listed or root.findall(f"ModelStructure/{kind}"), strict=True
-        ):
+        listed = listed or root.findall(f"ModelStructure/{kind}")
+        for unknown, found in zip(read, listed, strict=True):
             if "dependencies" not in found.attrib:
                 unknown.dependencies = None
 

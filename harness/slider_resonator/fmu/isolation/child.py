@@ -19,15 +19,7 @@ from typing import BinaryIO
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance, instantiate
-from slider_resonator.fmu.isolation.messages import (
-    TRACEBACK,
-    Failure,
-    Message,
-    Progress,
-    Request,
-    Result,
-    Started,
-)
+from slider_resonator.fmu.isolation import messages
 from slider_resonator.fmu.opening import open_fmu
 
 if sys.platform != "win32":
@@ -44,7 +36,7 @@ def main() -> None:
     """Instantiate the FMU and run tasks until there are no more requests."""
     path, limit, folder = sys.argv[1], float(sys.argv[2]), Path(sys.argv[3])
     # Standard input and output, moved to descriptors that the FMU does not know.
-    requests, messages = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    requests, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     nothing = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nothing, 0)
     os.close(nothing)
@@ -53,12 +45,12 @@ def main() -> None:
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_WRITTEN, MAX_WRITTEN))
     # Not with what the FMU prints, which may be endless, or look like a traceback.
-    trace = (folder / TRACEBACK).open("w", encoding="utf-8")
+    trace = (folder / messages.TRACEBACK).open("w", encoding="utf-8")
     faulthandler.enable(trace)
 
     def begin() -> None:
         faulthandler.dump_traceback_later(limit, exit=True, file=trace)
-        _send(messages, Started())
+        _send(answers, messages.Started())
 
     try:
         with ExitStack() as stack:
@@ -68,44 +60,46 @@ def main() -> None:
             begin()
             instance = stack.enter_context(instantiate(fmu)) if fmu is not None else None
             faulthandler.cancel_dump_traceback_later()
-            _send(messages, Result())
+            _send(answers, messages.Result())
             with suppress(EOFError):  # there are no more requests
                 while True:
-                    request: Request = pickle.load(requests)
+                    request: messages.Request = pickle.load(requests)
                     begin()
-                    message = _run(instance, request, messages)
+                    message = _run(instance, request, answers)
                     faulthandler.cancel_dump_traceback_later()
-                    _send(messages, message)
+                    _send(answers, message)
             begin()
     except HarnessError as error:
-        _send(messages, Failure(error))
+        _send(answers, messages.Failure(error))
 
 
-def _run(instance: Instance | None, request: Request, messages: BinaryIO) -> Message:
+def _run(
+    instance: Instance | None, request: messages.Request, answers: BinaryIO
+) -> messages.Message:
     task, reports_progress = request
     if reports_progress:
-        task = partial(task, progress=lambda *done: _send(messages, Progress(*done)))
+        task = partial(task, progress=lambda *done: _send(answers, messages.Progress(*done)))
     try:
-        return Result(task(instance))
+        return messages.Result(task(instance))
     except HarnessError as error:
-        return Failure(error)
+        return messages.Failure(error)
     except Exception:
         return _internal()
 
 
-def _send(messages: BinaryIO, message: Message) -> None:
+def _send(answers: BinaryIO, message: messages.Message) -> None:
     try:
         content = pickle.dumps(message)
     except Exception:  # pickle raises anything
         content = pickle.dumps(_internal())
-    messages.write(content)
-    messages.flush()
+    answers.write(content)
+    answers.flush()
 
 
-def _internal() -> Failure:
+def _internal() -> messages.Failure:
     """Return the failure of a task that raised an unexpected exception, a programming error."""
     trace = traceback.format_exc()
-    return Failure(RuntimeError(f"a task failed in the process of the FMU:\n{trace}"))
+    return messages.Failure(RuntimeError(f"a task failed in the process of the FMU:\n{trace}"))
 
 
 if __name__ == "__main__":

@@ -13,18 +13,11 @@ from time import monotonic
 from typing import IO, Any
 
 from slider_resonator.errors import FmuError
+from slider_resonator.fmu.isolation import messages
 from slider_resonator.fmu.isolation.crash_report import crash_report, missed_limit
-from slider_resonator.fmu.isolation.messages import (
-    TRACEBACK,
-    Failure,
-    Message,
-    Progress,
-    Result,
-    Started,
-)
 from slider_resonator.fmu.isolation.supervised import Supervised
 from slider_resonator.output.files import temporary_folder
-from slider_resonator.output.progress import Progress as ReportProgress
+from slider_resonator.output.progress import Progress
 
 PRINTED = "printed.txt"
 """File with what the FMU has printed."""
@@ -100,7 +93,7 @@ class IsolatedFmu:
         self._resources.enter_context(suppress(OSError))  # it has closed its end of the pipe
         self._requests = self._resources.enter_context(requests)
         self._resources.callback(self._process.end)
-        self._messages: queue.SimpleQueue[Message | None] = queue.SimpleQueue()
+        self._messages: queue.SimpleQueue[messages.Message | None] = queue.SimpleQueue()
         threading.Thread(target=_collect, args=(answers, self._messages), daemon=True).start()
 
     def __enter__(self) -> "IsolatedFmu":
@@ -114,7 +107,7 @@ class IsolatedFmu:
         else:
             self.kill()
 
-    def run(self, task: Task, progress: ReportProgress | None = None) -> Any:
+    def run(self, task: Task, progress: Progress | None = None) -> Any:
         """Return the result of a task, or raise the HarnessError that it raised.
 
         With `progress` the task must take a keyword argument of that name. Raises FmuDied when the
@@ -133,14 +126,14 @@ class IsolatedFmu:
             raise
         return _value(answer)
 
-    def _answer(self, progress: ReportProgress | None = None) -> Result | Failure:
+    def _answer(self, progress: Progress | None = None) -> messages.Result | messages.Failure:
         """Wait for the answer to a request; FmuDied as `run`."""
         deadline = monotonic() + LOADING
         while True:
             match self._receive(deadline):
-                case Started():
+                case messages.Started():
                     deadline = monotonic() + self.time_limit + GRACE
-                case Progress(label, share):
+                case messages.Progress(label, share):
                     if progress is not None:
                         progress(label, share)
                 case answer:
@@ -165,7 +158,7 @@ class IsolatedFmu:
             self._killed = True
             self._resources.close()
 
-    def _receive(self, deadline: float) -> Message:
+    def _receive(self, deadline: float) -> messages.Message:
         """Return the next message; does not rely on the end of the pipe, which a child may hold."""
         while True:
             if self._stop.is_set():
@@ -187,16 +180,16 @@ class IsolatedFmu:
         """Return the error for a process that has ended or must be ended, and clean up."""
         self._process.wait(POLL_INTERVAL)
         ending = self._process.end()
-        trace = _last(self._folder / TRACEBACK)
+        trace = _last(self._folder / messages.TRACEBACK)
         report = crash_report(_last(self._log), trace, ending, self.time_limit)
         over = missed_limit(trace, ending) or ending.over_limit
         self.kill()
         return FmuDied(report, over_limit=over)
 
 
-def _value(answer: Result | Failure) -> Any:
+def _value(answer: messages.Result | messages.Failure) -> Any:
     """Return the value of a result, or raise the error of a failure."""
-    if isinstance(answer, Failure):
+    if isinstance(answer, messages.Failure):
         raise answer.error
     return answer.value
 
@@ -217,7 +210,7 @@ def _last(file: Path) -> str:
         return ""
 
 
-def _collect(file: IO[bytes], messages: queue.SimpleQueue[Message | None]) -> None:
+def _collect(file: IO[bytes], received: "queue.SimpleQueue[messages.Message | None]") -> None:
     """Pass messages on, and None after the last or the first that is none."""
     with file:
         while True:
@@ -225,7 +218,7 @@ def _collect(file: IO[bytes], messages: queue.SimpleQueue[Message | None]) -> No
                 message = pickle.load(file)
             except Exception:  # an FMU that writes into the pipe makes pickle raise anything
                 break
-            if not isinstance(message, Message):
+            if not isinstance(message, messages.Message):
                 break
-            messages.put(message)
-    messages.put(None)
+            received.put(message)
+    received.put(None)
