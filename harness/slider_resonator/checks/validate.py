@@ -96,6 +96,18 @@ class Validation(Shown, Tabular):
         return int(bool(self.failed))
 
     @property
+    def outcome(self) -> str:
+        """The verdict in words."""
+        return ("pass", "fail", "could not be run")[self.exit_code]
+
+    @property
+    def count(self) -> str:
+        """How many checks passed, in what time."""
+        total = len(self.checks)
+        passed = f"{total - len(self.failed)} of {total} checks passed"
+        return f"{passed} in {self.wall_time:.1f} s"
+
+    @property
     def failed(self) -> list[Check]:
         """The checks that have failed."""
         return [check for check in self.checks if not check.passed]

@@ -21,9 +21,9 @@ def validations_as_json(validations: Sequence[Validation], error: str = "") -> s
     An `error` that stopped the command before it reached an FMU is returned alone.
     """
     provenance = provenance_of_all(validations)
-    plain = [_plain(validation) for validation in validations]
     if error:
         return to_json({"passed": False, "error": error}, provenance)
+    plain = [_plain(validation) for validation in validations]
     if len(plain) == 1:
         return to_json(plain[0], provenance)
     passed = all(validation.passed for validation in validations)
@@ -83,37 +83,39 @@ def write_junit(
 
 
 def _suite(root: ET.Element, validation: Validation, provenance: Provenance) -> None:
-    suite = ET.SubElement(
-        root,
-        "testsuite",
-        name=_text(validation.fmu),
-        tests=str(
-            len(validation.checks) + len(validation.run_failures) + len(validation.not_applied)
-        ),
-        failures=str(len(validation.failed)),
-        errors=str(len(validation.run_failures)),
-        skipped=str(len(validation.not_applied)),
-        time=f"{validation.wall_time:.3f}",
-    )
+    counts = {
+        "tests": len(validation.checks)
+        + len(validation.run_failures)
+        + len(validation.not_applied),
+        "failures": len(validation.failed),
+        "errors": len(validation.run_failures),
+        "skipped": len(validation.not_applied),
+    }
+    suite = ET.SubElement(root, "testsuite", name=_text(validation.fmu))
+    suite.attrib |= {name: str(number) for name, number in counts.items()}
+    suite.set("time", f"{validation.wall_time:.3f}")
     facts = {"judged": validation.without} if validation.without else {}
     facts |= provenance_properties(provenance, validation.identity)
     properties = ET.SubElement(suite, "properties")
     for name, value in facts.items():
         ET.SubElement(properties, "property", name=name, value=_text(value))
+
+    def add(scene: str, name: str, outcome: str = "", said: str = "", more: str = "") -> None:
+        case = ET.SubElement(suite, "testcase", classname=scene, name=_text(name))
+        if outcome:
+            ET.SubElement(case, outcome, message=_text(said)).text = _text(more)
+
     for scene, quantity, reason in validation.inapplicable:
-        case = ET.SubElement(suite, "testcase", classname=scene, name=quantity)
-        ET.SubElement(case, "skipped", message=_text(f"not applicable: {reason}"))
+        add(scene, quantity, "skipped", f"not applicable: {reason}")
     for check in validation.checks:
-        case = ET.SubElement(suite, "testcase", classname=check.scene, name=_text(title(check)))
-        if not check.passed:
-            failure = ET.SubElement(case, "failure", message=_text(sentence(check)))
-            failure.text = _text(f"{sentence(check)}\nexpected because: {check.why}")
-    for run_failure in validation.run_failures:
-        name = f"could not be run{place(run_failure.at, ' at ')}"
-        case = ET.SubElement(suite, "testcase", classname=run_failure.scene or "FMU", name=name)
-        ET.SubElement(case, "error", message=_text(run_failure.reason)).text = _text(
-            run_failure.reason
-        )
+        if check.passed:
+            add(check.scene, title(check))
+        else:
+            why = f"{sentence(check)}\nexpected because: {check.why}"
+            add(check.scene, title(check), "failure", sentence(check), why)
+    for one in validation.run_failures:
+        name = f"could not be run{place(one.at, ' at ')}"
+        add(one.scene or "FMU", name, "error", one.reason, one.reason)
 
 
 def _text(text: str) -> str:
@@ -124,12 +126,6 @@ VARIABLE = "GITHUB_STEP_SUMMARY"
 """Environment variable with the file that GitHub renders."""
 MAX_ROWS = 50
 """Failures shown for each FMU: GitHub takes 1 MiB of summary."""
-OUTCOMES = (
-    Cell("pass", Style.PASS),
-    Cell("fail", Style.FAIL),
-    Cell("could not be run", Style.FAIL),
-)
-"""By exit code."""
 
 
 def append_summary(
@@ -151,15 +147,11 @@ def _parts(validations: Sequence[Validation], error: str) -> list[str]:
             "checks passed", "failed", "could not be run", "not applicable", "seconds"
         )
         rows: list[Row] = []
-        for validation in validations:
-            failed = len(validation.failed)
-            counts = (
-                *(len(validation.checks) - failed, failed),
-                *(len(validation.run_failures), len(validation.not_applied)),
-            )
-            seconds = f"{validation.wall_time:.1f}"
-            outcome = OUTCOMES[validation.exit_code]
-            rows.append((validation.fmu, outcome, *map(str, counts), seconds))
+        for one in validations:
+            failed, style = len(one.failed), Style.PASS if one.passed else Style.FAIL
+            counts = (len(one.checks) - failed, failed, len(one.run_failures), len(one.not_applied))
+            seconds = f"{one.wall_time:.1f}"
+            rows.append((one.fmu, Cell(one.outcome, style), *map(str, counts), seconds))
         parts.append(rendered(Table([*texts("FMU", "verdict"), *columns], rows)))
     parts += [
         escaped(f"{Path(validation.fmu).name}: {validation.without}")

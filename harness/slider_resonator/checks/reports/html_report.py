@@ -38,13 +38,10 @@ def write_html(
 
 
 def _section(number: int, validation: Validation) -> list[str]:
-    passed = len(validation.checks) - len(validation.failed)
-    outcome = ("pass", "fail", "could not be run")[validation.exit_code]
     colour = "pass" if validation.passed else "fail"
     parts = [
         f"<h2>{escaped(validation.fmu)}</h2>",
-        f'<p><span class="{colour}">{outcome}</span>: {passed} of {len(validation.checks)} checks '
-        f"passed in {validation.wall_time:.1f} s</p>",
+        f'<p><span class="{colour}">{validation.outcome}</span>: {validation.count}</p>',
     ]
     for heading, rows in headline(validation.checks):
         cells = [(name, passed, value, off) for name, value, off, passed in rows]
@@ -111,22 +108,20 @@ def scene_sections(validation: Validation, prefix: str) -> list[str]:
     ids = {scene: f"{prefix}-{number}" for number, scene in enumerate(scenes)}
     columns = (*texts("scene", ""), *numbers("checks", "failed", "largest share of a tolerance"))
     rows: list[Row] = []
+    sections: list[str] = []
     for name, checks in scenes.items():
         failed = sum(not check.passed for check in checks)
         worst = max(check.severity for check in checks)
         share = f"{worst:.2g}" if math.isfinite(worst) else "beyond"
         counts = (str(len(checks)), str(failed), share)
         rows.append((Cell(name, target=ids[name]), verdict(not failed), *counts))
-    parts = ["<h3>Scenes</h3>", rendered(Table(columns, rows))]
-    for name, checks in scenes.items():
         plots = _of_signals(overviews[name], "") if name in overviews else _over_sweep(checks)
-        drawn = "".join(plot_html(plot) for plot in plots)
+        drawn = "".join(map(plot_html, plots))
         table = rendered(Table(COLUMNS, [_row(check) for check in checks]))
-        failed = sum(not check.passed for check in checks)
         note = f"{failed} of {number_of(len(checks), 'check')} failed" if failed else "pass"
         unfolded = failed > 0 or len(scenes) <= MAX_UNFOLDED
-        parts.append(section(ids[name], name, note, drawn + table, unfolded=unfolded))
-    return parts
+        sections.append(section(ids[name], name, note, drawn + table, unfolded=unfolded))
+    return ["<h3>Scenes</h3>", rendered(Table(columns, rows)), *sections]
 
 
 def _of_signals(curves: Curves, where: str) -> list[HoverPlot]:

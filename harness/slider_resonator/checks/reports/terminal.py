@@ -88,13 +88,14 @@ def _print_line(console: Console, line: Text) -> None:
 
 
 def _summary(validation: Validation) -> Text:
-    failed = len(validation.failed)
     parts = [(f"{escaped(validation.fmu)}: ", "")]
-    for count, what in ((failed, "failed"), (len(validation.run_failures), "could not be run")):
-        if count:
-            parts += [(f"{count} {what}", STYLES[Style.FAIL]), (", ", "")]
-    count = len(validation.checks)
-    parts.append((f"{count - failed} of {count} checks passed in {validation.wall_time:.1f} s", ""))
+    for found, what in (
+        (validation.failed, "failed"),
+        (validation.run_failures, "could not be run"),
+    ):
+        if found:
+            parts += [(f"{len(found)} {what}", STYLES[Style.FAIL]), (", ", "")]
+    parts.append((validation.count, ""))
     if validation.without:
         parts.append((f"; {escaped(validation.without)}", STYLES[Style.NOTE]))
     return Text.assemble(*parts)
@@ -108,13 +109,11 @@ def _print_overview(console: Console, scenes: Mapping[str, Sequence[Check]]) -> 
     worst = {name: max(checks, key=lambda check: check.severity) for name, checks in scenes.items()}
     listed = sorted(scenes, key=lambda name: -worst[name].severity)[:MAX_SCENES]
     rows: list[Row] = []
-    for scene, checks in scenes.items():
-        if scene in listed:
-            count = sum(check.passed for check in checks)
-            off, allowed, measure = sizes(worst[scene])
-            cells = (scene, f"{count} of {len(checks)}", worst[scene].quantity)
-            is_passed = verdict(count == len(checks))
-            rows.append((*cells, _size(off), _size(allowed), measure, is_passed))
+    for scene in sorted(listed, key=[*scenes].index):
+        count, total = sum(check.passed for check in scenes[scene]), len(scenes[scene])
+        off, allowed, measure = sizes(worst[scene])
+        cells = (scene, f"{count} of {total}", worst[scene].quantity)
+        rows.append((*cells, _size(off), _size(allowed), measure, verdict(count == total)))
     columns = (
         *(*texts("scene"), *numbers("passed"), *texts("nearest to its bound")),
         *(*numbers("off by", "allowed"), *texts("in", "")),
