@@ -43,36 +43,31 @@ _ROUNDED = 1e-5
 """Tolerated relative error of a display factor, which may have been rounded."""
 
 
-def unit_problems(unit: str, definitions: Sequence[Unit]) -> list[str]:
-    """Return the errors in the definition of a unit of the interface; none without a definition.
+def unit_problems(unit: str, definitions: Sequence[Unit]) -> Iterator[str]:
+    """Yield the errors in the definitions of a unit of the interface; none without a definition.
 
     Its base unit must have the exponents that the name stands for, factor 1 and offset 0, because
     the values of variables are taken as they are; display units must have the factor that goes
     with their names, as far as these are known. The exponent of rad is free.
     """
-    found = (one for one in definitions if one.name == unit)
-    return [problem for one in found for problem in _definition_problems(unit, one)]
-
-
-def _definition_problems(unit: str, definition: Unit) -> Iterator[str]:
-    if (base := definition.baseUnit) is not None:
-        found = {name: getattr(base, name) for name in _EXPONENTS if getattr(base, name)}
-        for what, is_, must_be in (
-            ("as", _dimension(found), _dimension(DIMENSIONS[unit])),
-            ("with factor", base.factor, 1),
-            ("with offset", base.offset, 0),
-        ):
-            if is_ != must_be:
-                yield f"unit {unit} is defined {what} {is_}, must be {must_be}"
-    for display in definition.displayUnits:
-        factor = _factor(unit, str(display.name))
-        if factor is None:
-            continue
-        where = f"display unit {display.name} of unit {unit} is defined with"
-        if not isclose(display.factor, factor, rel_tol=_ROUNDED):
-            yield f"{where} factor {display.factor!r}, must be {factor:.9g}"
-        if display.offset != 0.0:
-            yield f"{where} offset {display.offset!r}, must be 0"
+    for definition in (one for one in definitions if one.name == unit):
+        if (base := definition.baseUnit) is not None:
+            found = {name: getattr(base, name) for name in _EXPONENTS if getattr(base, name)}
+            for what, given, needed in (
+                ("as", _dimension(found), _dimension(DIMENSIONS[unit])),
+                ("with factor", base.factor, 1),
+                ("with offset", base.offset, 0),
+            ):
+                if given != needed:
+                    yield f"unit {unit} is defined {what} {given}, must be {needed}"
+        for display in definition.displayUnits:
+            if (factor := _factor(unit, str(display.name))) is None:
+                continue
+            where = f"display unit {display.name} of unit {unit} is defined with"
+            if not isclose(display.factor, factor, rel_tol=_ROUNDED):
+                yield f"{where} factor {display.factor!r}, must be {factor:.9g}"
+            if display.offset != 0.0:
+                yield f"{where} offset {display.offset!r}, must be 0"
 
 
 def _factor(unit: str, display: str) -> float | None:

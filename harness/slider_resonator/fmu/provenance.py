@@ -63,14 +63,22 @@ def provenance_of(*fmus: str | Path | FmuIdentity) -> Provenance:
 
     Raises HarnessError for a SOURCE_DATE_EPOCH that is no date.
     """
+    cpu = platform.processor()
+    with suppress(OSError):  # Linux only
+        found = _CPU_NAME.search(Path("/proc/cpuinfo").read_text(encoding="utf-8"))
+        cpu = found[1].strip() if found else cpu
+    given = os.environ.get(DATE_VARIABLE)
+    if given and not (given.isascii() and given.isdigit() and int(given) <= _MAX_EPOCH):
+        raise HarnessError(f"{DATE_VARIABLE} = {given!r}: must be whole seconds since 1970")
+    date = datetime.fromtimestamp(int(given), UTC) if given else datetime.now(UTC)
     return Provenance(
         fmus=tuple(fmu if isinstance(fmu, FmuIdentity) else identity_of(fmu) for fmu in fmus),
         harness=__version__,
         fmpy=str(fmpy.__version__),
         python=platform.python_version(),
         platform=f"{platform.system()} {platform.release()} {platform.machine()}",
-        cpu=_cpu(),
-        date=_date(),
+        cpu=f"{cpu or platform.machine()}, {os.cpu_count()} logical cores",
+        date=date.isoformat(timespec="seconds"),
     )
 
 
@@ -90,26 +98,6 @@ def digest_of(fmu: Path) -> str:
     """Return the SHA-256 of the content of a file."""
     with fmu.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
-
-
-def _cpu() -> str:
-    """Return the name of the processor and the number of its logical cores."""
-    name = platform.processor()
-    try:
-        found = _CPU_NAME.search(Path("/proc/cpuinfo").read_text(encoding="utf-8"))
-        name = found[1].strip() if found else name
-    except OSError:  # Linux only
-        pass
-    return f"{name or platform.machine()}, {os.cpu_count()} logical cores"
-
-
-def _date() -> str:
-    given = os.environ.get(DATE_VARIABLE)
-    if not given:
-        return datetime.now(UTC).isoformat(timespec="seconds")
-    if not given.isascii() or not given.isdigit() or int(given) > _MAX_EPOCH:
-        raise HarnessError(f"{DATE_VARIABLE} = {given!r}: must be whole seconds since 1970")
-    return datetime.fromtimestamp(int(given), UTC).isoformat(timespec="seconds")
 
 
 def provenance_html(provenance: Provenance) -> str:
@@ -134,9 +122,11 @@ def provenance_properties(provenance: Provenance, fmu: FmuIdentity | None) -> di
 def _tables(provenance: Provenance) -> list[Table]:
     """Return a table of the FMUs, if any, and one of tools, machine and date."""
     fmus = [
-        (Path(one.fmu).name, *(value or "-" for value in facts))
+        (
+            *(Path(one.fmu).name, one.guid or "-", one.version or "-"),
+            *(one.generation_tool or "-", one.sha256 or "-"),
+        )
         for one in provenance.fmus
-        for facts in [(one.guid, one.version, one.generation_tool, one.sha256)]
     ]
     tools = (
         *(provenance.date, provenance.harness, provenance.fmpy, provenance.python),

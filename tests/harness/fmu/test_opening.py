@@ -105,7 +105,7 @@ NEWTON = {"kg": 1, "m": 1, "s": -2}
 
 
 def problems(unit: str, *displayed: DisplayUnit, **base: float) -> list[str]:
-    return unit_problems(unit, [Unit(unit, BaseUnit(**base), list(displayed))])
+    return [*unit_problems(unit, [Unit(unit, BaseUnit(**base), list(displayed))])]
 
 
 def test_every_unit_of_the_interface_has_a_dimension() -> None:

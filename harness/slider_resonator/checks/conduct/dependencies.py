@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from fmpy.model_description import Unknown
 
-from slider_resonator.checks.conduct.findings import other_value
+from slider_resonator.checks.conduct.findings import other_value, outputs_after
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import INPUTS, SETTABLE, VARIABLES
@@ -22,6 +22,8 @@ SITUATIONS: Sequence[Mapping[str, float]] = (
     {"normal_preload": 0.5, "initial_velocity": 0.1, "phase": 2.0},  # with flight
 )
 """Devices and inputs in which variables are changed, one by one."""
+CHOSEN = ("fidelity", "friction_law", "averaging_order")
+"""Variables with a situation for each of their values."""
 STEPS = 4
 STEP = 1.37e-4
 """Steps (s) of a run after each of which an input is changed."""
@@ -37,31 +39,26 @@ def dependency_faults(fmu: FmuSide) -> list[str]:
     in_run = _declared(description.outputs)
     faults: list[str] = []
     names = [name for name in SETTABLE if name in instance.fmu.variables]
-    chosen = ("fidelity", "friction_law", "averaging_order")  # each has a situation of its own
     for values in SITUATIONS:
         situation = {n: value for n, value in values.items() if n in instance.fmu.variables}
+        present = {name: situation.get(name, VARIABLES[name].start or 0.0) for name in names}
         instance.start(situation)
         with instance.explained():
             before = instance.outputs()
         for name in names:
-            if name in chosen:
-                continue
-            value = situation.get(name, VARIABLES[name].start or 0.0)
-            instance.start({**situation, name: other_value(name, value)})
-            faults += _undeclared(instance, name, before, at_start, "at the start")
+            if name not in CHOSEN:
+                instance.start({**situation, name: other_value(name, present[name])})
+                faults += _undeclared(instance, name, before, at_start, "at the start")
         instance.start(situation)
         with instance.explained():
             instance.outputs()
             for _ in range(STEPS):
-                instance.step_by(STEP)
-                before = instance.outputs()
+                before = outputs_after(instance, STEP)
                 for name in (*INPUTS, *DEVIATIONS):
-                    if name not in instance.fmu.variables:
-                        continue
-                    value = situation.get(name, VARIABLES[name].start or 0.0)
-                    instance.set({name: other_value(name, value)})
-                    faults += _undeclared(instance, name, before, in_run, "in a run")
-                    instance.set({name: value})
+                    if name in names:
+                        instance.set({name: other_value(name, present[name])})
+                        faults += _undeclared(instance, name, before, in_run, "in a run")
+                        instance.set({name: present[name]})
     return list(dict.fromkeys(faults))
 
 

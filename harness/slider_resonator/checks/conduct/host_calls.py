@@ -70,7 +70,11 @@ def host_faults(fmu: FmuSide) -> list[str]:
         if not instance.fmu.offers.hasEventMode:
             raise NotApplicable("needs FMI 2.0, whose calls are tried, or hasEventMode = true")
         return [*event_mode_faults(instance), *process_faults(instance), *step_leaks(instance)]
-    faults = [*_version_faults(slave)]
+    faults = [
+        f"{name} returns {found!r}, must be {needed!r}"
+        for name, needed in ANSWERS.items()
+        if (found := (getattr(slave, name)() or b"").decode("utf-8", "replace")) != needed
+    ]
     if is_native:
         faults += _instance_faults(instance, slave)
     with instance.explained():
@@ -82,9 +86,7 @@ def host_faults(fmu: FmuSide) -> list[str]:
         faults.append(str(error))
     if is_native:
         faults += _other_host_faults(instance, slave)
-    faults += _many_values_faults(instance)
-    if is_refused(instance.call, "fmi2GetReal", None, 0, None):
-        faults.append("a call for no values at all is refused")
+    faults += _number_faults(instance)
     faults += _offer_faults(instance, slave)
     with instance.explained():
         instance.terminate()
@@ -92,13 +94,6 @@ def host_faults(fmu: FmuSide) -> list[str]:
         slave.dll.fmi2FreeInstance(None)  # which is no error, and must not crash
         faults += [*crowd_faults(instance), *process_faults(instance)]
     return [*faults, *step_leaks(instance), *instance_leaks(instance)]
-
-
-def _version_faults(slave: FMU2Slave) -> Iterator[str]:
-    for name, needed in ANSWERS.items():
-        found = (getattr(slave, name)() or b"").decode("utf-8", "replace")
-        if found != needed:
-            yield f"{name} returns {found!r}, must be {needed!r}"
 
 
 def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
@@ -253,8 +248,10 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     yield from (f"a refusal is logged {how}" for how in dict.fromkeys(wrong))
 
 
-def _many_values_faults(instance: Instance) -> Iterator[str]:
-    """Read one variable twice, and so often that it may be refused, but must not crash."""
+def _number_faults(instance: Instance) -> Iterator[str]:
+    """Read nothing, one variable twice, and so often that it may be refused, but must not crash."""
+    if is_refused(instance.call, "fmi2GetReal", None, 0, None):
+        yield "a call for no values at all is refused"
     reference = instance.fmu.reference("normal_force")
     expected, found = instance.value("normal_force"), (c_double * MANY)()
     load = instance.fmu.reference("load")

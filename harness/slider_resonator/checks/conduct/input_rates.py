@@ -1,6 +1,6 @@
 """The same ramps set in other ways, each of which must give the same outputs to the last bit."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 
 import numpy as np
@@ -9,7 +9,6 @@ from slider_resonator.checks.conduct.findings import outputs_after
 from slider_resonator.checks.conduct.replays import Replay, Rows
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import INPUTS, TUNABLES
-from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.instance import Instance, SavedState
 
 AWAY = 1e-4
@@ -25,37 +24,65 @@ ROUNDING = 1e-9
 def rate_differences(fmu: FmuSide) -> list[str]:
     """Set derivatives before values; leave out those of inputs that are held; set one by one.
 
-    An input that is set without a derivative after a step is held from then on.
+    An input that is set without a derivative after a step is held from then on. Derivatives that
+    are set at the corners of lines only last until the next corner.
     """
     instance = fmu.instance
     instance.fmu.require("canInterpolateInputs")
     plain = Replay.of(fmu)
+    sampled, rates = plain.schedule.sampled.tolist(), plain.schedule.rates.tolist()
+
+    def before_values(step: int) -> None:
+        instance.set_input_rates(rates[step])
+        _through_a_state(instance)
+        instance.set_inputs(sampled[step])
+
+    def without_zeros(step: int) -> None:
+        instance.set_inputs(sampled[step])
+        for name, rate in zip(INPUTS, rates[step], strict=True):
+            if rate:
+                instance.block([name]).write_rates([rate])
+
+    def one_by_one(step: int) -> None:
+        for name, value, rate in zip(INPUTS, sampled[step], rates[step], strict=True):
+            instance.block([name]).write_rates([rate])
+            instance.set({name: value})
+
+    def at_corners(step: int) -> None:
+        if step == 0 or not np.allclose(rates[step], rates[step - 1], rtol=1e-9, atol=1e-12):
+            instance.set_inputs(sampled[step])
+            instance.set_input_rates(rates[step])
+        _through_a_state(instance)
+
+    ways: Mapping[str, Callable[[int], None]] = {
+        "with derivatives set before values": before_values,
+        "without derivatives of 0": without_zeros,
+        "with derivatives set one by one": one_by_one,
+    }
     found: list[str] = []
-    for what, set_inputs in WAYS.items():
+    for what, set_inputs in ways.items():
         found += plain.differences(what, _rows(plain, set_inputs))
     place = instance.fmu.outputs.index("position")
-    kept = np.array(_rows(plain, _at_corners))[:, place]
-    expected = np.array(plain.rows)[:, place]
+    kept, expected = (np.array(rows)[:, place] for rows in (_rows(plain, at_corners), plain.rows))
     off = float(np.abs(kept - expected).max() / np.abs(expected).max())
     if not off <= ROUNDING:
         found.append(f"position is off by {off:.2g} of its peak where derivatives are kept")
-    return found + _begun(fmu)
+    return found + _begun(instance, fmu.scene.parameters)
 
 
-def _rows(plain: Replay, set_inputs: Callable[[Instance, Schedule, int], None]) -> Rows:
+def _rows(plain: Replay, set_inputs: Callable[[int], None]) -> Rows:
     """Return the rows of a run whose values and derivatives are set before each step."""
     with plain.instance.explained():
         running = plain.started()
         for step in range(running.steps):
-            set_inputs(plain.instance, plain.schedule, step)
+            set_inputs(step)
             plain.instance.step_by(running.step_size(step))
             running.read()
     return running.rows
 
 
-def _begun(fmu: FmuSide) -> list[str]:
+def _begun(instance: Instance, parameters: Mapping[str, float]) -> list[str]:
     """Set derivatives before a reset, where they must end, and before initialization ends."""
-    instance, parameters = fmu.instance, fmu.scene.parameters
     after_a_step = partial(outputs_after, instance, AWAY)
     faults: list[str] = []
     with instance.explained():
@@ -81,51 +108,12 @@ def _begun(fmu: FmuSide) -> list[str]:
     return faults
 
 
-def _at_corners(instance: Instance, schedule: Schedule, step: int) -> None:
-    """Set values and derivatives at the corners of lines only: derivatives last until then."""
-    rates = schedule.rates
-    if step == 0 or not np.allclose(rates[step], rates[step - 1], rtol=1e-9, atol=1e-12):
-        instance.set_inputs(schedule.sampled[step].tolist())
-        instance.set_input_rates(rates[step].tolist())
-    _through_a_state(instance)
-
-
-def _before_values(instance: Instance, schedule: Schedule, step: int) -> None:
-    instance.set_input_rates(schedule.rates[step].tolist())
-    _through_a_state(instance)
-    instance.set_inputs(schedule.sampled[step].tolist())
-
-
 def _through_a_state(instance: Instance) -> None:
     """Serialise the state, set other derivatives, and go back, where the FMU offers that."""
     offers = instance.fmu.offers
-    if not (offers.canGetAndSetFMUstate and offers.canSerializeFMUstate):
-        return
-    with SavedState.of(instance) as state:
-        instance.step_by(AWAY)
-        instance.set_inputs([0.1, 0.2, 1.3])
-        instance.set_input_rates(RATES)
-        state.transfer(instance)
-
-
-def _without_zeros(instance: Instance, schedule: Schedule, step: int) -> None:
-    instance.set_inputs(schedule.sampled[step].tolist())
-    rates = schedule.rates[step].tolist()
-    for name, rate in zip(INPUTS, rates, strict=True):
-        if rate:
-            instance.block([name]).write_rates([rate])
-
-
-def _one_by_one(instance: Instance, schedule: Schedule, step: int) -> None:
-    values, rates = schedule.sampled[step].tolist(), schedule.rates[step].tolist()
-    for name, value, rate in zip(INPUTS, values, rates, strict=True):
-        instance.block([name]).write_rates([rate])
-        instance.set({name: value})
-
-
-WAYS: dict[str, Callable[[Instance, Schedule, int], None]] = {
-    "with derivatives set before values": _before_values,
-    "without derivatives of 0": _without_zeros,
-    "with derivatives set one by one": _one_by_one,
-}
-"""What sets the values and derivatives of a step in another way than a run."""
+    if offers.canGetAndSetFMUstate and offers.canSerializeFMUstate:
+        with SavedState.of(instance) as state:
+            instance.step_by(AWAY)
+            instance.set_inputs([0.1, 0.2, 1.3])
+            instance.set_input_rates(RATES)
+            state.transfer(instance)

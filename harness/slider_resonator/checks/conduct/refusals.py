@@ -344,8 +344,14 @@ def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
     instance.call("fmi2Reset")
     instance.time = 0.0
     trial.reads = not is_refused(instance.value, "load")
+
+    def set_up(arguments: tuple[object, ...]) -> None:
+        instance.call("fmi2SetupExperiment", *arguments)
+        if instance.fmu.version != "2.0":  # FMI 3.0 takes it with initialisation mode
+            instance.call("fmi2EnterInitializationMode")
+
     for what, arguments in EXPERIMENTS.items():
-        trial.refuses(what, partial(_set_up_experiment, instance, arguments))
+        trial.refuses(what, partial(set_up, arguments))
     with suppress(FMICallException):  # an FMU may ask for another experiment first
         instance.call("fmi2EnterInitializationMode")
         if not is_same(instance.value("last_event_time"), instance.time):
@@ -354,13 +360,6 @@ def _before_the_run(trial: Trial, settable: list[Variable]) -> None:
     trial.refuses_values("before a run", settable)
     trial.refuses_calls("before a run")
     trial.accepts_bounds("before a run", settable)
-
-
-def _set_up_experiment(instance: Instance, arguments: tuple[object, ...]) -> None:
-    """Set up an experiment; FMI 3.0 takes it with initialisation mode."""
-    instance.call("fmi2SetupExperiment", *arguments)
-    if instance.fmu.version != "2.0":
-        instance.call("fmi2EnterInitializationMode")
 
 
 def _in_the_run(trial: Trial, present: list[Variable], *, restores: bool) -> None:

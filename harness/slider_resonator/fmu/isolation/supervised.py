@@ -81,16 +81,14 @@ class Supervised:
 
     def end(self) -> Ending:
         """End the program and all that it started, if it still runs, and return how it ended."""
-        if self._ending is None:
-            self._ending = self._end()
-        return self._ending
-
-    def _end(self) -> Ending:
+        if self._ending is not None:
+            return self._ending
         ran = self.process.poll() is None
         if self._control is None:
             self.process.kill()
             code = self.process.wait()
-            return Ending(None if ran else code)
+            self._ending = Ending(None if ran else code)
+            return self._ending
         with self._control as control:
             if ran:
                 with suppress(OSError):
@@ -98,7 +96,7 @@ class Supervised:
             if not self.wait(MAX_ENDING):
                 self.process.kill()
                 self.process.wait()
-            code = self.process.returncode
+            self._ending = Ending(self.process.returncode)
             with suppress(OSError, ValueError):  # it may have been killed before it reports
-                return Ending(**json.loads(control.recv(4096)))
-            return Ending(code)
+                self._ending = Ending(**json.loads(control.recv(4096)))
+        return self._ending
