@@ -95,15 +95,27 @@ class Comparison:
 def compare(
     comparison: Comparison, measured: Measurement, expected: Any, point: ScenePoint
 ) -> Check:
-    """Compare a measurement with the expected value: number, word, None, signal (n,) or a tube."""
+    """Compare a measurement with the expected value: number, word, None, signal (n,) or a tube.
+
+    A value that does not exist fails, as does one that is not finite.
+    """
     quantity = QUANTITIES[comparison.quantity]
     floor = 0.0
     if comparison.absolute is None:
         floor = smallest_reference(comparison.quantity, point.scene.device)
+    got = measured.value
     if quantity.kind == "signal":
         difference = _difference_of_signals(comparison, measured, expected, floor, point.scene)
+    elif isinstance(got, str | None) or isinstance(expected, str | None):
+        passed = got is not None and got == expected
+        difference = {"deviation": None, "allowed": None, "passed": passed}
     else:
-        difference = _difference_of_values(comparison, measured.value, expected, floor)
+        off = got - expected  # a bound counts by how much it is exceeded; NaN stays NaN
+        excess = {AT_MOST: max(off, 0.0), AT_LEAST: max(-off, 0.0)}
+        deviation = 0.0 if is_same(got, expected) else excess.get(comparison.against, abs(off))
+        allowed = (comparison.absolute or 0.0) + comparison.relative * max(abs(expected), floor)
+        passed = deviation <= allowed
+        difference = {"deviation": deviation, "allowed": allowed, "passed": passed}
     return Check(
         scene=point.scene.name,
         quantity=comparison.quantity,
@@ -113,24 +125,8 @@ def compare(
         note=measured.note,
         at=point.at,
         tube=comparison.tube,
-        **difference,
+        **{"fmu": got, "reference": expected, **difference},
     )
-
-
-def _difference_of_values(
-    comparison: Comparison, measured: Value, expected: Value, floor: float
-) -> dict[str, Any]:
-    """Return the fields of a check of numbers or words; a value that does not exist fails."""
-    values = {"fmu": measured, "reference": expected}
-    if isinstance(measured, str | None) or isinstance(expected, str | None):
-        passed = measured is not None and measured == expected
-        return {**values, "deviation": None, "allowed": None, "passed": passed}
-    off = measured - expected  # a bound counts by how much it is exceeded; NaN stays NaN
-    excess = {AT_MOST: max(off, 0.0), AT_LEAST: max(-off, 0.0)}.get(comparison.against, abs(off))
-    deviation = 0.0 if is_same(measured, expected) else excess
-    allowed = (comparison.absolute or 0.0) + comparison.relative * max(abs(expected), floor)
-    passed = deviation <= allowed
-    return {**values, "deviation": deviation, "allowed": allowed, "passed": passed}
 
 
 def _difference_of_signals(

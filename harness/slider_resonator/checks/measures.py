@@ -118,8 +118,16 @@ def dominant_frequency(times: Array, signal: Array) -> float:
     bounds = ((line - 1.0 + 1e-3) * resolution, (line + 1.0) * resolution)
     local = times - times.mean()
 
-    def misfit(frequency: Array) -> Array:
-        basis = _basis(local, float(frequency[0]))
+    nyquist = 0.5 * (len(times) - 1) / np.ptp(times)
+
+    def misfit(at: Array) -> Array:
+        """Return what constant, trend and the waves of a frequency (Hz) leave of the signal."""
+        columns = [np.ones_like(local), local / np.ptp(local)]
+        for harmonic in range(1, HARMONICS + 1):
+            if harmonic == 1 or harmonic * at[0] < 0.9 * nyquist:
+                angle = 2.0 * np.pi * harmonic * at[0] * local
+                columns += [np.cos(angle), np.sin(angle)]
+        basis = np.column_stack(columns)
         waves = np.linalg.lstsq(basis, signal, rcond=None)[0]
         return np.asarray(basis @ waves - signal)
 
@@ -127,15 +135,3 @@ def dominant_frequency(times: Array, signal: Array) -> float:
         misfit, line * resolution, bounds=bounds, x_scale=resolution, xtol=1e-12, gtol=1e-15
     )
     return float(found.x[0])
-
-
-def _basis(times: Array, frequency: float) -> Array:
-    """Return constant, trend and the waves of a frequency (Hz) at the times as columns."""
-    columns = [np.ones_like(times), times / np.ptp(times)]
-    nyquist = 0.5 * (len(times) - 1) / np.ptp(times)
-    for harmonic in range(1, HARMONICS + 1):
-        if harmonic > 1 and harmonic * frequency >= 0.9 * nyquist:
-            break
-        angle = 2.0 * np.pi * harmonic * frequency * times
-        columns += [np.cos(angle), np.sin(angle)]
-    return np.column_stack(columns)

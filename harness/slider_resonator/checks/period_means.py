@@ -1,5 +1,7 @@
 """Means over whole drive periods, and counts, at every communication point of a trajectory."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from slider_resonator.arrays import Array
@@ -62,13 +64,16 @@ def quadrature(events: Array, begin: float, end: float) -> tuple[Array, Array]:
 
 def reversal_counts(run: Trajectory, times: Array, periods: DrivePeriods) -> Tube:
     """Return how many reversals there were up to each time; where they coincide, either number."""
-    counts = [
-        np.searchsorted(run.reversal_times, times + shift * periods.period, side="right").astype(
-            float
-        )
-        for shift in (0.0, -COINCIDENCE, COINCIDENCE)
-    ]
-    return Tube(*counts)
+    reversals = run.reversal_times
+    return _around(
+        lambda at: np.searchsorted(reversals, at, side="right").astype(float), times, periods
+    )
+
+
+def _around(measure: Callable[[Array], Array], times: Array, periods: DrivePeriods) -> Tube:
+    """Return a measure at times (s), with that before and after each where an event coincides."""
+    margin = COINCIDENCE * periods.period
+    return Tube(*(measure(times + shift) for shift in (0.0, -margin, margin)))
 
 
 def last_events(run: Trajectory, times: Array, periods: DrivePeriods) -> Tube:
@@ -80,8 +85,7 @@ def last_events(run: Trajectory, times: Array, periods: DrivePeriods) -> Tube:
     events = np.union1d(np.append(0.0, run.event_times), run.reversal_times)
 
     def last_before(at: Array) -> Array:
-        return events[np.searchsorted(events, np.maximum(at, 0.0), side="right") - 1]
+        before = np.searchsorted(events, np.maximum(at, 0.0), side="right") - 1
+        return np.asarray(events[before] / periods.period)
 
-    margin = COINCIDENCE * periods.period
-    bounds = [last_before(times + shift) for shift in (0.0, -margin, margin)]
-    return Tube(*(bound / periods.period for bound in bounds))
+    return _around(last_before, times, periods)

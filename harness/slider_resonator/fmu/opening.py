@@ -1,9 +1,11 @@
 """Open an FMU: unpack the archive, read its description and check its interface."""
 
+import re
 import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -52,6 +54,12 @@ class Fmu:
     def runs_without_python(self) -> bool:
         """Whether a host without Python can load it: it contains no Python sources."""
         return not any((self.folder / "resources").glob("*.py"))
+
+    @cached_property
+    def log_categories(self) -> frozenset[str]:
+        """The names of its log categories, which fmpy does not read."""
+        text = (self.folder / "modelDescription.xml").read_text(encoding="utf-8")
+        return frozenset(re.findall(r'<Category\s+name="([^"]*)"', text))
 
     @property
     def takes_equal_steps_only(self) -> bool:

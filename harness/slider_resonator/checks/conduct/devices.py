@@ -7,7 +7,7 @@ from math import isfinite, sqrt
 
 from fmpy.fmi1 import FMICallException
 
-from slider_resonator.checks.conduct.findings import outputs_after
+from slider_resonator.checks.conduct.findings import is_refused, outputs_after
 from slider_resonator.checks.conduct.refusals import Trial
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
@@ -59,7 +59,17 @@ def device_faults(fmu: FmuSide) -> list[str]:
         trial.refuses(what, start, (*device, *cause))
         faults += trial.faults or _in_a_run(fmu.instance, what, device, cause)
     for device in EXTREMES:
-        faults += _extreme(fmu.instance, device)
+        values = ", ".join(f"{name} = {value:g}" for name, value in device.items())
+        fmu.instance.set_up()
+        with suppress(FMICallException):
+            fmu.instance.set(device)
+            fmu.instance.call("fmi2EnterInitializationMode")
+            fmu.instance.begin()
+            faults += _infinite(fmu.instance, values)
+            fmu.instance.step_by(LONG_STEP)
+            faults += _infinite(fmu.instance, values)
+            if is_refused(fmu.instance.read, ["position", "velocity"]):
+                faults.append(f"a step is accepted but its motion cannot be read: {values}")
     return faults
 
 
@@ -70,26 +80,8 @@ def _start(instance: Instance, device: Values) -> None:
     instance.step_by(STEP)
 
 
-def _extreme(instance: Instance, device: Values) -> Iterator[str]:
-    """Start and step; outputs may be refused, but motion of a step that is accepted may not."""
-    values = ", ".join(f"{name} = {value:g}" for name, value in device.items())
-    instance.set_up()
-    try:
-        instance.set(device)
-        instance.call("fmi2EnterInitializationMode")
-        instance.begin()
-        yield from _infinite(instance, values)
-        instance.step_by(LONG_STEP)
-    except FMICallException:
-        return
-    yield from _infinite(instance, values)
-    try:
-        instance.read(["position", "velocity"])
-    except FMICallException:
-        yield f"a step is accepted but its motion cannot be read: {values}"
-
-
 def _infinite(instance: Instance, values: str) -> Iterator[str]:
+    """Yield the outputs that are not finite; they may be refused."""
     for name in instance.fmu.outputs:
         with suppress(FMICallException):
             value = instance.value(name)

@@ -108,29 +108,26 @@ def _started(fmu: Fmu, *, events: bool = True, early: bool = True) -> Iterator[_
 def event_mode_faults(instance: Instance) -> list[str]:
     """Run an FMI 3.0 FMU with and without event mode, and compare."""
     fmu = instance.fmu
+    rows, times = [], [0.0]
     try:
-        rows, times = _plain_run(instance)
-        faults = [*_run_faults(fmu, rows, times), *_last_moment_faults(fmu, times)]
-        return [*faults, *_late_return_faults(fmu), *_call_faults(fmu)]
+        instance.initialise(DEVICE, STEPS * STEP)
+        instance.begin()
+        for part in range(STEPS * FINE):
+            instance.step_to((part + 1) * STEP / FINE)
+            times.append(instance.value(LAST))
+            if (part + 1) % FINE == 0:
+                rows.append([*instance.outputs().values()])
+        events = sorted({*times} - {0.0})
+        return [*_event_faults(fmu, rows, events), *_return_faults(fmu), *_call_faults(fmu)]
     except FMICallException as error:
         return [f"a run with event mode fails: {error}"]
 
 
-def _plain_run(instance: Instance) -> tuple[list[list[float]], list[float]]:
-    """Return the outputs after each step of a run without event mode, and the times of events."""
-    rows, times = [], [0.0]
-    instance.initialise(DEVICE, STEPS * STEP)
-    instance.begin()
-    for part in range(STEPS * FINE):
-        instance.step_to((part + 1) * STEP / FINE)
-        times.append(instance.value(LAST))
-        if (part + 1) % FINE == 0:
-            rows.append([*instance.outputs().values()])
-    return rows, sorted({*times} - {0.0})
+def _event_faults(fmu: Fmu, rows: list[list[float]], times: list[float]) -> Iterator[str]:
+    """Run with event mode and early return: each event ends a step, and changes no output.
 
-
-def _run_faults(fmu: Fmu, rows: list[list[float]], times: list[float]) -> Iterator[str]:
-    """Run with event mode and early return: each event ends a step, and changes no output."""
+    Step to the very times of events, too, each from the start, and on: by rounding they come then.
+    """
     peaks = np.max(np.abs(rows), axis=0)
     with _started(fmu) as run:
         yield from run.handle_event()
@@ -145,10 +142,6 @@ def _run_faults(fmu: Fmu, rows: list[list[float]], times: list[float]) -> Iterat
     for time in times:
         if not any(abs(time - other) <= SAME_TIME for other in run.seen):
             yield f"the event at {time!r} s ends no step"
-
-
-def _last_moment_faults(fmu: Fmu, times: list[float]) -> Iterator[str]:
-    """Step to the very times of events, each from the start, and on: by rounding they come then."""
     for time in times:
         with _started(fmu) as run:
             yield from run.handle_event()
@@ -158,7 +151,7 @@ def _last_moment_faults(fmu: Fmu, times: list[float]) -> Iterator[str]:
             yield f"the event at {time!r} s is lost where a step ends there"
 
 
-def _late_return_faults(fmu: Fmu) -> Iterator[str]:
+def _return_faults(fmu: Fmu) -> Iterator[str]:
     """Run with event mode, but without early return: steps run through events."""
     with _started(fmu, early=False) as run:
         run.slave.enterStepMode()

@@ -28,7 +28,6 @@ from slider_resonator.checks.conduct.process import (
     process_faults,
     step_leaks,
 )
-from slider_resonator.checks.conduct.refusals import explains
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import NotApplicable
 from slider_resonator.fmu import fmu_log
@@ -127,7 +126,7 @@ def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
         is_made, messages = made(**argument)
         if is_made:
             yield f"an instance {what} is made"
-        elif explains(instance) and not messages:
+        elif instance.fmu.log_categories and not messages:
             yield f"an instance {what} is refused without a message"
     # Some hosts show instances, and write the authority of a URI or leave it out.
     unusual: list[dict[str, Any]] = [
@@ -172,10 +171,11 @@ def _switching_faults(instance: Instance) -> Iterator[str]:
     instance.step_by(STEP)
     if instance.messages:
         yield "a step is logged after logging is switched off"
-    if _has_category(instance, WARNINGS) and _refusal_is_logged(instance, WARNINGS):
+    categories = instance.fmu.log_categories
+    if WARNINGS in categories and _refusal_is_logged(instance, WARNINGS):
         yield "a refusal is logged though only warnings were asked for"
     # pythonfmu logs a refusal without a category.
-    categorised = _has_category(instance, EVERYTHING) and instance.fmu.runs_without_python
+    categorised = EVERYTHING in categories and instance.fmu.runs_without_python
     if categorised and not _refusal_is_logged(instance, EVERYTHING):
         yield "a refusal is not logged though all messages were asked for"
     if not _refusal_is_logged(instance):
@@ -199,15 +199,11 @@ def _refusal_is_logged(instance: Instance, *categories: str) -> bool:
     return bool(instance.messages)
 
 
-def _has_category(instance: Instance, category: str) -> bool:
-    description = Path(instance.fmu.folder, "modelDescription.xml").read_text(encoding="utf-8")
-    return f'<Category name="{category}"' in description
-
-
 def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     """Create an instance for another host, to which alone its refusals may be reported."""
     if instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
         return
+    declared = instance.fmu.log_categories
     environments: list[int | None] = []
     wrong: list[str] = []
 
@@ -222,7 +218,7 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
             wrong.append("as a success")
         if called in STATUSES and STATUSES.index(called) != status:
             wrong.append("in the category of another status")
-        if _has_category(instance, EVERYTHING) and not _has_category(instance, called):
+        if EVERYTHING in declared and called not in declared:
             wrong.append("in a category that is not declared")
 
     messages, callbacks = fmu_log.collect(BESIDE)

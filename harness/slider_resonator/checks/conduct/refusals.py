@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 from fmpy.fmi1 import FMICallException
@@ -228,7 +227,7 @@ class Trial:
         valid = {(v.kind, references[v.name]) for v in present}
         last = max(variable.valueReference for variable in self.instance.fmu.variables.values())
         unknown = {"the reference after the last": last + 1, "an unknown reference": UNKNOWN}
-        explained = explains(self.instance)
+        explained = self.instance.fmu.log_categories
         for kind in sorted(types):
             read, write = getattr(slave, f"get{kind}"), getattr(slave, f"set{kind}")
             for what, reference in {**references, **unknown}.items():
@@ -281,11 +280,6 @@ class Trial:
             self.instance.slave.setInteger(references, [int(value) for value in values])
         else:
             self.instance.slave.setReal(references, values)
-
-
-def explains(instance: Instance) -> bool:
-    """Whether an FMU has log categories, and so must say in which call it refuses what."""
-    return b"<LogCategories" in Path(instance.fmu.folder, "modelDescription.xml").read_bytes()
 
 
 def shows(log: str, value: float) -> bool:
@@ -379,7 +373,7 @@ def _in_the_run(trial: Trial, present: list[Variable], *, restores: bool) -> Non
         trial.refuses_derivatives(present)
     restores = restores and bool(instance.fmu.offers.canGetAndSetFMUstate)
     state = SavedState.of(instance) if restores else None
-    names = ["communicationStepSize"] if explains(instance) else []
+    names = ["communicationStepSize"] if instance.fmu.log_categories else []
     for size in STEP_SIZES:
         trial.refuses_step(f"a step of {size!r} s", instance.time, size, names)
     beyond = BEYOND * (instance.time + STEP)

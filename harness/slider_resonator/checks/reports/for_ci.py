@@ -166,21 +166,14 @@ def _parts(validations: Sequence[Validation], error: str) -> list[str]:
     if skipped:
         columns = texts("FMU", "scene", "quantity", "not applicable because")
         parts.append(rendered(Table(columns, skipped)))
-    failures = [row for validation in validations for row in _failures(validation)]
+    failures: list[Row] = []
+    for one in validations:
+        found = [(f.scene, place(f.at) or "-", f.reason) for f in one.run_failures]
+        found += [(check.scene, title(check), sentence(check)) for check in one.failed]
+        failures += [(Path(one.fmu).name, *row) for row in found[:MAX_ROWS]]
+        if len(found) > MAX_ROWS:
+            failures.append((Path(one.fmu).name, "", "", f"and {len(found) - MAX_ROWS} more"))
     if failures:
         parts.append(rendered(Table(texts("FMU", "scene", "quantity", "verdict"), failures)))
     parts.append(provenance_markdown(provenance_of_all(validations)))
     return parts
-
-
-def _failures(validation: Validation) -> list[Row]:
-    found = [
-        (run_failure.scene, place(run_failure.at) or "-", run_failure.reason)
-        for run_failure in validation.run_failures
-    ]
-    found += [(c.scene, title(c), sentence(c)) for c in validation.failed]
-    name = Path(validation.fmu).name
-    rows: list[Row] = [(name, *row) for row in found[:MAX_ROWS]]
-    if len(found) > MAX_ROWS:
-        rows.append((name, "", "", f"and {len(found) - MAX_ROWS} more"))
-    return rows
