@@ -64,10 +64,11 @@ def quadrature(events: Array, begin: float, end: float) -> tuple[Array, Array]:
 
 def reversal_counts(run: Trajectory, times: Array, periods: DrivePeriods) -> Tube:
     """Return how many reversals there were up to each time; where they coincide, either number."""
-    reversals = run.reversal_times
-    return _around(
-        lambda at: np.searchsorted(reversals, at, side="right").astype(float), times, periods
-    )
+
+    def count(at: Array) -> Array:
+        return np.searchsorted(run.reversal_times, at, side="right").astype(float)
+
+    return _around(count, times, periods)
 
 
 def _around(measure: Callable[[Array], Array], times: Array, periods: DrivePeriods) -> Tube:

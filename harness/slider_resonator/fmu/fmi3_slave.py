@@ -11,29 +11,22 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Error, fmi2OK, fmi2Warning
 from fmpy.fmi3 import FMU3Slave
 
-_FUNCTIONS = {
-    "fmi2ExitInitializationMode": "fmi3ExitInitializationMode",
-    "fmi2Reset": "fmi3Reset",
-    "fmi2Terminate": "fmi3Terminate",
-    "fmi2GetFMUstate": "fmi3GetFMUState",
-    "fmi2SetFMUstate": "fmi3SetFMUState",
-    "fmi2FreeFMUstate": "fmi3FreeFMUState",
+_RENAMED = {
+    "fmi2": "fmi3",
+    "Instantiate": "InstantiateCoSimulation",
+    "Real": "Float64",
+    "Integer": "Int32",
+    "FMUstate": "FMUState",
+    "deSerialize": "deserialize",
 }
-"""Functions of FMI 2.0 whose arguments are those of a function of FMI 3.0."""
-_METHODS = {
-    "getReal": "getFloat64",
-    "setReal": "setFloat64",
-    "getInteger": "getInt32",
-    "setInteger": "setInt32",
-    "getFMUstate": "getFMUState",
-    "setFMUstate": "setFMUState",
-    "freeFMUstate": "freeFMUState",
-    "serializeFMUstate": "serializeFMUState",
-    "deSerializeFMUstate": "deserializeFMUState",
-    "terminate": "terminate",
-    "freeInstance": "freeInstance",
-}
-"""Methods of fmpy's FMU2Slave, with those of its FMU3Slave that do the same."""
+"""Parts of names of FMI 2.0, and of fmpy for it, with those of FMI 3.0."""
+
+
+def in_fmi_3(name: str) -> str:
+    """Return what FMI 3.0 calls a function or a method of fmpy."""
+    for old, new in _RENAMED.items():
+        name = name.replace(old, new)
+    return name
 
 
 class Fmi3Slave:
@@ -74,11 +67,9 @@ class Fmi3Slave:
 
     def __getattr__(self, name: str) -> Any:
         """Return what FMI 3.0 only calls otherwise."""
-        if name in _FUNCTIONS:
-            return lambda _, *arguments: self._call(_FUNCTIONS[name], *arguments)
-        if name in _METHODS:
-            return getattr(self._slave, _METHODS[name])
-        raise AttributeError(name)
+        if name.startswith("fmi2"):
+            return lambda _, *arguments: self._call(in_fmi_3(name), *arguments)
+        return getattr(self._slave, in_fmi_3(name))
 
     def fmi2GetReal(self, _: Any, references: Any, size: int, values: Any) -> int:
         """See FMI 2.0."""

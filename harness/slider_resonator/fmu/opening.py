@@ -237,14 +237,11 @@ def root_attributes(path: Path) -> dict[str, str]:
 
 
 def _platform_problems(path: Path, description: ModelDescription) -> list[str]:
-    if description.fmiVersion == "2.0":
-        ours, platforms = fmpy.platform, fmpy.supported_platforms(str(path))
-    else:
-        # fmpy does not know the platform tuples of other processors.
-        ours = fmpy.platform_tuple
-        with zipfile.ZipFile(path) as archive:
-            parts = [name.split("/") for name in archive.namelist()]
-        platforms = sorted({p[1] for p in parts if p[0] == "binaries" and len(p) > 2})
+    # fmpy names the platforms of FMI 2.0 only.
+    ours = fmpy.platform if description.fmiVersion == "2.0" else fmpy.platform_tuple
+    with zipfile.ZipFile(path) as archive:
+        parts = [name.split("/") for name in archive.namelist()]
+    platforms = sorted({p[1] for p in parts if p[0] == "binaries" and len(p) > 2})
     if ours in platforms:
         return []
     only = f", only for {', '.join(platforms)}" if platforms else ", nor for another platform"

@@ -5,6 +5,7 @@ import signal
 from collections.abc import Mapping
 from contextlib import suppress
 
+from slider_resonator.fmu.fmi3_slave import in_fmi_3
 from slider_resonator.fmu.isolation.supervised import Ending
 from slider_resonator.fmu.isolation.supervisor import MAX_PROCESSES
 from slider_resonator.fmu.limits import MEMORY, max_bytes
@@ -24,14 +25,6 @@ _CALLS: Mapping[str, str] = {
     "end": "fmi2Terminate or fmi2FreeInstance",
 }
 """Function of `fmu.instance` and `fmu.blocks` to the FMI functions that it calls."""
-
-_IN_FMI_3 = {
-    "fmi2": "fmi3",
-    "Real": "Float64",
-    "Integer": "Int32",
-    "Instantiate": "InstantiateCoSimulation",
-}
-"""What is called otherwise in FMI 3.0."""
 
 _FRAME = re.compile(r'File ".*[\\/]fmu[\\/](?:instance|blocks)\.py", line \d+ in (\w+)')
 _FRAME_3 = re.compile(r'File ".*[\\/](?:fmu[\\/]fmi3_slave|fmpy[\\/]fmi3)\.py", line')
@@ -56,8 +49,7 @@ def crash_report(printed: str, trace: str, ending: Ending, limit: float) -> str:
     """
     call = next((_CALLS[name] for name in _FRAME.findall(trace) if name in _CALLS), "")
     if _FRAME_3.search(trace):
-        for name, name_3 in _IN_FMI_3.items():
-            call = call.replace(name, name_3)
+        call = in_fmi_3(call)
     where = f" in {call}" if call else ""
     if ending.memory is not None:
         report = (
