@@ -100,10 +100,7 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     },
     "friction_power": _resolved("friction_power"),
     "reversals": _resolved("at_end", reversal_counts),
-    "reversals_in_run": {
-        **_resolved("in_run", reversal_counts),
-        "averaged": attrgetter("nothing"),
-    },
+    "reversals_in_run": {**_resolved("in_run", reversal_counts), "averaged": attrgetter("nothing")},
     "event_times": {**_resolved("in_run", last_events), "averaged": attrgetter("nothing")},
     "last_event_time": _resolved("last_event_time"),
     "ripple_amplitude": {"closed_form": attrgetter("steady.ripple_amplitude")},

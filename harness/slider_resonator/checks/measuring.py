@@ -8,15 +8,14 @@ import numpy as np
 
 from slider_resonator.arrays import Array
 from slider_resonator.checks.conduct import (
-    dependencies,
     devices,
     experiments,
     host_calls,
     input_rates,
     refusals,
     replays,
-    starts,
     states,
+    variables,
 )
 from slider_resonator.checks.fmu_side import PREDICTIONS, FmuSide
 from slider_resonator.checks.measures import (
@@ -149,12 +148,12 @@ MEASURES: Mapping[str, Callable[[FmuSide], Any]] = {
     "rate_differences": input_rates.rate_differences,
     "other_device_differences": replays.other_device_differences,
     "refusal_faults": refusals.refusal_faults,
-    "start_faults": starts.start_faults,
+    "start_faults": variables.start_faults,
     "description_faults": lambda fmu: [
         *description_faults(fmu.instance.fmu.description),
         *archive_faults(fmu.instance.fmu.folder.resolve(), fmu.instance.fmu.description),
     ],
-    "dependency_faults": dependencies.dependency_faults,
+    "dependency_faults": variables.dependency_faults,
     "device_faults": devices.device_faults,
     "experiment_faults": experiments.experiment_faults,
     "host_faults": host_calls.host_faults,

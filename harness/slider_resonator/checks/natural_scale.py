@@ -22,9 +22,8 @@ def _amplitude(device: Device, name: str) -> float:
         return 0.0
 
 
-def fast_velocity(device: Device) -> float:
-    """Return the amplitude v_q of the fast velocity (m/s) of a device, 0 without vibration."""
-    return _amplitude(device, "velocity_amplitude")
+fast_velocity = partial(_amplitude, name="velocity_amplitude")
+"""Amplitude v_q of the fast velocity (m/s) of a device, 0 without vibration."""
 
 
 def largest_fast_velocity(device: Device, held: Sequence[HeldInputs]) -> float:

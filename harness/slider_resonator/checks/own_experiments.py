@@ -84,16 +84,18 @@ def validate_own(
 
     An FMU that has none, or cannot run one within `time_limit` (s), is a run failure.
     """
-    return tuple(_validate(fmu, progress, time_limit) for fmu in fmus)
-
-
-def _validate(fmu: Path, progress: Progress, time_limit: float) -> Validation:
-    began = perf_counter()
-    try:
-        experiments = own_experiments(fmu)
-    except HarnessError as error:
-        return Validation(str(fmu), (), perf_counter() - began, (RunFailure.of(fmu, None, error),))
-    return judge_points(fmu, experiments, attrgetter("record"), _judged, progress, time_limit)
+    found = []
+    for fmu in fmus:
+        began = perf_counter()
+        try:
+            experiments = own_experiments(fmu)
+        except HarnessError as error:
+            failure = RunFailure.of(fmu, None, error)
+            found.append(Validation(str(fmu), (), perf_counter() - began, (failure,)))
+            continue
+        task = attrgetter("record")
+        found.append(judge_points(fmu, experiments, task, _judged, progress, time_limit))
+    return tuple(found)
 
 
 def _judged(experiment: OwnExperiment, record: Record) -> Iterator[Judged]:

@@ -11,6 +11,8 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Error, fmi2OK, fmi2Warning
 from fmpy.fmi3 import FMU3Slave
 
+from slider_resonator.fmu.fmu_log import keep
+
 _RENAMED = {
     "fmi2": "fmi3",
     "Instantiate": "InstantiateCoSimulation",
@@ -46,7 +48,7 @@ class Fmi3Slave:
         slave.instantiate(loggingOn=True, logMessage=self._receive)
 
     def _receive(self, _: object, status: int, category: bytes, message: bytes) -> None:
-        self._messages.append((message or b"").decode("utf-8", errors="replace").strip())
+        keep(self._messages, message)
 
     @property
     def dll(self) -> "Fmi3Slave":

@@ -56,9 +56,15 @@ def _dispatch(
     collector = _collectors.get(instance_name)
     if collector is None:
         printLogMessage(environment, instance_name, status, category, message)
-    elif len(collector) < MAX_MESSAGES:
+    else:
+        keep(collector, message)
+
+
+def keep(messages: list[str], message: bytes | None) -> None:
+    """Add a message to the others of a call, as far as `MAX_MESSAGES` and `MAX_LENGTH` allow."""
+    if len(messages) < MAX_MESSAGES:
         text = (message or b"")[:MAX_LENGTH].decode("utf-8", errors="replace").strip()
-        collector.append(plain_words(text))
+        messages.append(plain_words(text))
 
 
 _logger = fmi2CallbackLoggerTYPE(_dispatch)

@@ -1,5 +1,7 @@
 """Driving an instance of an FMU through fmpy, and saving its state."""
 
+import errno
+import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import chdir, contextmanager, suppress
 from dataclasses import dataclass
@@ -21,6 +23,7 @@ from slider_resonator.errors import FmuError, Refusal
 from slider_resonator.fmu import fmu_log
 from slider_resonator.fmu.blocks import Block, call
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
+from slider_resonator.fmu.limits import MAX_WRITTEN
 from slider_resonator.fmu.opening import Fmu
 
 EQUAL = 1e-6
@@ -259,6 +262,8 @@ class Instance:
             reason = fmu_log.in_one_line(self.messages) or f"{error} The FMU logged no reason."
             if isinstance(error, SystemError):
                 reason = f"the FMU left a Python exception behind: {error.__cause__!r}"
+            if os.strerror(errno.EFBIG) in reason:
+                reason += f"; it may write or print at most {MAX_WRITTEN >> 20} MiB"
             where = f"{self.fmu.path.name} at t = {self.time:.9g} s"
             raise Refusal(f"{where}: {reason}") from error
 

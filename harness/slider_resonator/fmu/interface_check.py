@@ -5,12 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from math import isclose, isfinite, pi
 from pathlib import Path
 
-from fmpy.model_description import (
-    DefaultExperiment,
-    ModelDescription,
-    ModelVariable,
-    Unit,
-)
+from fmpy.model_description import DefaultExperiment, ModelDescription, ModelVariable, Unit
 
 from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import FIRST, INPUTS, VARIABLES, Variable

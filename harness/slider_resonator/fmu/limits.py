@@ -8,6 +8,8 @@ MEMORY = "SLIDER_RESONATOR_MAX_MEMORY"
 UNPACKED = "SLIDER_RESONATOR_MAX_UNPACKED"
 DEFAULTS = {MEMORY: 4096, UNPACKED: 1024}
 """Variable to its value where it is not set, MiB."""
+MAX_WRITTEN = 2**26
+"""Maximum size (bytes) of a file that an FMU writes, also of what it prints."""
 MAX_ENTRIES = 20_000
 """Maximum number of files in an FMU."""
 

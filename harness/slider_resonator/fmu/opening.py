@@ -173,11 +173,20 @@ def _read_description(path: Path) -> ModelDescription:
         raise FmuError(f"{path}: not an FMU: it is no zip archive")
     try:
         check_unpacked_size(path)
-        version = root_attributes(path).get("fmiVersion", "unknown")
+        with zipfile.ZipFile(path) as archive:
+            root = ET.fromstring(archive.read("modelDescription.xml"))
+        version = root.get("fmiVersion", "unknown")
         if version not in ("2.0", "3.0"):
             raise FmuError(f"{path}: FMI version {version}; must be 2.0 or 3.0")
         description = read_model_description(str(path))
-        _leave_out_dependencies(path, description)
+        # Unknowns without dependencies depend on everything; for fmpy they depend on nothing.
+        for kind in ("Output", "InitialUnknown"):
+            read = description.outputs if kind == "Output" else description.initialUnknowns
+            structure = f"ModelStructure/{kind}"  # FMI 2.0 has a list of them
+            listed = root.findall(f"{structure}s/Unknown") or root.findall(structure)
+            for unknown, found in zip(read, listed, strict=True):
+                if "dependencies" not in found.attrib:
+                    unknown.dependencies = None
         for variable in description.modelVariables:
             variable.type = _TYPES_OF_FMI_3.get(variable.type, variable.type)
         return description
@@ -187,23 +196,6 @@ def _read_description(path: Path) -> ModelDescription:
         raise FmuError(f"{path}: not an FMU: the archive has no modelDescription.xml") from error
     except Exception as error:  # fmpy, lxml and the schema each raise their own
         raise FmuError(f"{path}: modelDescription.xml cannot be read: {error}") from error
-
-
-def _leave_out_dependencies(path: Path, description: ModelDescription) -> None:
-    """Set the dependencies of unknowns that declare none to None: they depend on everything.
-
-    fmpy makes them the empty list of an unknown that depends on nothing.
-    """
-    with zipfile.ZipFile(path) as archive:
-        root = ET.fromstring(archive.read("modelDescription.xml"))
-    for kind in ("Output", "InitialUnknown"):
-        read = description.outputs if kind == "Output" else description.initialUnknowns
-        # FMI 2.0 has them in a list.
-        listed = root.findall(f"ModelStructure/{kind}s/Unknown")
-        listed = listed or root.findall(f"ModelStructure/{kind}")
-        for unknown, found in zip(read, listed, strict=True):
-            if "dependencies" not in found.attrib:
-                unknown.dependencies = None
 
 
 def check_unpacked_size(path: Path) -> None:

@@ -119,3 +119,13 @@ def test_a_run_records_every_output_at_every_point(instance: Instance) -> None:
     assert record.wall_time > 0.0
     assert record.start_cpu > 0.0
     assert record.step_cpu > 0.0
+
+
+def test_what_an_fmu_writes_beyond_the_limit_is_named(instance: Instance) -> None:
+    def refused() -> None:
+        instance.messages.append("OSError(27, 'File too large')")
+        instance.call("fmi2DoStep", -1.0, -1.0, True)
+
+    limit = "File too large'[)]; .*may write or print at most 64 MiB"
+    with pytest.raises(Refusal, match=limit), instance.explained():
+        refused()

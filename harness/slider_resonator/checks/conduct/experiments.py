@@ -5,7 +5,6 @@ import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from functools import partial
 from itertools import pairwise
 from math import isclose, sqrt
 
@@ -80,7 +79,7 @@ def experiment_faults(fmu: FmuSide) -> list[str]:
         with _accepting(instance, faults, f"an experiment from {start:g} s to {stop:g} s"):
             instance.start({}, stop, start_time=start)
             instance.outputs()
-            if stop == start and not is_refused(partial(instance.step_by, STEP)):
+            if stop == start and not is_refused(instance.step_by, STEP):
                 faults.append(f"a step beyond the stop time {stop:g} s is accepted")
             instance.terminate()
     with instance.explained():

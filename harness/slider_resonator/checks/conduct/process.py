@@ -12,7 +12,7 @@ import mmap
 import os
 import signal
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, nullcontext, suppress
 from ctypes import byref
@@ -114,9 +114,9 @@ def _use(instance: Instance) -> None:
     for _ in range(3 * STEPS):
         instance.step_by(0.5 * STEP)
         instance.read(SMOOTH)
-    is_refused(partial(instance.call, "fmi2DoStep", instance.time, -STEP, True))
-    is_refused(partial(instance.set, {"load": math.nan}))
-    is_refused(partial(instance.slave.getReal, [UNKNOWN]))
+    is_refused(instance.call, "fmi2DoStep", instance.time, -STEP, True)
+    is_refused(instance.set, {"load": math.nan})
+    is_refused(instance.slave.getReal, [UNKNOWN])
     if instance.fmu.offers.canGetAndSetFMUstate:
         state = SavedState.of(instance)
         state.restore()
@@ -193,7 +193,7 @@ def instance_leaks(instance: Instance) -> Iterator[str]:
             for _ in range(RESETS):
                 used.start({})
                 used.step_by(STEP)
-                is_refused(partial(used.call, "fmi2DoStep", used.time, -STEP, True))
+                is_refused(used.call, "fmi2DoStep", used.time, -STEP, True)
             for _ in range(STEPS):
                 used.step_by(STEP)
             ends.add(tuple(used.read(SMOOTH).values()))
@@ -213,7 +213,7 @@ def step_leaks(instance: Instance) -> Iterator[str]:
         instance.read(("position", "friction_force"))
 
     def refuse() -> None:
-        is_refused(partial(instance.call, "fmi2DoStep", instance.time, -STEP, True))
+        is_refused(instance.call, "fmi2DoStep", instance.time, -STEP, True)
         del instance.messages[:]
 
     yield from _leaks("step", use, OF_STEP, STEPPED)
@@ -237,10 +237,7 @@ def state_leaks(instance: Instance) -> Iterator[str]:
 
 
 def _leaks(
-    what: str,
-    use: Callable[[], None],
-    allowed: float,
-    numbers: tuple[int, int] = (CYCLES, MANY),
+    what: str, use: Callable[[], None], allowed: float, numbers: Sequence[int] = (CYCLES, MANY)
 ) -> Iterator[str]:
     counts, done = list[tuple[int, int]](), 0
     for number in numbers:

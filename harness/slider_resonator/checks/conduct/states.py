@@ -82,9 +82,9 @@ def _pointer_faults(instance: Instance) -> Iterator[str]:
     if state.value and is_native:
         yield "the pointer to a state that is freed is not null"
     state.value = None
-    if is_native and not is_refused(partial(call, "fmi2SetFMUstate", state)):
+    if is_native and not is_refused(call, "fmi2SetFMUstate", state):
         yield "a null pointer is accepted as a state"
-    if is_refused(partial(call, "fmi2FreeFMUstate", byref(state))):
+    if is_refused(call, "fmi2FreeFMUstate", byref(state)):
         yield "freeing a null pointer is refused"
 
 

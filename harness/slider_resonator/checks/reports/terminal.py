@@ -65,7 +65,17 @@ def print_validation(
         _print_line(console, Text(f"{more} failed (--details lists all)"))
     for text in _not_applied_lines(validation, details):
         _print_line(console, Text(escaped(f"not applicable: {text}")))
-    _print_line(console, _summary(validation))
+    summary = Text(f"{escaped(validation.fmu)}: ")
+    for found, what in (
+        (validation.failed, "failed"),
+        (validation.run_failures, "could not be run"),
+    ):
+        if found:
+            summary.append(f"{len(found)} {what}", STYLES[Style.FAIL]).append(", ")
+    summary.append(validation.count)
+    if validation.without:
+        summary.append(f"; {escaped(validation.without)}", STYLES[Style.NOTE])
+    _print_line(console, summary)
 
 
 def _not_applied_lines(validation: Validation, details: bool) -> Iterator[str]:
@@ -85,20 +95,6 @@ def _not_applied_lines(validation: Validation, details: bool) -> Iterator[str]:
 def _print_line(console: Console, line: Text) -> None:
     """Print a line: in one piece for a log, between words on a terminal."""
     console.print(line, soft_wrap=not console.is_terminal)
-
-
-def _summary(validation: Validation) -> Text:
-    parts = [(f"{escaped(validation.fmu)}: ", "")]
-    for found, what in (
-        (validation.failed, "failed"),
-        (validation.run_failures, "could not be run"),
-    ):
-        if found:
-            parts += [(f"{len(found)} {what}", STYLES[Style.FAIL]), (", ", "")]
-    parts.append((validation.count, ""))
-    if validation.without:
-        parts.append((f"; {escaped(validation.without)}", STYLES[Style.NOTE]))
-    return Text.assemble(*parts)
 
 
 def _print_overview(console: Console, scenes: Mapping[str, Sequence[Check]]) -> None:

@@ -20,6 +20,7 @@ from typing import BinaryIO
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.isolation import messages
+from slider_resonator.fmu.limits import MAX_WRITTEN
 from slider_resonator.fmu.opening import open_fmu
 
 if sys.platform != "win32":
@@ -28,8 +29,6 @@ if sys.platform != "win32":
 
 WORK = "work"
 """The folder that the FMU runs in."""
-MAX_WRITTEN = 2**26
-"""Maximum size (bytes) of a file that the FMU writes, also of what it prints."""
 
 
 def main() -> None:

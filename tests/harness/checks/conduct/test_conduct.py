@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from slider_resonator.checks.conduct.dependencies import dependency_faults
 from slider_resonator.checks.conduct.findings import differences
 from slider_resonator.checks.conduct.host_calls import derivative_offer_faults
 from slider_resonator.checks.conduct.refusals import Trial
+from slider_resonator.checks.conduct.variables import dependency_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
