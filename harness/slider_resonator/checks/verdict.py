@@ -14,11 +14,8 @@ CALLED: Mapping[str, str] = {
     "bristle_state": "bristles",
     "averaged": "averages",
     "closed_form": "formula",
-    "value": "value",
-    AT_MOST: "at most",
-    AT_LEAST: "at least",
 }
-"""What checks compare with, by what tables call it, in 8 letters: a log has room for no more."""
+"""References, by what tables call them, in 8 letters: a log has room for no more."""
 
 
 def title(check: Check) -> str:
@@ -77,19 +74,16 @@ def sentence(check: Check) -> str:
         return f"the FMU gives {fmu}, the reference has none"
     if check.deviation is None or check.allowed is None:
         return f"the FMU gives {check.fmu!r}, expected {check.reference!r}"
-    if QUANTITIES[check.quantity].kind == "signal":
-        return _signal_sentence(check, unit, reference)
-    bound = f"{check.against} " if check.against in (AT_MOST, AT_LEAST) else ""
-    reason = f": {check.note}" if check.note else ""
-    return (
-        f"the FMU gives {fmu}, expected {bound}{reference}: "
-        f"off by {check.deviation:.2g}{unit}, {_times(check)}{reason}"
-    )
-
-
-def _signal_sentence(check: Check, unit: str, peak: str) -> str:
-    assert check.deviation is not None
+    times = "must be 0"
+    if check.allowed:
+        of = unit if near_zero(check) else ""
+        times = f"{check.severity:.3g} times the allowed {sizes(check)[1]:.2g}{of}"
     quantity = QUANTITIES[check.quantity]
+    if quantity.kind != "signal":
+        bound = f"{check.against} " if check.against in (AT_MOST, AT_LEAST) else ""
+        reason = f": {check.note}" if check.note else ""
+        off = f"off by {check.deviation:.2g}{unit}, {times}{reason}"
+        return f"the FMU gives {fmu}, expected {bound}{reference}: {off}"
     if quantity.exact:
         size = f"differs at {check.deviation:.2%} of the points"
     elif quantity.in_periods:
@@ -98,20 +92,11 @@ def _signal_sentence(check: Check, unit: str, peak: str) -> str:
         tube = f"a tube of {check.tube:g} drive periods to each side " if check.tube else ""
         size = "outside " + tube if tube else "off "
         if near_zero(check):
-            size += f"by {sizes(check)[0]:.2g}{unit}, where the peak is {peak}"
+            size += f"by {sizes(check)[0]:.2g}{unit}, where the peak is {reference}"
         else:
-            size += f"by {check.deviation:.2g} of the peak, which is {peak}"
-    text = f"{size}, {_times(check)}"
+            size += f"by {check.deviation:.2g} of the peak, which is {reference}"
     if check.first_time is None or check.worst_time is None:
-        return text
+        return f"{size}, {times}"
     then = [value_text(one, DIGITS, unit) for one in (check.fmu_then, check.reference_then)]
     worst = f"{check.worst_time:.9g} s, where the FMU gives {then[0]}, expected {then[1]}"
-    return f"{text}; from {check.first_time:.9g} s on, most at {worst}"
-
-
-def _times(check: Check) -> str:
-    assert check.deviation is not None
-    if not check.allowed:
-        return "must be 0"
-    unit = f" {check.unit}" if near_zero(check) and check.unit != "1" else ""
-    return f"{check.severity:.3g} times the allowed {sizes(check)[1]:.2g}{unit}"
+    return f"{size}, {times}; from {check.first_time:.9g} s on, most at {worst}"

@@ -69,32 +69,29 @@ class IsolatedFmu:
         self._folder = self._resources.enter_context(temporary_folder())
         self._log = self._folder / PRINTED
         try:
-            self._start(fmu)
+            # -P: the present folder must not be on the search path.
+            child = (sys.executable, "-P", "-m", "slider_resonator.fmu.isolation.child")
+            with self._log.open("wb") as log:
+                self._process = Supervised(
+                    [*child, str(fmu or ""), repr(self.time_limit), str(self._folder)],
+                    self._folder,
+                    os.environ.get("PYTHONPATH", ""),
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.PIPE,
+                    stderr=log,
+                )
+            requests, answers = self._process.process.stdin, self._process.process.stdout
+            assert requests is not None
+            assert answers is not None
+            self._resources.enter_context(suppress(OSError))  # it has closed its end of the pipe
+            self._requests = self._resources.enter_context(requests)
+            self._resources.callback(self._process.end)
+            self._messages: queue.SimpleQueue[messages.Message | None] = queue.SimpleQueue()
+            threading.Thread(target=_collect, args=(answers, self._messages), daemon=True).start()
             _value(self._answer())
         except BaseException:
             self.kill()
             raise
-
-    def _start(self, fmu: Path | None) -> None:
-        # -P: the present folder must not be on the search path.
-        child = (sys.executable, "-P", "-m", "slider_resonator.fmu.isolation.child")
-        with self._log.open("wb") as log:
-            self._process = Supervised(
-                [*child, str(fmu or ""), repr(self.time_limit), str(self._folder)],
-                self._folder,
-                os.environ.get("PYTHONPATH", ""),
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=log,
-            )
-        requests, answers = self._process.process.stdin, self._process.process.stdout
-        assert requests is not None
-        assert answers is not None
-        self._resources.enter_context(suppress(OSError))  # it has closed its end of the pipe
-        self._requests = self._resources.enter_context(requests)
-        self._resources.callback(self._process.end)
-        self._messages: queue.SimpleQueue[messages.Message | None] = queue.SimpleQueue()
-        threading.Thread(target=_collect, args=(answers, self._messages), daemon=True).start()
 
     def __enter__(self) -> "IsolatedFmu":
         """Return the isolated FMU."""
