@@ -182,21 +182,14 @@ def validate(
         comparisons = map(Comparison.of, point.scene.expect)
         return zip(comparisons, measured, expected.at(point), strict=True)
 
+    validations = []
     with ExpectedValues(points, jobs) as expected:
-        validations = tuple(
-            judge_points(
-                path,
-                points,
-                measure_all,
-                judge,
-                part_of(progress, index, len(fmu_paths)),
-                time_limit,
-                jobs,
-            )
-            for index, path in enumerate(fmu_paths)
-        )
+        for index, path in enumerate(fmu_paths):
+            part = part_of(progress, index, len(fmu_paths))
+            judged = judge_points(path, points, measure_all, judge, part, time_limit, jobs)
+            validations.append(judged)
     progress("", 1.0)
-    return validations
+    return tuple(validations)
 
 
 def points_to_check(scene: Scene) -> tuple[ScenePoint, ...]:
