@@ -177,8 +177,13 @@ class Instance:
         self.call("fmi2Terminate")
         self._initialised = False
 
-    def resumed(self, time: float) -> None:
-        """Note that a state of a run was set, at a time in s."""
+    def resume(self, content: bytes, time: float) -> None:
+        """Go on from a serialised state of a run at a time (s)."""
+        handle = self.slave.deSerializeFMUstate(content)
+        try:
+            self.slave.setFMUstate(handle)
+        finally:
+            self.slave.freeFMUstate(handle)
         self.time = time
         self._used = self._initialised = True
 
@@ -300,19 +305,14 @@ class SavedState:
         self.instance.slave.setFMUstate(self.handle)
         self.instance.time = self.time
 
-    def transfer(self, other: Instance) -> None:
-        """Bring another instance into this state, in serialised form.
-
-        Raises NotApplicable where the FMU does not offer that.
-        """
+    def serialised(self) -> bytes:
+        """Return the state as bytes; NotApplicable where the FMU does not offer that."""
         self.instance.fmu.require("canSerializeFMUstate")
-        content = self.instance.slave.serializeFMUstate(self.handle)
-        handle = other.slave.deSerializeFMUstate(content)
-        try:
-            other.slave.setFMUstate(handle)
-        finally:
-            other.slave.freeFMUstate(handle)
-        other.resumed(self.time)
+        return bytes(self.instance.slave.serializeFMUstate(self.handle))
+
+    def transfer(self, other: Instance) -> None:
+        """Bring another instance into this state, in serialised form; raises as `serialised`."""
+        other.resume(self.serialised(), self.time)
 
     def __enter__(self) -> "SavedState":
         """Return this."""

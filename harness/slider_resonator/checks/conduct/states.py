@@ -95,9 +95,8 @@ def _damage_faults(instance: Instance) -> Iterator[str]:
     written, and not the present one.
     """
     slave = instance.slave
-    state = slave.getFMUstate()
-    content = bytes(slave.serializeFMUstate(state))
-    slave.freeFMUstate(state)
+    with SavedState.of(instance) as saved:
+        content = saved.serialised()
     instance.step_by(STEP)
     time, before = instance.time, instance.outputs()
     state = slave.getFMUstate()
@@ -148,7 +147,7 @@ def _process_faults(instance: Instance) -> Iterator[str]:
     instance.start({"load": LOAD})
     instance.step_by(STEP)
     with SavedState.of(instance) as state:
-        content = bytes(instance.slave.serializeFMUstate(state.handle))
+        content = state.serialised()
     expected = outputs_after(instance, STEP)
     try:
         isolated = IsolatedFmu(instance.fmu.file, TIME_LIMIT)
@@ -168,10 +167,7 @@ def _outputs_after(instance: Instance, content: bytes) -> dict[str, float]:
     """Return all outputs a step after a serialised state, which takes the place of a run."""
     instance.start({})
     with instance.explained():
-        handle = instance.slave.deSerializeFMUstate(content)
-        instance.slave.setFMUstate(handle)
-        instance.slave.freeFMUstate(handle)
-        instance.resumed(STEP)
+        instance.resume(content, STEP)
         return outputs_after(instance, STEP)
 
 
