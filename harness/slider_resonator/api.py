@@ -170,7 +170,7 @@ def read_device(device: DeviceLike) -> Device:
 def to_toml(device: DeviceLike, title: str = "") -> str:
     """Return the text of a device file: what differs from table 1, and the number of faces.
 
-    Raises SceneError for a device that no device file could state.
+    Raises SceneError as `read_device` does.
     """
     return device_text(read_device(device), title)
 
@@ -348,8 +348,7 @@ def _stated(device: DeviceLike | None) -> dict[str, float]:
     if device is None:
         return {}
     if isinstance(device, Device):
-        start = vars(Device())
-        device = {name: value for name, value in vars(device).items() if value != start[name]}
+        device = device.differing
     if isinstance(device, Mapping):
         values = checked_device(_plain(device), "device")
         _warn(possible_slips(device))

@@ -10,7 +10,8 @@ from xml.etree import ElementTree as ET
 
 import fmpy
 
-from slider_resonator.device.interface import FIRST, VARIABLES
+from slider_resonator.device.interface import VARIABLES
+from slider_resonator.device.variable import FIRST
 
 SOURCE = Path(__file__).with_name("faulty_fmu.c")
 DESCRIPTION = "modelDescription.xml"

@@ -16,7 +16,7 @@ from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.validate import Judged, RunFailure, Validation, judge_points
 from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import INPUTS, PARAMETERS
-from slider_resonator.device.values import finite_number
+from slider_resonator.device.units import finite_number
 from slider_resonator.errors import HarnessError, SceneError, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu

@@ -9,7 +9,7 @@ from slider_resonator.choosing import choose
 from slider_resonator.choosing.choice import error_text
 from slider_resonator.choosing.choosing import TIME_LIMIT
 from slider_resonator.commands import options
-from slider_resonator.device.values import si_number
+from slider_resonator.device.units import si_number
 from slider_resonator.errors import unknown_name
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import print_json, print_table, print_text

@@ -11,7 +11,8 @@ from typing import Any, TypeVar
 import click
 
 from slider_resonator.device.interface import SETTABLE
-from slider_resonator.device.values import is_number, settable_value, si_number, si_value
+from slider_resonator.device.units import is_number, si_number
+from slider_resonator.device.values import settable_value, si_value
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu import finished
 from slider_resonator.fmu.isolation.tasks import available_cores

@@ -10,7 +10,7 @@ import click
 
 from slider_resonator.commands import options
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.device.values import si_number
+from slider_resonator.device.units import si_number
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.fmu.run import Record, run

@@ -1,8 +1,12 @@
 """The device parameters of the contract: SI units, and table 1 of the paper as start values."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from copy import copy
+from dataclasses import dataclass, field, fields
 from typing import Any
+
+from slider_resonator.device.variable import Variable
+from slider_resonator.errors import HarnessError
 
 FULL = 2
 """Fidelity of the full device."""
@@ -28,7 +32,8 @@ class Device:
 
     Names are those of the FMU parameters. ``friction_law`` is 0 (Coulomb) or 1 (LuGre),
     ``fidelity`` the number of resolved degrees of freedom (0 averaged, 1, 2), and
-    ``averaging_order`` 1 averages or 2 leaps over periods.
+    ``averaging_order`` 1 averages or 2 leaps over periods. A value may be a text with a unit.
+    Raises HarnessError, with name, value and requirement.
     """
 
     slider_mass: float = _real(1.0, "kg", 1e-12)
@@ -54,33 +59,45 @@ class Device:
     initial_bristle_deflection: float = _real(0.0, "m", nominal=1e-6)
     averaging_order: int = _choice(2, 1, 2, since="0.2.0", without=1)
 
+    def __post_init__(self) -> None:
+        try:
+            read = {one.name: one.read(getattr(self, one.name)) for one in PARAMETER_TABLE}
+        except ValueError as error:
+            raise HarnessError(str(error)) from None
+        vars(self).update(read)
+
     def __repr__(self) -> str:
         """Return what differs from table 1, as the call that makes it."""
+        return f"Device({', '.join(f'{n}={value!r}' for n, value in self.differing.items())})"
+
+    @property
+    def differing(self) -> dict[str, float]:
+        """The parameters that differ from table 1."""
         start = vars(Device())
-        differing = [f"{n}={value!r}" for n, value in vars(self).items() if value != start[n]]
-        return f"Device({', '.join(differing)})"
+        return {name: value for name, value in vars(self).items() if value != start[name]}
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, float]) -> "Device":
         """Return table 1 with the given parameters replaced, its drive under given deviations.
 
-        The values are those that `check_value` accepts.
+        Raises HarnessError, with name, value and requirement.
         """
-        kinds = {field.name: field.type for field in fields(cls)}
-        given = {name: value for name, value in values.items() if name not in DEVIATIONS}
-        arguments: dict[str, Any]
-        arguments = {n: int(v) if kinds[n] is int else float(v) for n, v in given.items()}
-        return cls(**arguments).deviating(values)
+        given: dict[str, Any] = {n: v for n, v in values.items() if n not in DEVIATIONS}
+        return cls(**given).tuned({name: values.get(name, 0.0) for name in DEVIATIONS})
 
-    def deviating(self, values: Mapping[str, float]) -> "Device":
-        """Return the device whose drive has the `DEVIATIONS` among the values."""
-        amplitude, frequency = (1.0 + values.get(name, 0.0) for name in DEVIATIONS)
-        return replace(
-            self,
-            base_amplitude=self.base_amplitude * amplitude,
-            tangential_force=self.tangential_force * amplitude,
-            drive_frequency=self.drive_frequency * frequency,
-        )
+    def tuned(self, values: Mapping[str, float]) -> "Device":
+        """Return the device as it is in a run while parameters and `DEVIATIONS` have these values.
+
+        They are not checked: a drive that deviates may be slower than a parameter can say.
+        """
+        device = copy(self)
+        own = vars(device)
+        own.update(values)
+        amplitude, frequency = (1.0 + own.pop(name, 0.0) for name in DEVIATIONS)
+        own["base_amplitude"] *= amplitude
+        own["tangential_force"] *= amplitude
+        own["drive_frequency"] *= frequency
+        return device
 
     @property
     def total_mass(self) -> float:
@@ -121,3 +138,10 @@ class Device:
     def damping(self) -> float:
         """Resonator damping c, N s/m."""
         return 2.0 * self.damping_ratio * self.resonator_mass * self.resonator_frequency
+
+
+PARAMETER_TABLE = tuple(
+    Variable(one.name, "parameter", start=getattr(Device, one.name), **one.metadata)
+    for one in fields(Device)
+)
+"""What is said of each parameter."""

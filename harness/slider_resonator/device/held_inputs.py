@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.device import DEVIATIONS, Device
+from slider_resonator.device.device import Device
 
 
 @dataclass(frozen=True)
@@ -50,9 +50,7 @@ class HeldInputs:
 
     def tuned_device(self, device: Device) -> Device:
         """Return the device of a run with the parameters as they are over these inputs."""
-        values = dict(self.tuned)
-        parameters: dict[str, Any] = {n: v for n, v in values.items() if n not in DEVIATIONS}
-        return replace(device, **parameters).deviating(values) if values else device
+        return device.tuned(dict(self.tuned)) if self.tuned else device
 
 
 def with_steady_phase(held: Sequence[HeldInputs], device: Device) -> list[HeldInputs]:

@@ -5,50 +5,10 @@ that came after version `FIRST` of the interface may be missing; the FMU is judg
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
 from functools import partial
-from typing import Literal
 
-from slider_resonator.device.device import DEVIATIONS, Device
-
-FIRST = "0.1.0"
-"""First version of the interface, all of whose variables an FMU must have."""
-
-Causality = Literal["input", "parameter", "output"]
-
-
-@dataclass(frozen=True)
-class Variable:
-    """A variable of the interface, SI units.
-
-    An output has no `start`, and `depends_on` the inputs that act on it at once; None leaves that
-    open. A parameter that came with version `since` counts as `without` in an FMU that lacks it.
-    """
-
-    name: str
-    causality: Causality
-    variability: str
-    unit: str
-    kind: Literal["Real", "Integer"] = "Real"
-    start: float | None = None
-    minimum: float | None = None
-    maximum: float | None = None
-    nominal: float | None = None
-    depends_on: tuple[str, ...] | None = ()
-    since: str = FIRST
-    without: float | None = None
-
-    @property
-    def requirement(self) -> str:
-        """What a value must be, in words."""
-        kind = "an integer" if self.kind == "Integer" else "a finite number"
-        unit = "" if self.unit == "1" else f" {self.unit}"
-        if self.minimum is None:
-            return kind
-        if self.maximum is None:
-            return f"{kind} of at least {self.minimum:g}{unit}"
-        return f"{kind} from {self.minimum:g} to {self.maximum:g}{unit}"
-
+from slider_resonator.device.device import DEVIATIONS, PARAMETER_TABLE
+from slider_resonator.device.variable import FIRST, Causality, Variable
 
 _input = partial(Variable, causality="input", variability="continuous")
 _deviation = partial(_input, unit="1", start=0.0, since="0.3.0", without=0.0)
@@ -64,10 +24,7 @@ _ALL = (
     _input("frequency_ratio", unit="1", start=1.0, nominal=1.0),
     _deviation("amplitude_deviation", minimum=-1.0, nominal=0.1),
     _deviation("frequency_deviation", minimum=-0.99, nominal=0.01),
-    *(
-        Variable(one.name, "parameter", start=getattr(Device(), one.name), **one.metadata)
-        for one in fields(Device)
-    ),
+    *PARAMETER_TABLE,
     _output("position", unit="m", nominal=1e-3),
     _output("velocity", unit="m/s", nominal=0.1),
     _output("mean_velocity", unit="m/s", nominal=0.1),

@@ -1,152 +1,30 @@
-"""Values of parameters and inputs: what the interface allows, and text with a unit."""
+"""Values of parameters and inputs by name: what the interface allows, and text with a unit."""
 
-import re
-import sys
-from functools import cache
-from math import isclose, isfinite
-from numbers import Real
-from typing import TYPE_CHECKING, Any
-
+from slider_resonator.device import units
 from slider_resonator.device.interface import SETTABLE, VARIABLES
 from slider_resonator.errors import unknown_name
-
-LARGEST = sys.float_info.max
-LARGEST_INTEGER = 2**31 - 1
-"""FMI 2.0 passes Integers as C ints, which would silently lose the upper bits of more."""
 
 
 def check_value(name: str, value: float) -> None:
     """Raise ValueError, with name, value and requirement, unless the interface has such a value."""
-    if isinstance(value, bool) or not isinstance(value, Real):
-        raise ValueError(f"{name} = {value!r}: must be a number")
-    variable = VARIABLES[name]
-    low = -LARGEST if variable.minimum is None else variable.minimum
-    high = LARGEST if variable.maximum is None else variable.maximum
-    if variable.kind == "Integer":
-        check_integer(name, value)
-        value = int(value)
-    if not low <= value <= high:
-        raise ValueError(f"{name} = {value!r}: must be {variable.requirement}")
+    VARIABLES[name].checked(value)
 
 
-def check_integer(name: str, value: float) -> None:
-    """Raise ValueError, with name, value and requirement, unless the value is an FMI Integer."""
-    if value % 1 != 0:
-        raise ValueError(f"{name} = {value!r}: must be an integer")
-    if abs(value) > LARGEST_INTEGER:
-        raise ValueError(f"{name} = {value!r}: must be an integer up to {LARGEST_INTEGER}")
-
-
-if TYPE_CHECKING:
-    import pint
-
-_UNIT = r"[A-Za-zµμ°%]+(?:(?:\^|\*\*)-?\d)?"
-_TEXT = re.compile(
-    rf"\s*(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
-    rf"\s*(?P<unit>(?:1\s*/\s*)?{_UNIT}(?:\s*[*/]\s*{_UNIT})*)\s*"
-)
-"""A number with a unit: what the library evaluates is no more than that."""
-_MISREAD = ("gr",)
-"""Units of the library (grains) that are not meant."""
-_SHOWN = {"rad/s": "Hz", "rad": "deg"}
-"""For an SI unit, the one in which engineers state such a value."""
-_EXAMPLES = {
-    "kg": "5 g",
-    "rad/s": "20 kHz",
-    "rad": "30 deg",
-    "N": "200 mN",
-    "m": "1 um",
-    "m/s": "3 mm/s",
-    "1": "2 %",
-    "1/m": "0.1 1/um",
-    "s/m": "10 s/m",
-    "s": "5 ms",
-}
-
-
-@cache
-def _registry() -> "pint.UnitRegistry[Any]":
-    import pint  # takes half a second: only where a text is read or shown
-
-    registry: pint.UnitRegistry[Any] = pint.UnitRegistry()
-    # A frequency in Hz counts periods; those of the interface are angular.
-    registry.define("hertz = 2 * pi * radian / second = Hz")
-    return registry
-
-
-def is_number(text: str) -> bool:
-    """Whether a text is a finite number, without a unit."""
-    try:
-        return isfinite(float(text))
-    except ValueError:
-        return False
-
-
-def finite_number(name: str, text: str | None) -> float:
-    """Return the number that a text is; ValueError with name and text for any other text."""
-    if text is None or not is_number(text):
-        raise ValueError(f"{name} = {text!r}: must be a finite number")
-    return float(text)
-
-
-def si_value(name: str, text: str) -> float:
-    """Return the value of a parameter or input in its SI unit, as `si_number` does."""
-    variable = VARIABLES[name]
-    if variable.kind == "Integer" and not is_number(text):
-        raise ValueError(f"{name} = {text!r}: must be {variable.requirement}")
-    return si_number(name, text, variable.unit)
-
-
-def settable_value(name: str, value: Any) -> float:
+def settable_value(name: str, value: object) -> float:
     """Return a value of a parameter or input, a number or text, in its SI unit.
 
     Raises ValueError, with name, value and requirement, for one that the interface does not have.
     """
     if name not in SETTABLE:
         raise ValueError(unknown_name("parameter or input", name, SETTABLE))
-    number = si_value(name, value) if isinstance(value, str) else value
-    check_value(name, number)
-    return float(number)
+    return float(VARIABLES[name].read(value))
 
 
-def si_number(name: str, text: str, unit: str) -> float:
-    """Return the number in an SI unit of a text with a unit, or of one that is a number.
-
-    Hz, kHz and rpm give rad/s. Raises ValueError with name, text and what it must be.
-    """
-    try:
-        return float(text)
-    except ValueError:
-        match = _TEXT.fullmatch(text)
-    number = "number" if unit == "1" else f"number in {unit}"
-    must = f"must be a {number}, or a text with a unit such as {_EXAMPLES.get(unit, '1')!r}"
-    if match is None:
-        raise ValueError(f"{name} = {text!r}: {must}")
-    if match["unit"] in _MISREAD:
-        raise ValueError(f"{name} = {text!r}: unknown unit {match['unit']!r}; {must}")
-    import pint
-
-    try:
-        scale = _registry().Quantity(1.0, match["unit"].replace(" ", ""))
-        factor = float(scale.to("dimensionless" if unit == "1" else unit).magnitude)
-    except pint.UndefinedUnitError as error:
-        raise ValueError(f"{name} = {text!r}: unknown unit {match['unit']!r}; {must}") from error
-    except (pint.PintError, ArithmeticError, AssertionError, TypeError, ValueError) as error:
-        raise ValueError(f"{name} = {text!r}: not in {unit}; {must}") from error
-    if unit == "rad" and factor >= 1e3:
-        raise ValueError(f"{name} = {text!r}: {match['unit']} is {factor:g} rad; {must}")
-    # So that "10 us" is 1e-5, to the last bit.
-    parts = round(1.0 / factor)
-    given = float(match["number"])
-    return given / parts if isclose(parts * factor, 1.0, rel_tol=1e-12) else given * factor
+def si_value(name: str, text: str) -> float:
+    """Return the value of a parameter or input in its SI unit, as `units.si_number` does."""
+    return VARIABLES[name].in_si(text)
 
 
 def with_unit(name: str, value: float) -> str:
     """Return a value in the unit that engineers state it in: Hz, deg, um, g, mm/s, mN."""
-    unit = VARIABLES[name].unit
-    if unit in ("1", "1/m", "s/m") or not isfinite(value):
-        return f"{value:.6g}" if unit == "1" else f"{value:.6g} {unit}"
-    quantity: Any = _registry().Quantity(float(value), unit).to(_SHOWN.get(unit, unit))
-    if value and unit != "rad":
-        quantity = quantity.to_compact()
-    return f"{quantity:.6g~P}".replace("µ", "u")
+    return units.with_unit(value, VARIABLES[name].unit)

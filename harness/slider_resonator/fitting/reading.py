@@ -14,7 +14,8 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import ALL_OUTPUTS, HELD, INPUTS, PARAMETERS
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import steps
-from slider_resonator.device.values import is_number, si_value, with_unit
+from slider_resonator.device.units import is_number
+from slider_resonator.device.values import si_value, with_unit
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fitting.measurements import STEADY, TIME, Measurements, Point, Run
 from slider_resonator.scenes.csv_signal import csv_number, csv_rows

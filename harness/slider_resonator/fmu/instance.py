@@ -18,7 +18,7 @@ from fmpy.model_description import ModelVariable
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS
-from slider_resonator.device.values import check_integer
+from slider_resonator.device.variable import check_integer
 from slider_resonator.errors import FmuError, Refusal
 from slider_resonator.fmu import fmu_log
 from slider_resonator.fmu.blocks import Block, call

@@ -8,7 +8,8 @@ from pathlib import Path
 from fmpy.model_description import DefaultExperiment, ModelDescription, ModelVariable, Unit
 
 from slider_resonator.device.device import DEVIATIONS
-from slider_resonator.device.interface import FIRST, INPUTS, VARIABLES, Variable
+from slider_resonator.device.interface import INPUTS, VARIABLES
+from slider_resonator.device.variable import FIRST, Variable
 
 DIMENSIONS: Mapping[str, Mapping[str, int]] = {
     "1": {},

@@ -17,7 +17,8 @@ from fmpy.model_description import (
     read_model_description,
 )
 
-from slider_resonator.device.interface import FIRST, SETTABLE, VARIABLES
+from slider_resonator.device.interface import SETTABLE, VARIABLES
+from slider_resonator.device.variable import FIRST
 from slider_resonator.errors import FmuError, HarnessError, NotApplicable, unknown_name
 from slider_resonator.fmu.interface_check import interface_problems
 from slider_resonator.fmu.limits import MAX_ENTRIES, UNPACKED, max_bytes

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from slider_resonator.device.signal import Signal, ramp, steps
-from slider_resonator.device.values import finite_number
+from slider_resonator.device.units import finite_number
 
 SEPARATORS = (";", "\t")
 """What programs write between two columns where numbers may have a decimal comma."""

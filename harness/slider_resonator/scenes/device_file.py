@@ -155,15 +155,11 @@ def without_drive(values: Mapping[str, float]) -> list[str]:
 
 
 def to_ssv(device: Device, name: str) -> str:
-    """Return the parameter set of a device (SSP 1.0, `.ssv`), which system simulators import.
-
-    Raises SceneError as `to_toml` does.
-    """
-    values = checked_device(vars(device), "the device")
+    """Return the parameter set of a device (SSP 1.0, `.ssv`), which system simulators import."""
     space = "http://ssp-standard.org/SSP1/SystemStructureParameterValues"
     root = Element("ssv:ParameterSet", {"xmlns:ssv": space, "version": "1.0", "name": name})
     parameters = SubElement(root, "ssv:Parameters")
-    for key, value in values.items():
+    for key, value in vars(device).items():
         parameter = SubElement(parameters, "ssv:Parameter", name=key)
         SubElement(parameter, f"ssv:{VARIABLES[key].kind}", value=repr(value))
     indent(root)
@@ -176,15 +172,11 @@ def checked_device(device: Mapping[str, Any], source: str) -> dict[str, float]:
 
 
 def to_toml(device: Device, title: str = "") -> str:
-    """Return the text of a device file: what differs from table 1, and the number of faces.
-
-    Raises SceneError for a device that no device file could state.
-    """
-    start = vars(Device())
+    """Return the text of a device file: what differs from table 1, and the number of faces."""
     lines = [f"title = {toml_value(title)}", ""] if title else []
     lines.append("[device]")
-    for name, value in checked_device(vars(device), "the device").items():
-        if value != start[name] or name == "friction_faces":
+    for name, value in vars(device).items():
+        if name in (*device.differing, "friction_faces"):
             unit = VARIABLES[name].unit
             said = "" if unit == "1" else f"  # {unit}, {with_unit(name, value)}"
             lines.append(f"{name} = {value!r}{said}")

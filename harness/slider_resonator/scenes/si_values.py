@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.device.values import si_number
+from slider_resonator.device.units import si_number
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.key_table import HAS_UNIT, units_of
 from slider_resonator.scenes.schema import NeedTable, RunTable

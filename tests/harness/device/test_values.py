@@ -6,8 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.interface import INPUT_STARTS, INPUTS, PARAMETERS, VARIABLES, Variable
+from slider_resonator.device.interface import INPUT_STARTS, INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.device.values import check_value, si_value, with_unit
+from slider_resonator.device.variable import Variable
 from slider_resonator.fmu.opening import Fmu
 
 

@@ -21,7 +21,8 @@ from slider_resonator.checks.conduct.findings import (
 from slider_resonator.checks.conduct.output_derivatives import status_faults
 from slider_resonator.checks.conduct.replays import Replay
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.device.interface import VARIABLES, Variable
+from slider_resonator.device.interface import VARIABLES
+from slider_resonator.device.variable import Variable
 from slider_resonator.fmu.instance import Instance, SavedState
 from slider_resonator.fmu.run import Running
 from slider_resonator.rounding import is_same

@@ -1,0 +1,99 @@
+"""Numbers as text: with a unit or without, in SI units and as engineers state them."""
+
+import re
+from functools import cache
+from math import isclose, isfinite
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import pint
+
+_UNIT = r"[A-Za-zµμ°%]+(?:(?:\^|\*\*)-?\d)?"
+_TEXT = re.compile(
+    rf"\s*(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
+    rf"\s*(?P<unit>(?:1\s*/\s*)?{_UNIT}(?:\s*[*/]\s*{_UNIT})*)\s*"
+)
+"""A number with a unit: what the library evaluates is no more than that."""
+_MISREAD = ("gr",)
+"""Units of the library (grains) that are not meant."""
+_SHOWN = {"rad/s": "Hz", "rad": "deg"}
+"""For an SI unit, the one in which engineers state such a value."""
+_EXAMPLES = {
+    "kg": "5 g",
+    "rad/s": "20 kHz",
+    "rad": "30 deg",
+    "N": "200 mN",
+    "m": "1 um",
+    "m/s": "3 mm/s",
+    "1": "2 %",
+    "1/m": "0.1 1/um",
+    "s/m": "10 s/m",
+    "s": "5 ms",
+}
+
+
+@cache
+def _registry() -> "pint.UnitRegistry[Any]":
+    import pint  # takes half a second: only where a text is read or shown
+
+    registry: pint.UnitRegistry[Any] = pint.UnitRegistry()
+    # A frequency in Hz counts periods; those of the interface are angular.
+    registry.define("hertz = 2 * pi * radian / second = Hz")
+    return registry
+
+
+def is_number(text: str) -> bool:
+    """Whether a text is a finite number, without a unit."""
+    try:
+        return isfinite(float(text))
+    except ValueError:
+        return False
+
+
+def finite_number(name: str, text: str | None) -> float:
+    """Return the number that a text is; ValueError with name and text for any other text."""
+    if text is None or not is_number(text):
+        raise ValueError(f"{name} = {text!r}: must be a finite number")
+    return float(text)
+
+
+def si_number(name: str, text: str, unit: str) -> float:
+    """Return the number in an SI unit of a text with a unit, or of one that is a number.
+
+    Hz, kHz and rpm give rad/s. Raises ValueError with name, text and what it must be.
+    """
+    try:
+        return float(text)
+    except ValueError:
+        match = _TEXT.fullmatch(text)
+    number = "number" if unit == "1" else f"number in {unit}"
+    must = f"must be a {number}, or a text with a unit such as {_EXAMPLES.get(unit, '1')!r}"
+    if match is None:
+        raise ValueError(f"{name} = {text!r}: {must}")
+    if match["unit"] in _MISREAD:
+        raise ValueError(f"{name} = {text!r}: unknown unit {match['unit']!r}; {must}")
+    import pint
+
+    try:
+        scale = _registry().Quantity(1.0, match["unit"].replace(" ", ""))
+        factor = float(scale.to("dimensionless" if unit == "1" else unit).magnitude)
+    except pint.UndefinedUnitError as error:
+        raise ValueError(f"{name} = {text!r}: unknown unit {match['unit']!r}; {must}") from error
+    except (pint.PintError, ArithmeticError, AssertionError, TypeError, ValueError) as error:
+        raise ValueError(f"{name} = {text!r}: not in {unit}; {must}") from error
+    if unit == "rad" and factor >= 1e3:
+        raise ValueError(f"{name} = {text!r}: {match['unit']} is {factor:g} rad; {must}")
+    # So that "10 us" is 1e-5, to the last bit.
+    parts = round(1.0 / factor)
+    given = float(match["number"])
+    return given / parts if isclose(parts * factor, 1.0, rel_tol=1e-12) else given * factor
+
+
+def with_unit(value: float, unit: str) -> str:
+    """Return a value in the unit that engineers state it in: Hz, deg, um, g, mm/s, mN."""
+    if unit in ("1", "1/m", "s/m") or not isfinite(value):
+        return f"{value:.6g}" if unit == "1" else f"{value:.6g} {unit}"
+    quantity: Any = _registry().Quantity(float(value), unit).to(_SHOWN.get(unit, unit))
+    if value and unit != "rad":
+        quantity = quantity.to_compact()
+    return f"{quantity:.6g~P}".replace("µ", "u")

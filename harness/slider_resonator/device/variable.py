@@ -1,0 +1,84 @@
+"""A variable of the interface: what is said of it, and which values it may have."""
+
+import sys
+from dataclasses import dataclass
+from numbers import Real
+from typing import Any, Literal
+
+from slider_resonator.device.units import is_number, si_number
+
+FIRST = "0.1.0"
+"""First version of the interface, all of whose variables an FMU must have."""
+LARGEST = sys.float_info.max
+LARGEST_INTEGER = 2**31 - 1
+"""FMI 2.0 passes Integers as C ints, which would silently lose the upper bits of more."""
+
+Causality = Literal["input", "parameter", "output"]
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A variable of the interface, SI units.
+
+    An output has no `start`, and `depends_on` the inputs that act on it at once; None leaves that
+    open. A parameter that came with version `since` counts as `without` in an FMU that lacks it.
+    """
+
+    name: str
+    causality: Causality
+    variability: str
+    unit: str
+    kind: Literal["Real", "Integer"] = "Real"
+    start: float | None = None
+    minimum: float | None = None
+    maximum: float | None = None
+    nominal: float | None = None
+    depends_on: tuple[str, ...] | None = ()
+    since: str = FIRST
+    without: float | None = None
+
+    @property
+    def requirement(self) -> str:
+        """What a value must be, in words."""
+        kind = "an integer" if self.kind == "Integer" else "a finite number"
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        if self.minimum is None:
+            return kind
+        if self.maximum is None:
+            return f"{kind} of at least {self.minimum:g}{unit}"
+        return f"{kind} from {self.minimum:g} to {self.maximum:g}{unit}"
+
+    def read(self, value: object) -> float:
+        """Return a number, or a text with a unit, in SI units, as `checked` does."""
+        return self.checked(self.in_si(value) if isinstance(value, str) else value)
+
+    def in_si(self, text: str) -> float:
+        """Return the number of a text in the SI unit, as `si_number` does."""
+        if self.kind == "Integer" and not is_number(text):
+            raise ValueError(f"{self.name} = {text!r}: must be {self.requirement}")
+        return si_number(self.name, text, self.unit)
+
+    def checked(self, value: object) -> float:
+        """Return a value as a float, or as an int of an Integer.
+
+        Raises ValueError, with name, value and requirement, for one that the interface refuses.
+        """
+        if isinstance(value, bool) or not isinstance(value, Real):
+            raise ValueError(f"{self.name} = {value!r}: must be a number")
+        number: Any = value
+        if self.kind == "Integer":
+            check_integer(self.name, number)
+            number = int(number)
+        low = -LARGEST if self.minimum is None else self.minimum
+        high = LARGEST if self.maximum is None else self.maximum
+        if not low <= number <= high:
+            raise ValueError(f"{self.name} = {number!r}: must be {self.requirement}")
+        return number if self.kind == "Integer" else float(number)
+
+
+def check_integer(name: str, value: float) -> None:
+    """Raise ValueError, with name, value and requirement, unless the value is an FMI Integer."""
+    if value % 1 != 0:
+        raise ValueError(f"{name} = {value!r}: must be an integer")
+    if abs(value) > LARGEST_INTEGER:
+        raise ValueError(f"{name} = {value!r}: must be an integer up to {LARGEST_INTEGER}")
