@@ -97,6 +97,8 @@ def _explanation(problem: ErrorDetails, content: Mapping[str, Any], top: type[Ba
         wrong, kind = "must be a pair [time (s), value]", ""
     field = _fields_at(location, top).get(name)
     if kind == "missing":
+        if field and _tables_in(field.annotation):
+            return f"{key}: is missing; add a table, headed [{key}]"
         examples = field.examples if field else None
         example = f"; add {name} = {toml_value(examples[0])}" if examples else ""
         return f"{key}: is missing{example}"
