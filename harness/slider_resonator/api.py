@@ -35,7 +35,7 @@ from slider_resonator.choosing import Choice
 from slider_resonator.choosing import choose as choose_model
 from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import MAX_DENOMINATOR
-from slider_resonator.device.values import settable_value
+from slider_resonator.device.interface import settable_value
 from slider_resonator.errors import HarnessError, SceneError
 from slider_resonator.fitting.fit import STARTS, isolated
 from slider_resonator.fitting.fit import fit as fit_parameters

@@ -7,7 +7,6 @@ import click
 from slider_resonator.commands.options import json_option, target
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.device.values import with_unit
 from slider_resonator.output.console import print_json, print_table, print_text
 from slider_resonator.output.files import distinct, write_text
 from slider_resonator.output.readable import escaped, number_of, one_line
@@ -76,7 +75,7 @@ def _explain(name_or_file: str, ssv: Path | None, as_json: bool) -> None:
         name: {
             "value": value,
             "unit": VARIABLES[name].unit,
-            "shown": with_unit(name, value),
+            "shown": VARIABLES[name].shown(value),
             "given": name in read.values,
         }
         for name, value in vars(device).items()
@@ -104,13 +103,12 @@ def _explain(name_or_file: str, ssv: Path | None, as_json: bool) -> None:
 
 def _derived(device: Device) -> list[str]:
     faces = number_of(device.friction_faces, "face")
-    friction = with_unit("load", device.mean_friction)
+    friction = VARIABLES["load"].shown(device.mean_friction)
     lines = [f"friction of {faces} at the mean normal load: {friction}"]
     if device.resonator_mass > 0.0:
         free = device.resonator_frequency * (device.total_mass / device.slider_mass) ** 0.5
-        lines.append(
-            f"resonance of the slider without friction: {with_unit('resonator_frequency', free)}"
-        )
+        resonance = VARIABLES["resonator_frequency"].shown(free)
+        lines.append(f"resonance of the slider without friction: {resonance}")
     if device.normal_amplitude > device.normal_preload:
         lines.append("the normal load's amplitude is above its mean: the contact lifts off")
     return lines

@@ -9,8 +9,7 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands import options
-from slider_resonator.device.interface import PARAMETERS
-from slider_resonator.device.values import si_value
+from slider_resonator.device.interface import PARAMETERS, VARIABLES
 from slider_resonator.errors import unknown_name
 from slider_resonator.fitting.measurements import datasheet
 from slider_resonator.fitting.reading import read_measurements
@@ -24,7 +23,7 @@ from slider_resonator.output.readable import one_line
 
 def _finite(variable: str, text: str) -> float:
     """Return the finite number in SI units of a text; ValueError for another text."""
-    number = si_value(variable, text)
+    number = VARIABLES[variable].in_si(text)
     if not isfinite(number):
         raise ValueError(f"{variable} = {text}: must be finite")
     return number

@@ -10,9 +10,8 @@ from typing import Any, TypeVar
 
 import click
 
-from slider_resonator.device.interface import SETTABLE
+from slider_resonator.device.interface import SETTABLE, VARIABLES, settable_value
 from slider_resonator.device.units import is_number, si_number
-from slider_resonator.device.values import settable_value, si_value
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu import finished
 from slider_resonator.fmu.isolation.tasks import available_cores
@@ -176,7 +175,7 @@ def _is_unit_of(setting_before: str, argument: str) -> bool:
     if name not in SETTABLE or not is_number(number) or Path(argument).exists():
         return False
     try:
-        si_value(name, f"{number} {argument}")
+        VARIABLES[name].in_si(f"{number} {argument}")
     except ValueError:
         return False
     return True

@@ -8,8 +8,7 @@ from pathlib import Path
 import click
 
 from slider_resonator.commands import options
-from slider_resonator.device.interface import SETTABLE
-from slider_resonator.device.values import si_value
+from slider_resonator.device.interface import SETTABLE, VARIABLES
 from slider_resonator.errors import unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.provenance import provenance_of
@@ -30,7 +29,8 @@ def _axis(text: str) -> tuple[str, dict[str, float]]:
     name, first, last, count = match.groups()
     if name not in SETTABLE:
         raise ValueError(unknown_name("parameter or input", name, SETTABLE))
-    return name, {"from": si_value(name, first), "to": si_value(name, last), "count": int(count)}
+    begin, end = map(VARIABLES[name].in_si, (first, last))
+    return name, {"from": begin, "to": end, "count": int(count)}
 
 
 @click.command("sweep", cls=options.SettingsCommand)

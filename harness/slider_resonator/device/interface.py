@@ -9,6 +9,7 @@ from functools import partial
 
 from slider_resonator.device.device import DEVIATIONS, PARAMETER_TABLE
 from slider_resonator.device.variable import FIRST, Causality, Variable
+from slider_resonator.errors import unknown_name
 
 _input = partial(Variable, causality="input", variability="continuous")
 _deviation = partial(_input, unit="1", start=0.0, since="0.3.0", without=0.0)
@@ -86,3 +87,13 @@ OUTPUTS = _units("output", later=False)
 
 ALL_OUTPUTS = _units("output", later=True)
 """The same of every output, also of those that FMUs of earlier versions lack."""
+
+
+def settable_value(name: str, value: object) -> float:
+    """Return a value of a parameter or input, a number or text, in its SI unit.
+
+    Raises ValueError, with name, value and requirement, for one that the interface does not have.
+    """
+    if name not in SETTABLE:
+        raise ValueError(unknown_name("parameter or input", name, SETTABLE))
+    return float(VARIABLES[name].read(value))

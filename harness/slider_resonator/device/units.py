@@ -90,7 +90,7 @@ def si_number(name: str, text: str, unit: str) -> float:
 
 
 def with_unit(value: float, unit: str) -> str:
-    """Return a value in the unit that engineers state it in: Hz, deg, um, g, mm/s, mN."""
+    """Return a value in a unit as engineers state it: in Hz, deg, um, g, mm/s, mN."""
     if unit in ("1", "1/m", "s/m") or not isfinite(value):
         return f"{value:.6g}" if unit == "1" else f"{value:.6g} {unit}"
     quantity: Any = _registry().Quantity(float(value), unit).to(_SHOWN.get(unit, unit))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from numbers import Real
 from typing import Any, Literal
 
-from slider_resonator.device.units import is_number, si_number
+from slider_resonator.device.units import is_number, si_number, with_unit
 
 FIRST = "0.1.0"
 """First version of the interface, all of whose variables an FMU must have."""
@@ -57,6 +57,10 @@ class Variable:
         if self.kind == "Integer" and not is_number(text):
             raise ValueError(f"{self.name} = {text!r}: must be {self.requirement}")
         return si_number(self.name, text, self.unit)
+
+    def shown(self, value: float) -> str:
+        """Return a value in the unit that engineers state it in: Hz, deg, um, g, mm/s, mN."""
+        return with_unit(value, self.unit)
 
     def checked(self, value: object) -> float:
         """Return a value as a float, or as an int of an Integer.

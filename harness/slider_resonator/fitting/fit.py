@@ -13,7 +13,6 @@ from scipy.special import stdtrit
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS, VARIABLES
-from slider_resonator.device.values import check_value, si_value
 from slider_resonator.errors import FmuError, HarnessError, unknown_name
 from slider_resonator.fitting.estimation import (
     LEAST_NOISE,
@@ -103,7 +102,7 @@ def free_parameters(
         for bound in (low, high):
             if isfinite(bound):
                 try:
-                    check_value(name, bound)
+                    VARIABLES[name].checked(bound)
                 except ValueError as error:
                     raise HarnessError(f"bounds of {error}") from error
         if not low < high:
@@ -116,7 +115,8 @@ def free_parameters(
 def _both_bounds(name: str, bounds: Any) -> tuple[float, float]:
     """Return two bounds in SI units, given as numbers or as texts with a unit."""
     try:
-        low, high = (si_value(name, one) if isinstance(one, str) else float(one) for one in bounds)
+        variable = VARIABLES[name]
+        low, high = (variable.in_si(one) if isinstance(one, str) else float(one) for one in bounds)
     except (TypeError, ValueError) as error:
         raise HarnessError(
             f"bounds of {name} = {bounds!r}: must be two numbers, or texts with a unit"

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INTEGERS, VARIABLES
 from slider_resonator.device.schedule import Schedule
-from slider_resonator.device.values import with_unit
 from slider_resonator.errors import HarnessError
 
 STEADY = ("steady_velocity", "blocking_force")
@@ -199,7 +198,7 @@ def datasheet(
     `loaded` are pairs of load (N) and velocity (m/s).
     """
     points = [
-        Point({"load": load}, STEADY[0], speed, row=f"load {with_unit('load', load)}")
+        Point({"load": load}, STEADY[0], speed, row=f"load {VARIABLES['load'].shown(load)}")
         for load, speed in loaded
     ]
     if velocity is not None:
@@ -225,7 +224,9 @@ def abscissa_and_curves(points: Sequence[Point]) -> tuple[str, dict[str, list[in
     first, *others = sorted((n for n in names if counts[n] > 1), key=lambda n: -counts[n]) or [""]
     curves: dict[str, list[int]] = {}
     for i, point in enumerate(points):
-        name = ", ".join(f"{other} {with_unit(other, set_value(point, other))}" for other in others)
+        name = ", ".join(
+            f"{other} {VARIABLES[other].shown(set_value(point, other))}" for other in others
+        )
         curves.setdefault(name, []).append(i)
     return first, curves if len(curves) <= MAX_CURVES else {"": list(range(len(points)))}
 

@@ -11,11 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.interface import ALL_OUTPUTS, HELD, INPUTS, PARAMETERS
+from slider_resonator.device.interface import ALL_OUTPUTS, HELD, INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import steps
 from slider_resonator.device.units import is_number
-from slider_resonator.device.values import si_value, with_unit
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fitting.measurements import STEADY, TIME, Measurements, Point, Run
 from slider_resonator.scenes.csv_signal import csv_number, csv_rows
@@ -191,7 +190,7 @@ def _named(
 
 def _factor(name: str, unit: str) -> float:
     """Return the factor from a unit, or none, to the SI unit; ValueError for a wrong one."""
-    return si_value(TIME if name == "time" else name, f"1 {unit}") if unit else 1.0
+    return VARIABLES[TIME if name == "time" else name].in_si(f"1 {unit}") if unit else 1.0
 
 
 def _with_brackets(heading: str, allowed: _Allowed) -> str | None:
@@ -285,8 +284,8 @@ def _run(columns: _Columns) -> Measurements:
             for some in (outputs, deviations)
         )
         notes.append(
-            f"{source}: begins at {with_unit(TIME, times[1])}; the device starts at time 0 in its "
-            "initial state, at drive phase 0, and has the inputs of the first row until then"
+            f"{source}: begins at {VARIABLES[TIME].shown(times[1])}; the device starts at time 0 "
+            "in its initial state, at drive phase 0, and has the inputs of the first row until then"
         )
     schedule = Schedule(times, inputs, tuning=tuning)
     return Measurements(

@@ -10,7 +10,6 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.device.values import si_value, with_unit
 from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.scenes.explanations import table_from
 from slider_resonator.scenes.schema import DeviceFileTable
@@ -108,7 +107,7 @@ def possible_slips(
 
     def frequency(name: str) -> float:
         value = table.get(name, (beside or {}).get(name, VARIABLES[name].start))
-        return si_value(name, value) if isinstance(value, str) else float(value)
+        return VARIABLES[name].in_si(value) if isinstance(value, str) else float(value)
 
     numbers = {
         name: value
@@ -128,7 +127,7 @@ def possible_slips(
     slips = []
     for name, unit in meant.items():
         shown, other = f"{numbers[name]:g}", f"{numbers[name]:g} {unit}"
-        means = f"is {with_unit(name, numbers[name])}"
+        means = f"is {VARIABLES[name].shown(numbers[name])}"
         if name == "base_amplitude":
             means = f"at the drive's frequency is {velocity:.3g} m/s"
         write = where or f'{name} = "{other}"'
@@ -178,6 +177,6 @@ def to_toml(device: Device, title: str = "") -> str:
     for name, value in vars(device).items():
         if name in (*device.differing, "friction_faces"):
             unit = VARIABLES[name].unit
-            said = "" if unit == "1" else f"  # {unit}, {with_unit(name, value)}"
+            said = "" if unit == "1" else f"  # {unit}, {VARIABLES[name].shown(value)}"
             lines.append(f"{name} = {value!r}{said}")
     return "\n".join(lines) + "\n"

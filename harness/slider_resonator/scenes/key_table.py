@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, create_model, model_validator
 
 from slider_resonator.device.interface import INTEGERS, VARIABLES
-from slider_resonator.device.values import settable_value
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0.0)]
@@ -105,7 +104,7 @@ def units_of(table: type[KeyTable]) -> dict[str, str]:
 def _parameter(value: object, name: str) -> float:
     """Return the value of a parameter in its SI unit; ValueError says what an Integer means."""
     try:
-        return settable_value(name, value)
+        return VARIABLES[name].read(value)
     except ValueError as error:
         meaning = f" ({PARAMETER_MEANINGS[name]})" if name in INTEGERS else ""
         raise ValueError(f"{error}{meaning}") from error

@@ -9,10 +9,9 @@ from typing import Any
 
 from slider_resonator.device.device import DEVIATIONS, Device
 from slider_resonator.device.drive_periods import DrivePeriods, drive_periods
-from slider_resonator.device.interface import INPUTS, TUNABLES
+from slider_resonator.device.interface import INPUTS, TUNABLES, VARIABLES
 from slider_resonator.device.schedule import Schedule, schedule, step_count
 from slider_resonator.device.signal import Signal, constant, ramp, steps
-from slider_resonator.device.values import check_value
 from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown
@@ -200,7 +199,7 @@ class Scene(Shown):
     def with_values(self, values: Mapping[str, float]) -> "Scene":
         """Return the scene with parameters replaced, and inputs by a constant.
 
-        The values must be ones that `check_value` accepts.
+        The values must be ones that the interface has.
         """
         tuning = {name: s for name, s in self.tuning.items() if name not in values}
         held = (*INPUTS, *(DEVIATIONS if tuning else ()))
@@ -389,7 +388,7 @@ def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:
         else:
             signal = constant(table.constant or 0.0)
         for value in signal.values:
-            check_value(name, value)
+            VARIABLES[name].checked(value)
         return signal
     except ValueError as error:
         raise SceneError(f"{where}: {error}") from error

@@ -6,8 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from slider_resonator.device.interface import SETTABLE, TUNABLES
-from slider_resonator.device.values import settable_value
+from slider_resonator.device.interface import SETTABLE, TUNABLES, settable_value
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.expansion import with_bundles
 from slider_resonator.scenes.input_tables import AllInputsTable, BesideTable, TuningTable

@@ -18,8 +18,7 @@ from pydantic import (
 )
 
 from slider_resonator.device.drive_periods import MAX_DENOMINATOR
-from slider_resonator.device.interface import SETTABLE
-from slider_resonator.device.values import check_value
+from slider_resonator.device.interface import SETTABLE, VARIABLES
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.scenes.device_file import possible_slips, refuse_other_kinds
 from slider_resonator.scenes.explanations import AXIS, table_from
@@ -244,7 +243,7 @@ def grid_from(
     for name, values in columns.items():
         for value in values:
             try:
-                check_value(name, value)
+                VARIABLES[name].checked(value)
             except ValueError as error:
                 raise HarnessError(f"{source}: {error}") from error
     task = Task(

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUT_STARTS, INPUTS, PARAMETERS, VARIABLES
-from slider_resonator.device.values import check_value, si_value, with_unit
 from slider_resonator.device.variable import Variable
 from slider_resonator.fmu.opening import Fmu
 
@@ -29,7 +28,7 @@ from slider_resonator.fmu.opening import Fmu
 )
 def test_invalid_value_is_refused_by_name(name: str, value: float, message: str) -> None:
     with pytest.raises(ValueError, match=message):
-        check_value(name, value)
+        VARIABLES[name].checked(value)
 
 
 @pytest.mark.parametrize("variable", [VARIABLES[name] for name in (*PARAMETERS, *INPUTS)])
@@ -37,11 +36,11 @@ def test_bounds_are_inclusive(variable: Variable) -> None:
     bounds = (variable.minimum, variable.maximum)
     for value in (-1e300 if bounds[0] is None else bounds[0], variable.start):
         assert value is not None
-        check_value(variable.name, value)
+        variable.checked(value)
     if bounds[1] is not None:
-        check_value(variable.name, bounds[1])
+        variable.checked(bounds[1])
     elif variable.kind == "Real":
-        check_value(variable.name, 1e300)
+        variable.checked(1e300)
 
 
 @pytest.mark.parametrize(
@@ -63,7 +62,7 @@ def test_bounds_are_inclusive(variable: Variable) -> None:
     ],
 )
 def test_text_becomes_si(name: str, text: str, value: float) -> None:
-    assert si_value(name, text) == pytest.approx(value, rel=1e-14)
+    assert VARIABLES[name].in_si(text) == pytest.approx(value, rel=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -80,7 +79,7 @@ def test_text_becomes_si(name: str, text: str, value: float) -> None:
 )
 def test_other_text_is_refused(name: str, text: str, said: str) -> None:
     with pytest.raises(ValueError, match=name) as error:
-        si_value(name, text)
+        VARIABLES[name].in_si(text)
     assert said in str(error.value)
     assert repr(text) in str(error.value)
 
@@ -90,7 +89,7 @@ REAL = [name for name in sorted(PARAMETERS) if VARIABLES[name].kind == "Real"]
 
 @given(st.sampled_from(REAL), st.floats(1e-9, 1e9))
 def test_what_is_shown_is_read_back(name: str, value: float) -> None:
-    assert si_value(name, with_unit(name, value)) == pytest.approx(value, rel=1e-5)
+    assert VARIABLES[name].in_si(VARIABLES[name].shown(value)) == pytest.approx(value, rel=1e-5)
 
 
 def test_starts_are_table_1() -> None:
