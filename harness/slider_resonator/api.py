@@ -48,10 +48,12 @@ from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.run import Record
 from slider_resonator.fmu.run import run as run_schedule
 from slider_resonator.output.shown import Drawable
-from slider_resonator.scenes.device_file import checked_device, possible_slips, read_device_file
+from slider_resonator.scenes.device_file import possible_slips, read_device_file
 from slider_resonator.scenes.device_file import to_toml as device_text
+from slider_resonator.scenes.explanations import table_from
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes
+from slider_resonator.scenes.schema import DeviceFileTable
 from slider_resonator.steady.searches import Blocking, SteadyMotion, find_blocking, find_steady
 from slider_resonator.stressing.axes import axis_cases, device_cases
 from slider_resonator.stressing.random_cases import random_case
@@ -350,9 +352,9 @@ def _stated(device: DeviceLike | None) -> dict[str, float]:
     if isinstance(device, Device):
         device = device.differing
     if isinstance(device, Mapping):
-        values = checked_device(_plain(device), "device")
+        table = table_from(DeviceFileTable, {"device": _plain(device)}, "device")
         _warn(possible_slips(device))
-        return values
+        return table.device.stated
     read = read_device_file(str(device))
     _warn(read.slips)
     return read.values

@@ -28,7 +28,7 @@ fast_velocity = partial(_amplitude, name="velocity_amplitude")
 
 def largest_fast_velocity(device: Device, held: Sequence[HeldInputs]) -> float:
     """Return the largest v_q (m/s) of a run that tunes the device."""
-    return max(fast_velocity(inputs.tuned_device(device)) for inputs in held)
+    return max(fast_velocity(device.tuned(inputs.tuned)) for inputs in held)
 
 
 def _velocity(device: Device) -> float:

@@ -259,11 +259,11 @@ class ReferenceSide:
         ratio = now.frequency_ratio
         lead = sum(
             (h.frequency_ratio + 0.5 * h.ratio_rate * (h.stop - h.start) - ratio)
-            * h.tuned_device(self.device).drive_frequency
+            * self.device.tuned(h.tuned).drive_frequency
             * (h.stop - h.start)
             for h in held
         )
-        device = now.tuned_device(self.device)
+        device = self.device.tuned(now.tuned)
         return SteadyReferences(device, now.phase + lead, now.load, ratio)
 
     def predictions(self, name: str) -> Array:

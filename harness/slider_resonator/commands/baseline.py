@@ -16,7 +16,7 @@ from slider_resonator.commands.reports import (
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.output.console import print_text
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.scenes.scene_files import find_scenes
 

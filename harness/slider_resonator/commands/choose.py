@@ -13,7 +13,7 @@ from slider_resonator.device.units import si_number
 from slider_resonator.errors import unknown_name
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import print_json, print_table, print_text
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.key_table import units_of
 from slider_resonator.scenes.schema import AllowedTable, NeedTable

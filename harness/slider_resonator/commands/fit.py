@@ -17,7 +17,7 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import print_json, print_table, print_text
 from slider_resonator.output.files import distinct, make_folder
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.readable import one_line
 
 

@@ -16,8 +16,7 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.fmu.run import Record, run
 from slider_resonator.output.console import print_result
 from slider_resonator.output.files import PICTURE_SUFFIXES, distinct, write_csv
-from slider_resonator.output.progress import Progress
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import Progress, progress_bar
 from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.scenes.scene import Scene
 

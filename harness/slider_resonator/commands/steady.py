@@ -11,7 +11,7 @@ from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import print_result
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.readable import one_line
 from slider_resonator.steady.searches import SearchResult, find_blocking, find_steady
 

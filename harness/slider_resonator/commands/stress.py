@@ -14,8 +14,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, print_result
 from slider_resonator.output.files import make_folder
-from slider_resonator.output.progress import part_of
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import part_of, progress_bar
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.stressing.axes import axis_cases, device_cases
 from slider_resonator.stressing.case import DEVICE, RANDOM, Case

@@ -14,7 +14,7 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import print_result
 from slider_resonator.output.files import PICTURE_SUFFIXES, distinct
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.readable import one_line
 from slider_resonator.sweeping.grid import grid_from, read_grid
 from slider_resonator.sweeping.sweeping import run_sweep

@@ -10,8 +10,7 @@ from slider_resonator.commands import options
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, print_json, print_text
 from slider_resonator.output.files import PICTURE_SUFFIXES, distinct, make_folder
-from slider_resonator.output.progress import part_of
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import part_of, progress_bar
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.trading.measure import BUDGET, REPEATS, TIME_LIMIT, measure_trade, opened
 from slider_resonator.trading.page import write_trades

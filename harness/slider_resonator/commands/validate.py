@@ -11,7 +11,7 @@ from slider_resonator.commands import options
 from slider_resonator.commands.reports import Reports, print_verdicts, report_options
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import progress_bar
 from slider_resonator.scenes.scene_files import find_scenes
 
 

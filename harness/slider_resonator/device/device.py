@@ -1,6 +1,6 @@
 """The device parameters of the contract: SI units, and table 1 of the paper as start values."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from copy import copy
 from dataclasses import dataclass, field, fields
 from typing import Any
@@ -83,9 +83,9 @@ class Device:
         Raises HarnessError, with name, value and requirement.
         """
         given: dict[str, Any] = {n: v for n, v in values.items() if n not in DEVIATIONS}
-        return cls(**given).tuned({name: values.get(name, 0.0) for name in DEVIATIONS})
+        return cls(**given).tuned((name, values.get(name, 0.0)) for name in DEVIATIONS)
 
-    def tuned(self, values: Mapping[str, float]) -> "Device":
+    def tuned(self, values: Iterable[tuple[str, float]]) -> "Device":
         """Return the device as it is in a run while parameters and `DEVIATIONS` have these values.
 
         They are not checked: a drive that deviates may be slower than a parameter can say.

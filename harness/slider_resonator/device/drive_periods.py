@@ -67,7 +67,7 @@ def drive_periods(device: Device, held: Sequence[HeldInputs]) -> DrivePeriods:
 
     `period` is that of the device.
     """
-    rates = [inputs.tuned_device(device).drive_frequency for inputs in held]
+    rates = [device.tuned(inputs.tuned).drive_frequency for inputs in held]
     period = tau / device.drive_frequency
     if set(rates) == {device.drive_frequency}:
         return DrivePeriods(period)

@@ -48,10 +48,6 @@ class HeldInputs:
         ratio = self.frequency_ratio + 0.5 * self.ratio_rate * duration
         return ratio * frequency * duration
 
-    def tuned_device(self, device: Device) -> Device:
-        """Return the device of a run with the parameters as they are over these inputs."""
-        return device.tuned(dict(self.tuned)) if self.tuned else device
-
 
 def with_steady_phase(held: Sequence[HeldInputs], device: Device) -> list[HeldInputs]:
     """Return inputs of the same normal load over time, none of whose phases has a rate.
@@ -61,7 +57,7 @@ def with_steady_phase(held: Sequence[HeldInputs], device: Device) -> list[HeldIn
     steady: list[HeldInputs] = []
     gained = 0.0
     for inputs in held:
-        frequency = inputs.tuned_device(device).drive_frequency
+        frequency = device.tuned(inputs.tuned).drive_frequency
         ratio = inputs.frequency_ratio + inputs.phase_rate / frequency
         phase = inputs.phase - gained
         steady.append(replace(inputs, frequency_ratio=ratio, phase_rate=0.0, phase=phase))

@@ -16,7 +16,7 @@ _TEXT = re.compile(
 """A number with a unit: what the library evaluates is no more than that."""
 _MISREAD = ("gr",)
 """Units of the library (grains) that are not meant."""
-_SHOWN = {"rad/s": "Hz", "rad": "deg"}
+SHOWN = {"rad/s": "Hz", "rad": "deg"}
 """For an SI unit, the one in which engineers state such a value."""
 _EXAMPLES = {
     "kg": "5 g",
@@ -33,13 +33,14 @@ _EXAMPLES = {
 
 
 @cache
-def _registry() -> "pint.UnitRegistry[Any]":
+def registry() -> "pint.UnitRegistry[Any]":
+    """Return the units, in which a frequency in Hz is an angular one."""
     import pint  # takes half a second: only where a text is read or shown
 
-    registry: pint.UnitRegistry[Any] = pint.UnitRegistry()
+    units: pint.UnitRegistry[Any] = pint.UnitRegistry()
     # A frequency in Hz counts periods; those of the interface are angular.
-    registry.define("hertz = 2 * pi * radian / second = Hz")
-    return registry
+    units.define("hertz = 2 * pi * radian / second = Hz")
+    return units
 
 
 def is_number(text: str) -> bool:
@@ -75,7 +76,7 @@ def si_number(name: str, text: str, unit: str) -> float:
     import pint
 
     try:
-        scale = _registry().Quantity(1.0, match["unit"].replace(" ", ""))
+        scale = registry().Quantity(1.0, match["unit"].replace(" ", ""))
         factor = float(scale.to("dimensionless" if unit == "1" else unit).magnitude)
     except pint.UndefinedUnitError as error:
         raise ValueError(f"{name} = {text!r}: unknown unit {match['unit']!r}; {must}") from error
@@ -87,13 +88,3 @@ def si_number(name: str, text: str, unit: str) -> float:
     parts = round(1.0 / factor)
     given = float(match["number"])
     return given / parts if isclose(parts * factor, 1.0, rel_tol=1e-12) else given * factor
-
-
-def with_unit(value: float, unit: str) -> str:
-    """Return a value in a unit as engineers state it: in Hz, deg, um, g, mm/s, mN."""
-    if unit in ("1", "1/m", "s/m") or not isfinite(value):
-        return f"{value:.6g}" if unit == "1" else f"{value:.6g} {unit}"
-    quantity: Any = _registry().Quantity(float(value), unit).to(_SHOWN.get(unit, unit))
-    if value and unit != "rad":
-        quantity = quantity.to_compact()
-    return f"{quantity:.6g~P}".replace("µ", "u")

@@ -2,10 +2,11 @@
 
 import sys
 from dataclasses import dataclass
+from math import isfinite
 from numbers import Real
 from typing import Any, Literal
 
-from slider_resonator.device.units import is_number, si_number, with_unit
+from slider_resonator.device.units import SHOWN, is_number, registry, si_number
 
 FIRST = "0.1.0"
 """First version of the interface, all of whose variables an FMU must have."""
@@ -60,7 +61,13 @@ class Variable:
 
     def shown(self, value: float) -> str:
         """Return a value in the unit that engineers state it in: Hz, deg, um, g, mm/s, mN."""
-        return with_unit(value, self.unit)
+        if self.unit in ("1", "1/m", "s/m") or not isfinite(value):
+            return f"{value:.6g} {self.unit}".removesuffix(" 1")
+        quantity: Any = registry().Quantity(float(value), self.unit)
+        quantity = quantity.to(SHOWN.get(self.unit, self.unit))
+        if value and self.unit != "rad":
+            quantity = quantity.to_compact()
+        return f"{quantity:.6g~P}".replace("µ", "u")
 
     def checked(self, value: object) -> float:
         """Return a value as a float, or as an int of an Integer.

@@ -63,11 +63,8 @@ def numbers(*headings: str) -> list[Column]:
     return [Column(heading, numeric=True) for heading in headings]
 
 
-def verdict(passed: bool) -> Cell:
-    """Return the cell of a verdict."""
-    return Cell("pass", Style.PASS) if passed else Cell("FAIL", Style.FAIL)
-
-
-def verdict_so_far(failed: bool, not_run: int) -> Cell:
+def verdict(passed: bool, not_run: int = 0) -> Cell:
     """Return the cell of a verdict on a run of which a number may be missing."""
-    return Cell("incomplete", Style.NOTE) if not_run and not failed else verdict(not failed)
+    if passed and not_run:
+        return Cell("incomplete", Style.NOTE)
+    return Cell("pass", Style.PASS) if passed else Cell("FAIL", Style.FAIL)

@@ -165,11 +165,6 @@ def to_ssv(device: Device, name: str) -> str:
     return tostring(root, encoding="unicode", xml_declaration=True) + "\n"
 
 
-def checked_device(device: Mapping[str, Any], source: str) -> dict[str, float]:
-    """Return parameters, numbers or texts with a unit, in SI units; SceneError as for a file."""
-    return table_from(DeviceFileTable, {"device": device}, source).device.stated
-
-
 def to_toml(device: Device, title: str = "") -> str:
     """Return the text of a device file: what differs from table 1, and the number of faces."""
     lines = [f"title = {toml_value(title)}", ""] if title else []

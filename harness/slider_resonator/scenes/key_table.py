@@ -52,19 +52,23 @@ PARAMETER_MEANINGS: Mapping[str, str] = {
 class KeyTable(BaseModel):
     """A table of a scene file; a key that it does not list is refused.
 
-    `rules` are those that hold between its keys. Of each group of `one_of` exactly one is given.
+    `rules` are those that hold between its keys. Exactly one is given of each group of `one_of`, and
+    at least one of `some_of`.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     rules: ClassVar[tuple[str, ...]] = ()
     one_of: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    some_of: ClassVar[tuple[str, ...]] = ()
 
     @model_validator(mode="after")
-    def _exactly_one(self) -> Self:
+    def _given_together(self) -> Self:
         for group in self.one_of:
             given = ", ".join(self.given(group))
             if len(self.given(group)) != 1:
                 raise ValueError(f"needs exactly one of {', '.join(group)}; has {given or 'none'}")
+        if self.some_of and not self.given(self.some_of):
+            raise ValueError(f"needs at least one of {', '.join(self.some_of)}")
         return self
 
     @property

@@ -200,6 +200,7 @@ class AllowedTable(KeyTable):
     """
 
     rules: ClassVar[tuple[str, ...]] = ("At least one of `abs` and `rel`.",)
+    some_of = ("abs", "rel")
 
     abs: Positive | None = key("allowed error", 2e-3, unit="unit of the quantity")
     rel: Positive | None = key(
@@ -220,12 +221,6 @@ class AllowedTable(KeyTable):
         share = None if self.rel is None else f"{100.0 * self.rel:.10g} %"
         return " + ".join(str(part) for part in (self.abs, share) if part is not None)
 
-    @model_validator(mode="after")
-    def _some_tolerance(self) -> "AllowedTable":
-        if self.abs is None and self.rel is None:
-            raise ValueError("needs a tolerance: abs, rel or both")
-        return self
-
     def at(self, size: float) -> float:
         """Return the allowed error for a quantity of this size, both in the quantity's unit."""
         return (self.abs or 0.0) + (self.rel or 0.0) * abs(size)
@@ -239,6 +234,7 @@ class NeedTable(KeyTable):
         "`steady_velocity` and `blocking_force` need constant inputs and parameters; the others "
         "need a [run].",
     )
+    some_of = (*STEADY_NEEDS, *RUN_NEEDS)
 
     mean_velocity: AllowedTable | None = key(
         "mean velocity over the last drive period of the run", {"rel": 0.02}, unit="m/s"
@@ -269,16 +265,10 @@ class NeedTable(KeyTable):
         "whether either friction law may be chosen", "free", default="given"
     )
 
-    @model_validator(mode="after")
-    def _some_need(self) -> "NeedTable":
-        if not self.needs:
-            raise ValueError(f"needs at least one of {', '.join((*STEADY_NEEDS, *RUN_NEEDS))}")
-        return self
-
     @property
     def needs(self) -> dict[str, AllowedTable]:
         """The needed quantities by name."""
-        return self.given((*STEADY_NEEDS, *RUN_NEEDS))
+        return self.given(self.some_of)
 
 
 class DeviceFileTable(KeyTable):

@@ -10,7 +10,7 @@ from slider_resonator.output.files import write_text
 from slider_resonator.output.html_page import escaped, rendered, section, write_page
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.readable import number_of
-from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict_so_far
+from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
 from slider_resonator.stressing.case import MODELS, RANDOM, Case, name_of
 from slider_resonator.stressing.run import StressResult
 from slider_resonator.stressing.verdict import FAILED, MEANINGS, PASSED, Verdict
@@ -26,7 +26,7 @@ def write_stress_page(path: Path, results: Sequence[StressResult], provenance: P
     overview: list[Row] = [
         (
             Path(one.fmu).name,
-            verdict_so_far(one.failed, one.not_run),
+            verdict(not one.failed, one.not_run),
             *map(str, (len(one.verdicts), one.skipped, one.not_run)),
             f"{one.wall_time:.0f}",
         )

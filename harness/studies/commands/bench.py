@@ -15,7 +15,7 @@ from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, print_json, print_table, print_text
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.table import Table, numbers, texts
 from studies.hosts.step_cost import StepCost, measure_steps, short_step_ratio

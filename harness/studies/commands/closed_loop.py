@@ -14,8 +14,7 @@ from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, print_json, print_table, print_text
 from slider_resonator.output.files import make_folder, write_csv
-from slider_resonator.output.progress import counted, part_of
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import counted, part_of, progress_bar
 from slider_resonator.output.readable import one_line
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from studies.closed_loop.duty import Duty

@@ -16,8 +16,7 @@ from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, print_json, print_table, print_text
-from slider_resonator.output.progress import counted
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import counted, progress_bar
 from slider_resonator.output.table import Table, texts, verdict
 from studies.hosts.hosts import OWN_ENVIRONMENTS, Host, hosts
 from studies.hosts.runs import ALLOWED, TIME_LIMIT, HostResult, run_host

@@ -19,7 +19,7 @@ from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import noting_on_interrupt, output, print_json
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import progress_bar
 from slider_resonator.scenes.scene_files import find_scenes
 from studies.mutants.archive import read_python_fmu
 from studies.mutants.bench import TIME_LIMIT, Judging

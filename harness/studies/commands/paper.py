@@ -12,7 +12,7 @@ from slider_resonator.commands.options import (
 )
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import print_result
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.readable import one_line
 from studies.paper.listing import verdicts
 from studies.paper.reproduce import NAMES, TIME_LIMIT, Outcome, reproduce

@@ -38,15 +38,15 @@ def test_a_tuned_parameter_parts_the_inputs() -> None:
     assert plan.changes.tolist() == [2, 3]
     assert plan.readings().tolist() == plan.times.tolist(), "read once unless it is asked"
     held = plan.held()
-    assert [(h.start, h.load, h.tuned_device(Device()).normal_preload) for h in held] == [
+    assert [(h.start, h.load, Device().tuned(h.tuned).normal_preload) for h in held] == [
         (0.0, 0.1, 1.0),
         (0.3, 0.1, 2.0),
         (0.5, 0.2, 2.0),
     ]
-    assert held[1].tuned_device(Device(slider_mass=3.0)) == Device(
+    assert Device(slider_mass=3.0).tuned(held[1].tuned) == Device(
         slider_mass=3.0, normal_preload=2.0
     )
-    assert HeldInputs(0.0, 1.0).tuned_device(Device()) == Device()
+    assert Device().tuned(HeldInputs(0.0, 1.0).tuned) == Device()
 
 
 def test_outputs_are_read_before_and_after_a_change() -> None:

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.cells import cell_len
 
-from slider_resonator.output.progress_bar import progress_bar
+from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.terminal import fitting
 
 

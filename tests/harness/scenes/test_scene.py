@@ -83,7 +83,7 @@ def test_tuned_parameters_start_as_the_tuning_says_and_a_value_replaces_it() -> 
     assert scene.device.normal_preload == 2.0
     schedule = scene.schedule()
     assert 0.017 in schedule.times, "a step of a parameter is a communication point"
-    devices = [inputs.tuned_device(scene.device) for inputs in schedule.held()]
+    devices = [scene.device.tuned(inputs.tuned) for inputs in schedule.held()]
     assert [device.normal_preload for device in devices] == [2.0, 3.0]
     replaced = scene.with_values({"normal_preload": 5.0})
     assert replaced.device.normal_preload == 5.0
@@ -105,11 +105,11 @@ def test_deviations_over_time_are_of_what_the_drive_is_tuned_to() -> None:
     tuning = "[tuning]\nbase_amplitude = { steps = [[0.0, 1e-4], [0.07, 2e-4]] }\n"
     scene = scene_of(DEVIATING + deviation + tuning)
     assert scene.device == Device(), "that of the parameters"
-    found = [held.tuned_device(scene.device) for held in scene.schedule().held()]
+    found = [scene.device.tuned(held.tuned) for held in scene.schedule().held()]
     assert [d.base_amplitude for d in found] == [0.0, 1e-4 * 1.5, 2e-4 * 1.5]
     assert [d.drive_frequency for d in found] == [3500.0 * 1.1] * 3
     off = scene.with_values({"amplitude_deviation": -0.5})
-    found = [held.tuned_device(off.device) for held in off.schedule().held()]
+    found = [off.device.tuned(held.tuned) for held in off.schedule().held()]
     assert [d.base_amplitude for d in found] == [0.5e-4, 1e-4]
 
 

@@ -42,7 +42,7 @@ def test_inputs_that_vary_allow_no_steady_motion() -> None:
 def test_a_drive_that_changes_is_held_over_the_steps_of_the_scene() -> None:
     found = problem(SCAN)
     assert not found.constant
-    drives = [inputs.tuned_device(found.device) for inputs in found.lines(16)]
+    drives = [found.device.tuned(inputs.tuned) for inputs in found.lines(16)]
     assert [drives[i].base_amplitude for i in (0, 10, -1)] == pytest.approx([1e-4, 0.0, 1.5e-4])
     ramp = np.arange(5) * PERIOD / 2.0 / 0.02 * 0.2 - 0.1
     rates = [drive.drive_frequency for drive in drives[:5]]
@@ -55,7 +55,7 @@ def test_a_window_is_a_period_of_the_drive_as_it_is() -> None:
     turned = 0.0
     ends = [0.0]
     for inputs in found.lines(16):
-        rate = inputs.tuned_device(found.device).drive_frequency / (2.0 * pi)
+        rate = found.device.tuned(inputs.tuned).drive_frequency / (2.0 * pi)
         for turn in range(len(ends), int(turned + rate * (inputs.stop - inputs.start) + 1e-9) + 1):
             ends.append(inputs.start + (turn - turned) / rate)
         turned += rate * (inputs.stop - inputs.start)

@@ -83,7 +83,7 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     """
     check_times(times, held)
     share = device.mass_ratio
-    tuned = held[0].tuned_device(device)
+    tuned = device.tuned(held[0].tuned)
     slow = device.initial_velocity + share * device.initial_resonator_velocity + slow_start(tuned)
     centre = device.initial_position + share * device.initial_resonator_displacement
     theta = psi = 0.0
@@ -91,7 +91,7 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     frictions: list[Callable[[], float]] = []
     last = np.array([device.initial_position, device.initial_velocity])
     for inputs in in_slow_phases(with_steady_phase(held, device), device):
-        before, tuned = tuned, inputs.tuned_device(device)
+        before, tuned = tuned, device.tuned(inputs.tuned)
         drive, drive_before = slow_start(tuned), slow_start(before)
         slow += (drive - drive_before) * math.cos(theta)
         swing = drive / tuned.drive_frequency - drive_before / before.drive_frequency
@@ -245,7 +245,7 @@ def in_slow_phases(held: Sequence[HeldInputs], device: Device) -> list[HeldInput
         if inputs.ratio_rate:
             first = inputs.frequency_ratio
             low, high = sorted((first, first + inputs.ratio_rate * (inputs.stop - inputs.start)))
-            lifts = inputs.tuned_device(device).amplitude_ratio > 1.0
+            lifts = device.tuned(inputs.tuned).amplitude_ratio > 1.0
             edges = {
                 (whole + side * MAX_DETUNING / turns) / turns
                 for turns in range(1, (MAX_TURNS if lifts else 1) + 1)

@@ -111,7 +111,7 @@ class ModeSequence:
         """
         check_times(self._recorder.times, held)
         for inputs in turning_apart(with_steady_phase(held, self._device)):
-            self._equations = equations_of(inputs.tuned_device(self._device))
+            self._equations = equations_of(self._device.tuned(inputs.tuned))
             self._run_held(inputs)
         return self._recorder.trajectory()
 

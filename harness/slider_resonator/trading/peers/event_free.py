@@ -75,7 +75,7 @@ class RunWithoutEvents:
         """
         check_times(self.recorder.times, held)
         for inputs in with_steady_phase(held, self.device):
-            self.equations = equations_of(inputs.tuned_device(self.device))
+            self.equations = equations_of(self.device.tuned(inputs.tuned))
             rate, span = self.equations.drive_frequency, inputs.stop - inputs.start
             follow(self, inputs)
             self.theta += rate * span
