@@ -114,8 +114,13 @@ class HarnessGroup(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return a command with its name and arguments; name the nearest to one that is unknown."""
-        args = _with_current_names(args)
+        """Return a command, which an old name may call, with its name and arguments."""
+        if args[0] in RENAMED:
+            words, options = RENAMED[args[0]]
+            print_text(f"note: {args[0]} is now {' '.join(words)}", err=True)
+            parts = (one.partition("=") for one in args[1:])
+            rest = [options.get(name, name) + sign + value for name, sign, value in parts]
+            args = [*words, *rest]
         if args[0] not in self.summaries and not args[0].startswith("-"):
             ctx.fail(unknown_name("command", args[0], self.summaries))
         return super().resolve_command(ctx, args)
@@ -149,28 +154,11 @@ class HarnessGroup(click.Group):
             cause = error.__cause__ or error if isinstance(error, click.Abort) else error
             with suppress(OSError):
                 message = _report(cause)
-                if _prints_json(arguments):
+                pairs = pairwise([*arguments, ""])  # --json may have a file
+                if any(one == "--json" and not after.endswith(".json") for one, after in pairs):
                     click.echo(to_json({"error": message}))
             exit_with(INTERRUPTED if isinstance(cause, KeyboardInterrupt) else COULD_NOT_RUN)
         exit_with(code if isinstance(code, int) else 0)
-
-
-def _with_current_names(arguments: list[str]) -> list[str]:
-    """Return the arguments without old names; note what replaces that of a command."""
-    if arguments[0] not in RENAMED:
-        return arguments
-    words, options = RENAMED[arguments[0]]
-    print_text(f"note: {arguments[0]} is now {' '.join(words)}", err=True)
-    parts = (argument.partition("=") for argument in arguments[1:])
-    return [*words, *(options.get(name, name) + equals + value for name, equals, value in parts)]
-
-
-def _prints_json(arguments: Sequence[str]) -> bool:
-    """Whether --json asks for JSON on standard output, not in a file."""
-    return any(
-        argument == "--json" and not after.endswith(".json")
-        for argument, after in pairwise([*arguments, ""])
-    )
 
 
 def _report(error: BaseException) -> str:

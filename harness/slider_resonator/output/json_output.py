@@ -22,18 +22,14 @@ def to_json(result: Any, provenance: Any = None) -> str:
     Each top-level object begins with `schema_version`, and `provenance` where it is given. A
     complex number becomes [real, imaginary]; a value that is not finite becomes null.
     """
-    head = {"schema_version": SCHEMA_VERSION}
+    head: dict[str, Any] = {"schema_version": SCHEMA_VERSION}
     if provenance is not None:
         head["provenance"] = plain(provenance)
-    text = json.dumps(_headed(plain(result), head), indent=2, allow_nan=False)
+    document = plain(result)
+    headed = [head | one for one in document] if isinstance(document, list) else head | document
+    text = json.dumps(headed, indent=2, allow_nan=False)
     # In strings only: GitHub Actions finds commands of this form anywhere in a line of a log.
     return text.replace("##[", "\\u0023#[")
-
-
-def _headed(document: Any, head: Mapping[str, Any]) -> Any:
-    if isinstance(document, list):
-        return [_headed(entry, head) for entry in document]
-    return {**head, **document}
 
 
 def plain(value: Any) -> Any:

@@ -13,7 +13,7 @@ from slider_resonator.device.interface import INPUTS, OUTPUTS, PARAMETERS, TUNAB
 from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.scenes.expansion import with_bundles
 from slider_resonator.scenes.schema import DeviceFileTable, RunTable, SceneTable
-from slider_resonator.scenes.si_values import with_si_values
+from slider_resonator.scenes.si_values import in_si
 from slider_resonator.scenes.toml_file import toml_value
 
 TableT = TypeVar("TableT", bound=BaseModel)
@@ -64,7 +64,10 @@ def table_from(table: type[TableT], content: Mapping[str, Any], source: str) -> 
     Raises SceneError with a line for each mistake: `source`, key path, value and requirement. Of
     the mistakes of one kind in a list only the first is reported.
     """
-    content = with_si_values(content, source)
+    try:
+        content = in_si(content)
+    except ValueError as error:
+        raise SceneError(f"{source}: {error}") from None
     try:
         return table.model_validate(content)
     except ValidationError as error:

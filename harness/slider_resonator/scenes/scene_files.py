@@ -23,8 +23,12 @@ def built_in_scenes() -> dict[str, Path]:
 
     A file may have several.
     """
-    core, thorough = _names_in("core"), _names_in("thorough")
-    return {FIRST: core[FIRST], **core, **thorough}
+    scenes: dict[str, Path] = {}
+    for folder in ("core", "thorough"):
+        place = Path(str(resources.files("slider_resonator.scenes") / "built_in" / folder))
+        texts = {path: path.read_text("utf-8") for path in place.glob("*.toml")}
+        scenes |= sorted((name, path) for path in texts for name in _NAME.findall(texts[path]))
+    return {FIRST: scenes[FIRST], **scenes}
 
 
 def is_core(scene: Scene) -> bool:
@@ -96,10 +100,3 @@ def _scenes_of(name_or_file: str, *, folders: bool = False) -> Sequence[Scene]:
 def template() -> str:
     """Return a commented scene to start from."""
     return (resources.files(__package__) / "template.toml").read_text(encoding="utf-8")
-
-
-def _names_in(folder: str) -> dict[str, Path]:
-    place = Path(str(resources.files("slider_resonator.scenes") / "built_in" / folder))
-    files = sorted(place.glob("*.toml"))
-    names = {name: path for path in files for name in _NAME.findall(path.read_text("utf-8"))}
-    return dict(sorted(names.items()))

@@ -6,7 +6,6 @@ from typing import Any
 
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.units import si_number
-from slider_resonator.errors import SceneError
 from slider_resonator.scenes.key_table import HAS_UNIT, units_of
 from slider_resonator.scenes.schema import NeedTable, RunTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -29,21 +28,13 @@ _POINT = re.compile(r"\.(steps|ramp)\[\d+\]$")
 """The end of the path of a pair [time, value]."""
 
 
-def with_si_values(content: Mapping[str, Any], source: str) -> dict[str, Any]:
+def in_si(value: Any, path: str = "", unit: str = "") -> Any:
     """Return the content of a file, with numbers in SI units for its texts with a unit.
 
-    What is no such text stays as it is, for the schema to refuse. Raises SceneError with key, value
-    and requirement for a unit that does not fit.
+    `unit` is that of the values at a path, empty for what has none. What is no such text stays as
+    it is, for the schema to refuse. Raises ValueError with key, value and requirement for a unit
+    that does not fit.
     """
-    try:
-        found: dict[str, Any] = _in_si(content, "", "")
-        return found
-    except ValueError as error:
-        raise SceneError(f"{source}: {error}") from None
-
-
-def _in_si(value: Any, path: str, unit: str) -> Any:
-    """Return a value, list or table; `unit` is that of its values, empty for what has none."""
     if path.endswith("device"):
         return value  # its schema reads units
     if isinstance(value, str):
@@ -57,14 +48,14 @@ def _in_si(value: Any, path: str, unit: str) -> Any:
         own = own if own in _UNITS.values() else unit
         units = {**dict.fromkeys(_INHERITED, own), **_UNITS}
         return {
-            key: _in_si(one, f"{path}.{key}".lstrip("."), units.get(key, ""))
+            key: in_si(one, f"{path}.{key}".lstrip("."), units.get(key, ""))
             for key, one in value.items()
         }
     if not isinstance(value, list | tuple):
         return value
     first = "s" if _POINT.search(path) else unit
     return [
-        _in_si(one, f"{path}[{k + 1}]", unit if k else first)
+        in_si(one, f"{path}[{k + 1}]", unit if k else first)
         if isinstance(one, str | Mapping | list | tuple)
         else one
         for k, one in enumerate(value)

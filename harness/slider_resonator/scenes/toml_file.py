@@ -76,21 +76,10 @@ _HABITS: tuple[tuple[str, str], ...] = (
 """What other notations have at this place, as a pattern of the line; the remedy."""
 
 
-def toml_mistake(text: str, error: str) -> str:
-    """Return where and what is wrong in `text`, and the remedy, for the error of `tomllib`."""
-    lines = text.splitlines() or [""]
-    found = _LINE.search(error)
-    opening = [n for n, line in enumerate(lines, 1) if re.search(_OPEN, line)] or [len(lines)]
-    number = min(int(found[1]), len(lines)) if found else opening[-1]
-    line = lines[number - 1].strip()
-    shown = line if len(line) <= MAX_SHOWN else f"{line[:MAX_SHOWN]}..."
-    wrong = _LINE.sub("", error).removesuffix("(at end of document)").strip()
-    return f"line {number}: {shown}: not TOML: {wrong}; {_remedy(error, line)}"
-
-
 _OPEN = r"[\[{][^\]}]*$"
 _ODD_QUOTES = r'^[^"]*"(?:[^"]*"[^"]*")*[^"]*$'
 _REMEDIES: tuple[tuple[str, str, str], ...] = (
+    *(("", habit, remedy) for habit, remedy in _HABITS),
     ("overwrite|twice|mutate", "", "must be there once: delete one"),
     ("declaration", "", "close the bracket, as in [run] or [[expect]]"),
     ("hex value|Unescaped", r"\\", "a path in quotes is written with /"),
@@ -106,15 +95,21 @@ _REMEDIES: tuple[tuple[str, str, str], ...] = (
 """The remedy for an error of a line, as patterns of both; the first that fits."""
 
 
-def _remedy(error: str, line: str) -> str:
-    for habit, remedy in _HABITS:
-        if found := re.search(habit, line):
-            return found.expand(remedy)
-    return next(
-        remedy
+def toml_mistake(text: str, error: str) -> str:
+    """Return where and what is wrong in `text`, and the remedy, for the error of `tomllib`."""
+    lines = text.splitlines() or [""]
+    place = _LINE.search(error)
+    opening = [n for n, line in enumerate(lines, 1) if re.search(_OPEN, line)] or [len(lines)]
+    number = min(int(place[1]), len(lines)) if place else opening[-1]
+    line = lines[number - 1].strip()
+    shown = line if len(line) <= MAX_SHOWN else f"{line[:MAX_SHOWN]}..."
+    wrong = _LINE.sub("", error).removesuffix("(at end of document)").strip()
+    remedies = (
+        found.expand(remedy)
         for of_error, of_line, remedy in _REMEDIES
-        if re.search(of_error, error) and re.search(of_line, line)
+        if re.search(of_error, error) and (found := re.search(of_line, line))
     )
+    return f"line {number}: {shown}: not TOML: {wrong}; {next(remedies)}"
 
 
 def read_toml(path: Path) -> dict[str, Any]:
