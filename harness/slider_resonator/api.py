@@ -50,10 +50,10 @@ from slider_resonator.fmu.run import run as run_schedule
 from slider_resonator.output.shown import Drawable
 from slider_resonator.scenes.device_file import possible_slips, read_device_file
 from slider_resonator.scenes.device_file import to_toml as device_text
-from slider_resonator.scenes.explanations import table_from
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes
 from slider_resonator.scenes.schema import DeviceFileTable
+from slider_resonator.scenes.table_reading import table_from
 from slider_resonator.steady.searches import Blocking, SteadyMotion, find_blocking, find_steady
 from slider_resonator.stressing.axes import axis_cases, device_cases
 from slider_resonator.stressing.random_cases import random_case
@@ -92,7 +92,7 @@ class SceneRecord(Record, Drawable):
         Where the communication points resolve them, the last drive periods follow in full.
         """
         # Imported here: drawing takes longer to load than most scenes to run.
-        from slider_resonator.scenes.run_plot import run_figure
+        from slider_resonator.scenes.run_plots import run_figure
 
         return run_figure(self, self.scene)
 

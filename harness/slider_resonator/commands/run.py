@@ -154,7 +154,7 @@ def run_command(
     names = [name.strip() for name in signals.split(",")] if signals is not None else None
     if is_chosen:
         # Imported here: drawing takes longer to load than the rest to run.
-        from slider_resonator.scenes.signals_plot import check_plot
+        from slider_resonator.scenes.run_plots import check_plot
 
         check_plot(read, names or (), window)
     with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:
@@ -182,7 +182,7 @@ def run_command(
             _draw_signals(isolated, fmu, read, names, shown, overlays, plot, time_limit, progress)
         elif plot is not None:
             from slider_resonator.output.plot_style import save
-            from slider_resonator.scenes.run_plot import run_figure, schedule_to_plot
+            from slider_resonator.scenes.run_plots import run_figure, schedule_to_plot
 
             fine = _run(isolated, read, schedule_to_plot(read), progress)
             save(run_figure(fine, read), plot)
@@ -213,7 +213,7 @@ def _draw_signals(
     With overlays differences are drawn, too. Raises HarnessError for a setting that the scene
     refuses, and as `IsolatedFmu` does.
     """
-    from slider_resonator.scenes.signals_plot import SIGNALS, Run, plot_signals, schedule_for_window
+    from slider_resonator.scenes.run_plots import SIGNALS, Run, plot_signals, schedule_for_window
 
     def drawn(on: IsolatedFmu, label: str, varied: Scene) -> Run:
         interpolates = varied.schedule().interpolates and on.run(attrgetter("fmu.interpolates"))

@@ -11,8 +11,8 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import SceneError, unknown_name
-from slider_resonator.scenes.explanations import table_from
 from slider_resonator.scenes.schema import DeviceFileTable
+from slider_resonator.scenes.table_reading import table_from
 from slider_resonator.scenes.toml_file import read_toml, toml_value
 
 _MARKS: Mapping[str, tuple[str, ...]] = {

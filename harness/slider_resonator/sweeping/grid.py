@@ -21,9 +21,9 @@ from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.device.interface import SETTABLE, VARIABLES
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.scenes.device_file import possible_slips, refuse_other_kinds
-from slider_resonator.scenes.explanations import AXIS, table_from
 from slider_resonator.scenes.key_table import KeyTable, Number, ParametersTable
 from slider_resonator.scenes.scene_files import built_in_scenes
+from slider_resonator.scenes.table_reading import AXIS, table_from
 from slider_resonator.scenes.toml_file import read_toml
 from slider_resonator.sweeping.measures import Run, Task, check_measure
 

@@ -9,17 +9,18 @@ from matplotlib.text import Text
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
-from slider_resonator.scenes import signals_plot
-from slider_resonator.scenes.run_plot import run_figure, schedule_to_plot
-from slider_resonator.scenes.scene import scene_from
-from slider_resonator.scenes.scene_files import find_scene
-from slider_resonator.scenes.signals_plot import (
+from slider_resonator.scenes import run_plots
+from slider_resonator.scenes.run_plots import (
     COLUMNS,
     Run,
     envelope,
     plot_signals,
+    run_figure,
     schedule_for_window,
+    schedule_to_plot,
 )
+from slider_resonator.scenes.scene import scene_from
+from slider_resonator.scenes.scene_files import find_scene
 from tests.harness.scene_text import built_in
 
 
@@ -61,7 +62,7 @@ def drawn(monkeypatch: pytest.MonkeyPatch) -> list[Figure]:
         figures.append(figure)
         path.write_text("drawn", encoding="utf-8")
 
-    monkeypatch.setattr(signals_plot, "save", keep)
+    monkeypatch.setattr(run_plots, "save", keep)
     return figures
 
 

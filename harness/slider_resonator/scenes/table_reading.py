@@ -1,5 +1,6 @@
-"""Explain the errors of a scene or grid file: file, key, value and requirement."""
+"""Read the content of a file as a table of a schema: units, and errors with key and requirement."""
 
+import re
 from collections.abc import Mapping
 from datetime import date, time
 from typing import Any, TypeVar, get_args
@@ -9,14 +10,91 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from slider_resonator.device.device import DEVIATIONS
-from slider_resonator.device.interface import INPUTS, OUTPUTS, PARAMETERS, TUNABLES
+from slider_resonator.device.interface import INPUTS, OUTPUTS, PARAMETERS, TUNABLES, VARIABLES
+from slider_resonator.device.units import si_number
 from slider_resonator.errors import SceneError, unknown_name
 from slider_resonator.scenes.expansion import with_bundles
-from slider_resonator.scenes.schema import DeviceFileTable, RunTable, SceneTable
-from slider_resonator.scenes.si_values import in_si
+from slider_resonator.scenes.key_table import HAS_UNIT, units_of
+from slider_resonator.scenes.schema import DeviceFileTable, NeedTable, RunTable, SceneTable
 from slider_resonator.scenes.toml_file import toml_value
+from slider_resonator.scenes.vocabulary import QUANTITIES
 
 TableT = TypeVar("TableT", bound=BaseModel)
+
+
+def table_from(table: type[TableT], content: Mapping[str, Any], source: str) -> TableT:
+    """Return the content of a file as a table of a schema, texts with units in SI units.
+
+    Raises SceneError with a line for each mistake: `source`, key path, value and requirement. Of
+    the mistakes of one kind in a list only the first is reported.
+    """
+    try:
+        content = _in_si(content)
+    except ValueError as error:
+        raise SceneError(f"{source}: {error}") from None
+    try:
+        return table.model_validate(content)
+    except ValidationError as error:
+        first: dict[tuple[object, ...], ErrorDetails] = {}
+        for problem in error.errors():
+            place = problem["loc"]
+            in_list = bool(place) and isinstance(place[-1], int)
+            first.setdefault((problem["type"], *(place[:-1] if in_list else place)), problem)
+        lines = [f"{source}: {_explanation(one, content, table)}" for one in first.values()]
+        raise SceneError("\n".join(lines)) from None
+
+
+_UNITS: Mapping[str, str] = {
+    **{name: v.unit for name, v in VARIABLES.items() if v.kind == "Real"},
+    **{name: unit for name, unit in units_of(RunTable).items() if unit == "s"},
+    **units_of(NeedTable),
+    **dict.fromkeys(("rel", "relative"), "1"),
+}
+"""Keys of values, or of tables of values, and their units."""
+_INHERITED = (
+    *("constant", "steps", "ramp", "from", "to", "values"),
+    *("abs", "absolute", "value", "at_most", "at_least"),
+)
+"""Keys of values whose unit is that of the table they are in."""
+_NEED = re.compile(r"need\.\w+")
+"""The path of a needed quantity."""
+_POINT = re.compile(r"\.(steps|ramp)\[\d+\]$")
+"""The end of the path of a pair [time, value]."""
+
+
+def _in_si(value: Any, path: str = "", unit: str = "") -> Any:
+    """Return the content of a file, with numbers in SI units for its texts with a unit.
+
+    `unit` is that of the values at a path, empty for what has none. What is no such text stays as
+    it is, for the schema to refuse. Raises ValueError with key, value and requirement for a unit
+    that does not fit.
+    """
+    if path.endswith("device"):
+        return value  # its schema reads units
+    if isinstance(value, str):
+        if _NEED.fullmatch(path):
+            return value  # it must be a table
+        is_number = unit and re.search(HAS_UNIT, value) and not value.lower().endswith(".csv")
+        return si_number(path, value, unit) if is_number else value
+    if isinstance(value, Mapping):
+        about = QUANTITIES.get(str(value.get("quantity")))
+        own = about.unit if about else _UNITS.get(str(value.get("variable")), "")
+        own = own if own in _UNITS.values() else unit
+        units = {**dict.fromkeys(_INHERITED, own), **_UNITS}
+        return {
+            key: _in_si(one, f"{path}.{key}".lstrip("."), units.get(key, ""))
+            for key, one in value.items()
+        }
+    if not isinstance(value, list | tuple):
+        return value
+    first = "s" if _POINT.search(path) else unit
+    return [
+        _in_si(one, f"{path}[{k + 1}]", unit if k else first)
+        if isinstance(one, str | Mapping | list | tuple)
+        else one
+        for k, one in enumerate(value)
+    ]
+
 
 _REQUIREMENTS: Mapping[str, str] = {
     "dict_type": "a table of keys and values",
@@ -56,28 +134,6 @@ PLACES: Mapping[str, str] = {
 
 AXIS = ("<values>", "<range>")
 """Tags of the two forms of an axis of a grid; like that of a constant input they are no keys."""
-
-
-def table_from(table: type[TableT], content: Mapping[str, Any], source: str) -> TableT:
-    """Return the content of a file as a table of a schema, texts with units in SI units.
-
-    Raises SceneError with a line for each mistake: `source`, key path, value and requirement. Of
-    the mistakes of one kind in a list only the first is reported.
-    """
-    try:
-        content = in_si(content)
-    except ValueError as error:
-        raise SceneError(f"{source}: {error}") from None
-    try:
-        return table.model_validate(content)
-    except ValidationError as error:
-        first: dict[tuple[object, ...], ErrorDetails] = {}
-        for problem in error.errors():
-            place = problem["loc"]
-            in_list = bool(place) and isinstance(place[-1], int)
-            first.setdefault((problem["type"], *(place[:-1] if in_list else place)), problem)
-        lines = [f"{source}: {_explanation(one, content, table)}" for one in first.values()]
-        raise SceneError("\n".join(lines)) from None
 
 
 def _explanation(problem: ErrorDetails, content: Mapping[str, Any], top: type[BaseModel]) -> str:
