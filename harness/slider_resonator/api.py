@@ -36,6 +36,7 @@ from slider_resonator.choosing import choose as choose_model
 from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.device.interface import settable_value
+from slider_resonator.device.units import positive_time
 from slider_resonator.errors import HarnessError, SceneError
 from slider_resonator.fitting.fit import STARTS, isolated
 from slider_resonator.fitting.fit import fit as fit_parameters
@@ -52,7 +53,7 @@ from slider_resonator.scenes.device_file import possible_slips, read_device_file
 from slider_resonator.scenes.device_file import to_toml as device_text
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes
-from slider_resonator.scenes.schema import DeviceFileTable
+from slider_resonator.scenes.schema import DeviceFileTable, allowed_error
 from slider_resonator.scenes.table_reading import table_from
 from slider_resonator.steady.searches import Blocking, SteadyMotion, find_blocking, find_steady
 from slider_resonator.stressing.axes import axis_cases, device_cases
@@ -220,13 +221,25 @@ def choose(
     fmu: str | Path | None = None,
     *,
     device: DeviceLike | None = None,
+    need: Mapping[str, Value] | None = None,
+    time: Value | None = None,
     **values: Value,
 ) -> Choice:
     """Choose the cheapest fidelity, friction law, tolerance and step that meet a scene's needs.
 
-    A `device` takes the place of the scene's, as in `OpenFmu.run`.
+    `need` has the allowed errors of quantities, such as `{"position": "2 um", "velocity": "1 %"}`,
+    in place of the scene's, `time` (s) is that of the run. A `device` takes the place of the
+    scene's, as in `OpenFmu.run`.
     """
-    return choose_model(_scene_of(scene, _stated(device), values), _fmu(fmu))
+    read = _scene_of(scene, _stated(device), values)
+    try:
+        if time is not None:
+            read = read.timed(stop_time=positive_time(str(time)))
+        if need:
+            read = read.needing({name: allowed_error(name, str(e)) for name, e in need.items()})
+    except ValueError as error:
+        raise SceneError(str(error)) from None
+    return choose_model(read, _fmu(fmu))
 
 
 def sweep(

@@ -191,6 +191,8 @@ def test_arrays_and_numbers_of_numpy_are_data(native_fmu: Path, tmp_path: Path) 
         (lambda: sr.open_fmu("no.fmu", time_limit=0), "time_limit = 0: must be a number above 0"),
         (lambda: sr.validate("no.fmu", scenes="table_1", jobs=0), "jobs = 0: must be a number ab"),
         (lambda: sr.validate("no.fmu", scenes=[]), "must be at least one scene"),
+        (lambda: sr.choose("table_1", "no.fmu", need={"positon": 1e-6}), "did you mean 'position'"),
+        (lambda: sr.choose("table_1", "no.fmu", time=-1), "time = '-1': must be above 0 s, and"),
         (lambda: sr.sweep({"grid": {"phase": 3}}, "a.csv"), r"grid\.phase = 3: must be a list"),
         (lambda: sr.fit("no.csv", "damping_ratio"), r"no\.csv cannot be read"),
         (
@@ -249,6 +251,15 @@ def test_device_replaces_that_of_scene(native_fmu: Path, monkeypatch: pytest.Mon
     read = cast(sr.Scene, sr.choose(scene, native_fmu, device={"slider_mass": 2.0}, load=0.01))
     assert read.parameters == {"tolerance": 1e-6, "slider_mass": 2.0}
     assert read.values["load"] == 0.01
+    need: dict[str, Any] = {"mean_velocity": "2 %", "position": "3 um", "velocity": 0.01}
+    read = cast(sr.Scene, sr.choose(scene, native_fmu, need=need, time="20 ms"))
+    assert read.stop_time == 0.02
+    assert read.need is not None
+    assert {name: str(error) for name, error in read.need.needs.items()} == {
+        "mean_velocity": "2 %",
+        "position": "3e-06",
+        "velocity": "0.01",
+    }
 
 
 def test_stress_is_a_function(native_fmu: Path) -> None:

@@ -1,6 +1,5 @@
 """`choose`: find the cheapest model that meets a scene's needs, by runs in the FMU."""
 
-from math import inf
 from pathlib import Path
 
 import click
@@ -9,31 +8,19 @@ from slider_resonator.choosing import choose
 from slider_resonator.choosing.choice import error_text
 from slider_resonator.choosing.choosing import TIME_LIMIT
 from slider_resonator.commands import options
-from slider_resonator.device.units import si_number
-from slider_resonator.errors import unknown_name
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import print_json, print_table, print_text
 from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.scenes.key_table import units_of
-from slider_resonator.scenes.schema import AllowedTable, NeedTable
+from slider_resonator.scenes.schema import AllowedTable, allowed_error
 
 
 def _need(text: str) -> tuple[str, AllowedTable]:
-    """Return name and allowed error of NAME=ERROR, a share in % or a number; or ValueError."""
+    """Return name and allowed error of NAME=ERROR; ValueError for another text."""
     name, separator, error = text.partition("=")
-    units = units_of(NeedTable)
     if not separator:
         raise ValueError(f"{text!r} is not NAME=ERROR, such as mean_velocity='1 %'")
-    if name not in units:
-        raise ValueError(unknown_name("quantity", name, units))
-    if error.rstrip().endswith("%"):
-        allowed = {"rel": si_number(name, error, "1")}
-    else:
-        allowed = {"abs": si_number(name, error, units[name])}
-    if not 0.0 < min(allowed.values()) < inf:
-        raise ValueError(f"{name} = {error!r}: must be above 0, and finite")
-    return name, AllowedTable(**allowed)
+    return name, allowed_error(name, error)
 
 
 @click.command("choose", cls=options.SettingsCommand)

@@ -4,14 +4,13 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial, wraps
-from math import inf
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
 from slider_resonator.device.interface import SETTABLE, VARIABLES, settable_value
-from slider_resonator.device.units import is_number, si_number
+from slider_resonator.device.units import is_number, positive_time
 from slider_resonator.errors import HarnessError
 from slider_resonator.fmu import finished
 from slider_resonator.fmu.isolation.tasks import available_cores
@@ -58,15 +57,7 @@ class Parsed(click.ParamType[Value]):
             self.fail(str(error), param, ctx)
 
 
-def _duration(text: str) -> float:
-    """Return a time in s above 0; ValueError for another text."""
-    seconds = si_number("time", text, "s")
-    if not 0.0 < seconds < inf:
-        raise ValueError(f"time = {text!r}: must be above 0 s, and finite")
-    return seconds
-
-
-DURATION = Parsed("TIME", _duration)
+DURATION = Parsed("TIME", positive_time)
 """A time above 0, in s or with a unit."""
 stop_time_option = click.option(
     "--time",

@@ -2,7 +2,7 @@
 
 import re
 from functools import cache
-from math import isclose, isfinite
+from math import inf, isclose, isfinite
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -88,3 +88,11 @@ def si_number(name: str, text: str, unit: str) -> float:
     parts = round(1.0 / factor)
     given = float(match["number"])
     return given / parts if isclose(parts * factor, 1.0, rel_tol=1e-12) else given * factor
+
+
+def positive_time(text: str) -> float:
+    """Return a time in s above 0; ValueError for another text."""
+    seconds = si_number("time", text, "s")
+    if not 0.0 < seconds < inf:
+        raise ValueError(f"time = {text!r}: must be above 0 s, and finite")
+    return seconds

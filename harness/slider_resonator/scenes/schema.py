@@ -1,12 +1,13 @@
 """The schema of a scene file. Every key is listed in its tables; any other is refused."""
 
 from collections.abc import Mapping
-from math import isfinite
+from math import inf, isfinite
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, field_validator, model_validator
 
 from slider_resonator.device.interface import SETTABLE, TUNABLES, settable_value
+from slider_resonator.device.units import si_number
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.expansion import with_bundles
 from slider_resonator.scenes.input_tables import AllInputsTable, BesideTable, TuningTable
@@ -19,6 +20,7 @@ from slider_resonator.scenes.key_table import (
     Positive,
     key,
     required,
+    units_of,
 )
 from slider_resonator.scenes.vocabulary import MAX_TUBE, QUANTITIES, REFERENCES, Quantity
 
@@ -269,6 +271,23 @@ class NeedTable(KeyTable):
     def needs(self) -> dict[str, AllowedTable]:
         """The needed quantities by name."""
         return self.given(self.some_of)
+
+
+def allowed_error(name: str, error: str) -> AllowedTable:
+    """Return the allowed error of a needed quantity: a share in %, or a number in its unit.
+
+    Raises ValueError with name, error and requirement.
+    """
+    units = units_of(NeedTable)
+    if name not in units:
+        raise ValueError(unknown_name("quantity", name, units))
+    if error.rstrip().endswith("%"):
+        allowed = {"rel": si_number(name, error, "1")}
+    else:
+        allowed = {"abs": si_number(name, error, units[name])}
+    if not 0.0 < min(allowed.values()) < inf:
+        raise ValueError(f"{name} = {error!r}: must be above 0, and finite")
+    return AllowedTable(**allowed)
 
 
 class DeviceFileTable(KeyTable):
