@@ -37,7 +37,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.device.interface import settable_value
 from slider_resonator.device.units import positive_time
-from slider_resonator.errors import HarnessError, SceneError
+from slider_resonator.errors import HarnessError, SceneError, explained
 from slider_resonator.fitting.fit import STARTS, isolated
 from slider_resonator.fitting.fit import fit as fit_parameters
 from slider_resonator.fitting.measurements import Measurements
@@ -232,13 +232,11 @@ def choose(
     scene's, as in `OpenFmu.run`.
     """
     read = _scene_of(scene, _stated(device), values)
-    try:
+    with explained():
         if time is not None:
             read = read.timed(stop_time=positive_time(str(time)))
         if need:
             read = read.needing({name: allowed_error(name, str(e)) for name, e in need.items()})
-    except ValueError as error:
-        raise SceneError(str(error)) from None
     return choose_model(read, _fmu(fmu))
 
 
@@ -390,10 +388,8 @@ def _fmu(fmu: str | Path | None) -> Path:
 
 
 def _checked(values: Mapping[str, Value]) -> dict[str, float]:
-    try:
+    with explained():
         checked = {name: settable_value(name, value) for name, value in _plain(values).items()}
-    except ValueError as error:
-        raise SceneError(str(error)) from None
     _warn(possible_slips(values))
     return checked
 

@@ -1,6 +1,7 @@
 """Errors that stop a command before a verdict; their messages are shown to the user."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from difflib import get_close_matches
 
 
@@ -22,6 +23,17 @@ class Refusal(FmuError):
 
 class NotApplicable(FmuError):
     """A check that needs what the FMU does not have, and may lack: it says nothing about it."""
+
+
+@contextmanager
+def explained(where: str = "", kind: type[Exception] = SceneError) -> Iterator[None]:
+    """Turn a ValueError or OSError of the block into another error that says `where` before it."""
+    try:
+        yield
+    except OSError as error:
+        raise kind(f"{where}{error.strerror or error}") from error
+    except ValueError as error:
+        raise kind(f"{where}{error}") from None
 
 
 SYMBOLS = {

@@ -25,7 +25,7 @@ from slider_resonator.baseline.store import (
 from slider_resonator.checks.compare import Check, Curves
 from slider_resonator.checks.fmu_side import measure_points
 from slider_resonator.checks.validate import NotApplied, RunFailure, Validation
-from slider_resonator.errors import HarnessError, NotApplicable, SceneError, unknown_name
+from slider_resonator.errors import HarnessError, NotApplicable, SceneError, explained, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import digest_of, identity_of
@@ -171,10 +171,8 @@ def accept(fmu: Path, folder: Path, names: Sequence[str]) -> tuple[str, ...]:
                 f"SHA-256 {checked.get(FMU_DIGEST)}; check this one first"
             )
     for name in chosen:
-        try:
+        with explained(f"{folder / name}: cannot be written: ", HarnessError):
             replace_folder(waiting[name], folder / name)
-        except OSError as error:
-            raise HarnessError(f"{folder / name}: cannot be written: {error.strerror}") from error
     return chosen
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, fields
 from typing import Any
 
 from slider_resonator.device.variable import Variable
-from slider_resonator.errors import HarnessError
+from slider_resonator.errors import explained
 
 FULL = 2
 """Fidelity of the full device."""
@@ -33,7 +33,7 @@ class Device:
     Names are those of the FMU parameters. ``friction_law`` is 0 (Coulomb) or 1 (LuGre),
     ``fidelity`` the number of resolved degrees of freedom (0 averaged, 1, 2), and
     ``averaging_order`` 1 averages or 2 leaps over periods. A value may be a text with a unit.
-    Raises HarnessError, with name, value and requirement.
+    Raises SceneError, with name, value and requirement.
     """
 
     slider_mass: float = _real(1.0, "kg", 1e-12)
@@ -60,10 +60,8 @@ class Device:
     averaging_order: int = _choice(2, 1, 2, since="0.2.0", without=1)
 
     def __post_init__(self) -> None:
-        try:
+        with explained():
             read = {one.name: one.read(getattr(self, one.name)) for one in PARAMETER_TABLE}
-        except ValueError as error:
-            raise HarnessError(str(error)) from None
         vars(self).update(read)
 
     def __repr__(self) -> str:
@@ -80,7 +78,7 @@ class Device:
     def from_mapping(cls, values: Mapping[str, float]) -> "Device":
         """Return table 1 with the given parameters replaced, its drive under given deviations.
 
-        Raises HarnessError, with name, value and requirement.
+        Raises SceneError, with name, value and requirement.
         """
         given: dict[str, Any] = {n: v for n, v in values.items() if n not in DEVIATIONS}
         return cls(**given).tuned((name, values.get(name, 0.0)) for name in DEVIATIONS)

@@ -13,7 +13,7 @@ from scipy.special import stdtrit
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS, VARIABLES
-from slider_resonator.errors import FmuError, HarnessError, unknown_name
+from slider_resonator.errors import FmuError, HarnessError, explained, unknown_name
 from slider_resonator.fitting.estimation import (
     LEAST_NOISE,
     Free,
@@ -101,10 +101,8 @@ def free_parameters(
             search_bounds = tuple({low, high} - {*allowed})
         for bound in (low, high):
             if isfinite(bound):
-                try:
+                with explained("bounds of "):
                     VARIABLES[name].checked(bound)
-                except ValueError as error:
-                    raise HarnessError(f"bounds of {error}") from error
         if not low < high:
             raise HarnessError(f"bounds of {name} = {low:g} to {high:g}: must be ascending")
         start = min(max(start, low), high)

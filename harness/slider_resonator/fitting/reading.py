@@ -15,7 +15,7 @@ from slider_resonator.device.interface import ALL_OUTPUTS, HELD, INPUTS, PARAMET
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import steps
 from slider_resonator.device.units import is_number
-from slider_resonator.errors import HarnessError, unknown_name
+from slider_resonator.errors import HarnessError, explained, unknown_name
 from slider_resonator.fitting.measurements import STEADY, TIME, Measurements, Point, Run
 from slider_resonator.scenes.csv_signal import csv_number, csv_rows
 from slider_resonator.scenes.device_file import IN_ANOTHER_UNIT
@@ -174,10 +174,8 @@ def _named(
                 raise ValueError(f"unknown column {heading!r}; write {meant!r}")
             said = unknown_name("column", name + std, {*allowed.names, *allowed.aliases})
             raise ValueError(f"{said}; take out a column of numbers that the fit is not to use")
-        try:
+        with explained(f"heading {heading!r}: ", ValueError):
             factor = _factor(name, unit)
-        except ValueError as error:
-            raise ValueError(f"heading {heading!r}: {error}") from error
         name += "_std" if std else ""
         if name in named:
             raise ValueError(f"two columns {name}; must be one")

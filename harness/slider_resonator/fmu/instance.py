@@ -19,7 +19,7 @@ from fmpy.model_description import ModelVariable
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.variable import check_integer
-from slider_resonator.errors import FmuError, Refusal
+from slider_resonator.errors import FmuError, Refusal, explained
 from slider_resonator.fmu import fmu_log
 from slider_resonator.fmu.blocks import Block, call
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
@@ -165,10 +165,8 @@ class Instance:
         values = self.fmu.settings(values)
         integers, reals, block = self._settable(tuple(values))
         for name, reference in integers.items():
-            try:
+            with explained(kind=FmuError):
                 check_integer(name, values[name])
-            except ValueError as error:
-                raise FmuError(str(error)) from error
             self.slave.setInteger([reference], [int(values[name])])
         block.write([values[name] for name in reals])
 

@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory, TemporaryFile
 from typing import Any
 from uuid import uuid4
 
-from slider_resonator.errors import HarnessError
+from slider_resonator.errors import HarnessError, explained
 
 PICTURE_SUFFIXES = (".png", ".svg", ".pdf")
 _KINDS = {
@@ -45,21 +45,16 @@ def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
         raise HarnessError(f"{path}: the suffix is {path.suffix!r}; must be one of {allowed}")
     if not path.parent.is_dir():
         raise HarnessError(f"{path}: there is no folder {path.parent}; create it first")
-    try:
-        with TemporaryFile(dir=path.parent):  # permissions do not say it all
-            pass
-    except OSError as error:
-        reason = f"the folder {path.parent} cannot be written to: {error.strerror}"
-        raise HarnessError(f"{path}: {reason}") from error
+    reason = f"the folder {path.parent} cannot be written to"
+    with explained(f"{path}: {reason}: ", HarnessError), TemporaryFile(dir=path.parent):
+        pass  # permissions do not say it all
     return path
 
 
 def make_folder(path: Path) -> None:
     """Create a folder for results if it does not exist; HarnessError when that is impossible."""
-    try:
+    with explained(f"{path}: cannot be made a folder: ", HarnessError):
         path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise HarnessError(f"{path}: cannot be made a folder: {error.strerror}") from error
 
 
 def distinct(targets: Mapping[str, Path | None], sources: Mapping[str, Path]) -> None:

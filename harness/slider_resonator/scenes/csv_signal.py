@@ -10,6 +10,7 @@ from pathlib import Path
 
 from slider_resonator.device.signal import Signal, ramp, steps
 from slider_resonator.device.units import finite_number
+from slider_resonator.errors import explained
 
 SEPARATORS = (";", "\t")
 """What programs write between two columns where numbers may have a decimal comma."""
@@ -89,10 +90,8 @@ def csv_signal(path: Path, column: str, between: str) -> Signal:
             points.append((csv_number("time", row, 0), csv_number(name, row, index)))
         except ValueError as error:
             raise ValueError(f"csv {path} line {line}: {error}") from error
-    try:
+    with explained(f"csv {path}: ", ValueError):
         signal = steps(points) if between == "hold" else ramp(points)
-    except ValueError as error:
-        raise ValueError(f"csv {path}: {error}") from error
     return replace(signal, file=path)
 
 

@@ -12,7 +12,7 @@ from slider_resonator.device.drive_periods import DrivePeriods, drive_periods
 from slider_resonator.device.interface import INPUTS, TUNABLES, VARIABLES
 from slider_resonator.device.schedule import Schedule, schedule, step_count
 from slider_resonator.device.signal import Signal, constant, ramp, steps
-from slider_resonator.errors import SceneError, unknown_name
+from slider_resonator.errors import SceneError, explained, unknown_name
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown
 from slider_resonator.scenes.csv_signal import csv_signal
@@ -71,16 +71,12 @@ class Scene(Shown):
     slips: Sequence[str] = ()
 
     def __post_init__(self) -> None:
-        try:
-            if self.stop_time is not None:
+        if self.stop_time is not None:
+            with explained(f"{self.source}: run: "):
                 step_count(self.stop_time, self._steps)
-        except ValueError as error:
-            raise SceneError(f"{self.source}: run: {error}") from error
         for key, signal in self._all_signals.items():
-            try:
+            with explained(f"{self.source}: {key}: "):
                 signal.check_covers(self.stop_time or 0.0)
-            except ValueError as error:
-                raise SceneError(f"{self.source}: {key}: {error}") from error
         for mistake in self._mistakes():
             raise SceneError(f"{self.source}: {mistake}")
 
@@ -378,7 +374,7 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
 
 
 def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:
-    try:
+    with explained(f"{where}: "):
         if table.steps is not None:
             signal = steps(table.steps)
         elif table.ramp is not None:
@@ -390,5 +386,3 @@ def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:
         for value in signal.values:
             VARIABLES[name].checked(value)
         return signal
-    except ValueError as error:
-        raise SceneError(f"{where}: {error}") from error

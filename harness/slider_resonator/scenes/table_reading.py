@@ -12,7 +12,7 @@ from pydantic_core import ErrorDetails
 from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.interface import INPUTS, OUTPUTS, PARAMETERS, TUNABLES, VARIABLES
 from slider_resonator.device.units import si_number
-from slider_resonator.errors import SceneError, unknown_name
+from slider_resonator.errors import SceneError, explained, unknown_name
 from slider_resonator.scenes.expansion import with_bundles
 from slider_resonator.scenes.key_table import HAS_UNIT, units_of
 from slider_resonator.scenes.schema import DeviceFileTable, NeedTable, RunTable, SceneTable
@@ -28,10 +28,8 @@ def table_from(table: type[TableT], content: Mapping[str, Any], source: str) -> 
     Raises SceneError with a line for each mistake: `source`, key path, value and requirement. Of
     the mistakes of one kind in a list only the first is reported.
     """
-    try:
+    with explained(f"{source}: "):
         content = _in_si(content)
-    except ValueError as error:
-        raise SceneError(f"{source}: {error}") from None
     try:
         return table.model_validate(content)
     except ValidationError as error:

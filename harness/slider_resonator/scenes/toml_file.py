@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 from zipfile import is_zipfile
 
-from slider_resonator.errors import SceneError
+from slider_resonator.errors import SceneError, explained
 
 
 def toml_value(value: object) -> str:
@@ -117,10 +117,8 @@ def read_toml(path: Path) -> dict[str, Any]:
 
     Raises SceneError with the file, the line and the remedy.
     """
-    try:
+    with explained(f"{path}: cannot be read: "):
         content = path.read_bytes()
-    except OSError as error:
-        raise SceneError(f"{path}: cannot be read: {error.strerror}") from error
     if is_zipfile(path):
         raise SceneError(f"{path}: not TOML: a zip archive, such as an FMU; must be UTF-8 text")
     try:

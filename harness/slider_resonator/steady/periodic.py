@@ -10,7 +10,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.drive_periods import common_period
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.schedule import nearest
-from slider_resonator.errors import FmuError
+from slider_resonator.errors import FmuError, explained
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged.vibrating_contact import mean_load
 from slider_resonator.steady.bristle_reading import bristle_reading
@@ -72,10 +72,8 @@ def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
     with instance.explained():
         read = instance.read((*names, *optional))
     read["drive_frequency"] *= 1.0 + values.get("frequency_deviation", 0.0)
-    try:
+    with explained(f"{instance.fmu.path.name} reports ", FmuError):
         VARIABLES["drive_frequency"].checked(read["drive_frequency"])
-    except ValueError as error:
-        raise FmuError(f"{instance.fmu.path.name} reports {error}") from error
     return Facts(read)
 
 

@@ -19,7 +19,7 @@ from pydantic import (
 
 from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.device.interface import SETTABLE, VARIABLES
-from slider_resonator.errors import HarnessError, unknown_name
+from slider_resonator.errors import HarnessError, explained, unknown_name
 from slider_resonator.scenes.device_file import possible_slips, refuse_other_kinds
 from slider_resonator.scenes.key_table import KeyTable, Number, ParametersTable
 from slider_resonator.scenes.scene_files import built_in_scenes
@@ -242,10 +242,8 @@ def grid_from(
     columns |= {name: {value} for name, value in table.fixed.items()}
     for name, values in columns.items():
         for value in values:
-            try:
+            with explained(f"{source}: "):
                 VARIABLES[name].checked(value)
-            except ValueError as error:
-                raise HarnessError(f"{source}: {error}") from error
     task = Task(
         names=table.names,
         fixed=tuple((name, float(value)) for name, value in fixed.items()),
