@@ -9,7 +9,7 @@ from slider_resonator.choosing.choice import error_text
 from slider_resonator.choosing.choosing import TIME_LIMIT
 from slider_resonator.commands import options
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import print_json, print_table, print_text
+from slider_resonator.output.console import print_result
 from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.schema import AllowedTable, allowed_error
@@ -78,17 +78,13 @@ def choose_command(
     provenance = provenance_of(fmu)
     with progress_bar() as progress:
         choice = choose(read, fmu, time_limit, progress)
-    if as_json:
-        print_json(choice, provenance)
-    else:
-        print_text("\n".join(choice.sentences()))
-        rows = [
-            (name, error_text(error), f"{allowed:.3g}", unit)
-            for name, error, allowed, unit in zip(*choice.table().values(), strict=True)
-        ]
-        columns = (*texts("need"), *numbers("error", "allowed"), *texts("unit"))
-        print_table(Table(columns, rows))
-        others = [(ruled_out.model.name, ruled_out.why) for ruled_out in choice.ruled_out]
-        if others:
-            print_table(Table(texts("ruled out", "why"), others))
+    rows = [
+        (name, error_text(error), f"{allowed:.3g}", unit)
+        for name, error, allowed, unit in zip(*choice.table().values(), strict=True)
+    ]
+    columns = (*texts("need"), *numbers("error", "allowed"), *texts("unit"))
+    others = [(one.model.name, one.why) for one in choice.ruled_out]
+    ruled_out = [Table(texts("ruled out", "why"), others)] if others else []
+    tables = (Table(columns, rows), *ruled_out)
+    print_result(choice, choice.sentences(), *tables, as_json=as_json, provenance=provenance)
     return 0 if choice.meets else 1

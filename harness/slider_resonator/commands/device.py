@@ -7,7 +7,7 @@ import click
 from slider_resonator.commands.options import json_option, target
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import VARIABLES
-from slider_resonator.output.console import print_json, print_table, print_text
+from slider_resonator.output.console import print_result
 from slider_resonator.output.files import distinct, write_text
 from slider_resonator.output.readable import escaped, number_of, one_line
 from slider_resonator.output.table import Table, numbers, texts
@@ -58,11 +58,10 @@ def device_command(
         raise click.UsageError(f"--ssv {ssv}: must be with a device file or an example")
     else:
         titles = {name: read_device_file(name).title for name in example_devices()}
-        if as_json:
-            print_json({"devices": [{"name": n, "title": title} for n, title in titles.items()]})
-            return
-        print_table(Table(texts("device", "what it is"), list(titles.items())))
-        print_text("`slider-resonator device --example NAME > mine.toml` starts a file of your own")
+        table = Table(texts("device", "what it is"), list(titles.items()))
+        hint = "`slider-resonator device --example NAME > mine.toml` starts a file of your own"
+        document = {"devices": [{"name": n, "title": title} for n, title in titles.items()]}
+        print_result(document, table, [hint], as_json=as_json)
 
 
 def _explain(name_or_file: str, ssv: Path | None, as_json: bool) -> None:
@@ -80,9 +79,6 @@ def _explain(name_or_file: str, ssv: Path | None, as_json: bool) -> None:
         }
         for name, value in vars(device).items()
     }
-    if as_json:
-        print_json({"device": rows, "possible_slips": read.slips})
-        return
     columns = [*texts("parameter"), *numbers("value", "SI"), *texts("from", "meaning")]
     cells = [
         (
@@ -94,11 +90,11 @@ def _explain(name_or_file: str, ssv: Path | None, as_json: bool) -> None:
         )
         for name, row in rows.items()
     ]
-    print_text(read.title)
-    print_table(Table(columns, cells))
     notes = [f"note: {one}" for one in (*read.slips, *without_drive(read.values))]
     notes += [] if ssv is None else [f"written {one_line(str(ssv))}"]
-    print_text("\n".join([*_derived(device), *notes]))
+    document = {"device": rows, "possible_slips": read.slips}
+    shown = ([read.title], Table(columns, cells), [*_derived(device), *notes])
+    print_result(document, *shown, as_json=as_json)
 
 
 def _derived(device: Device) -> list[str]:

@@ -15,7 +15,7 @@ from slider_resonator.fitting.measurements import datasheet
 from slider_resonator.fitting.reading import read_measurements
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import print_json, print_table, print_text
+from slider_resonator.output.console import print_result
 from slider_resonator.output.files import distinct, make_folder
 from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.readable import one_line
@@ -152,14 +152,12 @@ def fit_command(
         )
     title = f"Fit to {', '.join(one.name for one in data) or 'a datasheet'}"
     written = [] if out is None else write_report(found, out, title, provenance)
-    if as_json:
-        hidden = ("measurements", "between")
-        keys = {key: value for key, value in vars(found).items() if key not in hidden}
-        print_json({**keys, "written": written}, provenance)
-    else:
-        print_table(parameter_table(found))
-        lines = found.sentences()
-        if written:
-            lines.append(f"written: {one_line(', '.join(map(str, written)))}")
-        print_text("\n".join(lines))
+    hidden = ("measurements", "between")
+    document = {key: value for key, value in vars(found).items() if key not in hidden}
+    document["written"] = written
+    lines = found.sentences()
+    if written:
+        lines.append(f"written: {one_line(', '.join(map(str, written)))}")
+    table = parameter_table(found)
+    print_result(document, table, lines, as_json=as_json, provenance=provenance)
     return 1 if found.open_directions or found.unmet else 0

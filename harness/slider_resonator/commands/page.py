@@ -12,7 +12,7 @@ from slider_resonator.commands import options
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import PARAMETERS
 from slider_resonator.errors import FmuError
-from slider_resonator.output.console import print_json, print_text
+from slider_resonator.output.console import print_result
 from slider_resonator.output.files import write_text
 from slider_resonator.output.readable import one_line
 from slider_resonator.scenes.device_file import to_toml
@@ -41,10 +41,8 @@ def page_command(fmu: Path, given: options.Given, out: Path, as_json: bool) -> N
         page_of(fmu), given.values, given.device.title if given.device else "Your device"
     )
     write_text(out, page)
-    if as_json:
-        print_json({"page": str(out)})
-    else:
-        print_text(f"{one_line(str(out))}: open it in a browser")
+    shown = f"{one_line(str(out))}: open it in a browser"
+    print_result({"page": str(out)}, [shown], as_json=as_json)
 
 
 def page_of(fmu: Path) -> str:

@@ -165,8 +165,8 @@ def run_command(
             read.schedule()
             chosen: Choice = isolated.run(partial(choose_with, scene=read), progress)
             if not chosen.meets:
-                text = "\n".join(chosen.sentences())
-                print_result(chosen, text, as_json=as_json, provenance=provenance)
+                lines = chosen.sentences()
+                print_result(chosen, lines, as_json=as_json, provenance=provenance)
                 return 1
             choice, read = chosen, chosen.applied_to(read)
         how = read.lines_reach(isolated.run(attrgetter("fmu.interpolates")))
@@ -259,7 +259,7 @@ def _summary(
     }
 
 
-def _sentences(summary: Mapping[str, Any], scene: Scene) -> str:
+def _sentences(summary: Mapping[str, Any], scene: Scene) -> list[str]:
     lines = [] if summary["auto"] is None else summary["auto"].sentences()
     lines += [
         f"scene    {scene.name}: {one_line(scene.title)}",
@@ -283,4 +283,4 @@ def _sentences(summary: Mapping[str, Any], scene: Scene) -> str:
         f"{summary['microseconds_per_drive_period']:.3g} us per drive period"
     )
     written = (summary["out"], summary["plot"])
-    return "\n".join([*lines, *(f"written  {one_line(str(file))}" for file in written if file)])
+    return lines + [f"written  {one_line(str(file))}" for file in written if file]

@@ -8,7 +8,7 @@ import click
 
 from slider_resonator.commands import options
 from slider_resonator.commands.options import json_option
-from slider_resonator.output.console import print_json, print_table
+from slider_resonator.output.console import print_result
 from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.scenes.expansion import variants
@@ -79,13 +79,10 @@ def scenes_command(as_json: bool, **chosen: Any) -> None:
             click.echo(escaped(f"{scene.source}: valid, {number_of(checks, 'check')}"))
     elif chosen["schema"]:
         click.echo(json.dumps(scene_schema(), indent=2))
-    elif chosen["quantities"] and as_json:
-        keys = ("kind", "unit", "meaning", "references", "needs_run")
-        print_json(
-            [{"name": n, **{key: getattr(q, key) for key in keys}} for n, q in QUANTITIES.items()]
-        )
     elif chosen["quantities"]:
-        print_table(quantities_table())
+        keys = ("kind", "unit", "meaning", "references", "needs_run")
+        every = [{"name": n, **{k: getattr(q, k) for k in keys}} for n, q in QUANTITIES.items()]
+        print_result(every, quantities_table(), as_json=as_json)
     else:
         _list_scenes(as_json, all_scenes=chosen["all"])
 
@@ -110,26 +107,22 @@ def quantities_table() -> Table:
 
 def _list_scenes(as_json: bool, *, all_scenes: bool) -> None:
     scenes = find_scenes([])
-    if as_json:
-        rows = [
-            {
-                "name": scene.name,
-                "title": scene.title,
-                "description": scene.description,
-                "file": str(scene.files[0]),
-                "core": is_core(scene),
-                "checks": len(scene.expect),
-                "stop_time": scene.stop_time,
-            }
-            for scene in scenes
-        ]
-        print_json(rows)
-        return
+    rows = [
+        {
+            "name": scene.name,
+            "title": scene.title,
+            "description": scene.description,
+            "file": str(scene.files[0]),
+            "core": is_core(scene),
+            "checks": len(scene.expect),
+            "stop_time": scene.stop_time,
+        }
+        for scene in scenes
+    ]
     listed = [scene for scene in scenes if all_scenes or is_core(scene)]
-    print_table(scenes_table(listed))
-    if len(listed) < len(scenes):
-        more = number_of(len(scenes) - len(listed), "more scene")
-        click.echo(f"{more} with --all")
+    more = number_of(len(scenes) - len(listed), "more scene")
+    hint = [[f"{more} with --all"]] if len(listed) < len(scenes) else []
+    print_result(rows, scenes_table(listed), *hint, as_json=as_json)
 
 
 def scenes_table(scenes: Sequence[Scene]) -> Table:

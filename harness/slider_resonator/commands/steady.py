@@ -76,7 +76,7 @@ def _search_command(
             progress(f"searching the {what}", 0.0)
             result: SearchResult = isolated.run(search)
         lines = [*result.describe(), f"FMU              {one_line(str(fmu))}"]
-        print_result(result, "\n".join(lines), as_json=as_json, provenance=provenance)
+        print_result(result, lines, as_json=as_json, provenance=provenance)
         return 1 if result.value is None else 0
 
     return command

@@ -133,7 +133,7 @@ def stress_command(
     lines = [line for result in results for line in result.sentences()]
     lines += [values_of(case) for case in cases if len(cases) == 1]
     lines += [] if out is None else [f"written {one_line(str(out))}"]
-    print_result(as_plain(results), "\n".join(lines), as_json=as_json, provenance=provenance)
+    print_result(as_plain(results), lines, as_json=as_json, provenance=provenance)
     return 0 if all(result.passed for result in results) else 1
 
 

@@ -157,6 +157,6 @@ def sweep_command(
     facts["unanswered"] = result.unanswered
     document = {"out": str(out), **facts, "first_error": result.first_error}
     written = ", ".join(map(str, [out, *filter(None, (plot, html))]))
-    text = "\n".join([*result.sentences(), f"written    {one_line(written)}"])
-    print_result(document, text, as_json=as_json, provenance=provenance)
+    lines = [*result.sentences(), f"written    {one_line(written)}"]
+    print_result(document, lines, as_json=as_json, provenance=provenance)
     return 1 if result.failed else 0

@@ -8,7 +8,7 @@ import click
 
 from slider_resonator.commands import options
 from slider_resonator.fmu.provenance import provenance_of
-from slider_resonator.output.console import noting_on_interrupt, print_json, print_text
+from slider_resonator.output.console import noting_on_interrupt, print_result
 from slider_resonator.output.files import PICTURE_SUFFIXES, distinct, make_folder
 from slider_resonator.output.progress import part_of, progress_bar
 from slider_resonator.output.readable import number_of, one_line
@@ -127,20 +127,17 @@ def trade_command(
         draw_picture(trades[0], picture)
     for page in pages:
         write_choices(page, trades)
-    if as_json:
-        entries = [{"trade": trade, "standings": standings(trade)} for trade in trades]
-        print_json(entries, provenance)
-    else:
-        for trade in trades:
-            print_text(one_line(title(trade)))
-            for heading, sentences in comparisons(trade):
-                print_text(f"  {one_line(heading)}")
-                for line in sentences:
-                    print_text(f"    {one_line(line)}")
-            omitted = number_of(len(trade.omissions), "omission")
-            print_text(f"  {number_of(len(trade.rows), 'row')}, {omitted}")
-        written = [*tables.values(), *([] if picture is None else [picture]), *pages]
-        print_text(f"written {one_line(', '.join(map(str, written)))}")
+    lines = []
+    for trade in trades:
+        lines.append(one_line(title(trade)))
+        for heading, sentences in comparisons(trade):
+            lines += [f"  {one_line(heading)}", *(f"    {one_line(one)}" for one in sentences)]
+        omitted = number_of(len(trade.omissions), "omission")
+        lines.append(f"  {number_of(len(trade.rows), 'row')}, {omitted}")
+    written = [*tables.values(), *([] if picture is None else [picture]), *pages]
+    lines.append(f"written {one_line(', '.join(map(str, written)))}")
+    entries = [{"trade": trade, "standings": standings(trade)} for trade in trades]
+    print_result(entries, lines, as_json=as_json, provenance=provenance)
 
 
 def _kept(trades: Sequence[Trade], problems: Sequence[Problem], out: Path) -> str:

@@ -2,7 +2,7 @@
 
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, NoReturn
 
@@ -64,12 +64,18 @@ def noting_on_interrupt(note: Callable[[], str] = lambda: "nothing is kept") -> 
         raise
 
 
-def print_result(result: Any, text: str, *, as_json: bool, provenance: Any) -> None:
-    """Print the result as JSON, with its provenance, or as text."""
+def print_result(
+    result: Any, *shown: Sequence[str] | Table, as_json: bool, provenance: Any = None
+) -> None:
+    """Print the result as JSON, with its provenance if it has one, or as lines and tables."""
     if as_json:
         print_json(result, provenance)
-    else:
-        print_text(text)
+        return
+    for one in shown:
+        if isinstance(one, Table):
+            print_table(one)
+        else:
+            print_text("\n".join(one))
 
 
 def print_json(result: Any, provenance: Any = None) -> None:

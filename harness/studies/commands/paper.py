@@ -58,7 +58,7 @@ def paper_command(
     context.exit(0 if outcome.confirmed else 1)
 
 
-def _sentences(outcome: Outcome) -> str:
+def _sentences(outcome: Outcome) -> list[str]:
     lines = [f"written  {one_line(outcome.out)} in {outcome.wall_time:.1f} s"]
     lines.append(f"run      {', '.join(outcome.run)}")
     for table in outcome.tables:
@@ -75,4 +75,4 @@ def _sentences(outcome: Outcome) -> str:
                 f"FAIL     {claim.name}: {claim.statement}: expected: {claim.verdict}, "
                 f"{claim.why}; measured: {numbers}"
             )
-    return "\n".join(lines)
+    return lines
