@@ -182,7 +182,10 @@ def _report(error: BaseException) -> str:
     return message.removeprefix("error: ")
 
 
-@click.group(cls=HarnessGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(
+    cls=HarnessGroup,
+    context_settings={"help_option_names": ["-h", "--help"], "show_default": True},
+)
 @click.version_option(__version__, prog_name="slider-resonator")
 @click.option(
     "--max-memory",

@@ -92,7 +92,6 @@ def record_command(
     "--tolerance",
     type=click.FloatRange(min=0.0),
     default=TOLERANCE,
-    show_default=True,
     help="Largest change that passes, relative to a number, a signal's peak or, for event times, "
     "the drive period.",
 )

@@ -81,7 +81,6 @@ _FORCE = options.Parsed("N", partial(_finite, "blocking_force"))
     "--starts",
     type=click.IntRange(min=1),
     default=5,
-    show_default=True,
     help="Starts of the search: the device, and others beside it.",
 )
 @options.out_folder_option("device.toml, fit.png, residuals.csv and fit.html", required=False)

@@ -356,7 +356,6 @@ def time_limit_option(default: float, help_text: str) -> Callable[[FC], FC]:
         "--time-limit",
         type=click.FloatRange(min=0.0, min_open=True),
         default=default,
-        show_default=True,
         metavar="SECONDS",
         help=help_text,
     )

@@ -58,7 +58,6 @@ def _search_command(
         "--max-denominator",
         type=click.IntRange(min=1),
         default=MAX_DENOMINATOR,
-        show_default=True,
         help="Largest q for which a frequency ratio p/q counts as having a common period.",
     )
     @options.time_limit_option(TIME_LIMIT, "For the whole search.")

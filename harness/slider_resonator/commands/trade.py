@@ -36,14 +36,12 @@ TABLES = ("index.html", "trade.csv", "omissions.csv")
     "--repeats",
     type=click.IntRange(min=1),
     default=REPEATS,
-    show_default=True,
     help="Repeats of each method, in turn with the others; fewer when its budget is spent.",
 )
 @click.option(
     "--budget",
     type=click.FloatRange(min=0.0, min_open=True),
     default=BUDGET,
-    show_default=True,
     help="CPU time in s for the longest run of a method or its search for steady motion, and the "
     "same again for repeats.",
 )

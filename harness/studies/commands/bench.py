@@ -27,7 +27,6 @@ from studies.hosts.step_cost import StepCost, measure_steps, short_step_ratio
     "--repeats",
     type=click.IntRange(min=1),
     default=9,
-    show_default=True,
     help="How often each kind of step is timed; the median is reported.",
 )
 @time_limit_option(TIME_LIMIT, "For each run of the driver.")

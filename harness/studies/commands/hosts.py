@@ -51,7 +51,6 @@ NAMES = [host.name for host in hosts()]
     "--own-environments",
     type=click.Path(path_type=Path, file_okay=False),
     default=OWN_ENVIRONMENTS,
-    show_default=True,
     help="Folder with the environments of cofmupy and of the newest fmpy, as `make hosts` "
     "creates them.",
 )

@@ -61,7 +61,6 @@ MIN_NATIVE_RATE = 0.97
     "--seed",
     type=int,
     default=0,
-    show_default=True,
     envvar="MUTANTS_SEED",
     show_envvar=True,
     help="Seed of the sample.",
