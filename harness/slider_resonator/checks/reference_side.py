@@ -61,7 +61,7 @@ class SteadyReferences:
     @cached_property
     def full_device(self) -> "SteadyReferences":
         """The same for the full device, whatever the fidelity."""
-        return replace(self, device=replace(self.device, fidelity=FULL))
+        return replace(self, device=self.device.tuned([("fidelity", FULL)]))
 
     @property
     def predicted_velocity(self) -> float:
@@ -95,7 +95,7 @@ class SteadyReferences:
                 f"normal_preload = {self.device.normal_preload!r} N: where the contact lifts the "
                 "closed form does not hold"
             )
-        return replace(self, device=replace(self.device, friction_law=0))
+        return replace(self, device=self.device.tuned([("friction_law", 0)]))
 
     @property
     def ripple_amplitude(self) -> float:
@@ -217,7 +217,7 @@ class ReferenceSide:
     def _simulate(self, reference: str, times: Array) -> Trajectory:
         # What averaged motion comes close to is the full device.
         fidelity = self.device.fidelity or FULL
-        device = replace(self.device, fidelity=fidelity)
+        device = self.device.tuned([("fidelity", fidelity)])
         law = _FRICTION_LAWS[reference]
         if device.friction_law != law:
             raise ValueError(f"friction_law = {device.friction_law!r}: {reference} is for {law}")

@@ -86,7 +86,8 @@ class Device:
     def tuned(self, values: Iterable[tuple[str, float]]) -> "Device":
         """Return the device as it is in a run while parameters and `DEVIATIONS` have these values.
 
-        They are not checked: a drive that deviates may be slower than a parameter can say.
+        Nothing is checked: a drive that deviates may be slower than a parameter can say, and a
+        search may try any state.
         """
         device = copy(self)
         own = vars(device)

@@ -1,9 +1,7 @@
 """Steady velocity and blocking force of the references, by the same shooting."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from math import pi
-from typing import Any
 
 import numpy as np
 
@@ -89,8 +87,8 @@ class _ReferencePeriodMap(PeriodicRun):
         resonator = STATE[1:3] if device.fidelity == 2 else ()
         bristle = STATE[3:] if device.friction_law == 1 else ()
         self.names = (STATE[0], *resonator, *bristle)
-        at_rest: dict[str, Any] = dict.fromkeys(_INITIAL, 0.0)
-        self._velocity_from_rest = initial_state(replace(device, **at_rest))[1]
+        at_rest = device.tuned((name, 0.0) for name in _INITIAL)
+        self._velocity_from_rest = initial_state(at_rest)[1]
 
     def scale(self, sizes: Vector) -> Vector:
         """Return the scale of each state; of a bristle it is the deflection when fully bent."""
@@ -105,10 +103,10 @@ class _ReferencePeriodMap(PeriodicRun):
 
     def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
         """Return states and travel at the times."""
-        initial: dict[str, Any] = dict.fromkeys(_INITIAL, 0.0)
+        initial = dict.fromkeys(_INITIAL, 0.0)
         initial |= {f"initial_{name}": float(x) for name, x in zip(self.names, state, strict=True)}
         initial["initial_velocity"] -= self._velocity_from_rest
-        device = replace(self.device, **initial)
+        device = self.device.tuned(initial.items())
         held = [HeldInputs(0.0, float(times[-1]), self.phase, load, self.ratio)]
         run = self.simulate(device, held, times)
         return np.column_stack([getattr(run, name) for name in self.names]), run.position

@@ -140,7 +140,7 @@ def _expected(case: Case) -> Signals:
     """
     device, held, times = case.device, case.held, case.times
     if case.model.leaps:  # judged by resolved motion of the full device
-        device = replace(device, fidelity=FULL)
+        device = device.tuned([("fidelity", FULL)])
     if case.model.averages:
         motion = simulate_averaged(device, held, times)
         return _compared(case, {name: getattr(motion, name) for name in MEAN})

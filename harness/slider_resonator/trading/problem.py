@@ -1,7 +1,7 @@
 """The problem that every method solves: the full device of a scene under its inputs."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -124,7 +124,7 @@ def problem_of(scene: Scene, varied: Mapping[str, float], max_periods: int | Non
     What a scene tunes is held over its own steps, for all methods. `max_periods` cuts the run
     short. Raises SceneError for a scene without a run whose inputs vary.
     """
-    full = replace(scene.device, fidelity=2)
+    full = scene.device.tuned([("fidelity", 2)])
     varying = scene.tuning or any(len(set(one.values)) > 1 for one in scene.signals.values())
     tuning: Mapping[str, Signal] = {}
     periods, drive = MIN_PERIODS, scene.drive_periods

@@ -108,3 +108,8 @@ def test_fmu_has_this_interface_and_these_starts(fmu: Fmu) -> None:
     for name in starts.keys() - set(fmu.lacks):
         start = starts[name]
         assert float(fmu.variables[name].start) == start, name
+
+
+def test_a_drive_may_deviate_beyond_what_a_parameter_can_say() -> None:
+    slow = Device.from_mapping({"drive_frequency": 1e-5, "frequency_deviation": -0.95})
+    assert slow.tuned([("fidelity", 1)]).drive_frequency == pytest.approx(5e-7)
