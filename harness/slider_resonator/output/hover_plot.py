@@ -16,7 +16,8 @@ from slider_resonator.output.readable import printable
 
 COLOURS = (
     *("#1f5f8b", "#c8553d", "#2e7d32", "#8e24aa", "#b8860b", "#00838f", "#5d4037", "#ad1457"),
-    *("#455a64", "#ef6c00", "#3949ab", "#7cb342"),
+    *("#455a64", "#ef6c00", "#3949ab", "#7cb342", "#d81b60", "#4fc3f7", "#000000", "#ba9bd8"),
+    *("#9e9d24", "#f48fb1", "#26a69a", "#a1887f"),
 )
 MARKERS = "●■▲◆▼★✚◀▶○□△◇✖"
 DASHES: tuple[tuple[int, ...], ...] = ((), (8, 4), (2, 3), (8, 3, 2, 3))
@@ -70,7 +71,7 @@ class HoverPlot:
 
 
 def look(index: int) -> tuple[str, str, tuple[int, ...]]:
-    """Return colour, marker and dash of the series with an index; up to 168 differ."""
+    """Return colour, marker and dash of the series with an index; 20 have colours of their own."""
     dash = DASHES[index // len(COLOURS) % len(DASHES)]
     return COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)], dash
 

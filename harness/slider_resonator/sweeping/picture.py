@@ -1,26 +1,26 @@
-"""Pictures of a sweep: lines over one variable, maps over two."""
+"""Plots of a sweep, for its page and its picture: lines over one variable, maps over two."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
+from matplotlib.colors import Normalize, to_hex
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import SETTABLE
 from slider_resonator.errors import HarnessError
+from slider_resonator.output.hover_plot import Axis, HoverPlot, Series, look
+from slider_resonator.output.plot_picture import draw_plot
 from slider_resonator.output.plot_style import Drawn, Picture, drawn, style
 from slider_resonator.sweeping.grid import Sweep
 from slider_resonator.sweeping.measures import unit
 from slider_resonator.sweeping.table import Columns
 
 NO_ANSWER = "no answer"
-DEGREES = (1, 2, 3, 4.5, 9, 10)
-"""Steps of ticks on an axis in degrees, up to a power of ten."""
+GREY = "#78909c"
 MAX_LINES = 6
 """Values of a variable that are drawn as a line each; more of them make a map."""
 
@@ -36,89 +36,78 @@ def check_picture(sweep: Sweep, option: str) -> None:
 
 def sweep_figure(sweep: Sweep, columns: Columns) -> Figure:
     """Draw every measure over what was varied."""
-    variables = drawn_variables(sweep, columns)
-    lines = split_into_lines(sweep, variables)
     with style():
         count = len(sweep.task.measures)
         figure = Picture(figsize=(6.4, 3.9 * count), layout="constrained")
         if sweep.title:
             figure.suptitle(sweep.title)
-        names: Sequence[str]
         for index, measure in enumerate(sweep.task.measures):
             axes = figure.add_subplot(count, 1, index + 1)
-            result = drawn_measure(columns, measure)
-            if lines is not None:
-                abscissa, groups = lines
-                x = variables[abscissa]
-                for name, chosen in groups:
-                    _line(axes, x.values[chosen], result.values[chosen], name or None)
-                axes.set(xlabel=x.label, ylabel=result.label)
-                if len(groups) > 1:
-                    axes.legend()
-                names = (abscissa,)
-            else:
-                _map(axes, sweep, variables, result)
-                names = list(variables)
-            for name, set_scale in zip(names, (axes.set_xscale, axes.set_yscale), strict=False):
-                set_scale("log" if name in sweep.logarithmic else "linear")
-            for name, axis in zip(names, (axes.xaxis, axes.yaxis), strict=False):
-                if SETTABLE[name] == "rad":
-                    axis.set_major_locator(MaxNLocator("auto", steps=DEGREES))
+            plot, scale = measure_plot(sweep, columns, measure)
+            draw_plot(axes, plot)
+            if scale is not None:
+                figure.colorbar(scale, ax=axes, label=plot.title)
+            if len(plot.series) > 1:
+                axes.legend()
     return figure
 
 
-def _map(axes: Axes, sweep: Sweep, variables: Mapping[str, Drawn], result: Drawn) -> None:
-    """Draw a measure over two variables: cells of a grid, or points."""
-    across, up = variables.values()
-    colours: ScalarMappable
-    if sweep.is_grid:
-        x, column = np.unique(across.values, return_inverse=True)
-        y, row = np.unique(up.values, return_inverse=True)
-        image = np.full((len(y), len(x)), np.nan)
-        image[row, column] = result.values
-        norm, name = scale_of(result.values)
-        colours = axes.pcolormesh(
-            x, y, image, shading="nearest", rasterized=True, norm=norm, cmap=name
-        )
-        axes.grid(False)
-    else:
-        colours = axes.scatter(across.values, up.values, c=result.values, s=12)
-    missing = np.isnan(result.values)
-    if missing.any():
-        x, y = across.values[missing], up.values[missing]
-        axes.plot(x, y, "x", color="0.5", markersize=4, label=NO_ANSWER)
-        axes.legend()
-    axes.set(xlabel=across.label, ylabel=up.label)
-    axes.figure.colorbar(colours, ax=axes, label=result.label)
+def measure_plot(
+    sweep: Sweep, columns: Columns, measure: str
+) -> tuple[HoverPlot, ScalarMappable | None]:
+    """Return the plot of a measure over what was varied, and the scale of colours of a map."""
+    answers = drawn(measure, unit(measure), np.array(columns[measure], dtype=np.float64))
+    variables = drawn_variables(sweep, columns)
+    axes = {n: Axis(one.label, log=n in sweep.logarithmic) for n, one in variables.items()}
+    notes = [_note(columns, measure, answers, point) for point in range(len(sweep.points))]
+    none = np.isnan(answers.values)
+    lines = _split_into_lines(sweep, variables)
+    abscissa, groups = lines or (sweep.task.names[0], [])
+    x = variables[abscissa].values
+
+    def series(label: str, chosen: NDArray[np.intp], up: Array | None, **looks: Any) -> Series:
+        """Return a series of some points, without `up` at no height."""
+        heights = [None] * len(chosen) if up is None else up[chosen].tolist()
+        own = [notes[point] for point in chosen]
+        return Series(label, x[chosen].tolist(), heights, notes=own, **looks)
+
+    all_series: list[Series] = []
+    if lines is not None:
+        for index, (name, chosen) in enumerate(groups):
+            label, (colour, marker, dash) = name or answers.words, look(index)
+            points = chosen[np.argsort(x[chosen], kind="stable")]
+            looks = {"colour": colour, "marker": marker, "width": 1.4, "dash": dash}
+            all_series.append(series(label, points[~none[points]], answers.values, **looks))
+            if none[points].any():
+                missed, cross = f"{label}: {NO_ANSWER}", {"colour": colour, "marker": "✖"}
+                all_series.append(series(missed, points[none[points]], None, **cross))
+        return HoverPlot(answers.words, axes[abscissa], Axis(answers.label), all_series), None
+    (_, ordinate), found = sweep.task.names, np.flatnonzero(~none)
+    up = variables[ordinate].values
+    scale = None
+    if found.size:
+        scale = _scale_of(answers.values[found])
+        colours = [to_hex(one) for one in scale.to_rgba(answers.values[found])]
+        looks = {"colour": colours[len(found) // 2], "marker": "●", "colours": colours}
+        all_series.append(series(answers.words, found, up, cells=sweep.is_grid, **looks))
+    if none.any():
+        all_series.append(series(NO_ANSWER, np.flatnonzero(none), up, colour=GREY, marker="✖"))
+    return HoverPlot(answers.label, axes[abscissa], axes[ordinate], all_series), scale
 
 
-def scale_of(result: Array) -> tuple[Normalize, str]:
-    """Return scale and colours for answers (n,), some NaN: symmetric about 0 if of both signs."""
-    answers = result[np.isfinite(result)]
-    if not answers.size:
-        return Normalize(), "viridis"
+def _scale_of(answers: Array) -> ScalarMappable:
+    """Return the scale of colours of answers (n,): symmetric about 0 if they have both signs."""
     low, high = float(answers.min()), float(answers.max())
     if low < 0.0 < high:
-        return Normalize(-max(-low, high), max(-low, high)), "RdBu_r"
-    return Normalize(low, high), "viridis"
+        return ScalarMappable(Normalize(-max(-low, high), max(-low, high)), "RdBu_r")
+    return ScalarMappable(Normalize(low, high), "viridis")
 
 
-def _line(axes: Axes, x: Array, y: Array, label: str | None) -> None:
-    order = np.argsort(x, kind="stable")
-    marker = "." if len(x) <= 200 else ""
-    (line,) = axes.plot(x[order], y[order], marker=marker, label=label)
-    missing = x[np.isnan(y)]
-    if missing.size:
-        axes.plot(
-            missing,
-            np.zeros(missing.size),
-            "x",
-            color=line.get_color(),
-            label=f"{label}: {NO_ANSWER}" if label else NO_ANSWER,
-            transform=axes.get_xaxis_transform(),  # on the axis, whatever the results are
-            clip_on=False,
-        )
-        axes.legend()
+def _note(columns: Columns, measure: str, answers: Drawn, point: int) -> str:
+    value, error = answers.values[point], columns["error"][point]
+    status = columns.get(f"{measure}_status", {point: None})[point]
+    first = NO_ANSWER if np.isnan(value) else f"{answers.label}: {value:.8g}"
+    return "\n".join([first, *(str(line) for line in (status, error) if line)])
 
 
 def drawn_variables(sweep: Sweep, columns: Columns) -> dict[str, Drawn]:
@@ -127,12 +116,7 @@ def drawn_variables(sweep: Sweep, columns: Columns) -> dict[str, Drawn]:
     return {n: drawn(n, SETTABLE[n], np.array(columns[n], dtype=np.float64)) for n in names}
 
 
-def drawn_measure(columns: Columns, measure: str) -> Drawn:
-    """Return a measure as it is drawn, NaN where there is no answer."""
-    return drawn(measure, unit(measure), np.array(columns[measure], dtype=np.float64))
-
-
-def split_into_lines(
+def _split_into_lines(
     sweep: Sweep, variables: Mapping[str, Drawn]
 ) -> tuple[str, list[tuple[str, NDArray[np.intp]]]] | None:
     """Return the variable along lines, and the label and the points of each line; None for a map.

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from functools import partial
-from math import isfinite
+from math import inf, isfinite
 from pathlib import Path
 from typing import Any
 
@@ -21,18 +21,21 @@ from slider_resonator.trading.result import Row, Trade, cost_label, drawn_error,
 from slider_resonator.trading.solution import QUANTITIES
 from slider_resonator.trading.summary import comparisons, duration, title
 
+FRONT = "Pareto front of all"
 
-def work_precision_plot(trade: Trade, quantity: str) -> HoverPlot:
+
+def work_precision_plot(rows: Sequence[Row], quantity: str) -> HoverPlot:
     """Return the plot of a quantity: a series for each family, and the Pareto front of all."""
-    drawn = [row for row in trade.having(quantity) if isfinite(row.errors[quantity])]
+    drawn = [row for row in rows if isfinite(row.errors.get(quantity, inf))]
 
     def series(label: str, rows: list[Row], **looks: Any) -> Series:
         costs, errors = [row.cost for row in rows], [drawn_error(row, quantity) for row in rows]
         return Series(label, costs, errors, notes=[_note(row) for row in rows], **looks)
 
-    best = front(drawn, quantity)
-    all_series = [series("Pareto front of all", best, colour="#cfd8dc", width=6.0)]
-    for index, family in enumerate(families(trade.rows)):
+    all_series = []
+    if drawn:
+        all_series.append(series(FRONT, front(drawn, quantity), colour="#cfd8dc", width=6.0))
+    for index, family in enumerate(families(rows)):
         own = [row for row in drawn if row.family == family]
         if own:
             colour, marker, dash = look(index)
@@ -100,7 +103,7 @@ def write_trades(path: Path, trades: Sequence[Trade], provenance: Provenance) ->
         run = f"{trade.periods} drive periods, {trade.simulated:.4g} s simulated."
         parts.append(f"<p>{escaped(run)}</p>")
         shown = [quantity for quantity in QUANTITIES if trade.having(quantity)]
-        parts += [plot_html(work_precision_plot(trade, quantity)) for quantity in shown]
+        parts += [plot_html(work_precision_plot(trade.rows, quantity)) for quantity in shown]
         table = Table(_COLUMNS, [_cells(row) for row in trade.rows])
         parts.append(folded(f"All {len(trade.rows)} rows", rendered(table)))
         omitted = [(one.method, one.quantity, one.reason) for one in trade.omissions]

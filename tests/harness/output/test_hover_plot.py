@@ -62,8 +62,8 @@ def test_hostile_text_stays_text(tmp_path: Path) -> None:
 
 
 def test_series_differ_in_colour_marker_or_dash() -> None:
-    looks = [look(index) for index in range(60)]
-    assert len(set(looks)) == 60
+    looks = [look(index) for index in range(80)]
+    assert len(set(looks)) == 80
     assert len({colour for colour, _, _ in looks[: len(COLOURS)]}) == len(COLOURS)
     assert len({marker for _, marker, _ in looks[: len(MARKERS)]}) == len(MARKERS)
     assert {dash for _, _, dash in looks} == set(DASHES)
