@@ -118,11 +118,16 @@ def _integrate(
     slopes = equations.slopes(None, run.theta, run.psi + inputs.phase, inputs, width)
     solver = method(slopes, 0.0, run.state, span, max_step=longest, rtol=rtol, atol=atol * scales)
     while solver.status == "running":
-        take_step(solver, inputs.start, "use a greater atol")
+        message = solver.step()
+        if solver.status == "failed":
+            raise RuntimeError(
+                f"{method.__name__} failed at t = {inputs.start + float(solver.t)!r} s: "
+                f"{message}; use a greater atol"
+            )
         evaluations = recorder.evaluations + solver.nfev
         if evaluations > max_evaluations:
             raise RuntimeError(
-                f"{type(solver).__name__} has used {evaluations} evaluations up to "
+                f"{method.__name__} has used {evaluations} evaluations up to "
                 f"t = {inputs.start + float(solver.t)!r} s, max_evaluations = {max_evaluations}: "
                 "it chatters in a stick; use a greater atol, or located events"
             )
@@ -143,16 +148,3 @@ def _integrate(
             run.keep(inputs, local, states, friction)
     recorder.evaluations += solver.nfev
     run.state = solver.y
-
-
-def take_step(solver: Any, time: float, advice: str) -> None:
-    """Take a step of a solver of scipy's that started at a time (s).
-
-    Raises RuntimeError, with the time and the advice, if it fails.
-    """
-    message = solver.step()
-    if solver.status == "failed":
-        raise RuntimeError(
-            f"{type(solver).__name__} failed at t = {time + float(solver.t)!r} s: {message}; "
-            f"{advice}"
-        )
