@@ -42,9 +42,7 @@ def measure_golden(fmu: FmuSide) -> Golden:
     Raises FmuError and Refusal as the FMU does, NotApplicable where it cannot run the scene.
     """
     found = {}
-    names: list[str] = []
-    if fmu.scene.stop_time is not None:
-        names += (*SIGNALS, *OF_A_RUN)
+    names = [*SIGNALS, *OF_A_RUN] if fmu.scene.stop_time is not None else []
     if all(signal.times == (0.0,) for signal in fmu.scene.signals.values()):
         names += OF_CONSTANT_INPUTS
     for name in names:
@@ -65,11 +63,6 @@ def measure_golden(fmu: FmuSide) -> Golden:
     return found
 
 
-def order(name: str) -> int:
-    """Return the place of a quantity in files and tables."""
-    return (*NUMBERS_AND_WORDS, *SIGNALS).index(name)
-
-
 TOLERANCE = 1e-8
 """Relative change that passes: other platforms and compilers round differently."""
 AGAINST = "baseline"
@@ -84,7 +77,7 @@ def compare_golden(
     signals by that share of their peak, times of events by that share of a drive period; counts,
     words and contact modes must be equal. Raises SceneError where the run has other points.
     """
-    for name in sorted({*golden, *now}, key=order):
+    for name in [one for one in (*NUMBERS_AND_WORDS, *SIGNALS) if one in {*golden, *now}]:
         recorded = golden.get(name, Measurement(None, "it was not recorded"))
         measured = now.get(name, Measurement(None, "the scene no longer allows it"))
         if name in SIGNALS and not _same_points(recorded, measured):

@@ -1,27 +1,24 @@
 """The CSV files of a scene's golden results, and their provenance: FMU, scene, host and tools."""
 
-import csv
 import hashlib
 import os
-import shutil
-import tempfile
-from collections import namedtuple
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from tempfile import TemporaryDirectory
+from typing import TypeVar
 
 import numpy as np
 
-from slider_resonator.baseline.judge import MAX_POINTS, NUMBERS_AND_WORDS, SIGNALS, Golden, order
+from slider_resonator.baseline.judge import MAX_POINTS, NUMBERS_AND_WORDS, SIGNALS, Golden
 from slider_resonator.checks.compare import Value
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.provenance import FmuIdentity, provenance_of, provenance_properties
+from slider_resonator.output.files import write_csv
 from slider_resonator.scenes.csv_signal import csv_rows
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.scene_files import built_in_scenes
-from slider_resonator.scenes.schema import RunTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 FMU_DIGEST = "fmu_sha256"
@@ -29,11 +26,8 @@ SCENE_DIGEST = "scene_sha256"
 SCENE_FILE = "scene_file"
 BUILT_IN = "built in"
 """In place of the file of a built-in scene."""
-RUN_KEYS = (
-    *("stop_time", "drive_periods", "step_size", "steps_per_period", "step_sizes"),
-    *("start_time", "read_twice", "interpolate"),
-)
-"""Keys of [run] that the digest of a scene contains, whatever their values."""
+TIME_KEYS = {"stop_time", "drive_periods", "step_size", "steps_per_period"}
+"""Keys of [run] that say the same in several ways."""
 
 Provenance = Mapping[str, str]
 """The recorded provenance, in the order of the file."""
@@ -55,27 +49,16 @@ def provenance(fmu: FmuIdentity, scene: Scene, folder: Path) -> Provenance:
 
 
 def scene_digest(scene: Scene) -> str:
-    """Return the SHA-256 of a scene without its names and expectations."""
-    swept = (scene.sweep.variable, scene.sweep.values) if scene.sweep else None
-    signals = [(name, s.times, s.values, s.hold) for name, s in sorted(scene.signals.items())]
-    runs: tuple[Any, ...]
-    runs = (sorted(scene.parameters.items()), signals, scene.stop_time, scene.step_size, swept)
-    run = scene.run
-    has_later_keys = run and (run.start_time or run.step_sizes or run.read_twice)
-    if scene.tuning or scene.interpolates or has_later_keys:
-        tuning = [(name, s.times, s.values, s.hold) for name, s in sorted(scene.tuning.items())]
-        runs = (*runs, tuning, run and _keys_in_digest(run))
-    return hashlib.sha256(repr(runs).encode()).hexdigest()
+    """Return the SHA-256 of a scene without its names and expectations.
 
-
-def _keys_in_digest(run: RunTable) -> Any:
-    """Return an object whose representation has the keys of [run], and is that of earlier records.
-
-    Keys that came later appear only where they are set: other records stay valid.
+    Of [run] it has what is set: a record stays valid when a version of the harness adds a key.
     """
-    defaults = {name: field.default for name, field in type(run).model_fields.items()}
-    keys = {name: value for name, value in run if name in RUN_KEYS or value != defaults[name]}
-    return namedtuple("RunTable", keys)(**keys)
+    swept = scene.sweep and (scene.sweep.variable, scene.sweep.values)
+    over_time = sorted({**scene.signals, **scene.tuning}.items())
+    signals = [(name, s.times, s.values, s.hold) for name, s in over_time]
+    run = scene.run and scene.run.model_dump(exclude_defaults=True, exclude=TIME_KEYS)
+    content = (sorted(scene.parameters.items()), signals, scene.stop_time, scene.step_size)
+    return hashlib.sha256(repr((*content, swept, run)).encode()).hexdigest()
 
 
 def _seen_from(folder: Path, file: Path) -> str:
@@ -123,16 +106,13 @@ def write_recorded(folder: Path, recorded: Recorded) -> None:
     """
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        fresh = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
-        try:
-            _write(fresh / NUMBERS, _number_rows(recorded))
-            if any(name in SIGNALS for golden in recorded.points.values() for name in golden):
-                _write(fresh / TRAJECTORY, _signal_rows(recorded))
-            _write(fresh / PROVENANCE, recorded.provenance.items())
-            fresh.chmod(0o755)
+        with TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as temporary:
+            fresh = Path(temporary) / folder.name
+            fresh.mkdir()
+            for name, rows in _tables(recorded).items():
+                if rows or name != TRAJECTORY:
+                    write_csv(fresh / name, HEADERS[name], rows)
             replace_folder(fresh, folder)
-        finally:
-            shutil.rmtree(fresh, ignore_errors=True)
     except OSError as error:
         raise HarnessError(f"{folder}: cannot be written: {error.strerror or error}") from error
 
@@ -142,16 +122,16 @@ def replace_folder(fresh: Path, folder: Path) -> None:
 
     The other one is then still there.
     """
-    if folder.exists():
-        with tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as old:
-            moved = folder.rename(Path(old) / folder.name)
-            try:
-                fresh.rename(folder)
-            except OSError:
-                moved.rename(folder)
-                raise
-    else:
-        fresh.rename(folder)
+    with TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.parent) as temporary:
+        before = Path(temporary) / folder.name
+        if folder.exists():
+            folder.rename(before)
+        try:
+            fresh.rename(folder)
+        except OSError:
+            if before.exists():
+                before.rename(folder)
+            raise
 
 
 def read_recorded(folder: Path) -> Recorded:
@@ -161,11 +141,10 @@ def read_recorded(folder: Path) -> Recorded:
     for at, name, value in numbers:
         points.setdefault(at, {})[name] = Measurement(value)
     columns: dict[At, list[list[float]]] = {}
-    if (folder / TRAJECTORY).exists():
-        for at, row in _read(
-            folder / TRAJECTORY, lambda row: (_at(row[0]), [*map(_number, row[1:])])
-        ):
-            columns.setdefault(at, []).append(row)
+    path = folder / TRAJECTORY
+    lines = _read(path, lambda row: (_at(row[0]), [*map(_number, row[1:])]))
+    for at, row in lines if path.exists() else ():
+        columns.setdefault(at, []).append(row)
     for at, rows in columns.items():
         times, *signals = np.array(rows).T
         points.setdefault(at, {}).update(
@@ -180,25 +159,20 @@ def recorded_scenes(folder: Path) -> list[Path]:
     return sorted(path for path in found if not path.name.startswith("."))
 
 
-def _number_rows(recorded: Recorded) -> Iterable[Sequence[str]]:
+def _tables(recorded: Recorded) -> dict[str, list[Sequence[str]]]:
+    """Return the rows of each file."""
+    numbers: list[Sequence[str]] = []
+    trajectory: list[Sequence[str]] = []
     for at, golden in recorded.points.items():
-        for name in sorted(golden, key=order):
-            if name not in SIGNALS:
-                yield _place(at), name, QUANTITIES[name].unit, _text(golden[name].value)
-
-
-def _signal_rows(recorded: Recorded) -> Iterable[Sequence[str]]:
-    for at, golden in recorded.points.items():
-        signals = [golden[name] for name in SIGNALS if name in golden]
-        if signals:
+        place = " ".join(f"{name}={value!r}" for name, value in at)
+        for name in NUMBERS_AND_WORDS:
+            if name in golden:
+                numbers.append((place, name, QUANTITIES[name].unit, _text(golden[name].value)))
+        if signals := [golden[name] for name in SIGNALS if name in golden]:
             columns = [signals[0].times, *(signal.value for signal in signals)]
-            for row in zip(*columns, strict=True):
-                yield _place(at), *(_text(float(number)) for number in row)
-
-
-def _write(path: Path, rows: Iterable[Sequence[str]]) -> None:
-    with path.open("w", newline="", encoding="utf-8") as file:
-        csv.writer(file, lineterminator="\n").writerows([HEADERS[path.name], *rows])
+            trajectory += [(place, *map(_text, row)) for row in zip(*columns, strict=True)]
+    origin: list[Sequence[str]] = [*recorded.provenance.items()]
+    return {NUMBERS: numbers, TRAJECTORY: trajectory, PROVENANCE: origin}
 
 
 def _read(path: Path, parsed: Callable[[list[str]], T]) -> Iterator[T]:
@@ -238,10 +212,6 @@ def _number(text: str) -> float:
         return float(text)
     except ValueError:
         raise ValueError(f"{text!r}: must be a number") from None
-
-
-def _place(at: At) -> str:
-    return " ".join(f"{name}={value!r}" for name, value in at)
 
 
 def _at(text: str) -> At:

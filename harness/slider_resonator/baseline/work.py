@@ -56,8 +56,7 @@ def record(
     file that is no FMU.
     """
     names = [scene.name for scene in scenes]
-    twice = sorted({name for name in names if names.count(name) > 1})
-    if twice:
+    if twice := sorted({name for name in names if names.count(name) > 1}):
         raise SceneError(f"several scenes are called {', '.join(twice)}; must be only one")
     there = [name for name in names if (folder / name).exists()]
     if there and not replace:
@@ -119,21 +118,13 @@ def check(
             found: list[tuple[Check, Curves | None]] = []
             for point in scene.points():
                 at = key(point.at)
-                recorded = before.points.get(at, {})
-                found += compare_golden(point, recorded, now.points[at], tolerance)
-        except SceneError as error:
+                golden_there = before.points.get(at, {})
+                found += compare_golden(point, golden_there, now.points[at], tolerance)
+            compared += found
+            if not all(verdict.passed for verdict, _ in found):
+                _keep_changed(folder / CHANGED, scene.name, now)
+        except HarnessError as error:
             run_failures.append(RunFailure(scene.name, str(error), {}))
-            continue
-        compared += found
-        if not all(verdict.passed for verdict, _ in found):
-            ignored = folder / CHANGED / ".gitignore"
-            try:
-                write_recorded(folder / CHANGED / scene.name, now)
-                if not ignored.exists():
-                    write_text(ignored, "*\n")
-            except HarnessError as error:
-                reason = f"the changes could not be kept for accept: {error}"
-                run_failures.append(RunFailure(scene.name, reason, {}))
     return Validation(
         str(fmu),
         tuple(verdict for verdict, _ in compared),
@@ -143,6 +134,16 @@ def check(
         not_applied=tuple(not_applied),
         identity=identity,
     )
+
+
+def _keep_changed(folder: Path, name: str, now: Recorded) -> None:
+    """Keep changed results for accept; HarnessError where that fails."""
+    try:
+        write_recorded(folder / name, now)
+        if not (folder / ".gitignore").exists():
+            write_text(folder / ".gitignore", "*\n")
+    except HarnessError as error:
+        raise HarnessError(f"the changes could not be kept for accept: {error}") from error
 
 
 def accept(fmu: Path, folder: Path, names: Sequence[str]) -> tuple[str, ...]:

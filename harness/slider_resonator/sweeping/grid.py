@@ -25,14 +25,13 @@ from slider_resonator.scenes.key_table import KeyTable, Number, ParametersTable
 from slider_resonator.scenes.scene_files import built_in_scenes
 from slider_resonator.scenes.table_reading import AXIS, table_from
 from slider_resonator.scenes.toml_file import read_toml
-from slider_resonator.sweeping.measures import Run, Task, check_measure
+from slider_resonator.sweeping.measures import Counted, Run, Task, check_measure
 
 MAX_POINTS = 10_000_000
 """More would not fit into the memory of the process that writes the table."""
 
 Rows = tuple[tuple[float, ...], ...]
 """The values of some variables, point by point."""
-Counted = Annotated[int, Field(strict=True, ge=1)]
 
 
 class RangeTable(KeyTable):
@@ -98,23 +97,6 @@ class RandomTable(KeyTable):
         return tuple(tuple(one.value(random.random()) for one in ranges) for _ in range(self.count))
 
 
-class RunTable(KeyTable):
-    """How long and in which steps statistics of outputs are taken."""
-
-    drive_periods: Counted = 100
-    steps_per_period: Counted = 16
-    skip_periods: Annotated[int, Field(strict=True, ge=0)] = 0
-
-    @model_validator(mode="after")
-    def _some_left(self) -> "RunTable":
-        if self.skip_periods >= self.drive_periods:
-            raise ValueError(
-                f"skip_periods = {self.skip_periods}: must be a whole number below "
-                f"drive_periods = {self.drive_periods}"
-            )
-        return self
-
-
 class GridTable(KeyTable):
     """A grid file."""
 
@@ -126,7 +108,7 @@ class GridTable(KeyTable):
     grid: dict[str, Axis] = Field(default={})
     parallel: dict[str, Values] = Field(default={}, alias="list")
     random: RandomTable | None = None
-    run: RunTable = RunTable()
+    run: Run = Run()
 
     @field_validator("measures", mode="before")
     @classmethod
@@ -249,7 +231,7 @@ def grid_from(
         fixed=tuple((name, float(value)) for name, value in fixed.items()),
         measures=table.measures,
         max_denominator=table.max_denominator,
-        run=Run(**table.run.model_dump()),
+        run=table.run,
     )
     is_grid = not table.parallel and table.random is None
     plain = {**content.get("device", {}), **content.get("fixed", {})}

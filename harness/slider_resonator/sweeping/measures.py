@@ -3,8 +3,10 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import tau
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field, model_validator
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
@@ -14,6 +16,7 @@ from slider_resonator.device.signal import constant
 from slider_resonator.errors import HarnessError, unknown_name
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
+from slider_resonator.scenes.key_table import KeyTable
 from slider_resonator.steady.proved_predictions import QUANTITIES, proved_predictions
 from slider_resonator.steady.searches import SEARCHES
 
@@ -42,13 +45,24 @@ STATISTICS: Mapping[str, Callable[[Array], float]] = {
 """Statistics of an output over a run, written OUTPUT.STATISTIC, in the unit of the output."""
 
 
-@dataclass(frozen=True)
-class Run:
+Counted = Annotated[int, Field(strict=True, ge=1)]
+
+
+class Run(KeyTable):
     """A run from the initial state; statistics leave out the first `skip_periods`."""
 
-    drive_periods: int
-    steps_per_period: int
-    skip_periods: int
+    drive_periods: Counted = 100
+    steps_per_period: Counted = 16
+    skip_periods: Annotated[int, Field(strict=True, ge=0)] = 0
+
+    @model_validator(mode="after")
+    def _some_left(self) -> "Run":
+        if self.skip_periods >= self.drive_periods:
+            raise ValueError(
+                f"skip_periods = {self.skip_periods}: must be a whole number below "
+                f"drive_periods = {self.drive_periods}"
+            )
+        return self
 
 
 @dataclass(frozen=True)
@@ -93,29 +107,6 @@ def check_measure(name: object) -> None:
 def unit(measure: str) -> str:
     """Return the unit of a measure."""
     return SEARCHED.get(measure) or ALL_OUTPUTS[measure.partition(".")[0]]
-
-
-def measure(
-    instance: Instance, task: Task, point: tuple[float, ...], proved: Mapping[str, float]
-) -> list[Cell]:
-    """Return the cells of the measures at a point, in the order of the columns.
-
-    What is `proved` is not searched. Depends on nothing but its arguments: not on the points
-    before, so that neither the order of the points nor the worker shows in the result. Raises what
-    the FMU and the search raise.
-    """
-    values = task.values(point)
-    statistics = _statistics(instance, task, values)
-    cells: list[Cell] = []
-    for name in task.measures:
-        if name in proved:
-            cells += [proved[name], STATUS[name]]
-        elif name in SEARCHED:
-            found = SEARCHES[name](instance, values, max_denominator=task.max_denominator)
-            cells += [getattr(found, name), found.status]
-        else:
-            cells.append(statistics[name])
-    return cells
 
 
 def _statistics(instance: Instance, task: Task, values: Mapping[str, float]) -> Mapping[str, float]:
@@ -165,13 +156,26 @@ def prove_points(instance: Instance, task: Task, points: Sequence[Point]) -> lis
 
 
 def measure_point(instance: Instance, task: Task, point: Point, proved: Proved) -> Row:
-    """Return the row of a point, in the process of the FMU.
+    """Return the row of a point, in the process of the FMU; what is `proved` is not searched.
 
-    After a point that fails the instance is recreated, whatever state the failure left it in.
+    It depends on nothing but its arguments: neither the order of the points nor the worker shows in
+    the result. After a point that fails the instance is recreated, whatever state the failure left
+    it in.
     """
-    number, values = point
+    number, place = point
+    values = task.values(place)
+    cells: list[Cell] = []
     try:
-        return number, measure(instance, task, values, proved), None
+        statistics = _statistics(instance, task, values)
+        for name in task.measures:
+            if name in proved:
+                cells += [proved[name], STATUS[name]]
+            elif name in SEARCHED:
+                found = SEARCHES[name](instance, values, max_denominator=task.max_denominator)
+                cells += [getattr(found, name), found.status]
+            else:
+                cells.append(statistics[name])
+        return number, cells, None
     except Exception as error:  # any error is the result of this point
         instance.recreate()
         fmu = instance.fmu.path

@@ -148,7 +148,8 @@ def run_sweep(
         pass  # the file is checked once, not at every point
     fmu_digest = digest_of(fmu)
     # All that the rows of a journal depend on.
-    content = json.dumps([__version__, fmu_digest, asdict(sweep.task), sweep.points])
+    work = [__version__, fmu_digest, asdict(sweep.task), sweep.points]
+    content = json.dumps(work, default=dict)
     digest = hashlib.sha256(content.encode()).hexdigest()
     remedy = "move the file away, or discard it with --restart"
     with Journal(journal_path(out), "sweep", digest, remedy, restart=restart) as journal:

@@ -73,7 +73,7 @@ def test_an_invalid_grid_is_refused_with_name_value_and_requirement(tmp_path: Pa
     assert_mistakes_as_before("grid_mistakes.txt", tmp_path / "grid.toml", read_grid)
 
 
-TASK = Task(("fidelity", "phase"), (), ("steady_velocity",), 20, Run(1, 1, 0))
+TASK = Task(("fidelity", "phase"), (), ("steady_velocity",), 20, Run())
 POINTS = ((0.0, 0.1), (2.0, 0.1 + 0.2))
 ROWS: list[Row] = [(0, [None, None], 'load, "x"'), (1, [1.0 / 3.0, "steady"], None)]
 

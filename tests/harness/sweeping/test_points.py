@@ -11,7 +11,6 @@ from slider_resonator.sweeping.measures import (
     STATISTICS,
     Run,
     Task,
-    measure,
     measure_point,
     prove_points,
 )
@@ -29,14 +28,14 @@ def test_statistics_of_an_offset_sine(statistic: str, expected: float) -> None:
 
 
 def _task(*measures: str, names: tuple[str, ...] = ("phase",), run: Run | None = None) -> Task:
-    return Task(names, (("load", 0.01),), measures, 20, run or Run(10, 16, 0))
+    return Task(names, (("load", 0.01),), measures, 20, run or Run())
 
 
 def test_measures_by_shooting_are_those_of_the_commands(instance: Instance) -> None:
-    velocity, status = measure(instance, _task("steady_velocity"), (0.4,), {})
+    velocity, status = measure_point(instance, _task("steady_velocity"), (0, (0.4,)), {})[1]
     alone = find_steady(instance, {"phase": 0.4, "load": 0.01})
     assert (velocity, status) == (alone.steady_velocity, "steady")
-    force, status = measure(instance, _task("blocking_force"), (0.0,), {})
+    force, status = measure_point(instance, _task("blocking_force"), (0, (0.0,)), {})[1]
     assert force == pytest.approx(0.0851861, rel=1e-5), "measured for table 1"
     assert status == "blocked"
 
@@ -47,9 +46,9 @@ def test_statistics_are_those_of_the_run_that_was_asked_for(instance: Instance) 
         "velocity.mean",
         "normal_force.mean",
         names=("drive_frequency",),
-        run=Run(40, 64, 20),
+        run=Run(drive_periods=40, steps_per_period=64, skip_periods=20),
     )
-    position, velocity, force = measure(instance, task, (7000.0,), {})
+    position, velocity, force = measure_point(instance, task, (0, (7000.0,)), {})[1]
     period = tau / 7000.0
     instance.start({"load": 0.01, "drive_frequency": 7000.0})
     instance.step_to(20 * period)
@@ -61,8 +60,8 @@ def test_statistics_are_those_of_the_run_that_was_asked_for(instance: Instance) 
     assert force == pytest.approx(1.0, rel=1e-9), "the preload, over whole periods"
 
 
-TASK = Task(("friction_coefficient",), (), ("steady_velocity",), 20, Run(1, 1, 0))
-BOTH = Task(("phase",), (), ("blocking_force", "velocity.rms"), 20, Run(2, 16, 0))
+TASK = Task(("friction_coefficient",), (), ("steady_velocity",), 20, Run())
+BOTH = Task(("phase",), (), ("blocking_force", "velocity.rms"), 20, Run(drive_periods=2))
 
 
 def test_failed_point_is_a_row_with_its_error_and_the_next_is_sound(instance: Instance) -> None:

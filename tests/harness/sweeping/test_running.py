@@ -15,7 +15,9 @@ POINTS = [(number, (0.1 * (1 + number),)) for number in range(3)]
 
 
 def rows_of(fmu: Path, time_limit: float, measure: str = "velocity.rms") -> list[Row]:
-    task = Task(("friction_coefficient",), (), (measure,), 20, Run(1, 1, 0))
+    task = Task(
+        ("friction_coefficient",), (), (measure,), 20, Run(drive_periods=1, steps_per_period=1)
+    )
     kept: list[Row] = []
     with LocalProcesses(fmu, time_limit) as processes:
         run_points(processes, task, POINTS, kept.extend)
