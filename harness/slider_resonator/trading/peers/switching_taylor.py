@@ -19,7 +19,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.simulate import simulate
-from slider_resonator.trading.solution import Solution, solution_of
+from slider_resonator.trading.solution import Solution
 
 DIRECTION, REVERSED_AT, STRETCH = range(3)
 """Parameters that change in a run; only the first with Coulomb friction."""
@@ -28,7 +28,7 @@ DIRECTION, REVERSED_AT, STRETCH = range(3)
 def heyoka_in_one_call(
     device: Device, held: Sequence[HeldInputs], times: Array, *, tolerance: float
 ) -> Solution:
-    """Follow a motion; it starts where the reference is after one drive period.
+    """Follow a motion; it starts where the reference is after a drive period, or half of the run.
 
     `tolerance` is the relative one of a Taylor step. The first call for a device compiles. Raises
     ValueError for what is not covered; RuntimeError when heyoka fails; ModuleNotFoundError without
@@ -41,18 +41,11 @@ def heyoka_in_one_call(
     if device.resonator_mass == 0.0:
         raise ValueError("resonator_mass = 0: only full devices are covered")
     (inputs,) = held
-    begin = min(2.0 * np.pi / device.drive_frequency, inputs.stop)
+    begin = min(2.0 * np.pi / device.drive_frequency, 0.5 * inputs.stop)
     early, later = times[times <= begin], times[times > begin]
     began = process_time()
     start = simulate(device, [replace(inputs, stop=begin)], np.append(early, begin))
     started = process_time() - began
-    if begin == inputs.stop:
-        return replace(
-            solution_of(start, located=False),
-            times=early,
-            position=start.position[:-1],
-            velocity=start.velocity[:-1],
-        )
     direction = float(start.contact_mode[-1])
     if direction == 0.0:
         raise ValueError("the slider sticks after a drive period, which it does not cover")
