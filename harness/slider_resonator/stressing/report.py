@@ -23,15 +23,10 @@ GRIDS = (
 
 def write_stress_page(path: Path, results: Sequence[StressResult], provenance: Provenance) -> None:
     """Write the page; HarnessError when that is impossible."""
-    overview: list[Row] = [
-        (
-            Path(one.fmu).name,
-            verdict(not one.failed, one.not_run),
-            *map(str, (len(one.verdicts), one.skipped, one.not_run)),
-            f"{one.wall_time:.0f}",
-        )
-        for one in results
-    ]
+    overview: list[Row] = []
+    for one in results:
+        sizes = f"{len(one.verdicts)}", f"{one.skipped}", f"{one.not_run}", f"{one.wall_time:.0f}"
+        overview.append((Path(one.fmu).name, verdict(not one.failed, one.not_run), *sizes))
     counts = numbers("cases", "skipped", "not run", "wall time [s]")
     legend: list[Row] = []
     for name, meaning in MEANINGS.items():
@@ -61,8 +56,7 @@ def _of_one_fmu(result: StressResult) -> list[str]:
             parts.append(section(anchor, heading, count, table, unfolded=name == FAILED))
     nearest: list[Row] = [
         (model, f"{check.found:.2g}", check.name, case.name)
-        for model, case in result.nearest.items()
-        if (check := case.nearest)
+        for model, (case, check) in result.nearest.items()
     ]
     columns = (*texts("model"), *numbers("nearest to its bound"), *texts("in", "case"))
     parts.append(rendered(Table(columns, nearest)))
@@ -123,13 +117,13 @@ def as_plain(results: Sequence[StressResult]) -> dict[str, object]:
                 "not_run": result.not_run,
                 "counts": result.counts,
                 "wall_time": result.wall_time,
-                "worst_step_over_period_cost": result.most_expensive
-                and result.most_expensive.cost_ratio,
-                "worst_step_case": result.most_expensive and result.most_expensive.name,
-                "worst": {model: case.name for model, case in result.nearest.items()},
+                "worst_step_over_period_cost": worst and worst.cost_ratio,
+                "worst_step_case": worst and worst.name,
+                "worst": {model: case.name for model, (case, _) in result.nearest.items()},
                 "verdicts": result.verdicts,
             }
             for result in results
+            for worst in [result.most_expensive]
         ],
     }
 

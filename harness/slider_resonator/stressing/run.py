@@ -56,13 +56,14 @@ def judge(case: Case, seen: Observation) -> Verdict:
         checks += [] if case.is_random else [*invariants(case, seen), *equalities(case, seen)]
         checks += [compare_with_reference(case, seen)] if has_reference(case) else []
     last = checks[-1]
+    judged = verdict_on(case, PASSED)
+    judged = replace(judged, worst_step=seen.worst_step, period_cost=seen.period_cost)
     if not case.is_random:
-        ratio = seen.worst_step / seen.period_cost if seen.period_cost > 0.0 else 0.0
         words = (
-            f"the most expensive step costs {ratio:.3g} drive periods of the device, "
+            f"the most expensive step costs {judged.cost_ratio:.3g} drive periods of the device, "
             f"allowed {MAX_RELATIVE_COST:g}"
         )
-        share = ratio / MAX_RELATIVE_COST
+        share = judged.cost_ratio / MAX_RELATIVE_COST
         checks.append(BoundCheck("cost of a step", share, words, is_deviation=False))
     reason = "; ".join(f"{check.name}: {check.words}" for check in checks if not check.passed)
     verdict = FAILED if reason else PASSED
@@ -70,12 +71,7 @@ def judge(case: Case, seen: Observation) -> Verdict:
         verdict, reason = NO_REFERENCE, last.words
     elif case.is_random and last.name == REFERENCE and not last.passed:
         verdict = SENSITIVE if is_sensitive(case, last.found) else FAILED
-    return replace(
-        verdict_on(case, verdict, reason),
-        checks=tuple(checks),
-        worst_step=seen.worst_step,
-        period_cost=seen.period_cost,
-    )
+    return replace(judged, verdict=verdict, reason=reason, checks=tuple(checks))
 
 
 TIME_LIMIT = 300.0
@@ -110,12 +106,11 @@ class StressResult(Shown, Tabular):
     def sentences(self) -> list[str]:
         """Return what was found, in lines; a failed case has the command that runs it again."""
         lines = f"{one_line(self.fmu)}: {self.summary}".splitlines()
-        for model, case in self.nearest.items():
-            if check := case.nearest:
-                lines.append(
-                    f"  nearest to a bound, {model}: {check.found:.2g} of it in {check.name}, "
-                    f"{case.axis}: {case.value}"
-                )
+        lines += [
+            f"  nearest to a bound, {model}: {check.found:.2g} of it in {check.name}, "
+            f"{case.axis}: {case.value}"
+            for model, (case, check) in self.nearest.items()
+        ]
         for case in self.verdicts:
             if case.verdict not in (PASSED, NO_REFERENCE):
                 lines.append(f"  {case.verdict}: {case.name}: {one_line(case.reason)}")
@@ -130,11 +125,11 @@ class StressResult(Shown, Tabular):
         return none | Counter(one.verdict for one in self.verdicts)
 
     @property
-    def nearest(self) -> dict[str, Verdict]:
-        """For each model the passed case that is nearest to a bound."""
-        passed = [one for one in self.verdicts if one.verdict == PASSED and one.nearest]
-        ordered = sorted(passed, key=lambda one: one.nearest.found if one.nearest else 0.0)
-        return {one.model: one for one in ordered}
+    def nearest(self) -> dict[str, tuple[Verdict, BoundCheck]]:
+        """For each model the passed case that is nearest to a bound, and that bound."""
+        passed = [one for one in self.verdicts if one.verdict == PASSED]
+        pairs = [(one, check) for one in passed if (check := one.nearest)]
+        return {one.model: (one, check) for one, check in sorted(pairs, key=lambda p: p[1].found)}
 
     @property
     def passed(self) -> bool:
@@ -151,8 +146,8 @@ class StressResult(Shown, Tabular):
     @property
     def most_expensive(self) -> Verdict | None:
         """The case with the worst cost of a step relative to a period of its device."""
-        ran = [one for one in self.verdicts if one.period_cost > 0.0]
-        return max(ran, key=lambda one: one.cost_ratio, default=None)
+        worst = max(self.verdicts, key=lambda one: one.cost_ratio, default=None)
+        return worst if worst and worst.cost_ratio else None
 
     @property
     def summary(self) -> str:
@@ -217,24 +212,18 @@ def run_cases(
     verdicts: list[Verdict] = []
     chosen = applicable(fmu, cases)
 
-    def report(case: Case) -> None:
-        done = len(verdicts)
-        label = case.value if case.is_random else case.axis
-        progress(counted(f"{fmu.name}: {label}", done, len(chosen)), done / len(chosen))
-
     def result() -> StressResult:
-        seconds, skipped = time.perf_counter() - began, len(cases) - len(chosen)
-        left = len(chosen) - len(verdicts)
-        return StressResult(str(fmu), tuple(verdicts), seconds, left, skipped)
+        seconds, left = time.perf_counter() - began, len(chosen) - len(verdicts)
+        return StressResult(str(fmu), tuple(verdicts), seconds, left, len(cases) - len(chosen))
 
     tasks = [(case, partial(observe, case=case)) for case in chosen]
     try:
         with LocalProcesses(fmu, time_limit, jobs) as processes:
             for case, outcome in run_all_tasks(processes, tasks, outcomes=(FmuDied,)):
-                report(case)
-                error = outcome.error
-                failed = error and verdict_on(case, FAILED, str(error))
-                verdicts.append(failed or judge(case, outcome.value))
+                done, label = len(verdicts), case.value if case.is_random else case.axis
+                progress(counted(f"{fmu.name}: {label}", done, len(chosen)), done / len(chosen))
+                died = outcome.error and verdict_on(case, FAILED, str(outcome.error))
+                verdicts.append(died or judge(case, outcome.value))
     except BaseException:
         if verdicts:
             keep(result())

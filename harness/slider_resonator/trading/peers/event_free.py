@@ -8,7 +8,6 @@ creeps. The bristle of LuGre friction is a fifth state.
 """
 
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -46,8 +45,51 @@ def simulate(
     event times. Raises ValueError for times outside the inputs, RuntimeError where a step
     fails or the right hand side is evaluated more than ``max_evaluations`` times.
     """
-    limits = (rtol, atol, width, max_evaluations)
-    return RunWithoutEvents(device, times).run(held, partial(_integrate, method, limits))
+
+    def integrate(run: RunWithoutEvents, inputs: HeldInputs) -> None:
+        equations, recorder = run.equations, run.recorder
+        span = inputs.stop - inputs.start
+        scales, longest = equations.state_scales(inputs.load), np.inf
+        if equations.path_rate:
+            scales = np.append(scales, 1.0 / equations.path_rate)
+            ratio = max(inputs.frequency_ratio, inputs.later(span).frequency_ratio, key=abs)
+            longest = 2.0 * np.pi / equations.fastest_rate(ratio) / STEPS_PER_FASTEST_PERIOD
+        slopes = equations.slopes(None, run.theta, run.psi + inputs.phase, inputs, width)
+        given = {"max_step": longest, "rtol": rtol, "atol": atol * scales}
+        solver = method(slopes, 0.0, run.state, span, **given)
+        while solver.status == "running":
+            message = solver.step()
+            time, evaluations = inputs.start + float(solver.t), recorder.evaluations + solver.nfev
+            if solver.status == "failed":
+                raise RuntimeError(
+                    f"{method.__name__} failed at t = {time!r} s: {message}; use a greater atol"
+                )
+            if evaluations > max_evaluations:
+                raise RuntimeError(
+                    f"{method.__name__} has used {evaluations} evaluations up to t = {time!r} s, "
+                    f"max_evaluations = {max_evaluations}: it chatters in a stick; use a greater "
+                    "atol, or located events"
+                )
+            recorder.steps += 1
+            load = equations.normal_amplitude * np.sin(run.angles(inputs, float(solver.t)))
+            if equations.normal_preload + load > 0.0:
+                recorder.slide(int(np.sign(solver.y[1])))
+            reached = time if solver.status == "running" else inputs.stop
+            local = recorder.pending(reached) - inputs.start
+            if local.size:
+                states, angles = solver.dense_output()(local).T, run.angles(inputs, local)
+                if equations.path_rate:
+                    at = (SLIP_FORWARD, 0.0, angles, angles, states)
+                    _, friction = equations.contact_forces(*at)
+                else:
+                    velocity = states[:, 1]
+                    share = np.tanh(velocity / width) if width else np.sign(velocity)
+                    friction = share * np.maximum(0.0, equations.friction_limit(angles))
+                run.keep(inputs, local, states, friction)
+        recorder.evaluations += solver.nfev
+        run.state = solver.y
+
+    return RunWithoutEvents(device, times).run(held, integrate)
 
 
 class RunWithoutEvents:
@@ -98,53 +140,3 @@ class RunWithoutEvents:
             (np.maximum(0.0, load), friction),
             np.where(load > 0.0, np.sign(states[:, 1]), float(LIFTED)),
         )
-
-
-def _integrate(
-    method: Callable[..., Any],
-    limits: tuple[float, float, float, int],
-    run: RunWithoutEvents,
-    inputs: HeldInputs,
-) -> None:
-    """Advance a run; `limits` are rtol, atol, width and max_evaluations of `simulate`."""
-    rtol, atol, width, max_evaluations = limits
-    equations, recorder = run.equations, run.recorder
-    span = inputs.stop - inputs.start
-    scales, longest = equations.state_scales(inputs.load), np.inf
-    if equations.path_rate:
-        scales = np.append(scales, 1.0 / equations.path_rate)
-        ratio = max(inputs.frequency_ratio, inputs.later(span).frequency_ratio, key=abs)
-        longest = 2.0 * np.pi / equations.fastest_rate(ratio) / STEPS_PER_FASTEST_PERIOD
-    slopes = equations.slopes(None, run.theta, run.psi + inputs.phase, inputs, width)
-    solver = method(slopes, 0.0, run.state, span, max_step=longest, rtol=rtol, atol=atol * scales)
-    while solver.status == "running":
-        message = solver.step()
-        if solver.status == "failed":
-            raise RuntimeError(
-                f"{method.__name__} failed at t = {inputs.start + float(solver.t)!r} s: "
-                f"{message}; use a greater atol"
-            )
-        evaluations = recorder.evaluations + solver.nfev
-        if evaluations > max_evaluations:
-            raise RuntimeError(
-                f"{method.__name__} has used {evaluations} evaluations up to "
-                f"t = {inputs.start + float(solver.t)!r} s, max_evaluations = {max_evaluations}: "
-                "it chatters in a stick; use a greater atol, or located events"
-            )
-        recorder.steps += 1
-        load = equations.normal_amplitude * np.sin(run.angles(inputs, float(solver.t)))
-        if equations.normal_preload + load > 0.0:
-            recorder.slide(int(np.sign(solver.y[1])))
-        reached = inputs.start + solver.t if solver.status == "running" else inputs.stop
-        local = recorder.pending(reached) - inputs.start
-        if local.size:
-            states, angles = solver.dense_output()(local).T, run.angles(inputs, local)
-            if equations.path_rate:
-                _, friction = equations.contact_forces(SLIP_FORWARD, 0.0, angles, angles, states)
-            else:
-                velocity = states[:, 1]
-                share = np.tanh(velocity / width) if width else np.sign(velocity)
-                friction = share * np.maximum(0.0, equations.friction_limit(angles))
-            run.keep(inputs, local, states, friction)
-    recorder.evaluations += solver.nfev
-    run.state = solver.y

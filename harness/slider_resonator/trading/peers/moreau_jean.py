@@ -16,7 +16,6 @@ import numpy as np
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved.equations import Equations
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.trading.peers.event_free import RunWithoutEvents
 
@@ -41,71 +40,48 @@ def simulate(
 
 def _follow(run: RunWithoutEvents, inputs: HeldInputs, *, steps_per_period: int) -> None:
     """Step through held inputs; the friction of the last step goes on to the next."""
-    equations, recorder = run.equations, run.recorder
-    rate = equations.drive_frequency
-    angle_rate, half = inputs.frequency_ratio * rate, 0.5 * inputs.ratio_rate * rate
-    load, load_rate = inputs.load, inputs.load_rate
-    span = inputs.stop - inputs.start
+    e, recorder = run.equations, run.recorder
+    rate, span = e.drive_frequency, inputs.stop - inputs.start
     count = ceil(span * rate / (2.0 * pi) * steps_per_period * (1.0 - _SAME_INSTANT))
-    step = span / count
-    smooth = _SmoothStep(equations, step)
-    theta, angle = run.theta, run.psi + inputs.phase
-    limit_mean, limit_amplitude = equations.friction_mean, equations.friction_amplitude
+    h = span / count
+    # The velocities v1, u1 after a step obey v1 - pull u1 = a and v1 + (1 + swing) u1 = b.
+    pull = 0.5 * h * (e.coupling_damping + 0.5 * h * e.coupling_stiffness) / e.inertia
+    swing = 0.5 * h * (e.damping_rate + 0.5 * h * e.stiffness_rate)
+    inverse = 1.0 / (1.0 + swing + pull)
+    mobility = (1.0 + swing) * inverse / e.inertia
+    resonator_mobility = -inverse / e.inertia
+    angle = run.psi + inputs.phase
     x, v, y, u = run.state.tolist()
     path = array("d", (x, v, y, u, run.friction))
     for index in range(count):
-        middle = (index + 0.5) * step
-        pulled = load + load_rate * middle
-        free_v, free_u = smooth.free(v, y, u, theta + rate * middle, pulled)
-        normal = angle + (angle_rate + half * middle) * middle
-        limit = step * max(0.0, limit_mean + limit_amplitude * sin(normal))
-        impulse = min(limit, max(-limit, free_v / smooth.mobility))
+        middle = (index + 0.5) * h
+        theta = run.theta + rate * middle
+        sine, cosine = sin(theta), sin(theta + 0.5 * pi)
+        stretched = y + 0.25 * h * u
+        force = e.coupling_stiffness * stretched + 0.5 * e.coupling_damping * u
+        force += e.force_sine * sine + e.force_cosine * cosine
+        force -= inputs.load + inputs.load_rate * middle
+        shaken = e.base_acceleration * sine - 0.5 * e.damping_rate * u
+        a = v + h * force / e.inertia
+        b = v + u + h * (shaken - e.stiffness_rate * stretched)
+        free_u = (b - a) * inverse
+        free_v = a + pull * free_u
+        normal = angle + inputs.turned(middle, rate)
+        limit = h * max(0.0, e.friction_mean + e.friction_amplitude * sin(normal))
+        impulse = min(limit, max(-limit, free_v / mobility))
         # Where the impulse stops the slider, it does so exactly: -0.0 and rounding are no slip.
-        stopped = abs(impulse) < limit
-        next_v = 0.0 if stopped else free_v - smooth.mobility * impulse
-        next_u = free_u - smooth.resonator_mobility * impulse
-        x += 0.5 * step * (v + next_v)
-        y += 0.5 * step * (u + next_u)
+        next_v = 0.0 if abs(impulse) < limit else free_v - mobility * impulse
+        next_u = free_u - resonator_mobility * impulse
+        x += 0.5 * h * (v + next_v)
+        y += 0.5 * h * (u + next_u)
         v, u = next_v, next_u
-        path.extend((x, v, y, u, impulse / step))
+        path.extend((x, v, y, u, impulse / h))
         recorder.slide((v > 0.0) - (v < 0.0))
     recorder.steps += count
     recorder.evaluations += count
     rows = np.array(path).reshape(-1, 5)
     run.state, run.friction = rows[-1, :4], float(rows[-1, 4])
     local = recorder.pending(inputs.stop) - inputs.start
-    ends = step * np.arange(count + 1)
+    ends = h * np.arange(count + 1)
     samples = np.column_stack([np.interp(local, ends, column) for column in rows.T])
     run.keep(inputs, local, samples[:, :4], samples[:, 4])
-
-
-class _SmoothStep:
-    """One step of the theta method at 1/2 without friction, and what an impulse does to it.
-
-    The unknowns are the velocities of slider and resonator at the end of the step, from two linear
-    equations whose matrix is inverted once.
-    """
-
-    def __init__(self, equations: Equations, step: float) -> None:
-        e, h = equations, step
-        self._equations = e
-        self._step = h
-        pull = 0.5 * h * (e.coupling_damping + 0.5 * h * e.coupling_stiffness) / e.inertia
-        swing = 0.5 * h * (e.damping_rate + 0.5 * h * e.stiffness_rate)
-        # v1 - pull u1 = a and v1 + (1 + swing) u1 = b, the second with v' moved to the left.
-        self._pull, self._inverse = pull, 1.0 / (1.0 + swing + pull)
-        self.mobility = (1.0 + swing) * self._inverse / e.inertia
-        self.resonator_mobility = -self._inverse / e.inertia
-
-    def free(self, v: float, y: float, u: float, theta: float, load: float) -> tuple[float, float]:
-        """Return both velocities after the step; drive angle and load are those at its middle."""
-        e, h = self._equations, self._step
-        sine, cosine = sin(theta), sin(theta + 0.5 * pi)
-        middle = y + 0.25 * h * u
-        force = e.coupling_stiffness * middle + 0.5 * e.coupling_damping * u
-        force += e.force_sine * sine + e.force_cosine * cosine - load
-        a = v + h * force / e.inertia
-        shaken = e.base_acceleration * sine - 0.5 * e.damping_rate * u - e.stiffness_rate * middle
-        b = v + u + h * shaken
-        after_u = (b - a) * self._inverse
-        return a + self._pull * after_u, after_u
