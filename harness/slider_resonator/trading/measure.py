@@ -22,7 +22,7 @@ from slider_resonator.references.resolved.contact import STICK
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trading.fmu_methods import FmuMethods, TaskRunner
 from slider_resonator.trading.method import STEADY, Method, SteadyMethod
-from slider_resonator.trading.peer_methods import peer_answers, peer_methods, shoot
+from slider_resonator.trading.peer_methods import Peer, peer_answers, peer_methods, shoot
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import Omission, Row, Trade
 from slider_resonator.trading.solution import QUANTITIES, Readings, errors, solution_of, windows
@@ -127,7 +127,8 @@ def measure_trade(
         fmus = [FmuMethods(problem, build, instance) for build, instance in instances.items()]
         for fmu in fmus:
             fmu.check_runs()
-        methods = [method for fmu in fmus for method in fmu.methods()] + list(peer_methods(problem))
+        methods: list[Method | Peer] = [method for fmu in fmus for method in fmu.methods()]
+        methods += peer_methods(problem)
         answers = [answer for fmu in fmus for answer in fmu.answers()] + list(peer_answers(problem))
         for index, method in enumerate(methods):
             report(method.label.method, index, len(methods), 0.0, 0.4)
@@ -163,7 +164,7 @@ def measure_trade(
 
 
 def _follow(
-    problem: Problem, reference: Reference, method: Method, budget: float, notes: _Notes
+    problem: Problem, reference: Reference, method: Method | Peer, budget: float, notes: _Notes
 ) -> list[_Candidate]:
     """Run a method as far as its budget (s of CPU time) takes it; empty where it has no run."""
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from time import process_time
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from scipy.integrate import DOP853
@@ -25,7 +25,7 @@ from slider_resonator.steady.reference_steady import (
     reference_steady_velocity,
 )
 from slider_resonator.steady.searches import SteadyAnswer
-from slider_resonator.trading.method import STEADY, Method, SteadyMethod
+from slider_resonator.trading.method import STEADY, SteadyMethod
 from slider_resonator.trading.peers import event_free, located_scipy, moreau_jean
 from slider_resonator.trading.peers.switching_taylor import heyoka_in_one_call
 from slider_resonator.trading.problem import Problem
@@ -44,13 +44,15 @@ NO_MODES = {"event_times": "averaged motion has no events", **NOT_SHOT}
 
 @dataclass(frozen=True)
 class Peer:
-    """A method by the setting that its error depends on.
+    """A method on a problem, by the setting that its error depends on; it is measured as a Method.
 
     `simulate` returns a trajectory, with the times of its events unless these are `missing`, or a
     solution. `shooting` is the accuracy of shooting in units of the state, None for a method that
     cannot start in any state.
     """
 
+    min_periods: ClassVar[int] = 1
+    problem: Problem
     family: str
     setting: str
     tolerance: float | None
@@ -59,27 +61,39 @@ class Peer:
     cannot_stick: bool = False
     missing: Mapping[str, str] = field(default_factory=lambda: NO_EVENTS)
 
-    def follow(self, device: Device, held: Sequence[HeldInputs], times: Array) -> Solution:
-        """Return the motion of a device through inputs at times (s), shape (n,)."""
-        found = self.simulate(device, held, times)
-        if isinstance(found, Solution):
-            return found
-        return solution_of(found, located="event_times" not in self.missing)
-
-    def label(self, problem: Problem) -> Label:
-        """Return what it is called on a problem."""
+    @property
+    def label(self) -> Label:
+        """What it is called."""
         name = f"{self.family}, {self.setting}" if self.setting else self.family
-        law = problem.device.friction_law
+        law = self.problem.device.friction_law
         return Label(PEER, self.family, name, law, tolerance=self.tolerance)
 
+    def run(self, periods: int) -> tuple[float, Solution]:
+        """Follow the motion over drive periods; return the CPU time (s), too."""
+        began, problem = process_time(), self.problem
+        ends = np.empty(0) if problem.beat is None else problem.ends(periods)
+        times = np.union1d(problem.readings(periods), ends)
+        found = self.simulate(problem.device, problem.lines(periods), times)
+        if not isinstance(found, Solution):
+            found = solution_of(found, located="event_times" not in self.missing)
+        position = found.position[np.searchsorted(times, ends)]
+        history = ends[1:], np.diff(position) / problem.period
+        return process_time() - began, replace(found, history=history)
 
-def peers(problem: Problem) -> Iterator[Peer]:
+    def seconds(self, periods: int) -> float:
+        """Follow the motion; return the CPU time (s) without initialisation."""
+        taken, solution = self.run(periods)
+        return taken - (solution.start_cpu or 0.0)
+
+
+def peer_methods(problem: Problem) -> Iterator[Peer]:
     """Yield the peers for the friction law of a problem."""
-    located = partial(Peer, missing={})
+    peer = partial(Peer, problem)
+    located = partial(peer, missing={})
     yield located("Taylor series in Python", "", None, simulate_series, shooting=1e-9)
     is_lugre = problem.device.friction_law == 1
     family = "heyoka at its fastest" + (", bristle from path" if is_lugre else "")
-    in_one_call = partial(Peer, shooting=None, cannot_stick=True, missing=NO_REVERSALS)
+    in_one_call = partial(peer, shooting=None, cannot_stick=True, missing=NO_REVERSALS)
     for tolerance in (1e-3, 1e-6, 1e-9, 1e-12):
         heyoka = partial(heyoka_in_one_call, tolerance=tolerance)
         yield in_one_call(family, f"tol {tolerance:.0e}", tolerance, heyoka)
@@ -87,7 +101,7 @@ def peers(problem: Problem) -> Iterator[Peer]:
         for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
             bristle = partial(event_free.simulate, rtol=tolerance, atol=1e-2 * tolerance)
             family, setting = "LSODA, bristle as state", f"tol {tolerance:.0e}"
-            yield Peer(family, setting, tolerance, bristle, max(1e-9, tolerance))
+            yield peer(family, setting, tolerance, bristle, max(1e-9, tolerance))
     else:
         for tolerance in (1e-3, 1e-5, 1e-8, 1e-11):
             scipy = partial(
@@ -98,14 +112,14 @@ def peers(problem: Problem) -> Iterator[Peer]:
         on_sgn = partial(event_free.simulate, method=DOP853, max_evaluations=MAX_EVALUATIONS)
         for atol in (1e-4, 1e-6, 1e-8, 1e-10):
             sgn = partial(on_sgn, rtol=1e-6, atol=atol)
-            yield Peer("DOP853 on sgn (the paper)", f"rtol 1e-06, atol {atol:.0e}", atol, sgn)
+            yield peer("DOP853 on sgn (the paper)", f"rtol 1e-06, atol {atol:.0e}", atol, sgn)
         for count in (16, 64, 256, 1024):
             stepping = partial(moreau_jean.simulate, steps_per_period=count)
-            yield Peer("Moreau-Jean", f"{count} steps a period", None, stepping)
+            yield peer("Moreau-Jean", f"{count} steps a period", None, stepping)
         for share in (1e-1, 1e-2, 1e-3, 1e-4):
             setting = f"width {share:g} of the fast velocity"
-            yield Peer("tanh, LSODA", setting, None, partial(_regularised, share=share))
-    yield Peer("averaged equation, scipy", "", None, _averaged, shooting=None, missing=NO_MODES)
+            yield peer("tanh, LSODA", setting, None, partial(_regularised, share=share))
+    yield peer("averaged equation, scipy", "", None, _averaged, shooting=None, missing=NO_MODES)
 
 
 def _regularised(
@@ -151,34 +165,10 @@ def shoot(
     return SteadyAnswer(seconds, value, none, round(sum(simulated)))
 
 
-def peer_methods(problem: Problem) -> Iterator[Method]:
-    """Yield the peers as methods."""
-    for peer in peers(problem):
-        run = partial(_run, problem, peer)
-        seconds = partial(_seconds, run)
-        missing, label = peer.missing, peer.label(problem)
-        yield Method(label, run, seconds, cannot_stick=peer.cannot_stick, missing=missing)
-
-
 def peer_answers(problem: Problem) -> Iterator[SteadyMethod]:
     """Yield the searches for steady velocity and blocking force, of peers that support shooting."""
     for quantity in STEADY:
-        for peer in peers(problem):
+        for peer in peer_methods(problem):
             if peer.shooting is not None:
                 find = partial(shoot, problem, quantity, peer.simulate, peer.shooting)
-                yield SteadyMethod(peer.label(problem), quantity, find)
-
-
-def _run(problem: Problem, peer: Peer, periods: int) -> tuple[float, Solution]:
-    began = process_time()
-    ends = np.empty(0) if problem.beat is None else problem.ends(periods)
-    times = np.union1d(problem.readings(periods), ends)
-    solution = peer.follow(problem.device, problem.lines(periods), times)
-    position = solution.position[np.searchsorted(times, ends)]
-    history = ends[1:], np.diff(position) / problem.period
-    return process_time() - began, replace(solution, history=history)
-
-
-def _seconds(run: Callable[[int], tuple[float, Solution]], periods: int) -> float:
-    taken, solution = run(periods)
-    return taken - (solution.start_cpu or 0.0)
+                yield SteadyMethod(peer.label, quantity, find)

@@ -2,12 +2,11 @@
 
 import pytest
 
-from slider_resonator.trading.method import Method
-from slider_resonator.trading.peer_methods import peer_answers, peer_methods
+from slider_resonator.trading.peer_methods import Peer, peer_answers, peer_methods
 from tests.harness.trading.problems import RAMP, TABLE_1, problem
 
 
-def in_one_call(text: str) -> Method:
+def in_one_call(text: str) -> Peer:
     methods = peer_methods(problem(text, max_periods=4))
     return next(method for method in methods if method.label.family == "heyoka at its fastest")
 
