@@ -55,7 +55,10 @@ def observe(instance: Instance, case: Case) -> Observation:
         others = {"other steps": replace(case, holds=case.other_holds)}
         if case.start_time:
             others["from time 0"] = replace(case, start_time=0.0)
-        ends = {name: _run(instance, other)[0] for name, other in others.items()}
+        ends = {
+            name: {output: float(values[-1]) for output, values in _run(instance, other)[0].items()}
+            for name, other in others.items()
+        }
         size = min(case.period, case.duration)
         baseline = (Hold(size, BASELINE_STEPS, *case.holds[0].inputs, tuned=case.holds[0].tuned),)
         _, periods = _run(instance, replace(case, holds=baseline, start_time=0.0))
@@ -64,10 +67,7 @@ def observe(instance: Instance, case: Case) -> Observation:
     steps = zip(case.sizes, first_costs, second_costs, strict=True)
     return Observation(
         outputs=first,
-        others={
-            name: {output: float(values[-1]) for output, values in outputs.items()}
-            for name, outputs in ends.items()
-        },
+        others=ends,
         replayed=all(np.array_equal(first[n], second[n], equal_nan=True) for n in OUTPUTS),
         worst_step=max(min(costs) / max(1.0, one / case.period) for one, *costs in steps),
         period_cost=median(periods) * case.period / size,

@@ -8,7 +8,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from distributed import CancelledError, Client, KilledWorker, Worker, WorkerPlugin
+from distributed import CancelledError, Client, KilledWorker, Worker, WorkerPlugin, get_worker
 
 from slider_resonator import __version__
 from slider_resonator.errors import HarnessError
@@ -17,12 +17,9 @@ from slider_resonator.fmu.isolation.tasks import LocalProcesses, Outcome
 
 CONNECT_SECONDS = 30
 
-_runners: dict[str, LocalProcesses] = {}
-"""Digest of an FMU to what runs its tasks, on a worker."""
-
 
 class FmuPlugin(WorkerPlugin):
-    """Copy the FMU to every worker, also to one that joins later.
+    """Copy the FMU to every worker, also to one that joins later, where `processes` run it.
 
     Raises HarnessError on a worker with another version of this package: its rows could differ.
     """
@@ -30,7 +27,7 @@ class FmuPlugin(WorkerPlugin):
     def __init__(self, digest: str, file_name: str, content: bytes, time_limit: float) -> None:
         self.name = f"slider-resonator-{digest}"
         self.version = __version__
-        self.digest = digest
+        self.processes: LocalProcesses | None = None
         self.file_name = file_name
         self.content = content
         self.time_limit = time_limit
@@ -45,35 +42,37 @@ class FmuPlugin(WorkerPlugin):
         folder = tempfile.mkdtemp(prefix="fmu-", dir=worker.local_directory)
         fmu = Path(folder) / self.file_name
         fmu.write_bytes(self.content)
-        _runners[self.digest] = LocalProcesses(fmu, self.time_limit)
+        self.processes = LocalProcesses(fmu, self.time_limit)
 
     def teardown(self, worker: Worker) -> None:
         """End the FMU's processes on the worker."""
-        if self.digest in _runners:
-            _runners.pop(self.digest).end()
+        if self.processes is not None:
+            self.processes.end()
 
 
-def run_task(digest: str, task: Task) -> Outcome:
+def run_task(plugin_name: str, task: Task) -> Outcome:
     """Run a task of a sweep, on a worker."""
-    if digest not in _runners:
+    plugin: Any = get_worker().plugins.get(plugin_name)
+    if plugin is None:
         return Outcome(error=HarnessError("this worker has not been given the FMU"))
-    return _runners[digest].run(task)
+    outcome: Outcome = plugin.processes.run(task)
+    return outcome
 
 
 class DaskProcesses:
     """The workers of a cluster, which itself runs the tasks of a dead worker again."""
 
-    def __init__(self, client: Client, address: str, digest: str, count: int) -> None:
+    def __init__(self, client: Client, address: str, plugin_name: str, count: int) -> None:
         self.count = count
         self._client = client
         self._address = address
-        self._digest = digest
+        self._plugin_name = plugin_name
         self._executor: Any = client.get_executor(pure=False)  # type: ignore[no-untyped-call]
 
     def submit(self, task: Task) -> Future[Outcome]:
         """Begin to run a task, or queue it."""
         with _naming_loss(self._address):
-            future: Future[Outcome] = self._executor.submit(run_task, self._digest, task)
+            future: Future[Outcome] = self._executor.submit(run_task, self._plugin_name, task)
             return future
 
     def outcome(self, future: Future[Outcome]) -> Outcome:
@@ -106,7 +105,7 @@ def dask_processes(
         with _naming_loss(address):
             client.register_plugin(plugin)
             threads: dict[str, int] = client.nthreads()  # type: ignore[no-untyped-call]
-        processes = DaskProcesses(client, address, digest, max(1, sum(threads.values())))
+        processes = DaskProcesses(client, address, plugin.name, max(1, sum(threads.values())))
         try:
             yield processes
         finally:

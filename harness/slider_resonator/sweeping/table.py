@@ -68,7 +68,7 @@ def _read(path: Path) -> Columns:
         return dict(parquet.read_table(path).to_pydict())
     with path.open(encoding="utf-8", newline="") as file:
         names, *rows = csv.reader(file, strict=True)
-    return {name: [row[index] for row in rows] for index, name in enumerate(names)}
+    return dict(zip(names, map(list, zip(*rows, strict=True)), strict=True))
 
 
 def check_nothing_lost(path: Path, before: Columns, now: Columns) -> None:
