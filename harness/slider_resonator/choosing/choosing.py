@@ -17,7 +17,7 @@ from slider_resonator.choosing.candidate import (
 )
 from slider_resonator.choosing.choice import SAME_COST, Choice, Evaluation, RuledOut, cheapest
 from slider_resonator.choosing.errors import Estimates
-from slider_resonator.choosing.probe import FINEST_TOLERANCE, HEAD_PERIODS, Probe
+from slider_resonator.choosing.probe import HEAD_PERIODS, Probe
 from slider_resonator.choosing.steady_need import find, steady_error
 from slider_resonator.device.model import COULOMB, LUGRE, Model
 from slider_resonator.errors import FmuError, SceneError
@@ -84,7 +84,6 @@ class Choosing:
         self.law = scene.device.friction_law
         self.probe = Probe(instance, scene)
         self.scene = self.probe.scene
-        self.finest = Candidate(self.probe.reference_model, FINEST_TOLERANCE, None)
         self._evaluations: dict[Candidate, Evaluation] = {}
         self._steady: dict[tuple[str, Candidate], SteadyAnswer] = {}
 
@@ -125,7 +124,7 @@ class Choosing:
         if self.probe.no_beat:
             return f"beat: {self.probe.no_beat}"
         for name in self.probe.steady_needs:
-            found = self._find(name, self.finest)
+            found = self._find(name, self.probe.finest)
             if found.value is None:
                 return f"{name}: {found.reason}"
         return ""
@@ -186,7 +185,7 @@ class Choosing:
 
     def _cost_of(self, model: Model) -> float:
         """Return about what resolved motion costs (s), 0 where the FMU cannot run it."""
-        cost = sum(self._find(name, self.finest).seconds for name in self.probe.steady_needs)
+        cost = sum(self._find(name, self.probe.finest).seconds for name in self.probe.steady_needs)
         if self.probe.run_needs:
             start = Candidate(model, tolerances(model)[0], self.steps(model)[0])
             try:
@@ -208,7 +207,7 @@ class Choosing:
                 estimates, cost = self.probe.measure(candidate)
             for name in self.probe.steady_needs:
                 found = self._find(name, candidate)
-                estimates[name] = steady_error(found, self._find(name, self.finest), self.law)
+                estimates[name] = steady_error(found, self._find(name, self.probe.finest), self.law)
                 cost += found.seconds
             allowed = {name: self.needs[name].at(e.magnitude) for name, e in estimates.items()}
             covers = self.probe.covers if self.probe.run_needs else "steady motion"

@@ -73,23 +73,18 @@ class Probe:
         passes_on = scene.run is not None and scene.run.interpolate
         self.varying = must_hold(scene, interpolates=passes_on)
         self.reference_model = Model(2, scene.device.friction_law)
-        self._leaps = replace(self.reference_model, fidelity=0, averaging_order=2)
+        self.finest = Candidate(self.reference_model, FINEST_TOLERANCE, None)
+        leaps = replace(self.reference_model, fidelity=0, averaging_order=2)
+        self._leaps = [Candidate(leaps, tolerance, None) for tolerance in LEAP_TOLERANCES]
         self.averaging_orders = (1, 2) if instance.fmu.has_orders else (None,)
         self.ladder: tuple[float | None, ...] = (None,)
         if self.run_needs:
             most = MAX_FOLLOWED_STEPS if can_interpolate else MAX_STEPS
             self.ladder = step_ladder(scene, self.run_needs, most, varying=self.varying)
-        self._finest = self.ladder[-1] or self.duration
+        self._finest_step = self.ladder[-1] or self.duration
         self.drive_periods = 0.0
         """Drive periods that the FMU has resolved so far, with those of searches."""
         self._references: dict[float, Record] = {}
-
-    @property
-    def covers(self) -> str:
-        """What the errors were compared with: "whole", "leaps" over the whole, or "beginning"."""
-        if self._stop < self.duration:
-            return "beginning"
-        return "leaps" if self._leaps_serve else "whole"
 
     def measure(self, candidate: Candidate) -> tuple[Estimates, float]:
         """Return errors by need, and cost (s), of a run with a candidate.
@@ -150,40 +145,47 @@ class Probe:
         """
         key = step if must_hold(self.scene, interpolates=self.instance.fmu.interpolates) else 0.0
         if key not in self._references:
-            model, tolerance = self.reference_model, FINEST_TOLERANCE
-            if self._leaps_serve:
-                model, tolerance = self._leaps, LEAP_TOLERANCES[-1]
-            self._references[key] = self._exact_run(model, tolerance, self._stop, step)[0]
+            candidate, stop, _ = self._basis
+            self._references[key] = self._exact_run(candidate, stop, step)[0]
         return self._references[key]
 
-    @cached_property
+    @property
+    def covers(self) -> str:
+        """What the errors were compared with: "whole", "leaps" over the whole, or "beginning"."""
+        return self._basis[2]
+
+    @property
     def _stop(self) -> float:
         """Where references end (s): with the scene, where that can be run as a whole."""
-        share = LONGEST / max(self._resolved_seconds, LONGEST)
-        return self.duration * (1.0 if self._leaps_serve else share)
+        return self._basis[1]
 
     @cached_property
-    def _resolved_seconds(self) -> float:
-        """CPU time (s) of the resolved run of the whole scene, by that of its beginning."""
+    def _basis(self) -> tuple[Candidate, float, str]:
+        """What candidates are compared with, where it ends (s), and what that covers.
+
+        The CPU time of a beginning of resolved motion decides.
+        """
         head = min(self.duration, HEAD_PERIODS * self.scene.drive_period)
-        _, seconds = self._exact_run(self.reference_model, FINEST_TOLERANCE, head, head)
-        return seconds * self.duration / head
+        seconds = self._exact_run(self.finest, head, head)[1] * self.duration / head
+        if self._leaps_serve(seconds):
+            return self._leaps[1], self.duration, "leaps"
+        if seconds <= LONGEST:
+            return self.finest, self.duration, "whole"
+        return self.finest, self.duration * LONGEST / seconds, "beginning"
 
-    @cached_property
-    def _leaps_serve(self) -> bool:
-        """Whether leaps are cheaper by far than the resolved run, and accurate enough."""
-        is_short = self._resolved_seconds <= SHORT
-        if is_short or not self.instance.fmu.has_orders or "event_times" in self.run_needs:
+    def _leaps_serve(self, resolved: float) -> bool:
+        """Whether leaps cost far less than the resolved run (s), and are accurate enough."""
+        has_orders, whole = self.instance.fmu.has_orders, self.duration
+        if resolved <= SHORT or not has_orders or "event_times" in self.run_needs:
             return False
-        whole = self.duration
         try:
-            coarse, seconds = self._exact_run(self._leaps, LEAP_TOLERANCES[0], whole, whole)
-            if GAIN * seconds > self._resolved_seconds:
+            coarse, seconds = self._exact_run(self._leaps[0], whole, whole)
+            if GAIN * seconds > resolved:
                 return False
-            fine, _ = self._exact_run(self._leaps, LEAP_TOLERANCES[1], whole, whole)
+            fine, _ = self._exact_run(self._leaps[1], whole, whole)
         except FmuError:
             return False
-        errors = self._readings(whole, self._finest).errors(coarse, fine)
+        errors = self._readings(whole, self._finest_step).errors(coarse, fine)
         return all(
             found.error <= TRUSTED * self.run_needs[name].at(found.magnitude)
             for name, found in errors.items()
@@ -204,17 +206,15 @@ class Probe:
         law = self.reference_model.friction_law
         return Readings(self.run_needs, points, grid, self.scene.drive_period, law)
 
-    def _exact_run(
-        self, model: Model, tolerance: float, stop: float, step: float
-    ) -> tuple[Record, float]:
+    def _exact_run(self, candidate: Candidate, stop: float, step: float) -> tuple[Record, float]:
         """Return a run up to `stop` (s) without the error of held inputs, and its CPU time (s).
 
         Where inputs must be held, it is a reference of candidates with a `step` (s).
         """
-        readings = self._readings(stop, self._finest)
+        readings = self._readings(stop, self._finest_step)
         points = np.union1d(readings.points, readings.grid)
         points = np.concatenate([[0.0], points[(points > 0.0) & (points < stop)], [stop]])
-        if model.fidelity > 0:
+        if candidate.model.fidelity > 0:
             self.drive_periods += stop / self.scene.drive_period
             pieces = np.arange(0.0, stop, MAX_PERIODS * self.scene.drive_period)
             points = np.union1d(points, pieces)
@@ -223,5 +223,5 @@ class Probe:
             fine *= 2.0
         interpolates = self.instance.fmu.interpolates
         schedule = exact_schedule(self.scene, points, fine, interpolates=interpolates)
-        values = {**self.scene.parameters, **Candidate(model, tolerance, None).parameters}
+        values = {**self.scene.parameters, **candidate.parameters}
         return timed_run(self.instance, values, schedule)
