@@ -16,7 +16,7 @@ from slider_resonator.fmu.run import Record, run
 from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
 from slider_resonator.trading.method import STEADY, Method, SteadyMethod
 from slider_resonator.trading.problem import Problem
-from slider_resonator.trading.result import AVERAGED, RESOLVED, Label
+from slider_resonator.trading.result import AVERAGED, RESOLVED, Row
 from slider_resonator.trading.solution import Solution
 
 STEPS = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
@@ -101,7 +101,7 @@ class FmuMethods:
     def _values(self, model: Model, tolerance: float) -> dict[str, float]:
         return {**self.problem.parameters, **model.parameters, "tolerance": tolerance}
 
-    def _label(self, model: Model, tolerance: float, step: float | None) -> Label:
+    def _row(self, model: Model, tolerance: float, step: float | None) -> Row:
         family = f"{self.build} FMU, {model.resolution}"
         if model.friction_law != self.problem.device.friction_law:
             family += f", {model.law} instead"
@@ -113,7 +113,7 @@ class FmuMethods:
             name += f", tol {used:.0e}"
         kind = RESOLVED if model.fidelity else AVERAGED
         about = (model.friction_law, model.fidelity, step, used, model.averaging_order)
-        return Label(kind, family, name, *about)
+        return Row(kind, family, name, *about)
 
     def _method(self, model: Model, step: float, tolerance: float) -> Method:
         values = self._values(model, tolerance)
@@ -128,7 +128,7 @@ class FmuMethods:
             return sum(taken) / len(taken)
 
         return Method(
-            self._label(model, tolerance, step),
+            self._row(model, tolerance, step),
             partial(self._follow, values, size, resolved=model.fidelity > 0),
             seconds,
             min_periods=ceil(step),
@@ -167,7 +167,8 @@ class FmuMethods:
             seconds, search = self._run(SEARCHES[quantity], values=values)
             return SteadyAnswer(seconds, getattr(search, quantity), search.reason, search.periods)
 
-        return SteadyMethod(self._label(model, USUAL_TOLERANCE, None), quantity, find)
+        row = self._row(model, USUAL_TOLERANCE, None)
+        return SteadyMethod(replace(row, answer=quantity), find)
 
     def _prediction(self, quantity: str, order: int | None) -> SteadyMethod:
         """Return the value of an output that predicts, at the start of a run at fidelity 2."""
@@ -179,8 +180,8 @@ class FmuMethods:
         def find(_: float) -> SteadyAnswer:
             return SteadyAnswer(*self._run(_value_at_start, values=values, output=quantity))
 
-        label = Label(AVERAGED, family, family, law, averaging_order=order)
-        return SteadyMethod(label, quantity, find)
+        row = Row(AVERAGED, family, family, law, averaging_order=order, answer=quantity)
+        return SteadyMethod(row, find)
 
 
 def _timed(task: Callable[[Instance], Any], instance: Instance) -> tuple[float, Any]:

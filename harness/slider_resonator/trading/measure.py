@@ -131,15 +131,15 @@ def measure_trade(
         methods += peer_methods(problem)
         answers = [answer for fmu in fmus for answer in fmu.answers()] + list(peer_answers(problem))
         for index, method in enumerate(methods):
-            report(method.label.method, index, len(methods), 0.0, 0.4)
+            report(method.row.method, index, len(methods), 0.0, 0.4)
             candidates += _follow(problem, reference, method, budget, notes)
         for index, answer in enumerate(answers):
-            report(answer.label.method, index, len(answers), 0.4, 0.2)
+            report(answer.row.method, index, len(answers), 0.4, 0.2)
             candidates += _answer(problem, reference, answer, budget, notes)
         for method in methods:
             for quantity in STEADY:
                 if quantity in method.missing:
-                    notes.setdefault((method.label.method, quantity), method.missing[quantity])
+                    notes.setdefault((method.row.method, quantity), method.missing[quantity])
         # In rounds: in each of them every candidate with repeats left.
         counts = [min(repeats, int(budget / max(one.estimate, 1e-9))) for one in candidates]
         turns = sorted((turn, index) for index, n in enumerate(counts) for turn in range(n))
@@ -169,7 +169,7 @@ def _follow(
     """Run a method as far as its budget (s of CPU time) takes it; empty where it has no run."""
 
     def note(quantity: str, reason: str) -> None:
-        notes.setdefault((method.label.method, quantity), reason)
+        notes.setdefault((method.row.method, quantity), reason)
 
     if method.min_periods > problem.periods:
         note("all", f"a step is longer than the run of {problem.periods} drive periods")
@@ -211,12 +211,10 @@ def _follow(
         if quantity not in (*STEADY, *found) and optional.get(quantity, ()) is not None:
             reason = "its own steps are too long or its run too short"
             note(quantity, method.missing.get(quantity, reason))
-    row = Row(
-        **vars(method.label),
+    row = replace(
+        method.row,
         scene=problem.name,
-        answer="run",
         periods=periods,
-        cpu=(),
         errors=found,
         start_cpu=solution.start_cpu,
         steps=solution.steps,
@@ -230,8 +228,9 @@ def _answer(
     problem: Problem, reference: Reference, answer: SteadyMethod, budget: float, notes: _Notes
 ) -> list[_Candidate]:
     """Find an answer once; empty where there is none."""
-    key = answer.label.method, answer.quantity
-    expected: float | None = getattr(reference, answer.quantity)
+    quantity = answer.row.answer
+    key = answer.row.method, quantity
+    expected: float | None = getattr(reference, quantity)
     if not expected:
         notes.setdefault(key, "the device has none under these inputs, or it is zero")
         return []
@@ -245,12 +244,6 @@ def _answer(
     if found.value is None:
         notes.setdefault(key, found.reason)
         return []
-    row = Row(
-        **vars(answer.label),
-        scene=problem.name,
-        answer=answer.quantity,
-        periods=found.periods,
-        cpu=(),
-        errors={answer.quantity: abs(found.value - expected) / abs(expected)},
-    )
+    off = {quantity: abs(found.value - expected) / abs(expected)}
+    row = replace(answer.row, scene=problem.name, periods=found.periods, errors=off)
     return [_Candidate(row, lambda: answer.find(inf).seconds, 1.0, found.seconds)]

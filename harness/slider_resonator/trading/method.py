@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
-from slider_resonator.trading.result import Label
+from slider_resonator.trading.result import Row
 from slider_resonator.trading.solution import Solution
 
 STEADY = tuple(SEARCHES)
@@ -13,7 +13,7 @@ STEADY = tuple(SEARCHES)
 
 @dataclass(frozen=True)
 class Method:
-    """A method to follow a motion.
+    """A method to follow a motion, and the row that it fills.
 
     `run` follows it over a number of drive periods and returns its CPU time (s), too; `seconds`
     does so without the readings and returns the CPU time (s), without initialisation. A run has at
@@ -21,7 +21,7 @@ class Method:
     reason for each quantity that the method does not compute.
     """
 
-    label: Label
+    row: Row
     run: Callable[[int], tuple[float, Solution]]
     seconds: Callable[[int], float]
     min_periods: int = 1
@@ -31,11 +31,10 @@ class Method:
 
 @dataclass(frozen=True)
 class SteadyMethod:
-    """A method to find a steady velocity (m/s) or a blocking force (N), named by `quantity`.
+    """A method to find a steady velocity (m/s) or a blocking force (N), the answer of its `row`.
 
     `find` takes its budget of CPU time (s) and raises RuntimeError where that is exceeded.
     """
 
-    label: Label
-    quantity: str
+    row: Row
     find: Callable[[float], SteadyAnswer]

@@ -29,7 +29,7 @@ from slider_resonator.trading.method import STEADY, SteadyMethod
 from slider_resonator.trading.peers import event_free, located_scipy, moreau_jean
 from slider_resonator.trading.peers.switching_taylor import heyoka_in_one_call
 from slider_resonator.trading.problem import Problem
-from slider_resonator.trading.result import PEER, Label
+from slider_resonator.trading.result import PEER, Row
 from slider_resonator.trading.solution import Solution, solution_of
 
 MAX_EVALUATIONS = 1_000_000
@@ -62,11 +62,11 @@ class Peer:
     missing: Mapping[str, str] = field(default_factory=lambda: NO_EVENTS)
 
     @property
-    def label(self) -> Label:
-        """What it is called."""
+    def row(self) -> Row:
+        """The row that it fills."""
         name = f"{self.family}, {self.setting}" if self.setting else self.family
         law = self.problem.device.friction_law
-        return Label(PEER, self.family, name, law, tolerance=self.tolerance)
+        return Row(PEER, self.family, name, law, tolerance=self.tolerance)
 
     def run(self, periods: int) -> tuple[float, Solution]:
         """Follow the motion over drive periods; return the CPU time (s), too."""
@@ -171,4 +171,4 @@ def peer_answers(problem: Problem) -> Iterator[SteadyMethod]:
         for peer in peer_methods(problem):
             if peer.shooting is not None:
                 find = partial(shoot, problem, quantity, peer.simulate, peer.shooting)
-                yield SteadyMethod(peer.label, quantity, find)
+                yield SteadyMethod(replace(peer.row, answer=quantity), find)

@@ -1,7 +1,7 @@
 """The data of a trade: rows, omissions, the cheapest method at an error; and its CSV files."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -16,11 +16,18 @@ AVERAGED, RESOLVED, PEER = "averaged", "resolved", "peer"
 
 
 @dataclass(frozen=True)
-class Label:
-    """A method at one setting: its name `method`, which begins with its family.
+class Row:
+    """One method at one setting on one scene; without a scene what a method is, not yet measured.
 
-    `step` is the communication step in drive periods, `averaging_order` that of fidelity 0, in an
-    FMU that has a choice, and of predictions. What a method does not have is None.
+    The name `method` begins with its `family`. `step` is the communication step in drive periods,
+    `averaging_order` that of fidelity 0, in an FMU that has a choice, and of predictions.
+
+    `answer` is `run`, with the errors of a trajectory over `periods` drive periods, or
+    `steady_velocity` or `blocking_force`, with that error alone. `cpu` (s) holds every repeat, per
+    simulated second of a run and per answer otherwise, and `start_cpu` (s) what initialisation took
+    besides. Of a run `steps` counts the communication steps of an FMU or an integrator's own,
+    `evaluations` those of the equations, `events` the located ones, or the reversals where a method
+    reports no others. What a method does not have or does not report is None.
     """
 
     kind: str
@@ -31,25 +38,11 @@ class Label:
     step: float | None = None
     tolerance: float | None = None
     averaging_order: int | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class Row(Label):
-    """One method at one setting on one scene.
-
-    `answer` is `run`, with the errors of a trajectory over `periods` drive periods, or
-    `steady_velocity` or `blocking_force`, with that error alone. `cpu` (s) holds every repeat, per
-    simulated second of a run and per answer otherwise, and `start_cpu` (s) what initialisation took
-    besides. Of a run `steps` counts the communication steps of an FMU or an integrator's own,
-    `evaluations` those of the equations, `events` the located ones, or the reversals where a method
-    reports no others. What a method does not report is None.
-    """
-
-    scene: str
-    answer: str
-    periods: int
-    cpu: tuple[float, ...]
-    errors: Mapping[str, float]
+    scene: str = ""
+    answer: str = "run"
+    periods: int = 0
+    cpu: tuple[float, ...] = ()
+    errors: Mapping[str, float] = field(default_factory=dict)
     start_cpu: float | None = None
     steps: int | None = None
     evaluations: int | None = None

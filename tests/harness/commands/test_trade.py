@@ -51,8 +51,8 @@ def test_every_method_is_a_row_or_an_omission_and_the_files_can_be_read(
     short = problem(TABLE_1, max_periods=8)
     with open_fmu(native_fmu) as fmu, instantiate(fmu) as instance:
         methods = FmuMethods(short, "native", InProcess(instance)).methods()
-        names = {method.label.method for method in methods}
-    names |= {peer.label.method for peer in peer_methods(short)}
+        names = {method.row.method for method in methods}
+    names |= {peer.row.method for peer in peer_methods(short)}
     followed = {row["method"] for row in rows if row["answer"] == "run"}
     omitted = {o["method"] for o in omissions if o["quantity"] == "all"}
     assert names == followed | omitted

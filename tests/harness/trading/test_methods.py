@@ -13,7 +13,7 @@ from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.measure import measure_trade
 from slider_resonator.trading.method import Method
 from slider_resonator.trading.problem import Problem
-from slider_resonator.trading.result import PEER, Label
+from slider_resonator.trading.result import PEER, Row
 from slider_resonator.trading.solution import Solution, errors
 from tests.harness.in_process import InProcess
 from tests.harness.trading.problems import RAMP, SCAN, STICKING, TABLE_1, problem, reference_of
@@ -31,9 +31,9 @@ def pick(
     return next(
         method
         for method in methods
-        if (method.label.fidelity, method.label.step) == (fidelity, step)
-        and method.label.averaging_order == order
-        and "instead" not in method.label.method
+        if (method.row.fidelity, method.row.step) == (fidelity, step)
+        and method.row.averaging_order == order
+        and "instead" not in method.row.method
     )
 
 
@@ -63,7 +63,7 @@ def test_a_drive_that_changes_costs_nothing(instance: Instance, law: int) -> Non
 
 def test_answers_are_those_of_the_commands(instance: Instance) -> None:
     answers = list(FmuMethods(problem(TABLE_1), "native", InProcess(instance)).answers())
-    found = {(a.label.method, a.quantity): a.find(inf).value for a in answers}
+    found = {(a.row.method, a.row.answer): a.find(inf).value for a in answers}
     assert found["native FMU, fidelity 2", "steady_velocity"] == pytest.approx(0.126667, rel=1e-6)
     assert found["native FMU, fidelity 2", "blocking_force"] == pytest.approx(0.0851861, rel=1e-6)
     first, second = (
@@ -84,7 +84,7 @@ def made_up(
         run(periods)
         return 1e-3 * periods
 
-    return Method(Label(PEER, name, name, 0), run, seconds, **fields)  # type: ignore[arg-type]
+    return Method(Row(PEER, name, name, 0), run, seconds, **fields)  # type: ignore[arg-type]
 
 
 def only(monkeypatch: pytest.MonkeyPatch, *methods: Method) -> None:
