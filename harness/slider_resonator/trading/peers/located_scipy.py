@@ -20,6 +20,7 @@ from slider_resonator.references.resolved.mode_sequence import ModeSequence, Seg
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 STEPS_PER_FASTEST_PERIOD = 16
+TINY = float(np.finfo(float).tiny)
 
 
 def simulate(
@@ -48,6 +49,7 @@ def _follow(segment: Segment, rtol: float, atol: float, steps_per_period: int) -
     longest = 2.0 * math.pi / equations.fastest_rate(segment.largest_ratio) / steps_per_period
     directions: dict[int, tuple[int, ...]] = {LIFTED: (), STICK: (1, -1)}
     events = directions.get(segment.mode, (-segment.mode,))
+    margins = [_margin(segment, event) for event in events]
     solve: Callable[..., Any] = solve_ivp
     found = solve(
         equations.slopes(segment.mode, segment.theta, segment.angle, segment.now),
@@ -55,7 +57,7 @@ def _follow(segment: Segment, rtol: float, atol: float, steps_per_period: int) -
         np.array([0.0, *segment.state[1:]]),
         method="DOP853",
         dense_output=True,
-        events=[_margin(segment, event) for event in events],
+        events=margins,
         first_step=min(longest, segment.span),
         max_step=longest,
         rtol=rtol,
@@ -66,14 +68,20 @@ def _follow(segment: Segment, rtol: float, atol: float, steps_per_period: int) -
             f"DOP853 failed at t = {segment.start + float(found.t[-1])!r} s: {found.message}; "
             "use a greater rtol"
         )
-    duration = float(found.t[-1])
+    duration, happened = float(found.t[-1]), 0
+    for event, margin, times in zip(events, margins, found.t_events, strict=True):
+        if len(times):  # to some 1e-15 s, and with a secant to rounding
+            happened, near = event, (duration - 1e-6 * longest, duration)
+            before, after = map(margin, near, found.sol(near).T)
+            if before > after:
+                duration += (near[1] - near[0]) * after / (before - after)
     inside = segment.samples[segment.samples <= duration]
     states = found.sol(np.append(inside, duration)).T
     states[:, 0] += segment.state[0]
     return SegmentResult(
         duration=duration,
         state=tuple(states[-1].tolist()),
-        event=next((e for e, times in zip(events, found.t_events, strict=True) if len(times)), 0),
+        event=happened,
         samples=states[:-1],
         steps=len(found.t) - 1,
         evaluations=found.nfev,
@@ -90,15 +98,14 @@ def _margin(segment: Segment, event: int) -> Callable[[float, Array], float]:
     rate = equations.drive_frequency
 
     def margin(time: float, state: Array) -> float:
-        _, velocity, displacement, resonator_velocity = state
         if segment.mode != STICK:
-            left = segment.mode * velocity
+            left = segment.mode * state[1]
         else:
             angle = segment.angle + now.turned(time, rate)
             load, theta = now.load + now.load_rate * time, segment.theta + rate * time
-            needed = equations.needed_force(load, theta, displacement, resonator_velocity)
+            needed = equations.needed_force(load, theta, state[2], state[3])
             left = equations.friction_limit(angle) - event * needed
-        return float(left) or 1.0
+        return float(left) or TINY
 
     margin.terminal, margin.direction = True, -1.0  # type: ignore[attr-defined]
     return margin
