@@ -14,10 +14,9 @@ from slider_resonator.device.model import LUGRE, Model
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record, run
 from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
-from slider_resonator.trading.method import STEADY, Method, SteadyMethod
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import AVERAGED, RESOLVED, Row
-from slider_resonator.trading.solution import Solution
+from slider_resonator.trading.solution import STEADY, Method, Solution, SteadyMethod
 
 STEPS = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 """Communication steps in drive periods."""

@@ -21,11 +21,18 @@ from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.references.resolved.contact import STICK
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trading.fmu_methods import FmuMethods, TaskRunner
-from slider_resonator.trading.method import STEADY, Method, SteadyMethod
 from slider_resonator.trading.peer_methods import Peer, peer_answers, peer_methods, shoot
 from slider_resonator.trading.problem import Problem
-from slider_resonator.trading.result import Omission, Row, Trade
-from slider_resonator.trading.solution import QUANTITIES, Readings, errors, solution_of, windows
+from slider_resonator.trading.result import QUANTITIES, Omission, Row, Trade
+from slider_resonator.trading.solution import (
+    STEADY,
+    Method,
+    Readings,
+    SteadyMethod,
+    errors,
+    solution_of,
+    windows,
+)
 
 BUDGET = 1.0
 """CPU time (s) for the longest run or search of a method, and as much again for repeats."""

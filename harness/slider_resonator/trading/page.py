@@ -17,8 +17,15 @@ from slider_resonator.output.hover_plot import (
 )
 from slider_resonator.output.html_page import escaped, folded, rendered
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.trading.result import Row, Trade, cost_label, drawn_error, families, front
-from slider_resonator.trading.solution import QUANTITIES
+from slider_resonator.trading.result import (
+    QUANTITIES,
+    Row,
+    Trade,
+    cost_label,
+    drawn_error,
+    families,
+    front,
+)
 from slider_resonator.trading.summary import comparisons, duration, title
 
 FRONT = "Pareto front of all"

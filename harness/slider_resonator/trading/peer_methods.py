@@ -25,12 +25,11 @@ from slider_resonator.steady.reference_steady import (
     reference_steady_velocity,
 )
 from slider_resonator.steady.searches import SteadyAnswer
-from slider_resonator.trading.method import STEADY, SteadyMethod
 from slider_resonator.trading.peers import event_free, located_scipy, moreau_jean
 from slider_resonator.trading.peers.switching_taylor import heyoka_in_one_call
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import PEER, Row
-from slider_resonator.trading.solution import Solution, solution_of
+from slider_resonator.trading.solution import STEADY, Solution, SteadyMethod, solution_of
 
 MAX_EVALUATIONS = 1_000_000
 """Maximum evaluations of a method on sgn: one that chatters is stopped early."""

@@ -9,8 +9,18 @@ from typing import Any
 from slider_resonator.output.files import write_csv
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown, Tabular
-from slider_resonator.trading.solution import QUANTITIES
 
+QUANTITIES: Mapping[str, str] = {
+    "mean_velocity": "mean velocity over a drive period, share of its peak",
+    "slow_displacement": "position averaged over a drive period, share of its peak",
+    "position": "instantaneous position, share of its peak",
+    "velocity": "instantaneous velocity, share of its peak",
+    "event_times": "time of the last event, in drive periods",
+    "beat_frequency": "frequency of the beat, share of it",
+    "steady_velocity": "steady velocity by shooting, share of it",
+    "blocking_force": "blocking force by shooting, share of it",
+}
+"""Every measured error and its quantity."""
 AVERAGED, RESOLVED, PEER = "averaged", "resolved", "peer"
 """Kinds of method: our averages and leaps, our resolved motion, and all others."""
 

@@ -1,7 +1,7 @@
-"""Solutions of a problem, sampled at its readings, and their errors against the reference."""
+"""Methods, their solutions of a problem, sampled at its readings, and the errors of these."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -15,19 +15,12 @@ from slider_resonator.checks.measures import (
 )
 from slider_resonator.device.schedule import nearest
 from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
 from slider_resonator.trading.problem import Problem
+from slider_resonator.trading.result import Row
 
-QUANTITIES: Mapping[str, str] = {
-    "mean_velocity": "mean velocity over a drive period, share of its peak",
-    "slow_displacement": "position averaged over a drive period, share of its peak",
-    "position": "instantaneous position, share of its peak",
-    "velocity": "instantaneous velocity, share of its peak",
-    "event_times": "time of the last event, in drive periods",
-    "beat_frequency": "frequency of the beat, share of it",
-    "steady_velocity": "steady velocity by shooting, share of it",
-    "blocking_force": "blocking force by shooting, share of it",
-}
-"""Every measured error and its quantity."""
+STEADY = tuple(SEARCHES)
+"""What is found without following a motion."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +43,35 @@ class Solution:
     evaluations: int | None = None
     events: int | None = None
     start_cpu: float | None = None
+
+
+@dataclass(frozen=True)
+class Method:
+    """A method to follow a motion, and the row that it fills.
+
+    `run` follows it over a number of drive periods and returns its CPU time (s), too; `seconds`
+    does so without the readings and returns the CPU time (s), without initialisation. A run has at
+    least `min_periods`; a method that `cannot_stick` does not cover sticking. `missing` gives the
+    reason for each quantity that the method does not compute.
+    """
+
+    row: Row
+    run: Callable[[int], tuple[float, Solution]]
+    seconds: Callable[[int], float]
+    min_periods: int = 1
+    cannot_stick: bool = False
+    missing: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class SteadyMethod:
+    """A method to find a steady velocity (m/s) or a blocking force (N), the answer of its `row`.
+
+    `find` takes its budget of CPU time (s) and raises RuntimeError where that is exceeded.
+    """
+
+    row: Row
+    find: Callable[[float], SteadyAnswer]
 
 
 Readings = Mapping[str, Array]

@@ -11,10 +11,9 @@ from slider_resonator.output.progress import no_progress
 from slider_resonator.trading import measure
 from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.measure import measure_trade
-from slider_resonator.trading.method import Method
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import PEER, Row
-from slider_resonator.trading.solution import Solution, errors
+from slider_resonator.trading.solution import Method, Solution, errors
 from tests.harness.in_process import InProcess
 from tests.harness.trading.problems import RAMP, SCAN, STICKING, TABLE_1, problem, reference_of
 
