@@ -35,8 +35,6 @@ SHORTEST = 2e-3
 """Shortest CPU time (s) of a measurement; shorter runs are repeated up to MAX_RUNS times."""
 MAX_RUNS = 20
 
-_UNRESOLVED = {"event_times": "averages and leaps locate no events"}
-
 
 class TaskRunner(Protocol):
     """An FMU that runs tasks, such as an isolated one."""
@@ -115,8 +113,28 @@ class FmuMethods:
         return Row(kind, family, name, *about)
 
     def _method(self, model: Model, step: float, tolerance: float) -> Method:
-        values = self._values(model, tolerance)
+        values, resolved = self._values(model, tolerance), model.fidelity > 0
         size = step * self.problem.period
+
+        def follow(periods: int) -> tuple[float, Solution]:
+            own = self.problem.schedule(periods, size, interpolates=self.interpolates)
+            closest = 1e-9 * min(size, self.problem.period)
+            schedule = own.read_at(self.problem.readings(periods), closest)
+            outputs = (*OUTPUTS, "last_event_time", "reversals")
+            record: Record
+            taken, record = self._run(run, parameters=values, schedule=schedule, outputs=outputs)
+            at = np.searchsorted(record.times, own.times)
+            return taken, Solution(
+                times=record.times,
+                position=record["position"],
+                velocity=record["velocity"],
+                mean_velocity=record["mean_velocity"],
+                last_event=record["last_event_time"] if resolved else None,
+                history=(own.times, record["mean_velocity"][at]),
+                steps=len(own.times) - 1,
+                events=round(record.final("reversals")) if resolved else None,
+                start_cpu=record.start_cpu,
+            )
 
         def seconds(periods: int) -> float:
             schedule = self.problem.schedule(periods, size, interpolates=self.interpolates)
@@ -126,36 +144,9 @@ class FmuMethods:
                 taken.append(record.step_cpu)
             return sum(taken) / len(taken)
 
-        return Method(
-            self._row(model, tolerance, step),
-            partial(self._follow, values, size, resolved=model.fidelity > 0),
-            seconds,
-            min_periods=ceil(step),
-            missing={} if model.fidelity else _UNRESOLVED,
-        )
-
-    def _follow(
-        self, values: Mapping[str, float], size: float, periods: int, *, resolved: bool
-    ) -> tuple[float, Solution]:
-        own = self.problem.schedule(periods, size, interpolates=self.interpolates)
-        readings = self.problem.readings(periods)
-        closest = 1e-9 * min(size, self.problem.period)
-        outputs = (*OUTPUTS, "last_event_time", "reversals")
-        record: Record
-        schedule = own.read_at(readings, closest)
-        taken, record = self._run(run, parameters=values, schedule=schedule, outputs=outputs)
-        at = np.searchsorted(record.times, own.times)
-        return taken, Solution(
-            times=record.times,
-            position=record["position"],
-            velocity=record["velocity"],
-            mean_velocity=record["mean_velocity"],
-            last_event=record["last_event_time"] if resolved else None,
-            history=(own.times, record["mean_velocity"][at]),
-            steps=len(own.times) - 1,
-            events=round(record.final("reversals")) if resolved else None,
-            start_cpu=record.start_cpu,
-        )
+        missing = {} if resolved else {"event_times": "averages and leaps locate no events"}
+        row = self._row(model, tolerance, step)
+        return Method(row, follow, seconds, min_periods=ceil(step), missing=missing)
 
     def _search(self, quantity: str, model: Model) -> SteadyMethod:
         values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
