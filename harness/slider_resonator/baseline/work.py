@@ -64,9 +64,6 @@ def record(
             f"{folder}: recorded already: {', '.join(there)}; must be "
             "new scenes, or --replace to record them again"
         )
-    with open_fmu(fmu):
-        pass  # nothing is made in `folder` for a file that is no FMU
-    make_folder(folder)
     measured, run_failures, not_applied = _measure(fmu, scenes, folder, progress, time_limit)
     if must_apply:
         run_failures += [RunFailure(one.scene, one.reason, one.at) for one in not_applied]
@@ -100,8 +97,6 @@ def check(
             known = [one.name for one in recorded_scenes(folder)]
             raise HarnessError(f"{folder}: {unknown_name('recorded scene', scene.name, known)}")
     golden = [read_recorded(folder / scene.name) for scene in scenes]
-    with open_fmu(fmu):
-        pass  # one that cannot be opened is no run failure
     measured, run_failures, not_applied = _measure(fmu, scenes, folder, progress, time_limit)
     compared: list[tuple[Check, Curves | None]] = []
     for scene, before in zip(scenes, golden, strict=True):
@@ -208,6 +203,9 @@ def _measure(
 
     A scene that fails at a point is left out. `folder` is where the results are to be kept.
     """
+    with open_fmu(fmu):
+        pass  # one that cannot be opened is no run failure, and nothing is made in `folder` for it
+    make_folder(folder)
     points = {scene.source: scene.points() for scene in scenes}
     all_points = [point for some in points.values() for point in some]
     found: dict[str, dict[At, Golden]] = {source: {} for source in points}
