@@ -58,12 +58,8 @@ def simulate(
         given = {"max_step": longest, "rtol": rtol, "atol": atol * scales}
         solver = method(slopes, 0.0, run.state, span, **given)
         while solver.status == "running":
-            message = solver.step()
-            time, evaluations = inputs.start + float(solver.t), recorder.evaluations + solver.nfev
-            if solver.status == "failed":
-                raise RuntimeError(
-                    f"{method.__name__} failed at t = {time!r} s: {message}; use a greater atol"
-                )
+            time = take_step(solver, inputs.start, "use a greater atol")
+            evaluations = recorder.evaluations + solver.nfev
             if evaluations > max_evaluations:
                 raise RuntimeError(
                     f"{method.__name__} has used {evaluations} evaluations up to t = {time!r} s, "
@@ -140,3 +136,15 @@ class RunWithoutEvents:
             (np.maximum(0.0, load), friction),
             np.where(load > 0.0, np.sign(states[:, 1]), float(LIFTED)),
         )
+
+
+def take_step(solver: Any, began: float, advice: str) -> float:
+    """Take a step of a solver of scipy's that began at a time (s); return the time it reaches.
+
+    Raises RuntimeError, with that time and the advice, if it fails.
+    """
+    message = solver.step()
+    time = began + float(solver.t)
+    if solver.status == "failed":
+        raise RuntimeError(f"{type(solver).__name__} failed at t = {time!r} s: {message}; {advice}")
+    return time

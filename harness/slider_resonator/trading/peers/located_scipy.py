@@ -1,7 +1,8 @@
 """The full equations by scipy, with every change of contact mode located.
 
-Within one contact mode the equations are smooth, so that DOP853 keeps its order and scipy locates
-the end of the mode. Steps are bounded by a fraction of the fastest period: no event hides in one.
+Within one contact mode the equations are smooth, so that DOP853 keeps its order. Steps are bounded
+by a fraction of the fastest period, and each is searched on a finer grid: the event location of
+scipy's solve_ivp would miss a mode that begins and ends within a step.
 """
 
 import math
@@ -10,7 +11,8 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.integrate import solve_ivp
+from scipy.integrate import DOP853
+from scipy.optimize import brentq
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
@@ -18,9 +20,14 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import LIFTED, STICK
 from slider_resonator.references.resolved.mode_sequence import ModeSequence, Segment, SegmentResult
 from slider_resonator.references.resolved.trajectory import Trajectory
+from slider_resonator.trading.peers.event_free import take_step
+
+Dense = Callable[[float | Array], Array]
+"""States, shape (4,) or (4, n), at a time or at times (n,) within a step."""
 
 STEPS_PER_FASTEST_PERIOD = 16
-TINY = float(np.finfo(float).tiny)
+_SEARCHED_PER_STEP = 8
+_NOISE = 1e-15
 
 
 def simulate(
@@ -47,65 +54,94 @@ def _follow(segment: Segment, rtol: float, atol: float, steps_per_period: int) -
     """Integrate displacement since the start of the segment, velocity, Y and Y'."""
     equations = segment.equations
     longest = 2.0 * math.pi / equations.fastest_rate(segment.largest_ratio) / steps_per_period
-    directions: dict[int, tuple[int, ...]] = {LIFTED: (), STICK: (1, -1)}
-    events = directions.get(segment.mode, (-segment.mode,))
-    margins = [_margin(segment, event) for event in events]
-    solve: Callable[..., Any] = solve_ivp
-    found = solve(
+    method: Callable[..., Any] = DOP853
+    solver = method(
         equations.slopes(segment.mode, segment.theta, segment.angle, segment.now),
-        (0.0, segment.span),
+        0.0,
         np.array([0.0, *segment.state[1:]]),
-        method="DOP853",
-        dense_output=True,
-        events=margins,
+        segment.span,
         first_step=min(longest, segment.span),
         max_step=longest,
         rtol=rtol,
         atol=atol * equations.state_scales(segment.now.load),
     )
-    if not found.success:
-        raise RuntimeError(
-            f"DOP853 failed at t = {segment.start + float(found.t[-1])!r} s: {found.message}; "
-            "use a greater rtol"
-        )
-    duration, happened = float(found.t[-1]), 0
-    for event, margin, times in zip(events, margins, found.t_events, strict=True):
-        if len(times):  # to some 1e-15 s, and with a secant to rounding
-            happened, near = event, (duration - 1e-6 * longest, duration)
-            before, after = map(margin, near, found.sol(near).T)
-            if before > after:
-                duration += (near[1] - near[0]) * after / (before - after)
-    inside = segment.samples[segment.samples <= duration]
-    states = found.sol(np.append(inside, duration)).T
+    samples = [np.empty((0, 4))]
+    steps = sampled = event = 0
+    time, state = 0.0, solver.y
+    while solver.status == "running" and not event:
+        start = time
+        take_step(solver, segment.start, "use a greater rtol")
+        steps += 1
+        dense = solver.dense_output()
+        time, state = solver.t, solver.y
+        crossing = _first_event(segment, dense, start, time)
+        if crossing is not None:
+            time, event = crossing
+            state = dense(time)
+        end = int(np.searchsorted(segment.samples, time, side="right"))
+        if end > sampled:
+            samples.append(dense(segment.samples[sampled:end]).T)
+            sampled = end
+    states = np.concatenate(samples)
     states[:, 0] += segment.state[0]
+    displacement, *motion = state.tolist()
     return SegmentResult(
-        duration=duration,
-        state=tuple(states[-1].tolist()),
-        event=happened,
-        samples=states[:-1],
-        steps=len(found.t) - 1,
-        evaluations=found.nfev,
+        duration=float(time),
+        state=(segment.state[0] + displacement, *motion),
+        event=event,
+        samples=states,
+        steps=steps,
+        evaluations=solver.nfev,
     )
 
 
-def _margin(segment: Segment, event: int) -> Callable[[float, Array], float]:
-    """Return what falls to 0 at an event; at the start 0 is none.
+def _first_event(
+    segment: Segment, dense: Dense, start: float, stop: float
+) -> tuple[float, int] | None:
+    """Return time (s) and direction of the first event within a step, None if there is none."""
+    if segment.mode == LIFTED:
+        return None
+    grid = np.linspace(start, stop, _SEARCHED_PER_STEP + 1)
+    crossings = []
+    for event in (-segment.mode,) if segment.mode else (1, -1):
+        margin = partial(_margin, segment, dense, event)
+        values = margin(grid)
+        falls = np.flatnonzero(values[1:] < -_NOISE * np.abs(values).max())
+        if falls.size:
+            left, right = grid[falls[0] :][:2].tolist()
+            crossings.append((_crossing(margin, left, right, float(np.abs(values).max())), event))
+    return min(crossings, default=None)
+
+
+def _margin(segment: Segment, dense: Dense, event: int, time: float | Array) -> Array:
+    """Return the margin of an event, which happens where the margin is 0.
 
     In a slip it is the velocity in the slip direction, in a stick the friction left before the
     slider breaks loose in the direction ``event``.
     """
-    equations, now = segment.equations, segment.now
-    rate = equations.drive_frequency
+    equations = segment.equations
+    _, velocity, displacement, resonator_velocity = dense(time)
+    if segment.mode != STICK:
+        return np.asarray(segment.mode * velocity)
+    local, now = np.asarray(time), segment.now
+    rate, half = equations.drive_frequency, 0.5 * now.ratio_rate
+    angle = segment.angle + (now.frequency_ratio + half * local) * rate * local
+    load = now.load + now.load_rate * local
+    theta = segment.theta + rate * local
+    needed = equations.needed_force(load, theta, displacement, resonator_velocity)
+    return np.asarray(equations.friction_limit(angle) - event * needed)
 
-    def margin(time: float, state: Array) -> float:
-        if segment.mode != STICK:
-            left = segment.mode * state[1]
-        else:
-            angle = segment.angle + now.turned(time, rate)
-            load, theta = now.load + now.load_rate * time, segment.theta + rate * time
-            needed = equations.needed_force(load, theta, state[2], state[3])
-            left = equations.friction_limit(angle) - event * needed
-        return float(left) or TINY
 
-    margin.terminal, margin.direction = True, -1.0  # type: ignore[attr-defined]
-    return margin
+def _crossing(value: Callable[[float], Array], left: float, right: float, scale: float) -> float:
+    """Return where a function of this scale falls below 0 between two times (s).
+
+    The first may be a root, where the mode has just begun; the function counts as positive there.
+    """
+    root: float = brentq(
+        lambda t: float(value(t)) if t > left else scale,
+        left,
+        right,
+        xtol=1e-16 * (right - left),
+        rtol=1e-15,
+    )
+    return root
