@@ -2,18 +2,16 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import pi
+from math import isclose, isfinite, pi
 
 import numpy as np
 
-from slider_resonator.arrays import Array
 from slider_resonator.device.drive_periods import common_period
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.schedule import nearest
 from slider_resonator.errors import FmuError, explained
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged.vibrating_contact import mean_load
-from slider_resonator.steady.bristle_reading import bristle_reading
 from slider_resonator.steady.shooting import PeriodicRun
 from slider_resonator.steady.solvers import Matrix, NoPeriodicMotion, Vector
 
@@ -24,6 +22,9 @@ SLOW = 0.1
 
 STICKS = 1e-10
 """Rounding of the fraction of a period in which the slider sticks."""
+
+FIRM = {"normal_preload": 1.0, "normal_amplitude": 0.0, "friction_coefficient": 1e6}
+"""Values under which friction shows the deflection of a bristle, whatever it was before."""
 
 
 @dataclass(frozen=True)
@@ -53,6 +54,12 @@ class Facts:
         load = (self["normal_preload"], self["normal_amplitude"])
         normal = mean_load(*load, self["phase"], self["frequency_ratio"])
         return self["friction_faces"] * self["friction_coefficient"] * normal
+
+    @property
+    def bends(self) -> bool:
+        """Whether there is a bristle that matters: averaged motion keeps none."""
+        is_lugre = self["friction_law"] == 1 and self["fidelity"] != 0
+        return is_lugre and self.friction_limit > 0.0 and self["bristle_stiffness"] > 0.0
 
 
 def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
@@ -122,30 +129,32 @@ class FmuPeriodMap(PeriodicRun):
         self.drive_period = facts.drive_period
         self.periods = 0
         self.stick_fraction = 0.0
-        self.bristle = bristle_reading(facts.values)
-        self.names = STATE if self.bristle is None else (*STATE, "bristle_deflection")
-        self._read = instance.block(
-            ["position", *STATE, "friction_force", "normal_force", "stick_fraction"]
-        )
+        self.names = (*STATE, "bristle_deflection") if facts.bends else STATE
+        self._read = instance.block(["position", *STATE, "stick_fraction"])
 
     def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
         """Return states and travel; the deflection of a bristle is that at the end throughout."""
         initial = zip((f"initial_{name}" for name in self.names), state.tolist(), strict=True)
         self.instance.start({**self.values, **dict(initial), "load": load})
-        before, end = self._read.read()[0], float(times[-1])
-        leading = np.maximum(0.0, end - np.array(self.bristle.leads if self.bristle else (0.0,)))
+        read, end = [self._read.read()], float(times[-1])
         grid = times
         if self.instance.fmu.takes_equal_steps_only and len(times) > 1:
-            grid = np.linspace(0.0, end, round(end / float(times[1] - times[0])) + 1)
-        read_at = np.union1d(grid, leading)
-        readings = self._readings(read_at)
+            grid = np.linspace(0.0, end, round(end / float(times[1] - times[0])) + 1)[1:]
+        self.instance.check_steps(grid)
+        with self.instance.explained():
+            for time in grid.tolist():
+                self.instance.step_to(time)
+                read.append(self._read.read())
+        if not np.isfinite(read).all():
+            raise FmuError(
+                f"{self.instance.fmu.path.name} at t = {end:.9g} s: output is {read[-1]}"
+            )
         self.periods += round(end / self.drive_period)
-        rows = readings[nearest(read_at, times)]
-        states, travel = rows[:, 1:4], rows[:, 0] - before
-        if self.bristle is not None:
-            seen = readings[np.searchsorted(read_at, leading)][:, (0, 1, 4, 5)].T
-            bent = self.bristle.deflection(leading, *seen)
-            states = np.column_stack([states, np.full(len(rows), bent)])
+        self.stick_fraction = read[-1][4]
+        rows = np.array(read)[1 + nearest(grid, times)]
+        states, travel = rows[:, 1:4], rows[:, 0] - read[0][0]
+        if self.facts.bends:
+            states = np.column_stack([states, np.full(len(rows), self._deflection())])
         return states, travel
 
     @property
@@ -161,21 +170,28 @@ class FmuPeriodMap(PeriodicRun):
         mass = self.facts["slider_mass"] + self.facts["resonator_mass"]
         floor = max(self.facts.friction_limit / mass * self.drive_period, 1e-9)
         scale = np.maximum(sizes[:3], [floor, floor * self.drive_period / (2.0 * pi), floor])
-        return scale if self.bristle is None else np.append(scale, self.bristle.scale)
+        if self.facts.bends:
+            bent = self.facts["friction_coefficient"] / self.facts["bristle_stiffness"]
+            scale = np.append(scale, bent)
+        return scale
 
-    def _readings(self, times: Array) -> Array:
-        """Return what is read at the times (s), a row each; `stick_fraction` is then the last."""
-        rows = []
-        self.instance.check_steps(times[times > self.instance.time])
+    def _deflection(self) -> float:
+        """Return the deflection z (m) of the bristle, and end the run.
+
+        Tuned to a `FIRM` contact, friction is faces N (s0 z + s1 (v - |v| s0 z / mu)), (8), nearly
+        faces N (s0 z + s1 v).
+        """
         with self.instance.explained():
-            for time in times.tolist():
-                if time > self.instance.time:
-                    self.instance.step_to(time)
-                rows.append(self._read.read())
-        readings = np.array(rows)
-        if not np.isfinite(readings).all():
+            self.instance.set(FIRM)
+            read = self.instance.read(["friction_force", "normal_force", "velocity"])
+        friction, normal, velocity = read.values()
+        if not (isclose(normal, FIRM["normal_preload"]) and isfinite(friction)):
             raise FmuError(
-                f"{self.instance.fmu.path.name} at t = {times[-1]:.9g} s: output is {rows[-1]}"
+                f"{self.instance.fmu.path.name} at t = {self.instance.time:.9g} s: normal_force = "
+                f"{normal!r} N must be the normal_preload of {FIRM['normal_preload']!r} N just "
+                f"set, and friction_force = {friction!r} N a finite number"
             )
-        self.stick_fraction = float(readings[-1, 6])
-        return readings
+        damping = self.facts["bristle_damping"]
+        held = friction / (self.facts["friction_faces"] * normal) - damping * velocity
+        weight = 1.0 - damping * abs(velocity) / FIRM["friction_coefficient"]
+        return held / (weight * self.facts["bristle_stiffness"])

@@ -7,8 +7,10 @@ import pytest
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUT_STARTS
+from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.steady.periodic import (
+    FIRM,
     Facts,
     FmuPeriodMap,
     read_facts,
@@ -169,6 +171,32 @@ def test_friction_limit_is_that_of_the_clipped_sine(amplitude: float) -> None:
     assert limit == pytest.approx(2.0 * 0.1 * mean, rel=1e-9), "faces mu N"
     still = facts(frequency_ratio=0.0, phase=-pi / 6.0, normal_amplitude=amplitude)
     assert still.friction_limit == pytest.approx(0.2 * max(0.0, 1.0 - 0.5 * amplitude))
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"friction_law": 0.0},
+        {"fidelity": 0.0},
+        {"friction_coefficient": 0.0},
+        {"bristle_stiffness": 0.0},
+        {"friction_faces": 0.0},
+        {"normal_preload": 0.0, "normal_amplitude": 0.0},
+        {"frequency_ratio": 0.0, "phase": -pi / 2.0, "normal_amplitude": 2.0},
+    ],
+)
+def test_a_bristle_without_friction_does_not_matter(changed: dict[str, float]) -> None:
+    assert facts(**LUGRE).bends
+    assert not facts(**{**LUGRE, **changed}).bends
+
+
+def test_a_bristle_needs_outputs_that_follow_what_is_set(
+    instance: Instance, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    set_values = instance.set
+    monkeypatch.setattr(instance, "set", lambda new: None if new is FIRM else set_values(new))
+    with pytest.raises(FmuError, match=r"normal_force = .* N must be the normal_preload of 1\.0 N"):
+        find_steady(instance, {**LUGRE, "phase": 0.4})
 
 
 @pytest.mark.parametrize(
