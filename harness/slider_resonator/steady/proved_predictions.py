@@ -31,8 +31,8 @@ Quantity = Literal["steady_velocity", "blocking_force"]
 
 QUANTITIES: tuple[Quantity, ...] = ("steady_velocity", "blocking_force")
 
-PERIODS = 5
-"""Common periods of a run: four changes of the state, of three entries and the travel."""
+PERIODS = 4
+"""Common periods of a run: as many changes of the state tell what becomes of three of them."""
 PROVEN = 1e-8
 """Largest error of the mean velocity, in units of the amplitude of the vibration."""
 NEAR = 1e-3
@@ -47,7 +47,6 @@ DEVICE = (
     *("base_amplitude", "tangential_force", "frequency_ratio"),
     *("friction_law", "fidelity", "averaging_order"),
 )
-PREDICTIONS = ("steady_velocity", "blocking_force", "prediction_valid")
 INITIAL = tuple(f"initial_{name}" for name in STATE)
 READ = (*STATE, "position", "stick_fraction")
 
@@ -81,12 +80,21 @@ def proved_predictions(
     the outputs show its whole state.
     """
     proved: list[float | None] = [None] * len(points)
-    if any(name not in instance.fmu.variables for name in (*PREDICTIONS, *DEVICE)):
+    guessed = "load" if quantity == "blocking_force" else "initial_velocity"
+    if any(name not in instance.fmu.variables for name in (quantity, "prediction_valid", *DEVICE)):
+        return proved
+    try:
+        instance.start({})
+        with instance.explained():
+            starts = instance.read(DEVICE)
+    except HarnessError:
+        instance.recreate()
         return proved
     left = [
         candidate
         for index, point in enumerate(points)
-        if (candidate := _candidate(instance, quantity, index, point, max_denominator))
+        if guessed not in point
+        and (candidate := _candidate(instance, quantity, index, point, starts, max_denominator))
     ]
     before: Array | None = None
     for _ in range(1 + RESTARTS):
@@ -102,7 +110,9 @@ def proved_predictions(
         rest = _rest(matrices, seen)
         limits = seen[:, -1] + rest
         aim = np.array([one.velocity / one.scale[0] for one in left])
-        is_stable = np.abs(np.linalg.eigvals(matrices)).max(axis=1, initial=0.0) < 1.0 - NEUTRAL
+        is_stable = (
+            np.abs(np.linalg.eigvals(matrices[:, :3])).max(axis=1, initial=0.0) < 1.0 - NEUTRAL
+        )
         is_proved = (np.abs(limits[:, 3] - aim) <= PROVEN) & (np.abs(rest).max(axis=1) <= NEAR)
         is_proved &= is_stable
         further = []
@@ -120,42 +130,36 @@ def _candidate(
     quantity: Quantity,
     index: int,
     values: Mapping[str, float],
+    starts: Mapping[str, float],
     max_denominator: int,
 ) -> _Candidate | None:
-    """Return the motion that a prediction belongs to, None where it cannot be proved."""
-    guessed = "load" if quantity == "blocking_force" else "initial_velocity"
-    if guessed in values:
+    """Return the motion that a prediction belongs to, None where it cannot be proved.
+
+    `starts` are the values of `DEVICE` that a point does not say.
+    """
+    device = {**starts, **values}
+    count = common_period(device["frequency_ratio"], max_denominator)
+    is_full = device["fidelity"] == 2 and device["averaging_order"] == 2
+    if not is_full or device["friction_law"] != 0 or count is None:
         return None
     try:
         instance.start(values)
         with instance.explained():
-            device = instance.read(DEVICE)
-            count = common_period(device["frequency_ratio"], max_denominator)
-            is_full = device["fidelity"] == 2 and device["averaging_order"] == 2
-            if not is_full or device["friction_law"] != 0 or count is None:
-                return None
-            velocity, force, valid = instance.block(PREDICTIONS).read()
+            prediction, valid = instance.block((quantity, "prediction_valid")).read()
     except HarnessError:
         instance.recreate()
         return None
-    parameters = tuple(one for one in {**device, **values}.items() if one[0] not in INPUTS)
+    parameters = tuple(one for one in device.items() if one[0] not in INPUTS)
     displacement, swing = _vibration(parameters)
     drive = device["drive_frequency"] * (1.0 + values.get("frequency_deviation", 0.0))
     size = (abs(swing), abs(displacement), abs(displacement) * drive)
-    if valid != 1.0 or 0.0 in size or not all(map(isfinite, (velocity, force, *size))):
+    if valid != 1.0 or 0.0 in size or not all(map(isfinite, (prediction, *size))):
         return None
-    prediction = velocity if quantity == "steady_velocity" else force
+    velocity = prediction
     if quantity == "blocking_force":
-        values, velocity = {**values, "load": force}, 0.0
-    return _Candidate(
-        index,
-        prediction,
-        values,
-        velocity,
-        count * tau / drive,
-        (velocity + swing.imag, displacement.imag, drive * displacement.real),
-        size,
-    )
+        values, velocity = {**values, "load": prediction}, 0.0
+    start = (velocity + swing.imag, displacement.imag, drive * displacement.real)
+    return _Candidate(index, prediction, values, velocity, count * tau / drive, start, size)
 
 
 @lru_cache  # points of a sweep often differ by inputs alone
@@ -175,10 +179,11 @@ def _vibration(parameters: tuple[tuple[str, float], ...]) -> tuple[complex, comp
 def _run(instance: Instance, one: _Candidate) -> list[list[float]]:
     """Return state, position and stick fraction after 0, 1, ... common periods, nan on an error."""
     initial = dict(zip(INITIAL, one.start, strict=True))
+    block = instance.block(READ)
     try:
-        instance.start({**one.values, **initial})
-        block = instance.block(READ)
         with instance.explained():
+            instance.initialise({**one.values, **initial})
+            instance.begin()
             rows = [block.read()]
             for period in range(PERIODS):
                 instance.step_to((period + 1) * one.period)
@@ -190,32 +195,31 @@ def _run(instance: Instance, one: _Candidate) -> list[list[float]]:
 
 
 def _seen(candidates: Sequence[_Candidate], runs: Array) -> Array:
-    """Return state and mean velocity of successive common periods (n, PERIODS, 4), over scales.
+    """Return state after each period and mean velocity over it (n, PERIODS + 1, 4), over scales.
 
     `runs` (n, PERIODS + 1, 5) are those of `_run`.
     """
     scale = np.array([one.scale for one in candidates]).reshape(-1, 1, 3)
-    travel = np.diff(runs[:, :, 3:4], axis=1)
+    travel = np.diff(runs[:, :, 3:4], axis=1, prepend=runs[:, :1, 3:4])
     period = np.array([one.period for one in candidates]).reshape(-1, 1, 1)
-    return np.concatenate([runs[:, :-1, :3] / scale, travel / period / scale[:, :, :1]], axis=2)
+    return np.concatenate([runs[:, :, :3] / scale, travel / period / scale[:, :, :1]], axis=2)
 
 
 def _matrices(seen: Array) -> Array:
-    """Return the matrices (n, 4, 4) of the map of a period, from what is `seen` (n, PERIODS, 4)."""
+    """Return the matrices (n, 4, 3) from a change of state to what a period makes of it."""
     changes = np.swapaxes(np.diff(seen, axis=1), 1, 2)
-    inverse = np.linalg.pinv(changes[:, :, :-1], rcond=RANK)
+    inverse = np.linalg.pinv(changes[:, :3, :-1], rcond=RANK)
     return np.asarray(changes[:, :, 1:] @ inverse, dtype=np.float64)
 
 
 def _improved(matrices: Array, before: Array, seen: Array) -> Array:
     """Return matrices that also map the difference of two runs (Broyden's update, 1965).
 
-    Both are `seen` (n, PERIODS, 4), the last but one period of the former and the first of the next
-    one are close to each other. Where they are so far apart that numbers end, matrices stay.
+    The state before the last period of the former run and the first of the next one are close to
+    each other. Where they are so far apart that numbers end, matrices stay.
     """
-    change = seen[:, 0] - before[:, -2]
-    mapped = (matrices @ change[:, :, None])[:, :, 0]
-    missing = seen[:, 1] - before[:, -1] - mapped
+    change = seen[:, 0, :3] - before[:, -2, :3]
+    missing = seen[:, 1] - before[:, -1] - (matrices @ change[:, :, None])[:, :, 0]
     size = np.maximum(np.sum(change**2, axis=1), np.finfo(np.float64).tiny)
     improved = matrices + missing[:, :, None] * (change / size[:, None])[:, None, :]
     is_finite = np.isfinite(improved).all(axis=(1, 2), keepdims=True)
@@ -223,7 +227,7 @@ def _improved(matrices: Array, before: Array, seen: Array) -> Array:
 
 
 def _rest(matrices: Array, seen: Array) -> Array:
-    """Return what is missing to the limits (n, 4) after runs (n, PERIODS, 4)."""
-    changes = matrices @ (seen[:, -1] - seen[:, -2])[:, :, None]
-    inverse = np.linalg.pinv(np.eye(4) - matrices)
-    return np.asarray((inverse @ changes)[:, :, 0], dtype=np.float64)
+    """Return what is missing to the limits (n, 4) after runs (n, PERIODS + 1, 4)."""
+    change = seen[:, -1, :3] - seen[:, -2, :3]
+    before = np.linalg.pinv(np.eye(3) - matrices[:, :3]) @ change[:, :, None]
+    return np.asarray((matrices @ before)[:, :, 0], dtype=np.float64)
