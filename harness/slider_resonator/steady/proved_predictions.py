@@ -110,11 +110,9 @@ def proved_predictions(
         rest = _rest(matrices, seen)
         limits = seen[:, -1] + rest
         aim = np.array([one.velocity / one.scale[0] for one in left])
-        is_stable = (
-            np.abs(np.linalg.eigvals(matrices[:, :3])).max(axis=1, initial=0.0) < 1.0 - NEUTRAL
-        )
         is_proved = (np.abs(limits[:, 3] - aim) <= PROVEN) & (np.abs(rest).max(axis=1) <= NEAR)
-        is_proved &= is_stable
+        multipliers = np.linalg.eigvals(matrices[:, :3])
+        is_proved &= np.abs(multipliers).max(axis=1, initial=0.0) < 1.0 - NEUTRAL
         further = []
         for one, limit, is_done in zip(left, limits, is_proved, strict=True):
             if is_done:

@@ -1,10 +1,9 @@
 """Find steady velocity and blocking force of an FMU by shooting, without a long run."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from math import isfinite
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.device.interface import INPUTS, VARIABLES
@@ -14,6 +13,11 @@ from slider_resonator.output.shown import Shown
 from slider_resonator.steady.periodic import Facts, FmuPeriodMap, read_facts, repeating_periods
 from slider_resonator.steady.shooting import FixedPoint, blocked_point, steady_point
 from slider_resonator.steady.solvers import NoPeriodicMotion
+
+Result = TypeVar("Result", bound="SearchResult")
+
+UNDECIDED = ("neutral", "not_converged", "no_fixed_point", "not_unique")
+"""Statuses that a resonator without damping explains."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -31,6 +35,7 @@ class SearchResult(Shown):
 
     searched: ClassVar[str]
     unit: ClassVar[str]
+    held: ClassVar[Sequence[str]] = tuple(INPUTS)
     status: str
     reason: str
     predicted: float
@@ -82,37 +87,6 @@ class SearchResult(Shown):
         ]
 
 
-def _fields(
-    facts: Facts,
-    searched: str,
-    period_map: FmuPeriodMap | None = None,
-    found: FixedPoint | NoPeriodicMotion | None = None,
-) -> dict[str, Any]:
-    """Return the fields of a result that say what was asked, and what the search took."""
-    load = "load" if searched == "blocking_force" else ""  # which is then searched, not held
-    fields: dict[str, Any] = {
-        "predicted": facts[searched],
-        "prediction_valid": facts.prediction_valid,
-        "inputs": {name: facts[name] for name in INPUTS if name != load},
-        "friction_faces": int(facts["friction_faces"]),
-    }
-    if period_map is not None:
-        fields |= {"common_period": period_map.drive_periods, "periods": period_map.periods}
-    if found is not None:
-        fields |= {"iterations": found.iterations, "residual": found.residual}
-    if isinstance(found, FixedPoint):
-        multipliers, stable = tuple(found.multipliers.tolist()), found.stability == "stable"
-        fields |= {"multipliers": multipliers, "stable": stable}
-    return fields
-
-
-def _undamped_hint(facts: Facts) -> str:
-    """Return what a reason ends with for an undamped resonator."""
-    if facts["damping_ratio"] > 0.0:
-        return ""
-    return " (damping_ratio = 0: the transient of the resonator never decays)"
-
-
 @dataclass(frozen=True, repr=False)
 class SteadyMotion(SearchResult):
     """The result of a search for steady motion.
@@ -137,25 +111,20 @@ def find_steady(
     own prediction. Raises FmuError and Refusal as `Instance.start` does.
     """
     facts = read_facts(instance, values)
-    said = partial(_fields, facts, "steady_velocity")
     runaway = _runaway(facts)
+    period_map = None
     try:
         # Damped bristles can give more friction than full sliding: only the search can decide.
         if runaway is not None and facts["friction_law"] == 0:
             raise runaway
         count = repeating_periods(facts, max_denominator)
-    except NoPeriodicMotion as none:
-        return SteadyMotion(none.status, none.reason, **said())
-    period_map = FmuPeriodMap(instance, values, facts, count)
-    guess = values.get("initial_velocity", facts["steady_velocity"])
-    hint = _undamped_hint(facts)
-    try:
+        period_map = FmuPeriodMap(instance, values, facts, count)
+        guess = values.get("initial_velocity", facts["steady_velocity"])
         found = steady_point(period_map, guess if isfinite(guess) else 0.0, facts["load"])
     except NoPeriodicMotion as none:
-        status, reason = none.status, none.reason + hint
-        if runaway is not None:
-            status, reason = runaway.status, runaway.reason
-        return SteadyMotion(status, reason, **said(period_map, none))
+        if period_map is not None and runaway is not None:
+            none.status, none.reason = runaway.status, runaway.reason
+        return _result(SteadyMotion, none.status, none.reason, facts, period_map, none)
     largest = f"{abs(found.multipliers[0]):.9g}"
     repeats = "this motion repeats but departures from it"
     status, reason = {
@@ -164,18 +133,15 @@ def find_steady(
             "unstable",
             f"{repeats} grow by {largest} per common period: another one is reached in practice",
         ),
-        "neutral": ("neutral", f"{repeats} neither grow nor decay ({largest}){hint}"),
+        "neutral": ("neutral", f"{repeats} neither grow nor decay ({largest})"),
     }[found.stability]
     if period_map.sticks_throughout:
         status = "stuck"
         reason = "the slider sticks throughout: the drive does not overcome friction"
-    return SteadyMotion(
-        status,
-        reason,
-        **said(period_map, found),
-        steady_velocity=found.displacement / period_map.period,
-        state=dict(zip(period_map.names, found.state.tolist(), strict=True)),
-    )
+    velocity = found.displacement / period_map.period
+    state = dict(zip(period_map.names, found.state.tolist(), strict=True))
+    answer = {"steady_velocity": velocity, "state": state}
+    return _result(SteadyMotion, status, reason, facts, period_map, found, **answer)
 
 
 def _runaway(facts: Facts) -> NoPeriodicMotion | None:
@@ -202,6 +168,7 @@ class Blocking(SearchResult):
     """
 
     searched, unit = "blocking_force", "N"
+    held = ("phase", "frequency_ratio")
     blocking_force: float | None = None
 
 
@@ -213,33 +180,58 @@ def find_blocking(
     A `load` among the values is where the search begins. Errors are those of `find_steady`.
     """
     facts = read_facts(instance, values)
-    said = partial(_fields, facts, "blocking_force")
-    try:
-        count = repeating_periods(facts, max_denominator)
-    except NoPeriodicMotion as none:
-        return Blocking(none.status, none.reason, **said())
-    period_map = FmuPeriodMap(instance, values, facts, count)
     predicted = facts["blocking_force"]
     load = values.get("load", predicted if isfinite(predicted) else 0.0)
-    warm = period_map.warm_up(0.0, load)
-    if period_map.sticks_throughout:
-        return Blocking(
-            "stuck",
-            f"the slider sticks throughout at load = {load:.6g} N: every load that friction holds "
-            "stops it, so that no single one is the blocking force",
-            **said(period_map),
-        )
+    period_map = None
     try:
+        count = repeating_periods(facts, max_denominator)
+        period_map = FmuPeriodMap(instance, values, facts, count)
+        warm = period_map.warm_up(0.0, load)
+        if period_map.sticks_throughout:
+            raise NoPeriodicMotion(
+                "stuck",
+                f"the slider sticks throughout at load = {load:.6g} N: every load that friction "
+                "holds stops it, so that no single one is the blocking force",
+            )
         found = blocked_point(period_map, warm, load, max(facts.friction_limit, 1e-12))
     except NoPeriodicMotion as none:
-        reason = none.reason + _undamped_hint(facts)
-        return Blocking(none.status, reason, **said(period_map, none))
-    return Blocking(
-        "blocked" if found.stability == "stable" else found.stability,
-        f"at this load the mean velocity is zero; the largest multiplier is "
-        f"{abs(found.multipliers[0]):.9g}",
-        **said(period_map, found),
-        blocking_force=found.load,
+        return _result(Blocking, none.status, none.reason, facts, period_map, none)
+    status = "blocked" if found.stability == "stable" else found.stability
+    largest = f"{abs(found.multipliers[0]):.9g}"
+    reason = f"at this load the mean velocity is zero; the largest multiplier is {largest}"
+    answer = {"blocking_force": found.load}
+    return _result(Blocking, status, reason, facts, period_map, found, **answer)
+
+
+def _result(
+    kind: type[Result],
+    status: str,
+    reason: str,
+    facts: Facts,
+    period_map: FmuPeriodMap | None,
+    found: FixedPoint | NoPeriodicMotion,
+    **answer: Any,
+) -> Result:
+    """Return the result of a search, with the answer by name where something was `found`.
+
+    `period_map` is None where none could be tried.
+    """
+    if status in UNDECIDED and facts["damping_ratio"] == 0.0:
+        reason += " (damping_ratio = 0: the transient of the resonator never decays)"
+    if isinstance(found, FixedPoint):
+        answer |= {
+            "multipliers": tuple(found.multipliers.tolist()),
+            "stable": found.stability == "stable",
+        }
+    if period_map is not None:
+        answer |= {"common_period": period_map.drive_periods, "periods": period_map.periods}
+    return kind(
+        *(status, reason, facts[kind.searched], facts.prediction_valid),
+        {name: facts[name] for name in kind.held},
+        int(facts["friction_faces"]),
+        iterations=found.iterations,
+        residual=found.residual,
+        **answer,
     )
 
 
