@@ -4,9 +4,9 @@ Positive parameters are estimated by their logarithm, so that steps and scales a
 terms are those of nonlinear regression: Seber and Wild, Nonlinear Regression (1989), 5.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cache, lru_cache, partial
+from functools import cache, cached_property, lru_cache, partial
 from math import nan
 
 import numpy as np
@@ -23,47 +23,42 @@ from slider_resonator.steady.searches import SEARCHES
 
 
 def predict(
-    instance: Instance, parameters: Mapping[str, float], measurements: Measurements
+    instance: Instance,
+    parameters: Mapping[str, float],
+    measurements: Measurements,
+    *,
+    searches: bool = True,
 ) -> Array:
     """Return the numbers of the FMU in the order of `Measurements.measured`, shape (n,).
 
-    A steady quantity is the FMU's output where that is valid, else it is found by shooting; where
-    no such motion exists it is NaN. Raises FmuError and Refusal as `Instance.start` does.
+    A steady quantity is the FMU's output where that is valid, else it is found by shooting, if that
+    `searches`; where no such motion is found it is NaN. Raises FmuError and Refusal as
+    `Instance.start` does.
     """
-    numbers = [_steady(instance, parameters, point) for point in measurements.points]
-    columns = []
+    steady = partial(_steady, instance, parameters, searches=searches)
+    columns = [[steady(point) for point in measurements.points]]
     for one in measurements.runs:
         record = run(instance, parameters, one.schedule, outputs=list(one.outputs))
         columns += [
-            record.outputs[name][np.isfinite(column)] for name, column in one.outputs.items()
+            record.outputs[name][np.isfinite(column)].tolist()
+            for name, column in one.outputs.items()
         ]
-    return np.concatenate([numbers, *columns])
+    return np.concatenate(columns)
 
 
-def predict_between(
-    instance: Instance, parameters: Mapping[str, float], points: Sequence[Point]
-) -> list[Point]:
-    """Return the points with the FMU's output as measured, without those where it is not valid."""
-    outputs = [_output(instance, parameters, point) for point in points]
-    found = zip(points, outputs, strict=True)
-    return [replace(point, measured=one) for point, one in found if one is not None]
-
-
-def _output(instance: Instance, parameters: Mapping[str, float], point: Point) -> float | None:
-    """Return the output of the FMU for a steady quantity, None where it is not valid."""
+def _steady(
+    instance: Instance, parameters: Mapping[str, float], point: Point, searches: bool
+) -> float:
+    """Return a steady quantity, as `predict` does."""
+    values = {**parameters, **point.values}
     has_validity = "prediction_valid" in instance.fmu.outputs
-    instance.start({**parameters, **point.values})
+    instance.start(values)
     with instance.explained():
         read = instance.read([point.quantity, *(["prediction_valid"] if has_validity else [])])
-    return read[point.quantity] if read.get("prediction_valid") == 1.0 else None
-
-
-def _steady(instance: Instance, parameters: Mapping[str, float], point: Point) -> float:
-    output = _output(instance, parameters, point)
-    if output is None:
-        search_for = SEARCHES[point.quantity]
-        output = getattr(search_for(instance, {**parameters, **point.values}), point.quantity)
-    return nan if output is None else float(output)
+    if read.get("prediction_valid") == 1.0:
+        return read[point.quantity]
+    found = SEARCHES[point.quantity](instance, values).value if searches else None
+    return nan if found is None else found
 
 
 NO_MOTION = 10.0
@@ -156,6 +151,12 @@ class Problem:
         return Problem(fixed, (*self.free[:index], *self.free[index + 1 :]), self.measurements)
 
 
+NOTHING = 1e-6
+"""Singular value, over the largest, below which differences of the outputs are rounding."""
+REDUNDANCY = 2.0
+"""Numbers to spare from which a series tells its own noise; others have that of all."""
+
+
 @dataclass(frozen=True)
 class Minimum:
     """The least squares from one start: internal parameters (p,), residuals (n,), slopes (n, p).
@@ -186,10 +187,15 @@ class Minimum:
         variances = (data.scales / data.sizes) ** 2 * np.mean(self.residuals**2)
         return float(np.log(np.maximum(variances, rounding**2)).sum())
 
+    @cached_property
+    def inverse(self) -> Array:
+        """Changes of the internal parameters by those of weighted numbers, (p, n)."""
+        return np.asarray(np.linalg.pinv(self.jacobian, rcond=NOTHING), np.float64)
+
     @property
     def covariance(self) -> Array:
         """Covariance of the internal parameters, (p, p), for residuals of standard deviation 1."""
-        return np.asarray(np.linalg.pinv(self.jacobian.T @ self.jacobian), np.float64)
+        return np.asarray(self.inverse @ self.inverse.T)
 
     @property
     def correlation(self) -> Array:
@@ -197,6 +203,37 @@ class Minimum:
         deviations = np.sqrt(np.diag(self.covariance))
         products = np.outer(deviations, deviations).clip(min=1e-300)
         return np.asarray(self.covariance / products)
+
+    @property
+    def noises(self) -> list[tuple[NDArray[np.intp], NDArray[np.intp], float]]:
+        """Numbers of the same noise, those that tell it, and how many of these are to spare.
+
+        Each series has a noise of its own; those that do not tell theirs share that of all.
+        """
+        hat = np.einsum("ij,ji->i", self.jacobian, self.inverse)
+        tells = np.abs(self.jacobian).max(axis=1) > 0.0  # else no motion, or it tells nothing
+        found, others = [], [np.empty(0, np.intp)]
+        for rows in self.problem.measurements.series.values():
+            own = rows[tells[rows]]
+            redundancy = len(own) - float(hat[own].sum())
+            if redundancy >= REDUNDANCY:
+                found.append((rows, own, redundancy))
+            elif len(own):
+                others.append(rows)
+        spare = max(len(hat) - float(hat.sum()), 1.0)
+        return [*found, (np.concatenate(others), np.arange(len(hat)), spare)]
+
+    @property
+    def degrees_of_freedom(self) -> Array:
+        """Those of the estimated variance of each internal parameter, (p,).
+
+        They follow from the series that tell it, by Satterthwaite, Biometrics 2 (1946), 110-114.
+        """
+        if self.problem.measurements.knows_deviations:
+            return np.full(len(self.internal), np.inf)
+        shares = [np.sum(self.inverse[:, rows] ** 2, axis=1) for rows, _, _ in self.noises]
+        spread = sum(share**2 / one[2] for share, one in zip(shares, self.noises, strict=True))
+        return np.asarray(sum(shares) ** 2 / np.maximum(spread, 1e-300)).clip(min=1.0)
 
 
 def minimise(
@@ -240,8 +277,6 @@ def _slopes(
     return np.column_stack(columns)
 
 
-REDUNDANCY = 2.0
-"""Numbers to spare from which a series tells its own noise; others have that of all."""
 LEAST_NOISE = 1e-6
 """Least noise, in root mean squares of the quantity: what rounding of the data may be."""
 
@@ -276,18 +311,9 @@ def noise_of_series(best: Minimum) -> Array:
     It is a step of the estimation of variance components: sums of squares over redundancies
     (Foerstner, Zeitschrift fuer Vermessungswesen 104 (1979), 446-453).
     """
-    jacobian, squares = best.jacobian, best.residuals**2
-    tells = np.abs(jacobian).max(axis=1) > 0.0  # else there is no motion, or it tells nothing
-    hat = np.einsum("ij,ji->i", jacobian, np.linalg.pinv(jacobian))
-    noise = best.problem.measurements.noise * np.ones(len(hat))
-    for rows in best.problem.measurements.series.values():
-        own = rows[tells[rows]]
-        if not len(own):
-            continue
-        redundancy = len(own) - hat[own].sum()
-        if redundancy < REDUNDANCY:
-            own, redundancy = np.arange(len(hat)), max(len(hat) - hat.sum(), 1.0)
-        noise[rows] *= (squares[own].sum() / redundancy) ** 0.5
+    noise = best.problem.measurements.noise * np.ones(len(best.residuals))
+    for rows, own, redundancy in best.noises:
+        noise[rows] *= (np.sum(best.residuals[own] ** 2) / redundancy) ** 0.5
     return noise.clip(min=LEAST_NOISE)
 
 
@@ -349,8 +375,6 @@ class OpenDirection:
     spread: float
 
 
-NOTHING = 1e-6
-"""Singular value, over the largest, below which differences of the outputs are rounding."""
 ALLOWED = 1.0
 """Spread, a factor e of a positive parameter, from which a direction counts as open."""
 TAKES_PART = 0.1

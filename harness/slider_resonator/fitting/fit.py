@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from math import inf, isfinite
 from pathlib import Path
@@ -21,7 +22,6 @@ from slider_resonator.fitting.estimation import (
     Problem,
     open_directions,
     predict,
-    predict_between,
     profile_end,
     search,
 )
@@ -151,8 +151,7 @@ def fit(
         searched: list[Minimum] = run("searching", tasks)
     except FmuError as error:
         raise FmuError("; ".join([str(error), *notes])) from error
-    quantile = float(stdtrit(inf if is_known else max(spare, 1), 0.5 + LEVEL / 2))
-    best, *others = _solutions(searched, problem.start, quantile, spare)
+    best, *others = _solutions(searched, problem.start, spare)
     agreeing = sum(_distance(one.internal, best.internal) < APART for one in searched)
     problem, measurements = best.problem, best.problem.measurements
     scale = (best.sum_of_squares / spare) ** 0.5 if spare else None
@@ -164,7 +163,7 @@ def fit(
     (predicted,) = run("comparing", [partial(predict, parameters=found, measurements=measurements)])
     missed = {} if is_as_stated else missed_quantities(measurements, predicted)
     is_near = len(missed) < len({*measurements.quantities})
-    fitted = _estimates(best, unit if is_near else 0.0, quantile, left_open, run)
+    fitted = _estimates(best, unit if is_near else 0.0, left_open, run)
     off = np.abs(predicted - measurements.measured)
     unmet = () if spare else np.flatnonzero(~(off <= MET * measurements.sizes)).tolist()
     device = Device.from_mapping(found)
@@ -183,11 +182,13 @@ def fit(
             notes.append(f"the data are met as well, or almost, by {said}; bounds decide")
         if agreeing == 1 < starts:
             notes.append("no other start led to this minimum: try more (--starts), or bounds")
-    points = points_between(measurements.points)
+    curves = Measurements(tuple(points_between(measurements.points)))
+    task = partial(predict, parameters=found, measurements=curves, searches=False)
     try:
-        (between,) = run("drawing", [partial(predict_between, parameters=found, points=points)])
+        (on_curves,) = run("drawing", [task])
     except FmuError:
-        between = ()
+        on_curves = np.full(len(curves.points), np.nan)
+    drawn = zip(curves.points, on_curves.tolist(), strict=True)
     return Fit(
         fitted,
         device,
@@ -203,7 +204,7 @@ def fit(
         measurements=measurements,
         unmet=tuple(unmet),
         notes=tuple(notes),
-        between=tuple(between),
+        between=tuple(replace(point, measured=one) for point, one in drawn if isfinite(one)),
     )
 
 
@@ -244,19 +245,22 @@ def _supposed(problem: Problem, run: Runner) -> dict[str, Array]:
 
 
 def _estimates(
-    best: Minimum, unit: float, quantile: float, left_open: Container[str], run: Runner
+    best: Minimum, unit: float, left_open: Container[str], run: Runner
 ) -> tuple[FittedParameter, ...]:
     """Return the estimates, with intervals except of those that are left open.
 
-    `unit` is the standard deviation of the weighted residuals, 0 where nothing tells; `quantile` is
-    half the width of an interval in standard deviations.
+    `unit` is the standard deviation of the weighted residuals, 0 where nothing tells.
     """
-    width, free = quantile * unit, best.problem.free
-    internal, deviations = best.internal.tolist(), np.sqrt(np.diag(best.covariance))
-    end_of = partial(profile_end, best=best, excess=width**2)
-    bounded = [i for i, one in enumerate(free) if width and one.name not in left_open]
-    sides = [(i, sign * width * deviations[i]) for i in bounded for sign in (-1, 1)]
-    ends = run("bounding", [partial(end_of, index=i, change=change) for i, change in sides])
+    free, internal = best.problem.free, best.internal.tolist()
+    deviations = np.sqrt(np.diag(best.covariance))
+    widths = stdtrit(best.degrees_of_freedom, 0.5 + LEVEL / 2) * unit
+    bounded = [i for i, one in enumerate(free) if unit and one.name not in left_open]
+    tasks = [
+        partial(profile_end, best=best, index=i, change=side * deviations[i], excess=widths[i] ** 2)
+        for i in bounded
+        for side in (-widths[i], widths[i])
+    ]
+    ends = run("bounding", tasks)
     intervals = dict(zip(bounded, zip(ends[::2], ends[1::2], strict=True), strict=True))
     fitted = []
     for index, one in enumerate(free):
@@ -274,18 +278,16 @@ def _estimates(
     return tuple(fitted)
 
 
-def _solutions(
-    searched: Sequence[Minimum], start: Array, quantile: float, spare: int
-) -> list[Minimum]:
+def _solutions(searched: Sequence[Minimum], start: Array, spare: int) -> list[Minimum]:
     """Return the most likely minima, the nearest to the device first, and those almost as likely.
 
-    The latter are in the likelihood region of one parameter; `quantile` and `spare` are those of
-    its interval.
+    The latter are in the likelihood region of one parameter; `spare` are the numbers to spare.
     """
     count, is_known = len(searched[0].residuals), searched[0].problem.measurements.knows_deviations
+    square = float(stdtrit(inf if is_known else max(spare, 1), 0.5 + LEVEL / 2)) ** 2
     deviances = np.array([one.deviance(LEAST_NOISE if spare else MET) for one in searched])
     excesses, same = deviances - deviances.min(), SAME * count
-    region = quantile**2 if is_known else count * np.log1p(quantile**2 / max(spare, 1))
+    region = square if is_known else count * np.log1p(square / max(spare, 1))
     found: list[int] = []
     for index in np.argsort(deviances, kind="stable").tolist():
         at = searched[index].internal

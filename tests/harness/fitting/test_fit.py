@@ -142,14 +142,18 @@ def test_a_run_is_fitted_over_time(instance: Instance, first: int) -> None:
     assert ["begins at 75 ms" in note for note in found.notes] == [True] * (first > 0)
 
 
-@pytest.mark.parametrize("run_noise", [5e-7, 5e-5])
-def test_noisy_source_does_not_outweigh_an_exact_one(instance: Instance, run_noise: float) -> None:
+@pytest.mark.parametrize(
+    ("run_noise", "points"), [(5e-7, POINTS * 2), (5e-5, POINTS * 2), (5e-5, POINTS[:4])]
+)
+def test_noisy_source_does_not_outweigh_an_exact_one(
+    instance: Instance, run_noise: float, points: Sequence[Point]
+) -> None:
     """Each quantity of each source errs by what its own residuals say.
 
     Friction is what the table alone tells: with one noise for all, its interval would be that of
-    the noise of the run.
+    the noise of the run, and with the degrees of freedom of all numbers too narrow.
     """
-    table = measured(instance, TRUE, POINTS * 2, 0.02, seed=3)
+    table = measured(instance, TRUE, points, 0.02, seed=3)
     columns = {"time": np.linspace(0.0, 0.02, 201), "phase": np.full(201, 0.4)}
     outputs = recorded(instance, TRUE, columns, {"resonator_displacement": run_noise}, seed=4)
     widths = []
