@@ -162,7 +162,7 @@ def fit(
     found = problem.values(best.internal)
     (predicted,) = run("comparing", [partial(predict, parameters=found, measurements=measurements)])
     missed = {} if is_as_stated else missed_quantities(measurements, predicted)
-    is_near = len(missed) < len({*measurements.quantities})
+    is_near = len(missed) < len({*measurements.quantities.tolist()})
     fitted = _estimates(best, unit if is_near else 0.0, left_open, run)
     off = np.abs(predicted - measurements.measured)
     unmet = () if spare else np.flatnonzero(~(off <= MET * measurements.sizes)).tolist()
@@ -218,7 +218,9 @@ def _problem(
     parameters = {name: value for name, value in values.items() if name in PARAMETERS}
     inputs = {name: value for name, value in values.items() if name not in PARAMETERS}
     free = free_parameters(names, parameters, bounds)
-    for source, name in measurements.given:
+    columns = [(point.source, name) for point in measurements.points for name in point.values]
+    columns += [(one.source, name) for one in measurements.runs for name in one.schedule.tuning]
+    for source, name in columns:
         if name in names:
             raise HarnessError(
                 f"{name} is free, and a column of {source}; must be one of them: leave it out of "

@@ -54,12 +54,17 @@ class Run:
     rows: Sequence[str] = ()
 
 
-class Place(NamedTuple):
-    """What a number is, and where it was read, such as velocity, data.csv, line 3."""
+class Number(NamedTuple):
+    """A measured number in SI units with its standard deviation, NaN where that is not known.
+
+    It is a quantity of a source and row, such as velocity, data.csv, line 3.
+    """
 
     quantity: str
     source: str
     row: str
+    value: float
+    deviation: float
 
 
 @dataclass(frozen=True)
@@ -80,40 +85,32 @@ class Measurements:
     notes: tuple[str, ...] = ()
 
     @cached_property
-    def _numbers(self) -> list[tuple[Place, float, float]]:
-        """Place, value and standard deviation of each number, without what a run leaves out."""
-        found = [(Place(p.quantity, p.source, p.row), p.measured, p.deviation) for p in self.points]
+    def numbers(self) -> list[Number]:
+        """The numbers, length n, without what a run leaves out."""
+        found = [Number(p.quantity, p.source, p.row, p.measured, p.deviation) for p in self.points]
         for run in self.runs:
             for name, column in run.outputs.items():
                 rows = run.rows or [f"row {number}" for number in range(1, len(column) + 1)]
-                deviations = run.deviations.get(name, np.full(len(column), nan))
-                numbers = zip(rows, column.tolist(), deviations.tolist(), strict=True)
-                found += [
-                    (Place(name, run.source, n[0]), *n[1:]) for n in numbers if isfinite(n[1])
-                ]
+                deviations = run.deviations.get(name, np.full(len(column), nan)).tolist()
+                for row, value, deviation in zip(rows, column.tolist(), deviations, strict=True):
+                    if isfinite(value):
+                        found.append(Number(name, run.source, row, value, deviation))
         return found
 
     @property
     def measured(self) -> Array:
         """What was measured, shape (n,)."""
-        return np.array([value for _, value, _ in self._numbers])
+        return np.array([one.value for one in self.numbers])
 
     @property
-    def places(self) -> list[Place]:
-        """The place of each number, length n."""
-        return [place for place, _, _ in self._numbers]
+    def deviations(self) -> Array:
+        """Standard deviations, shape (n,), NaN where they are not known."""
+        return np.array([one.deviation for one in self.numbers])
 
     @property
-    def given(self) -> list[tuple[str, str]]:
-        """Source and name of what the measurements set."""
-        points = [(point.source, name) for point in self.points for name in point.values]
-        runs = [(run.source, name) for run in self.runs for name in run.schedule.tuning]
-        return list(dict.fromkeys([*points, *runs]))
-
-    @property
-    def quantities(self) -> list[str]:
-        """The quantity of each number, length n."""
-        return [place.quantity for place in self.places]
+    def quantities(self) -> NDArray[np.str_]:
+        """The quantity of each number, shape (n,)."""
+        return np.array([one.quantity for one in self.numbers], np.str_)
 
     def unit(self, name: str) -> tuple[str, float]:
         """Return the unit of the data, or else the SI unit, and the factor to the latter."""
@@ -125,16 +122,11 @@ class Measurements:
         return f"{value / factor:.3g} {unit}"
 
     @property
-    def deviations(self) -> Array:
-        """Standard deviations, shape (n,), NaN where they are not known."""
-        return np.array([deviation for _, _, deviation in self._numbers])
-
-    @property
     def knows_deviations(self) -> bool:
         """Whether the numbers have their standard deviations; HarnessError if only some have."""
         known = np.isfinite(self.deviations)
         if known.any() and not known.all():
-            name, source, _ = self.places[int(np.argmin(known))]
+            name, source, *_ = self.numbers[int(np.argmin(known))]
             raise HarnessError(
                 f"{np.count_nonzero(known)} of {len(known)} numbers have a standard deviation; "
                 f"must be all or none: give {source} a column {name}_std, or take all such out"
@@ -145,19 +137,16 @@ class Measurements:
     def series(self) -> dict[tuple[str, str], NDArray[np.intp]]:
         """The indices of the numbers of each quantity and source."""
         found: dict[tuple[str, str], list[int]] = {}
-        for index, place in enumerate(self.places):
-            found.setdefault(place[:2], []).append(index)
+        for index, one in enumerate(self.numbers):
+            found.setdefault((one.quantity, one.source), []).append(index)
         return {name: np.array(rows) for name, rows in found.items()}
 
     @property
     def sizes(self) -> Array:
         """Root mean square of the quantity of each number, shape (n,)."""
-        measured, quantities = self.measured, np.array(self.quantities)
-        sizes = np.empty(len(measured))
-        for name in set(self.quantities):
-            own = quantities == name
-            sizes[own] = np.sqrt(np.mean(measured[own] ** 2)) or 1.0
-        return sizes
+        _, own = np.unique(self.quantities, return_inverse=True)
+        squares = np.bincount(own, self.measured**2) / np.bincount(own)
+        return np.where(squares > 0.0, np.sqrt(squares), 1.0)[own]
 
     @property
     def scales(self) -> Array:

@@ -77,10 +77,11 @@ def missed_quantities(measurements: Measurements, predicted: Array) -> dict[str,
     (n,), NaN where there is no motion.
     """
     missed = ((predicted - measurements.measured) / measurements.sizes) ** 2
-    quantities = np.where(np.isfinite(missed), measurements.quantities, "")
+    there = np.isfinite(missed)
+    missed, quantities = missed[there], measurements.quantities[there]
     shares = {
         name: float(np.mean(missed[quantities == name])) ** 0.5
-        for name in sorted({*quantities.tolist()} - {""})
+        for name in np.unique(quantities).tolist()
     }
     return {name: share for name, share in shares.items() if share >= MISSED}
 
@@ -97,8 +98,7 @@ def miss_notes(
     for name, share in missed.items():
         least, meant = MISSED, ""
         for what, predicted in supposed.items():
-            own = np.array(measurements.quantities[: len(predicted)]) == name
-            own &= np.isfinite(predicted)
+            own = (measurements.quantities[: len(predicted)] == name) & np.isfinite(predicted)
             factor, rest = _proportion(measurements.measured[: len(own)][own], predicted[own])
             power = 3 * round(log10(abs(factor) or 1.0) / 3.0)
             parts = [what] if what else []
@@ -138,16 +138,15 @@ def misfit_notes(measurements: Measurements, predicted: Array, jacobian: Array) 
     measured = measurements.measured
     weighted = (predicted - measured) / measurements.scales
     is_seen = np.abs(predicted - measured) > ROUNDING * measurements.sizes
-    places, series = measurements.places, measurements.series
+    numbers, series = measurements.numbers, measurements.series
     outliers: list[str] = []
     systematic = []
-    for (quantity, source), numbers in series.items():
-        rows = numbers[np.isfinite(weighted[numbers])]
+    for (quantity, source), own in series.items():
+        rows = own[np.isfinite(weighted[own])]
         found = rows[outlying(weighted[rows], jacobian[rows], OUTLIER_LEVEL / len(series))]
         for index in found[is_seen[found]].tolist():
-            values = (measurements.shown(quantity, one[index]) for one in (measured, predicted))
-            number, fit = values
-            outliers.append(f"{source} {places[index].row}: {quantity} {number}, fit {fit}")
+            number, fit = (measurements.shown(quantity, x[index]) for x in (measured, predicted))
+            outliers.append(f"{source} {numbers[index].row}: {quantity} {number}, fit {fit}")
         rows = rows[is_seen[rows]]
         lengths, expected, chance = runs_about_median(weighted[rows])
         if chance < CHANCE:
@@ -158,7 +157,7 @@ def misfit_notes(measurements: Measurements, predicted: Array, jacobian: Array) 
                 f"{source}: residuals of {quantity} are systematic: {len(lengths)} runs above or "
                 f"below their median, {expected:.0f} by chance (runs test, "
                 f"p = {chance:.1g}), the longest from "
-                f"{places[rows[first]].row} to {places[rows[last]].row}; the model misses "
+                f"{numbers[rows[first]].row} to {numbers[rows[last]].row}; the model misses "
                 "something, and the intervals are too narrow"
             )
     if outliers:

@@ -52,7 +52,7 @@ def write_report(fit: Fit, folder: Path, title: str, provenance: Provenance) -> 
     # A row for each number; what a steady measurement set is in columns of its own.
     points = fit.measurements.points
     settings = list(dict.fromkeys(name for point in points for name in point.values))
-    quantities, *where = zip(*fit.measurements.places, strict=True)
+    quantities, *where = zip(*(one[:3] for one in fit.measurements.numbers), strict=True)
     found = (column.tolist() for column in (fit.measured, fit.predicted, fit.residuals))
     columns: list[Sequence[object]] = [quantities, *found, *where]
     of_runs = [""] * (len(quantities) - len(points))

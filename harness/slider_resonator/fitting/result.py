@@ -131,12 +131,12 @@ class Fit(Shown, Tabular, Drawable):
             )
         shown = self.measurements.shown
         for index in self.unmet:
-            name, source, row = self.measurements.places[index]
+            name, source, row, *_ = self.measurements.numbers[index]
             asked, reached = shown(name, self.measured[index]), self.predicted[index]
             found = f"the nearest found is {shown(name, reached)}"
             nearest = found if isfinite(reached) else "but no steady motion was found"
             lines.append(f"not met: {name} ({source}, {row}) must be {asked}, {nearest}")
-        quantities = np.array(self.measurements.quantities)
+        quantities = self.measurements.quantities
         for quantity in dict.fromkeys(quantities.tolist()):
             seen = np.isfinite(self.predicted) & (quantities == quantity)
             if seen.any():

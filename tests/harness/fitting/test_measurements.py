@@ -42,8 +42,8 @@ def test_a_run_keeps_its_times_and_may_lack_values(tmp_path: Path) -> None:
     assert run.schedule.times.tolist() == [0.0, 2.0, 4.0]
     assert run.schedule.sampled[:, 1].tolist() == [0.0, 0.05, 0.05]
     assert data.measured == pytest.approx([0.1, 0.3, 1e-6, 2e-6, 3e-6])
-    assert data.quantities == ["velocity"] * 2 + ["position"] * 3
-    assert [place.row for place in data.places[:2]] == ["line 2", "line 5"]
+    assert data.quantities.tolist() == ["velocity"] * 2 + ["position"] * 3
+    assert [one.row for one in data.numbers[:2]] == ["line 2", "line 5"]
     assert np.isnan(run.outputs["velocity"][1])
     assert not data.notes
 
