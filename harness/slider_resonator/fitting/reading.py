@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import nan
 from pathlib import Path
@@ -35,16 +36,69 @@ MAX_ROWS = 100_000
 
 @dataclass(frozen=True)
 class _Columns:
-    """Columns by name in SI units, (n,) each, with the names of their n rows.
-
-    `units` and `notes` are those of `Measurements`.
-    """
+    """Columns by name in SI units, (n,) each, with the names of their n rows."""
 
     source: str
     rows: Sequence[str]
     values: Mapping[str, Array]
-    units: Mapping[str, tuple[str, float]]
-    notes: tuple[str, ...] = ()
+
+    def check_filled(self, name: str, needed: NDArray[np.bool_]) -> None:
+        """Raise HarnessError for an empty cell of a column in a row that is `needed`, (n,)."""
+        for index in np.flatnonzero(needed & ~np.isfinite(self.values[name])).tolist():
+            raise HarnessError(
+                f"{self.source} {self.rows[index]}: {name} is empty; must be a number"
+            )
+
+
+@dataclass(frozen=True)
+class _Headings:
+    """Names that columns can have, those of them that can be measured, and other words for them."""
+
+    names: Sequence[str]
+    outputs: Sequence[str]
+    aliases: Mapping[str, str]
+
+    @classmethod
+    def among(cls, headings: Iterable[str]) -> "_Headings":
+        """Return those of a run where a heading says `time`, else those of a table."""
+        run = cls([*INPUTS, *HELD, *ALL_OUTPUTS, "time"], [*ALL_OUTPUTS], _ALIASES)
+        if any(run.parts(heading)[0] == "time" for heading in headings):
+            return run
+        return cls([*INPUTS, *PARAMETERS, *STEADY, "time"], STEADY, _ALIASES | _STEADY_ALIASES)
+
+    def parts(self, heading: str) -> tuple[str, str, str]:
+        """Return name, std and unit of a heading; the last two are empty if it lacks them."""
+        match = _HEADING.fullmatch(heading)
+        name, std, unit = match.groups("") if match else (heading, "", "")
+        name = "_".join(name.lower().split())
+        return self.aliases.get(name, name), std, unit
+
+    def meaning(self, heading: str) -> tuple[str, str, float]:
+        """Return name, unit and factor to the SI unit; ValueError for a wrong heading."""
+        name, std, unit = self.parts(heading)
+        if name not in self.names or (std and name not in self.outputs):
+            if meant := self._with_brackets(heading):
+                raise ValueError(f"unknown column {heading!r}; write {meant!r}")
+            said = unknown_name("column", name + std, {*self.names, *self.aliases})
+            raise ValueError(f"{said}; take out a column of numbers that the fit is not to use")
+        with explained(f"heading {heading!r}: ", ValueError):
+            return name + ("_std" if std else ""), unit, _factor(name, unit)
+
+    def _with_brackets(self, heading: str) -> str | None:
+        """Return `velocity [mm/s]` for the heading velocity_mm_s and the like, None for others."""
+        words = heading.split("_")
+        for count in range(1, len(words)):
+            name, unit = "_".join(words[:count]), "/".join(words[count:])
+            known = self.parts(name)[0]
+            with suppress(ValueError):
+                if known in self.names and _factor(known, unit):
+                    return f"{name} [{unit}]"
+        return None
+
+
+def _factor(name: str, unit: str) -> float:
+    """Return the factor from a unit, or none, to the SI unit; ValueError for a wrong one."""
+    return VARIABLES[TIME if name == "time" else name].in_si(f"1 {unit}") if unit else 1.0
 
 
 def read_measurements(path: Path) -> Measurements:
@@ -54,7 +108,23 @@ def read_measurements(path: Path) -> Measurements:
     with `_std`, its standard deviation. Columns of text with other headings are ignored, and noted.
     Raises HarnessError with file, line, value and requirement.
     """
-    return _measurements(_columns(path))
+    try:
+        header, filled = csv_rows(path)
+        if not 1 <= len(filled) <= MAX_ROWS:
+            raise ValueError(f"{len(filled)} rows below the header; must be 1 to {MAX_ROWS}")
+        rows = [f"line {line}" for line, _ in filled]
+        headings, columns, ignored = _Headings.among(header), [], []
+        for index, heading in enumerate(header):
+            cells = [row[index].strip() if index < len(row) else "" for _, row in filled]
+            is_known = headings.parts(heading)[0] in headings.names
+            if is_known or any(is_number(cell) for cell in cells):
+                columns.append((heading, _numbers(heading, rows, cells)))
+            elif heading:
+                ignored.append(heading)
+        return _measurements(str(path), rows, columns, ignored)
+    except ValueError as error:
+        said = str(error)
+        raise HarnessError(said if str(path) in said else f"{path}: {said}") from error
 
 
 def measurements_of(data: Any) -> Measurements:
@@ -83,127 +153,50 @@ def measurements_from(table: Mapping[str, Any]) -> Measurements:
         if len(shapes) != 1 or len(shape := shapes.pop()) != 1:
             raise ValueError("must be columns of one length")
         rows = [f"row {number}" for number in range(1, shape[0] + 1)]
-        return _measurements(_named("data", rows, list(columns.items())))
+        return _measurements("data", rows, [*columns.items()])
     except (ValueError, TypeError) as error:
         raise HarnessError(f"data: {error}") from error
 
 
-def _measurements(columns: _Columns) -> Measurements:
-    for name, column in columns.values.items():
-        deviations = columns.values.get(f"{name}_std", np.ones(len(column)))
-        for index in np.flatnonzero(np.isfinite(column) & ~(deviations > 0.0)).tolist():
-            row, deviation = f"{columns.source} {columns.rows[index]}", deviations[index]
-            raise HarnessError(f"{row}: {name}_std = {deviation:g}: must be above 0")
-    found = _run(columns) if "time" in columns.values else _table(columns)
-    plain = [
-        (columns.source, name, value)
-        for name in IN_ANOTHER_UNIT
-        if name in columns.values and name not in columns.units
-        for value in dict.fromkeys(columns.values[name].tolist())
-    ]
-    notes = (*columns.notes, *found.notes)
-    return replace(found, units=columns.units, plain_numbers=tuple(plain), notes=notes)
-
-
-def _columns(path: Path) -> _Columns:
-    """Return the columns of a file, empty cells as NaN."""
-    try:
-        header, filled = csv_rows(path)
-        if not 1 <= len(filled) <= MAX_ROWS:
-            raise ValueError(f"{len(filled)} rows below the header; must be 1 to {MAX_ROWS}")
-        rows = [f"line {line}" for line, _ in filled]
-        allowed, columns, ignored = _Allowed.by(header), [], []
-        for index, heading in enumerate(header):
-            cells = [row[index].strip() if index < len(row) else "" for _, row in filled]
-            is_known = allowed.parts(heading)[0] in allowed.names
-            if is_known or any(is_number(cell) for cell in cells):
-                columns.append((heading, _numbers(heading, rows, cells)))
-            elif heading:
-                ignored.append(heading)
-        return _named(str(path), rows, columns, ignored)
-    except ValueError as error:
-        said = str(error)
-        raise HarnessError(said if str(path) in said else f"{path}: {said}") from error
-
-
-@dataclass(frozen=True)
-class _Allowed:
-    """Names that columns can have, those of them that can be measured, and other words for them."""
-
-    names: Sequence[str]
-    outputs: Sequence[str]
-    aliases: Mapping[str, str]
-
-    @classmethod
-    def by(cls, headings: Iterable[str]) -> "_Allowed":
-        """Return those of a run where a heading says `time`, else those of a table."""
-        run = cls([*INPUTS, *HELD, *ALL_OUTPUTS, "time"], [*ALL_OUTPUTS], _ALIASES)
-        if any(run.parts(heading)[0] == "time" for heading in headings):
-            return run
-        return cls([*INPUTS, *PARAMETERS, *STEADY, "time"], STEADY, _ALIASES | _STEADY_ALIASES)
-
-    def parts(self, heading: str) -> tuple[str, str, str]:
-        """Return name, std and unit of a heading; the last two are empty if it lacks them."""
-        match = _HEADING.fullmatch(heading)
-        name, std, unit = match.groups("") if match else (heading, "", "")
-        name = "_".join(name.lower().split())
-        return self.aliases.get(name, name), std, unit
-
-
-def _named(
+def _measurements(
     source: str,
     rows: Sequence[str],
     columns: Sequence[tuple[str, Array]],
     ignored: Sequence[str] = (),
-) -> _Columns:
-    """Return columns by name in SI units from those by heading; ValueError for a wrong heading.
+) -> Measurements:
+    """Return measurements from columns by heading; ValueError for a wrong heading.
 
     Columns that number the rows are ignored, and noted beside others that are `ignored`.
     """
-    allowed = _Allowed.by(heading for heading, _ in columns)
-    named: dict[str, Array] = {}
+    headings = _Headings.among(heading for heading, _ in columns)
+    values: dict[str, Array] = {}
     units: dict[str, tuple[str, float]] = {}
-    for heading, values in columns:
+    for heading, column in columns:
         if heading.lower().rstrip(".") in _ROW_NUMBERS:
             ignored = [*ignored, heading]
             continue
-        name, std, unit = allowed.parts(heading)
-        if name not in allowed.names or (std and name not in allowed.outputs):
-            meant = _with_brackets(heading, allowed)
-            if meant:
-                raise ValueError(f"unknown column {heading!r}; write {meant!r}")
-            said = unknown_name("column", name + std, {*allowed.names, *allowed.aliases})
-            raise ValueError(f"{said}; take out a column of numbers that the fit is not to use")
-        with explained(f"heading {heading!r}: ", ValueError):
-            factor = _factor(name, unit)
-        name += "_std" if std else ""
-        if name in named:
+        name, unit, factor = headings.meaning(heading)
+        if name in values:
             raise ValueError(f"two columns {name}; must be one")
-        named[name] = factor * values
+        values[name] = factor * column
         if unit:
             units[name] = (unit, factor)
+    for name in values:
+        deviations = values.get(f"{name}_std", np.ones(len(rows)))
+        for index in np.flatnonzero(np.isfinite(values[name]) & ~(deviations > 0.0)).tolist():
+            said = f"{name}_std = {deviations[index]:g}: must be above 0"
+            raise HarnessError(f"{source} {rows[index]}: {said}")
+    read = _Columns(source, rows, values)
+    found = _run(read) if "time" in values else _table(read)
+    plain = [
+        (source, name, value)
+        for name in IN_ANOTHER_UNIT
+        if name in values and name not in units
+        for value in dict.fromkeys(values[name].tolist())
+    ]
     note = f"{source}: ignored {', '.join(map(repr, ignored))}: no numbers, or row numbers"
-    return _Columns(source, rows, named, units, (note,) if ignored else ())
-
-
-def _factor(name: str, unit: str) -> float:
-    """Return the factor from a unit, or none, to the SI unit; ValueError for a wrong one."""
-    return VARIABLES[TIME if name == "time" else name].in_si(f"1 {unit}") if unit else 1.0
-
-
-def _with_brackets(heading: str, allowed: _Allowed) -> str | None:
-    """Return `velocity [mm/s]` for the heading velocity_mm_s and the like, None for others."""
-    words = heading.split("_")
-    for count in range(1, len(words)):
-        name, unit = "_".join(words[:count]), "/".join(words[count:])
-        known = allowed.parts(name)[0]
-        if known in allowed.names:
-            try:
-                _factor(known, unit)
-            except ValueError:
-                continue
-            return f"{name} [{unit}]"
-    return None
+    notes = (*([note] if ignored else []), *found.notes)
+    return replace(found, units=units, plain_numbers=tuple(plain), notes=notes)
 
 
 def _numbers(heading: str, rows: Sequence[str], cells: Sequence[str]) -> Array:
@@ -227,7 +220,7 @@ def _table(columns: _Columns) -> Measurements:
     there = np.isfinite([values[name] for name in measured])
     is_needed = np.array(there.any(axis=0))
     for name in given:
-        _check_filled(columns, name, is_needed)
+        columns.check_filled(name, is_needed)
     points = []
     for index, row in enumerate(columns.rows):
         own = {name: float(values[name][index]) for name in given}
@@ -239,20 +232,12 @@ def _table(columns: _Columns) -> Measurements:
     return Measurements(tuple(points), notes=(note,) if skipped else ())
 
 
-def _check_filled(columns: _Columns, name: str, needed: NDArray[np.bool_]) -> None:
-    """Raise HarnessError for an empty cell of a column in a row that is `needed`, (n,)."""
-    empty = np.flatnonzero(needed & ~np.isfinite(columns.values[name]))
-    if empty.size:
-        row = columns.rows[int(empty[0])]
-        raise HarnessError(f"{columns.source} {row}: {name} is empty; must be a number")
-
-
 def _run(columns: _Columns) -> Measurements:
     source, values, rows = columns.source, columns.values, columns.rows
     times = values["time"]
     settable = [name for name in (*INPUTS, *HELD) if name in values]
     for name in ("time", *settable):
-        _check_filled(columns, name, np.ones(len(rows), np.bool_))
+        columns.check_filled(name, np.ones(len(rows), np.bool_))
     for index in (np.flatnonzero(np.diff(times) <= 0.0) + 1).tolist():
         raise HarnessError(
             f"{source} {rows[index]}: time = {times[index]:.9g} s: must be above the "
