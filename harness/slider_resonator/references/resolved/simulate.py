@@ -23,7 +23,7 @@ from slider_resonator.references.resolved.taylor_series import (
 from slider_resonator.references.resolved.trajectory import Trajectory
 
 _TRUNCATION = 1e-16
-"""Largest last term of a series in a step, as a share of its largest."""
+"""Largest last term of a series in a step, as a share of its first one."""
 _NOISE = 2e-15
 """Rounding error of a sum, as a share of its largest term."""
 
@@ -58,9 +58,7 @@ def follow_series(segment: Segment) -> SegmentResult:
         if now.vary:
             now = segment.now.later((elapsed.seconds + elapsed.carry) / frequency)
         series = motion_series(equations, mode, segment.direction, theta, angle, now, states)
-        step = min(remaining, longest)
-        if series.bends:
-            step = min(step, _step_of(series))
+        step = min(remaining, longest, _step_of(series) if series.bends else longest)
         if not step > 0.0:
             raise RuntimeError(
                 f"the Taylor step from velocity {states[1]!r} m/s is {step!r} rad of the drive: "
@@ -97,27 +95,15 @@ def follow_series(segment: Segment) -> SegmentResult:
 
 
 def _step_of(series: MotionSeries) -> float:
-    """Return the step (rad) over which the last terms of velocity and stretch are negligible."""
-    rows = series.states[1], series.states[4]
-    step = min(_step_from_first(row) for row in rows)
-    powers = _powers(step)
-    sizes = [max(map(abs, map(mul, row, powers))) for row in rows]
-    return min(
-        (_TRUNCATION * size / abs(row[order])) ** (1.0 / order) if row[order] else LONGEST
-        for row, size in zip(rows, sizes, strict=True)
-        for order in (ORDER - 1, ORDER)
-    )
-
-
-def _step_from_first(row: Series) -> float:
-    """Return the step (rad) over which the last terms are negligible beside the first."""
-    first = next((order for order, term in enumerate(row) if term), ORDER)
-    return min(
-        (_TRUNCATION * abs(row[first] / row[order])) ** (1.0 / (order - first))
-        if order > first and row[order]
-        else LONGEST
-        for order in (ORDER - 1, ORDER)
-    )
+    """Return the step (rad) with negligible last terms of velocity and stretch."""
+    steps = [LONGEST]
+    for row in (series.states[1], series.states[4]):
+        first = next((order for order, term in enumerate(row) if term), ORDER)
+        for order in (ORDER - 1, ORDER):
+            if order > first and row[order]:
+                share = _TRUNCATION * abs(row[first] / row[order])
+                steps.append(share ** (1.0 / (order - first)))
+    return min(steps)
 
 
 def _first_event(segment: Segment, series: MotionSeries, step: float) -> tuple[float, int]:

@@ -57,13 +57,11 @@ class Recorder:
         self.evaluations = 0
         self._direction = 0  # of the last motion, 0 before the first
         self._next = 0
-        self._signals: list[Array] = []
+        self._signals: list[Array] = [np.empty((0, 8))]
 
     def pending(self, stop: float = np.inf) -> Array:
         """Return the times up to ``stop`` (s) that have no sample yet, shape (k,)."""
         waiting = self.times[self._next :]
-        if not len(waiting) or waiting[0] > stop:
-            return waiting[:0]
         return waiting[: np.searchsorted(waiting, stop, side="right")]
 
     def keep(
@@ -79,8 +77,8 @@ class Recorder:
         fifth where there is one; ``resonator`` is its displacement and velocity, ``forces`` are
         normal force and friction, (k,) each. ``mode`` is the contact mode of all, or of each.
         """
-        modes = np.broadcast_to(np.asarray(mode, dtype=np.float64), len(states))
-        bent = states[:, 4] if states.shape[1] > 4 else np.zeros(len(states))
+        modes = np.full(len(states), mode, np.float64)
+        bent = states[:, 4] if states.shape[1] > 4 else 0.0 * modes
         rows = np.column_stack([states[:, :2], *resonator, *forces, bent, modes])
         self._signals.append(rows)
         self._next += len(rows)
@@ -103,7 +101,7 @@ class Recorder:
 
     def trajectory(self) -> Trajectory:
         """Return the trajectory of all samples."""
-        signals = np.concatenate([np.empty((0, 8)), *self._signals])
+        signals = np.concatenate(self._signals)
         return Trajectory(
             time=self.times,
             position=signals[:, 0],
