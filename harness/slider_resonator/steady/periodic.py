@@ -6,12 +6,13 @@ from math import isclose, isfinite, pi
 
 import numpy as np
 
+from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import common_period
-from slider_resonator.device.interface import VARIABLES
+from slider_resonator.device.interface import INPUTS, VARIABLES
 from slider_resonator.device.schedule import nearest
 from slider_resonator.errors import FmuError, explained
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.averaged.vibrating_contact import mean_load
+from slider_resonator.references.averaged.device_average import full_friction
 from slider_resonator.steady.shooting import PeriodicRun
 from slider_resonator.steady.solvers import Matrix, NoPeriodicMotion, Vector
 
@@ -27,14 +28,22 @@ FIRM = {"normal_preload": 1.0, "normal_amplitude": 0.0, "friction_coefficient": 
 """Values under which friction shows the deflection of a bristle, whatever it was before."""
 
 
+DEVICE = (
+    *("slider_mass", "resonator_mass", "resonator_frequency", "damping_ratio", "drive_frequency"),
+    *("normal_preload", "normal_amplitude", "friction_faces", "friction_coefficient"),
+    *("friction_law", "bristle_stiffness", "bristle_damping", "fidelity"),
+)
+
+
 @dataclass(frozen=True)
 class Facts:
-    """Parameters and inputs in force, read back from the FMU, and its own predictions."""
+    """What is in force, read back from the FMU: `DEVICE`, inputs and its own predictions."""
 
+    device: Device
     values: Mapping[str, float]
 
     def __getitem__(self, name: str) -> float:
-        """Return a parameter, input or prediction by name."""
+        """Return an input or prediction by name."""
         return self.values[name]
 
     @property
@@ -46,20 +55,18 @@ class Facts:
     @property
     def drive_period(self) -> float:
         """Seconds that theta takes for one turn."""
-        return 2.0 * pi / self["drive_frequency"]
+        return 2.0 * pi / self.device.drive_frequency
 
     @property
     def friction_limit(self) -> float:
         """Mean friction force (N) of a slider that slides one way all the time."""
-        load = (self["normal_preload"], self["normal_amplitude"])
-        normal = mean_load(*load, self["phase"], self["frequency_ratio"])
-        return self["friction_faces"] * self["friction_coefficient"] * normal
+        return full_friction(self.device, self["phase"], self["frequency_ratio"])
 
     @property
     def bends(self) -> bool:
         """Whether there is a bristle that matters: averaged motion keeps none."""
-        is_lugre = self["friction_law"] == 1 and self["fidelity"] != 0
-        return is_lugre and self.friction_limit > 0.0 and self["bristle_stiffness"] > 0.0
+        is_lugre = self.device.friction_law == 1 and self.device.fidelity != 0
+        return is_lugre and self.friction_limit > 0.0 and self.device.bristle_stiffness > 0.0
 
 
 def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
@@ -68,20 +75,14 @@ def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
     Raises FmuError for a drive frequency without drive periods, and as `Instance.start` does.
     """
     instance.start(values)
-    names = (
-        *("phase", "load", "frequency_ratio", "drive_frequency", "normal_preload"),
-        *("normal_amplitude", "friction_faces", "friction_coefficient", "friction_law"),
-        *("bristle_stiffness", "bristle_damping", "fidelity"),
-        *("slider_mass", "resonator_mass", "resonator_frequency", "damping_ratio"),
-        *("steady_velocity", "blocking_force"),
-    )
-    optional = (name for name in ("prediction_valid",) if name in instance.fmu.variables)
+    names = [*INPUTS, "steady_velocity", "blocking_force"]
+    names += (name for name in ("prediction_valid",) if name in instance.fmu.variables)
     with instance.explained():
-        read = instance.read((*names, *optional))
-    read["drive_frequency"] *= 1.0 + values.get("frequency_deviation", 0.0)
+        device, read = instance.read(DEVICE), instance.read(names)
+    device["drive_frequency"] *= 1.0 + values.get("frequency_deviation", 0.0)
     with explained(f"{instance.fmu.path.name} reports ", FmuError):
-        VARIABLES["drive_frequency"].checked(read["drive_frequency"])
-    return Facts(read)
+        VARIABLES["drive_frequency"].checked(device["drive_frequency"])
+    return Facts(Device().tuned(device.items()), read)
 
 
 def repeating_periods(facts: Facts, max_denominator: int) -> int:
@@ -124,12 +125,14 @@ class FmuPeriodMap(PeriodicRun):
     ) -> None:
         self.instance = instance
         self.values = values
-        self.facts = facts
+        self.device = facts.device
+        self.friction = facts.friction_limit
         self.drive_periods = drive_periods
         self.drive_period = facts.drive_period
         self.periods = 0
         self.stick_fraction = 0.0
-        self.names = (*STATE, "bristle_deflection") if facts.bends else STATE
+        self.bends = facts.bends
+        self.names = (*STATE, "bristle_deflection") if self.bends else STATE
         self._read = instance.block(["position", *STATE, "stick_fraction"])
 
     def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
@@ -153,7 +156,7 @@ class FmuPeriodMap(PeriodicRun):
         self.stick_fraction = read[-1][4]
         rows = np.array(read)[1 + nearest(grid, times)]
         states, travel = rows[:, 1:4], rows[:, 0] - read[0][0]
-        if self.facts.bends:
+        if self.bends:
             states = np.column_stack([states, np.full(len(rows), self._deflection())])
         return states, travel
 
@@ -161,19 +164,6 @@ class FmuPeriodMap(PeriodicRun):
     def sticks_throughout(self) -> bool:
         """Whether the slider stuck throughout the last period, as far as rounding tells."""
         return abs(self.stick_fraction - 1.0) <= STICKS
-
-    def scale(self, sizes: Vector) -> Vector:
-        """Return the scale of each state.
-
-        That of a velocity is at least its change by friction in a drive period.
-        """
-        mass = self.facts["slider_mass"] + self.facts["resonator_mass"]
-        floor = max(self.facts.friction_limit / mass * self.drive_period, 1e-9)
-        scale = np.maximum(sizes[:3], [floor, floor * self.drive_period / (2.0 * pi), floor])
-        if self.facts.bends:
-            bent = self.facts["friction_coefficient"] / self.facts["bristle_stiffness"]
-            scale = np.append(scale, bent)
-        return scale
 
     def _deflection(self) -> float:
         """Return the deflection z (m) of the bristle, and end the run.
@@ -191,7 +181,7 @@ class FmuPeriodMap(PeriodicRun):
                 f"{normal!r} N must be the normal_preload of {FIRM['normal_preload']!r} N just "
                 f"set, and friction_force = {friction!r} N a finite number"
             )
-        damping = self.facts["bristle_damping"]
-        held = friction / (self.facts["friction_faces"] * normal) - damping * velocity
+        damping = self.device.bristle_damping
+        held = friction / (self.device.friction_faces * normal) - damping * velocity
         weight = 1.0 - damping * abs(velocity) / FIRM["friction_coefficient"]
-        return held / (weight * self.facts["bristle_stiffness"])
+        return held / (weight * self.device.bristle_stiffness)

@@ -8,6 +8,7 @@ import numpy as np
 from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import common_period
 from slider_resonator.device.held_inputs import HeldInputs
+from slider_resonator.references.averaged.device_average import full_friction
 from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.simulate import simulate as simulate_resolved
 from slider_resonator.references.resolved.trajectory import Trajectory
@@ -87,19 +88,9 @@ class _ReferencePeriodMap(PeriodicRun):
         resonator = STATE[1:3] if device.fidelity == 2 else ()
         bristle = STATE[3:] if device.friction_law == 1 else ()
         self.names = (STATE[0], *resonator, *bristle)
+        self.friction = full_friction(device, phase, ratio)
         at_rest = device.tuned((name, 0.0) for name in _INITIAL)
         self._velocity_from_rest = initial_state(at_rest)[1]
-
-    def scale(self, sizes: Vector) -> Vector:
-        """Return the scale of each state; of a bristle it is the deflection when fully bent."""
-        seen = dict(zip(self.names, sizes.tolist(), strict=True))
-        floor = 1e-6 * max(seen["velocity"], seen.get("resonator_velocity", 0.0), 1e-3)
-        scale = {name: max(size, floor) for name, size in seen.items()}
-        if "resonator_displacement" in seen:
-            scale[STATE[1]] = max(seen[STATE[1]], floor * self.drive_period)
-        if "bristle_deflection" in seen:
-            scale[STATE[3]] = self.device.friction_coefficient / self.device.bristle_stiffness
-        return np.array(list(scale.values()))
 
     def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
         """Return states and travel at the times."""

@@ -115,7 +115,7 @@ def find_steady(
     period_map = None
     try:
         # Damped bristles can give more friction than full sliding: only the search can decide.
-        if runaway is not None and facts["friction_law"] == 0:
+        if runaway is not None and facts.device.friction_law == 0:
             raise runaway
         count = repeating_periods(facts, max_denominator)
         period_map = FmuPeriodMap(instance, values, facts, count)
@@ -149,12 +149,11 @@ def _runaway(facts: Facts) -> NoPeriodicMotion | None:
     load, limit = facts["load"], facts.friction_limit
     if abs(load) < limit or (load == 0.0 and limit == 0.0):
         return None
-    mass = facts["slider_mass"] + facts["resonator_mass"]
-    rate = abs(load) - limit
+    rate = (abs(load) - limit) / facts.device.total_mass
     return NoPeriodicMotion(
         "load_above_friction",
         f"no steady motion: load = {load:.6g} N is not below the {limit:.6g} N that friction "
-        f"gives on average in full sliding; the slider gains {rate / mass:.3g} m/s every second",
+        f"gives on average in full sliding; the slider gains {rate:.3g} m/s every second",
     )
 
 
@@ -216,7 +215,7 @@ def _result(
 
     `period_map` is None where none could be tried.
     """
-    if status in UNDECIDED and facts["damping_ratio"] == 0.0:
+    if status in UNDECIDED and facts.device.damping_ratio == 0.0:
         reason += " (damping_ratio = 0: the transient of the resonator never decays)"
     if isinstance(found, FixedPoint):
         answer |= {
@@ -228,7 +227,7 @@ def _result(
     return kind(
         *(status, reason, facts[kind.searched], facts.prediction_valid),
         {name: facts[name] for name in kind.held},
-        int(facts["friction_faces"]),
+        facts.device.friction_faces,
         iterations=found.iterations,
         residual=found.residual,
         **answer,

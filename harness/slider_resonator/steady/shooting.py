@@ -9,12 +9,13 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from math import ceil
+from math import ceil, tau
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from slider_resonator.device.device import Device
 from slider_resonator.steady.solvers import (
     A_FAMILY,
     DIFFERENCE,
@@ -167,12 +168,15 @@ class WarmedUp:
 class PeriodicRun(ABC):
     """A device that is run over a common period of `drive_periods`, each of `drive_period` s.
 
-    Its state has the entries `names`, the velocity (m/s) first.
+    Its state has the entries `names`, the velocity (m/s) first. `friction` (N) is that of sliding
+    one way all the time.
     """
 
+    device: Device
     names: tuple[str, ...]
     drive_periods: int
     drive_period: float
+    friction: float
 
     @property
     def period(self) -> float:
@@ -187,9 +191,17 @@ class PeriodicRun(ABC):
         whole number of drive periods later.
         """
 
-    @abstractmethod
     def scale(self, sizes: Vector) -> Vector:
-        """Return the scale of each entry of the state from its largest magnitude, both (n,)."""
+        """Return the scale of each entry of the state from its largest magnitude, both (n,).
+
+        That of a velocity is at least its change by friction in a drive period.
+        """
+        floor = max(self.friction / self.device.total_mass * self.drive_period, 1e-9)
+        least = {"resonator_displacement": floor * self.drive_period / tau}
+        scale = np.maximum(sizes, [least.get(name, floor) for name in self.names])
+        if self.names[-1] == "bristle_deflection":
+            scale[-1] = self.device.friction_coefficient / self.device.bristle_stiffness
+        return scale
 
     def __call__(self, state: Vector, load: float) -> tuple[Vector, float]:
         """Return state (n,) and displacement (m) after a common period under a load (N)."""

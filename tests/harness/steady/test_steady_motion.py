@@ -160,7 +160,8 @@ def test_damped_bristles_hold_loads_above_sliding_friction(instance: Instance) -
 
 
 def facts(**values: float) -> Facts:
-    return Facts({**vars(Device()), **INPUT_STARTS, **values})
+    inputs = {name: values.pop(name, start) for name, start in INPUT_STARTS.items()}
+    return Facts(Device.from_mapping(values), inputs)
 
 
 @pytest.mark.parametrize("amplitude", [0.0, 0.5, 1.0, 1.5, 4.0])
