@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq, least_squares
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import HarnessError
+from slider_resonator.fitting.free import Free
 from slider_resonator.fitting.measurements import Measurements, Point
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import run
@@ -74,44 +74,6 @@ PROFILE_ACCURACY = 0.01
 """Share of the width of an interval to which its end is found."""
 MAX_DISTANCE = 1e6
 """Distance of an end from the estimate, in units of a parameter, beyond which it is not sought."""
-
-
-@dataclass(frozen=True)
-class Free:
-    """A parameter to be estimated between two bounds, in SI units.
-
-    Those of `search_bounds` only confine the search: an interval that reaches one is unbounded.
-    """
-
-    name: str
-    start: float
-    low: float
-    high: float
-    search_bounds: tuple[float, ...] = ()
-
-    @property
-    def is_relative(self) -> bool:
-        """Whether the logarithm is estimated: of a parameter that cannot be negative."""
-        return self.low >= 0.0 and self.start > 0.0
-
-    def internal(self, value: float) -> float:
-        """Return the number that is estimated."""
-        if self.is_relative:
-            return float(np.log(max(value, 1e-300)))
-        return value / self._scale
-
-    def value(self, internal: float) -> float:
-        """Return the parameter, in SI units."""
-        value = float(np.exp(internal)) if self.is_relative else internal * self._scale
-        return min(max(value, self.low), self.high)
-
-    def slope(self, value: float) -> float:
-        """Return the change of the parameter by that of the internal number, at a value."""
-        return value if self.is_relative else self._scale
-
-    @property
-    def _scale(self) -> float:
-        return abs(self.start) or VARIABLES[self.name].nominal or 1.0
 
 
 @dataclass(frozen=True)

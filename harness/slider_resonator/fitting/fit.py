@@ -13,11 +13,10 @@ from scipy.special import stdtrit
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.interface import INPUTS, INTEGERS, PARAMETERS, VARIABLES
-from slider_resonator.errors import FmuError, HarnessError, explained, unknown_name
+from slider_resonator.device.interface import PARAMETERS, VARIABLES
+from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.fitting.estimation import (
     LEAST_NOISE,
-    Free,
     Minimum,
     Problem,
     open_directions,
@@ -25,6 +24,7 @@ from slider_resonator.fitting.estimation import (
     profile_end,
     search,
 )
+from slider_resonator.fitting.free import free_parameters
 from slider_resonator.fitting.measurements import Measurements, points_between
 from slider_resonator.fitting.notes import (
     SUPPOSITIONS,
@@ -49,77 +49,12 @@ SAME = 1e-6
 """Relative difference of sums of squares up to which two minima are equally likely."""
 APART = 0.01
 """Distance of two minima, in units of a parameter, from which they are two solutions."""
-WIDE = 1e4
-"""Factor beside the start to which a positive parameter without other bounds is confined."""
 NO_INTERVALS = (
     "no intervals: they mean nothing where the fit misses over half of the data; for noise of that "
     "size, state standard deviations"
 )
 MET = 1e-4
 """Error, in root mean squares of the quantity, up to which as many parameters meet a number."""
-
-
-def free_parameters(
-    names: Sequence[str],
-    parameters: Mapping[str, float],
-    bounds: Mapping[str, tuple[float, float]],
-) -> tuple[Free, ...]:
-    """Return the parameters to estimate, from those of the device.
-
-    Raises HarnessError with name, value and requirement.
-    """
-    possible = sorted({*PARAMETERS} - {*INTEGERS})
-    for name in [*names, *bounds]:
-        if name in INPUTS:
-            raise HarnessError(
-                f"{name} is an input; must be a parameter, one of {', '.join(possible)}"
-            )
-        if name not in PARAMETERS:
-            raise HarnessError(unknown_name("parameter", name, possible))
-        if name not in names:
-            raise HarnessError(f"bounds of {name}: it is not free; must be one of the free ones")
-        if name in INTEGERS:
-            raise HarnessError(
-                f"{name} is an integer; must be a parameter that varies continuously"
-            )
-    if not any(names):
-        raise HarnessError("free: names nothing; must be one parameter or more")
-    if len(set(names)) < len(names):
-        raise HarnessError(f"free = {', '.join(names)!r}: must be different parameters")
-    found = []
-    for name in names:
-        variable = VARIABLES[name]
-        start = float(parameters.get(name, variable.start or 0.0))
-        low = -np.inf if variable.minimum is None else variable.minimum
-        high = np.inf if variable.maximum is None else variable.maximum
-        search_bounds: tuple[float, ...] = ()
-        if name in bounds:
-            low, high = _both_bounds(name, bounds[name])
-        elif low >= 0.0 and start > 0.0:
-            allowed = low, high
-            low, high = max(low, start / WIDE), min(high, start * WIDE)
-            search_bounds = tuple({low, high} - {*allowed})
-        for bound in (low, high):
-            if isfinite(bound):
-                with explained("bounds of "):
-                    VARIABLES[name].checked(bound)
-        if not low < high:
-            raise HarnessError(f"bounds of {name} = {low:g} to {high:g}: must be ascending")
-        start = min(max(start, low), high)
-        found.append(Free(name, start, float(low), float(high), search_bounds))
-    return tuple(found)
-
-
-def _both_bounds(name: str, bounds: Any) -> tuple[float, float]:
-    """Return two bounds in SI units, given as numbers or as texts with a unit."""
-    try:
-        variable = VARIABLES[name]
-        low, high = (variable.in_si(one) if isinstance(one, str) else float(one) for one in bounds)
-    except (TypeError, ValueError) as error:
-        raise HarnessError(
-            f"bounds of {name} = {bounds!r}: must be two numbers, or texts with a unit"
-        ) from error
-    return low, high
 
 
 Runner = Callable[[str, Sequence[Task]], list[Any]]

@@ -8,7 +8,7 @@ that still contracts fast is kept, because a new one costs 2 n evaluations.
 Where that fails, by bracketing. Friction opposes motion, so the slow state, entry 0, grows over a
 period when it is far below the fixed point and falls when it is far above. The other entries are
 fast: those of the resonator, whose response is almost linear, and that of the bristle, whose memory
-is short. For every value of entry 0 the Newton iteration makes the fast entries repeat. One equation
+is short. For every value of entry 0 Newton's iteration makes the fast entries repeat. One equation
 in one unknown remains, whose sign changes between the bounds.
 """
 

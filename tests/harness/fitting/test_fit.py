@@ -14,7 +14,8 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.fitting.estimation import Problem, minimise, predict
-from slider_resonator.fitting.fit import NO_INTERVALS, fit, free_parameters, isolated
+from slider_resonator.fitting.fit import NO_INTERVALS, fit, isolated
+from slider_resonator.fitting.free import free_parameters
 from slider_resonator.fitting.measurements import Measurements, Point, datasheet, points_between
 from slider_resonator.fitting.notes import OUTLIER_LEVEL, data_notes, outlying
 from slider_resonator.fitting.reading import measurements_from
