@@ -4,7 +4,6 @@ import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,13 +12,12 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.equivalent_force import steady_vibration
+from slider_resonator.references.phase import Number
 from slider_resonator.references.resolved.contact import LIFTED, STICK
 
 State = tuple[float, ...]
 """Position m, velocity m/s, resonator displacement m and velocity m/s; with LuGre friction also the
 deflection of the bristle, m."""
-
-Number = TypeVar("Number", float, Array)
 
 
 @dataclass(frozen=True)
@@ -206,8 +204,13 @@ def equations_of(device: Device) -> Equations:
         "friction_amplitude": coefficient * device.normal_amplitude,
         "normal_preload": device.normal_preload,
         "normal_amplitude": device.normal_amplitude,
-        **_bristle(device),
     }
+    if device.friction_law == 1:
+        for name in ("friction_coefficient", "bristle_stiffness"):
+            if not (value := getattr(device, name)) > 0.0:
+                raise ValueError(f"{name} = {value!r} must be greater than 0 for LuGre friction")
+        contact["path_rate"] = device.bristle_stiffness / device.friction_coefficient
+        contact["path_damping"] = device.bristle_damping / device.friction_coefficient
     frequency = device.drive_frequency
     if device.fidelity == 1:
         resonator, force = steady_vibration(device)
@@ -230,20 +233,6 @@ def equations_of(device: Device) -> Equations:
         stiffness_rate=device.resonator_frequency**2,
         **contact,
     )
-
-
-def _bristle(device: Device) -> dict[str, float]:
-    """Return the coefficients of LuGre friction, none with Coulomb friction."""
-    if device.friction_law == 0:
-        return {}
-    for name in ("friction_coefficient", "bristle_stiffness"):
-        value = getattr(device, name)
-        if not value > 0.0:
-            raise ValueError(f"{name} = {value!r} must be greater than 0 for LuGre friction")
-    return {
-        "path_rate": device.bristle_stiffness / device.friction_coefficient,
-        "path_damping": device.bristle_damping / device.friction_coefficient,
-    }
 
 
 def initial_state(device: Device) -> State:

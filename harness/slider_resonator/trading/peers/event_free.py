@@ -16,8 +16,9 @@ from scipy.integrate import LSODA
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs, check_times, with_steady_phase
+from slider_resonator.references.phase import Number
 from slider_resonator.references.resolved.contact import LIFTED, SLIP_FORWARD
-from slider_resonator.references.resolved.equations import Number, equations_of, initial_state
+from slider_resonator.references.resolved.equations import equations_of, initial_state
 from slider_resonator.references.resolved.trajectory import Recorder, Trajectory
 
 MAX_EVALUATIONS = 20_000_000
