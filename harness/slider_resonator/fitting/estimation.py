@@ -252,31 +252,24 @@ that up to which it is found."""
 def search(instance: Instance, problem: Problem, start: Array) -> Minimum:
     """Return the minimum from a start, with each series weighted by what it errs by there.
 
-    Arguments and errors are those of `minimise`.
+    That is estimated as variance components are: sums of squares over redundancies (Foerstner,
+    Zeitschrift fuer Vermessungswesen 104 (1979), 446-453). Arguments and errors are those of
+    `minimise`.
     """
     data, evaluations = problem.measurements, 0
     is_weighted = len(data.measured) > len(problem.free) and not data.knows_deviations
     for _ in range(REWEIGHTINGS if is_weighted and len(data.series) > 1 else 0):
         rough = minimise(instance, problem, start, ROUGH)
         start, evaluations = rough.internal, evaluations + rough.evaluations
-        noise = noise_of_series(rough)
+        noise = problem.measurements.noise * np.ones(len(rough.residuals))
+        for rows, own, redundancy in rough.noises:
+            noise[rows] *= (np.sum(rough.residuals[own] ** 2) / redundancy) ** 0.5
+        noise = noise.clip(min=LEAST_NOISE)
         if np.ptp(np.log(noise / problem.measurements.noise)) < STEADY_NOISE:
             break
         problem = replace(problem, measurements=replace(data, noise=noise))
     found = minimise(instance, problem, start)
     return replace(found, evaluations=found.evaluations + evaluations)
-
-
-def noise_of_series(best: Minimum) -> Array:
-    """Return how much the numbers of each quantity and source err, by the residuals of a fit, (n,).
-
-    It is a step of the estimation of variance components: sums of squares over redundancies
-    (Foerstner, Zeitschrift fuer Vermessungswesen 104 (1979), 446-453).
-    """
-    noise = best.problem.measurements.noise * np.ones(len(best.residuals))
-    for rows, own, redundancy in best.noises:
-        noise[rows] *= (np.sum(best.residuals[own] ** 2) / redundancy) ** 0.5
-    return noise.clip(min=LEAST_NOISE)
 
 
 def profile_end(

@@ -96,16 +96,16 @@ def test_what_it_does_not_offer_is_listed_and_what_it_does_is_judged(stranger: P
     assert judged == {*motion, *counts} - set(reasons)
 
 
-@pytest.mark.parametrize(
-    "unequal",
-    [
-        "[inputs]\nload = { steps = [[0.0, 0.0], [0.001, 0.05]] }\n",
-        f"[device]\nfriction_law = 1\n{EXPECT}",
-    ],
-)
-def test_unequal_steps_are_refused_where_the_fmu_takes_equal_ones(
-    stranger: Path, unequal: str
-) -> None:
+def test_bristles_are_read_where_the_fmu_takes_equal_steps(stranger: Path) -> None:
+    bristles = EXPECT.replace("value = 0.126667", 'reference = "located_events"')
+    run = "[run]\ndrive_periods = 2\nsteps_per_period = 8\n"
+    scene = scene_of(f"[device]\nfriction_law = 1\n{run}{bristles}")
+    (validation,) = validate([stranger], [scene])
+    assert validation.exit_code == 0
+
+
+def test_unequal_steps_are_refused_where_the_fmu_takes_equal_ones(stranger: Path) -> None:
+    unequal = "[inputs]\nload = { steps = [[0.0, 0.0], [0.001, 0.05]] }\n"
     run = "[run]\ndrive_periods = 2\nsteps_per_period = 8\n"
     ends = '[[expect]]\nquantity = "reversals"\nat_least = 0\nwhy = "it runs"\n'
     (validation,) = validate([stranger], [scene_of(unequal + run + ends)])
