@@ -181,7 +181,6 @@ def test_friction_limit_is_that_of_the_clipped_sine(amplitude: float) -> None:
         {"fidelity": 0.0},
         {"friction_coefficient": 0.0},
         {"bristle_stiffness": 0.0},
-        {"friction_faces": 0.0},
         {"normal_preload": 0.0, "normal_amplitude": 0.0},
         {"frequency_ratio": 0.0, "phase": -pi / 2.0, "normal_amplitude": 2.0},
     ],
