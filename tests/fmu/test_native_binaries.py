@@ -3,22 +3,22 @@
 Those for other platforms are compiled in `make interop`.
 """
 
+import io
 import os
 import re
 import subprocess
 import zipfile
 from pathlib import Path
 
+import lief
 import pytest
 
 from fmu_src.building.c_sources import FmiVersion, slider_sources, write_sources
 from fmu_src.building.compiling import FLAGS, default_compiler
 from fmu_src.building.native_fmu import build_native, build_native_3
 from fmu_src.building.platforms import PLATFORMS
-from tests.fmu.binary_files import elf_exports, mach_libraries, pe_exports
 
 MEGABYTE = 1_000_000
-X86_64, ARM64 = 0x01000007, 0x0100000C
 # zig's linker puts these addresses of the library itself into every library for macOS.
 MARKS_OF_THE_LINKER = {"__dso_handle", "_mh_dylib_header"}
 LINUX, WINDOWS, MACOS = (PLATFORMS[n] for n in ("linux64", "win64", "darwin64"))
@@ -30,6 +30,13 @@ def fmi_functions(version: FmiVersion = "2.0") -> set[str]:
     n = version[0]
     header = slider_sources(version)[f"fmi/fmi{n}Functions.h"]
     return set(re.findall(rf"FMI{n}_Export +(?:fmi{n}\w+TYPE) +(fmi{n}\w+);", header))
+
+
+def elf_exports(data: bytes) -> set[str]:
+    """Names of the symbols that a Linux library defines for others."""
+    library = lief.ELF.parse(io.BytesIO(data))
+    assert library is not None
+    return {str(symbol.name) for symbol in library.exported_symbols}
 
 
 @pytest.fixture(scope="session")
@@ -115,17 +122,31 @@ def test_the_prefix_for_static_linking_is_that_of_the_host(tmp_path: Path) -> No
 
 @pytest.mark.interop
 def test_windows_exports(binaries: dict[str, bytes]) -> None:
-    assert pe_exports(binaries[WINDOWS.binary(MODEL)]) == fmi_functions()
+    library = lief.PE.parse(io.BytesIO(binaries[WINDOWS.binary(MODEL)]))
+    assert library is not None
+    assert library.header.machine == lief.PE.Header.MACHINE_TYPES.AMD64
+    table = library.get_export()
+    assert table is not None
+    assert {entry.name for entry in table.entries} == fmi_functions()
 
 
 @pytest.mark.interop
 def test_macos_libraries(binaries: dict[str, bytes]) -> None:
-    libraries = list(mach_libraries(binaries[MACOS.binary(MODEL)]))
-    assert [x.processor for x in libraries] == [X86_64, ARM64]
-    for library in libraries:
-        assert library.exports - MARKS_OF_THE_LINKER == fmi_functions()
-        assert library.own_name == "SliderResonator.dylib", "no path of the build"
-        assert library.first_system <= (11, 0)
+    found = lief.MachO.parse(io.BytesIO(binaries[MACOS.binary(MODEL)]))
+    assert found is not None
+    cpu = lief.MachO.Header.CPU_TYPE
+    assert [library.header.cpu_type for library in found] == [cpu.X86_64, cpu.ARM64]
+    for library in found:
+        exports = {str(symbol.name).removeprefix("_") for symbol in library.exported_symbols}
+        assert exports - MARKS_OF_THE_LINKER == fmi_functions()
+        (own_name,) = (
+            command.name
+            for command in library.commands
+            if isinstance(command, lief.MachO.DylibCommand)
+            and command.command == lief.MachO.LoadCommand.TYPE.ID_DYLIB
+        )
+        assert own_name == "SliderResonator.dylib", "no path of the build"
+        assert library.build_version.minos <= [11, 0, 0]
 
 
 @pytest.mark.interop
