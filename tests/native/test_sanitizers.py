@@ -7,7 +7,6 @@ import pytest
 from studies.hosts.compiler import SOURCES
 from tests.native.scripts import CHOICES, devices, script
 from tests.native.toolchain import (
-    COUNTS,
     FAULT,
     PROGRAMS,
     Binary,
@@ -65,27 +64,26 @@ def test_no_device_makes_undefined_behaviour(
 
 @pytest.mark.parametrize(
     ("source", "arguments"),
-    [("fuzz.c", (7, 200_000)), ("instances.c", (600,)), ("states.c", (*COUNTS, 1, 2_000, 30))],
+    [
+        ("fuzz.c", (7, 200_000)),
+        ("fuzz3.c", (1, 100_000, 30.0)),
+        ("instances.c", (600,)),
+        ("states.c", (1, 2_000, 30.0)),
+    ],
 )
 def test_no_call_makes_undefined_behaviour_or_leaves_memory(
-    memory_checked: Binary, tmp_path: Path, source: str, arguments: tuple[int, ...]
+    memory_checked: Binary, tmp_path: Path, source: str, arguments: tuple[float, ...]
 ) -> None:
+    is_fmi_3 = source == "fuzz3.c"
+    binary = sanitized_binary(tmp_path / "3", MEMORY, "3.0") if is_fmi_3 else memory_checked
     caller = program(PROGRAMS / source, tmp_path, MEMORY)
-    command = [caller, memory_checked.library, memory_checked.guid, *arguments]
-    done = run(command, environment=SPEAK_UP)
-    assert done.returncode == 0, done.stdout + done.stderr
-
-
-def test_no_call_of_fmi_3_makes_undefined_behaviour_or_leaves_memory(tmp_path: Path) -> None:
-    binary = sanitized_binary(tmp_path / "library", MEMORY, "3.0")
-    caller = program(PROGRAMS / "fuzz3.c", tmp_path, MEMORY)
-    done = run([caller, binary.library, binary.guid, 1, 100_000, COUNTS[0], 30.0], "", SPEAK_UP)
+    done = run([caller, binary.library, binary.guid, *arguments], environment=SPEAK_UP)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_8_instances_in_8_threads_do_not_race(tmp_path: Path) -> None:
     binary = sanitized_binary(tmp_path, THREADS)
-    threads = program(PROGRAMS / "threads.c", tmp_path, THREADS)
+    threads = program(PROGRAMS / "instances.c", tmp_path, THREADS)
     done = run([threads, binary.library, binary.guid, 8, 300], environment=SPEAK_UP)
     assert done.returncode == 0, done.stdout + done.stderr
 

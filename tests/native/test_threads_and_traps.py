@@ -28,7 +28,7 @@ def test_memory_stays_flat_over_thousands_of_instances(product: Binary, tmp_path
 
 
 def test_threads_give_the_numbers_of_instances_alone(product: Binary, tmp_path: Path) -> None:
-    output_of("threads.c", tmp_path, product, 8, 5000)
+    output_of("instances.c", tmp_path, product, 8, 5000)
 
 
 def test_resolved_motion_raises_no_exception_that_hosts_trap(

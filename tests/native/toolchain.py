@@ -18,14 +18,11 @@ from fmu_src.building.c_sources import (
     write_sources,
 )
 from fmu_src.building.cache import cached
-from fmu_src.python.slider_component.variables import VARIABLES
 from studies.hosts.compiler import compile_program, compiler_version, native_compiler
 from studies.hosts.driver_host import BINARY
 from studies.hosts.job import describe
 
 PROGRAMS = Path(__file__).parent / "c"
-COUNTS = (sum(v.causality != "output" for v in VARIABLES), len(VARIABLES))
-"""How many variables can be set, and how many there are."""
 FAULT = 99
 """Exit code of a tool that has found a fault."""
 

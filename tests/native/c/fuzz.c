@@ -16,7 +16,10 @@ typedef fmi2Component Instance;
 typedef fmi2FMUstate State;
 typedef fmi2Byte Byte;
 typedef fmi2Status Status;
-enum { FIRST = 0, MEMORY_MAY_RUN_OUT = 1, LONGEST_MESSAGE = 4096 };
+typedef fmi2ValueReference Reference;
+typedef fmi2Integer Integer;
+typedef fmi2String String;
+enum { FIRST = 0, MEMORY_MAY_RUN_OUT = 1 };
 
 static FmuLibrary fmu;
 
@@ -24,19 +27,7 @@ static FmuLibrary fmu;
 
 static const char *guid;
 
-/* The last log message of the present call. */
-static struct {
-    fmi2Status status;
-    char text[LONGEST_MESSAGE];
-} said;
-
 static long blocks_in_use = 0;
-
-static void fail(const char *what) {
-    printf("call %lu, %s: %s (last said: %s)\n", calls, present_call, what, said.text);
-    fflush(stdout);
-    exit(FAILED);
-}
 
 static void *allocate(size_t count, size_t size) {
     void *block = memory_is_scarce && one_in(4) ? NULL : malloc(count * size);
@@ -67,23 +58,6 @@ static void log_message(fmi2ComponentEnvironment environment, fmi2String instanc
 }
 
 static const fmi2CallbackFunctions CALLBACKS = {log_message, allocate, release, NULL, &said};
-
-static fmi2ValueReference references[ROOM];
-static fmi2Real reals[ROOM];
-static fmi2Integer integers[ROOM];
-static fmi2String strings[ROOM];
-
-/* Half of the calls get arguments that may well be carried out. */
-static void draw_arguments(int for_integers) {
-    int i, plain = one_in(2) && (!for_integers || settable > VR_FRICTION_FACES);
-    for (i = 0; i < ROOM; i++) {
-        do references[i] = plain ? below(settable) : random_reference();
-        while (plain && is_choice(references[i]) != for_integers);
-        reals[i] = plain ? 2.0 * random_share() : random_real();
-        integers[i] = plain ? (int)below(3) : random_integer();
-        strings[i] = one_in(3) ? NULL : one_in(2) ? "logAll" : "no such category %s %n";
-    }
-}
 
 static fmi2String some_name(void) {
     static const char *const names[] = {"slider", "", "a name with %s and %n in it"};
@@ -126,14 +100,6 @@ static fmi2Status do_step(fmi2Component c) {
     fmu.GetRealStatus(c, fmi2LastSuccessfulTime, &now);
     if (one_in(20)) now = random_real();
     return fmu.DoStep(c, now, random_step(), below(2));
-}
-
-static fmi2Status set_logging(fmi2Component c) {
-    fmi2Status status = fmu.SetDebugLogging(c, below(2), random_count() % 8, or_null(strings));
-    fmi2Status back = fmu.SetDebugLogging(c, fmi2True, 0, NULL);
-    if (c && back != fmi2OK) fail("logging cannot be switched on");
-    /* With logging off there may be no message, and that is as it should be. */
-    return status == fmi2Error && !messages ? fmi2OK : status;
 }
 
 enum { INPUTS = 3 };
@@ -205,16 +171,6 @@ static fmi2Status call(unsigned function, fmi2Component c) {
     FUNCTIONS(CASE)
 #undef CASE
     return fmi2Fatal;
-}
-
-static int may_discard(const char *name) {
-    return strncmp(name, "fmi2Get", 7) == 0 && strstr(name, "Status") != NULL;
-}
-
-static void judge_refusal(fmi2Status status, fmi2Component instance) {
-    if (status != fmi2Error && !(status == fmi2Discard && may_discard(present_call)))
-        fail("a status that is neither fmi2OK nor fmi2Error");
-    if (instance && (!messages || said.status != status)) fail("refused, but not logged so");
 }
 
 int main(int count, char **arguments) {

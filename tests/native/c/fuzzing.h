@@ -1,8 +1,8 @@
-/* What the fuzzers of both versions of FMI share: instances, states, and what is judged of a call.
+/* What the fuzzers of both versions of FMI share: instances, states, arguments, and what is judged of a call.
  *
- * A fuzzer first names its types Instance, State, Byte and Status, of which 0 is OK, and the reference FIRST
- * of its first variable, and says whether its host's MEMORY_MAY_RUN_OUT; its `fmu` has the calls for states by
- * their names of FMI 2.0. */
+ * A fuzzer first names its types Instance, State, Byte, Status, Reference, Integer and String, and the reference
+ * FIRST of its first variable, and says whether its host's MEMORY_MAY_RUN_OUT; its `fmu` has the calls for states
+ * by their names of FMI 2.0. */
 #ifndef NATIVE_FUZZING_H
 #define NATIVE_FUZZING_H
 
@@ -14,11 +14,11 @@
 #include "random_values.h"
 #include "variables.h"
 
-static const int OK = 0;
+static const int OK = 0, DISCARD = 2, ERROR = 3;
 enum { FAILED = 1, COULD_NOT_RUN = 2 };
-enum { INSTANCES = 4, STATES = 6, MAX_BYTES = 8192, MAX_FUNCTIONS = 128 };
+enum { INSTANCES = 4, STATES = 6, MAX_BYTES = 8192, MAX_FUNCTIONS = 128, LONGEST_MESSAGE = 4096 };
 
-static Instance instances[INSTANCES], present_instance = NULL;
+static Instance instances[INSTANCES];
 static State states[STATES];
 static Byte stored[MAX_BYTES];
 static size_t stored_size = 0;
@@ -29,13 +29,26 @@ static const char *present_call = "none";
 static unsigned messages = 0;
 static unsigned long calls = 0, refusals = 0, by_call[MAX_FUNCTIONS], carried_out[MAX_FUNCTIONS];
 
-/* What a fuzzer defines: how it ends, how it makes a new instance in a place, how it draws arguments and
- * calls a function with them, and what it demands of a call that is not carried out. */
-static void fail(const char *what);
+static Reference references[ROOM];
+static double reals[ROOM];
+static Integer integers[ROOM];
+static String strings[ROOM];
+
+/* The last log message of the present call. */
+static struct {
+    Status status;
+    char text[LONGEST_MESSAGE];
+} said;
+
+/* What a fuzzer defines: how it makes a new instance in a place, and calls a function with arguments. */
 static void instantiate(unsigned slot);
-static void draw_arguments(int for_integers);
 static Status call(unsigned function, Instance c);
-static void judge_refusal(Status status, Instance c);
+
+static void fail(const char *what) {
+    printf("call %lu, %s: %s (last said: %s)\n", calls, present_call, what, said.text);
+    fflush(stdout);
+    exit(FAILED);
+}
 
 /* The Integers of the slider; its other variables below `settable` are Reals that can be set. */
 static int is_choice(unsigned reference) {
@@ -46,6 +59,19 @@ static int is_choice(unsigned reference) {
 
 static void *or_null(void *pointer) {
     return one_in(40) ? NULL : pointer;
+}
+
+/* Half of the calls get arguments that may well be carried out. */
+static void draw_arguments(int for_integers) {
+    int i, plain = one_in(2) && (!for_integers || settable > VR_FRICTION_FACES);
+    for (i = 0; i < ROOM; i++) {
+        do references[i] = FIRST + (plain ? below(settable) : random_reference());
+        while (plain && is_choice(references[i]) != for_integers);
+        if (!plain && FIRST && one_in(2)) references[i] -= FIRST;
+        reals[i] = plain ? 2.0 * random_share() : random_real();
+        integers[i] = plain ? (int)below(3) : random_integer();
+        strings[i] = one_in(3) ? NULL : one_in(2) ? "logAll" : "no such category %s %n";
+    }
 }
 
 /* The serialised state, to see whether a refused call has changed it; 0 bytes where there is none. */
@@ -81,8 +107,23 @@ static Status read_state(Instance c) {
     return fmu.DeSerializeFMUstate(c, or_null(stored), size, or_null(&states[below(STATES)]));
 }
 
-/* `integers` is in the names of the functions whose arguments are Integers. */
-static void one_call(const Function *functions, unsigned count, const char *integers) {
+static Status set_logging(Instance c) {
+    Status status = fmu.SetDebugLogging(c, below(2), random_count() % 8, or_null(strings));
+    Status back = fmu.SetDebugLogging(c, 1, 0, NULL);
+    if (c && back != OK) fail("logging cannot be switched on");
+    /* With logging off there may be no message, and that is as it should be. */
+    return status == ERROR && !messages ? OK : status;
+}
+
+/* Only functions such as fmi2GetStatus may discard. */
+static void judge_refusal(Status status, Instance instance) {
+    int may_discard = !strncmp(present_call, "fmi2Get", 7) && strstr(present_call, "Status");
+    if (status != ERROR && !(status == DISCARD && may_discard)) fail("a status that is neither OK nor error");
+    if (instance && (!messages || said.status != status)) fail("refused, but not logged so");
+}
+
+/* `of_integers` is in the names of the functions whose arguments are Integers. */
+static void one_call(const Function *functions, unsigned count, const char *of_integers) {
     static Byte before[MAX_BYTES], after[MAX_BYTES];
     unsigned function = some_function(functions, count);
     Instance instance = one_in(100) ? NULL : instances[below(INSTANCES)];
@@ -91,8 +132,7 @@ static void one_call(const Function *functions, unsigned count, const char *inte
     clock_t began;
     double taken;
     present_call = functions[function].name;
-    present_instance = instance;
-    draw_arguments(strstr(present_call, integers) != NULL);
+    draw_arguments(strstr(present_call, of_integers) != NULL);
     by_call[function]++;
     messages = 0;
     began = clock();
@@ -111,12 +151,13 @@ static void one_call(const Function *functions, unsigned count, const char *inte
 }
 
 /* Makes as many calls as `requested`; then frees all, and prints what was done. */
-static void fuzz(unsigned long requested, const Function *functions, unsigned count, const char *integers) {
+static void fuzz(unsigned long requested, const Function *functions, unsigned count,
+                 const char *of_integers) {
     unsigned i;
     for (calls = 0; calls < requested; calls++) {
         memory_is_scarce = MEMORY_MAY_RUN_OUT && one_in(20);
         if (one_in(500) || !instances[0]) instantiate(below(INSTANCES));
-        else one_call(functions, count, integers);
+        else one_call(functions, count, of_integers);
     }
     while (!instances[0]) instantiate(below(INSTANCES));
     memory_is_scarce = 0;

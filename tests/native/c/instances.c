@@ -1,27 +1,38 @@
-/* Makes, runs and frees instances, one after the other, and prints the memory that the process holds.
+/* Lives of instances: many one after the other, or in as many threads at once.
  *
  *     instances LIBRARY GUID COUNT
+ *     instances LIBRARY GUID THREADS STEPS
  *
- * Prints the resident memory [kB] after a tenth of COUNT and at the end. Each instance takes one step
- * with another law or fidelity, gets, serialises and sets its state, and is refused something. Fails
- * (1) when a call is not answered as it should be, or blocks are left behind. */
+ * Each has a law, fidelity, phase and load of its own, takes steps of 1 ms, is refused one, and hands its stored state
+ * on to a second instance half-way. The first form prints the resident memory [kB] after a tenth of COUNT and at the
+ * end. The second repeats each life alone: the outputs must be the same. Fails (1) when a call is not answered as it
+ * should be, outputs differ, or blocks are left behind. */
+#include <pthread.h>
 #include <stdlib.h>
 
 #include "fmu_library.h"
 #include "variables.h"
 
-enum { FAILED = 1, COULD_NOT_RUN = 2, LAWS = 2, FIDELITIES = 3 };
-enum { MAX_BYTES = 8192 };
+enum { FAILED = 1, COULD_NOT_RUN = 2, MAX_THREADS = 64, MAX_BYTES = 8192 };
+enum { OUTPUTS = VARIABLE_COUNT - SETTABLE_COUNT, LAWS = 2, FIDELITIES = 3 };
 
+typedef struct {
+    int number;
+    fmi2Real outputs[OUTPUTS];
+} Life;
+
+static FmuLibrary fmu;
+static const char *guid;
+static int steps = 2;
 static long blocks_in_use = 0;
 
 static void *allocate(size_t count, size_t size) {
-    blocks_in_use++;
+    __sync_fetch_and_add(&blocks_in_use, 1);
     return calloc(count, size);
 }
 
 static void release(void *block) {
-    if (block) blocks_in_use--;
+    if (block) __sync_fetch_and_sub(&blocks_in_use, 1);
     free(block);
 }
 
@@ -46,51 +57,94 @@ static void expect(int as_it_should, const char *what) {
     exit(FAILED);
 }
 
-static void live(const FmuLibrary *fmu, const char *guid, long number) {
+#define DO(name, ...) expect(fmu.name(__VA_ARGS__) == fmi2OK, "fmi2" #name)
+
+static fmi2Component start(int number) {
     static const fmi2CallbackFunctions callbacks = {log_message, allocate, release, NULL, NULL};
-    const fmi2ValueReference choices[] = {VR_FRICTION_LAW, VR_FIDELITY};
-    const fmi2Integer values[] = {(fmi2Integer)(number % LAWS),
-                                  (fmi2Integer)(number / LAWS % FIDELITIES)};
-    const fmi2ValueReference load = VR_LOAD, velocity = VR_VELOCITY;
-    const fmi2Real nothing = 0.0, too_late = 2.0;
+    const fmi2ValueReference choices[] = {VR_FRICTION_LAW, VR_FIDELITY}, inputs[] = {VR_PHASE, VR_LOAD};
+    const fmi2Integer chosen[] = {number % LAWS, FIDELITIES - 1 - number / LAWS % FIDELITIES};
+    const fmi2Real values[] = {0.4 + 0.1 * (number % MAX_THREADS), 0.01 * (number % MAX_THREADS)};
+    fmi2Component c = fmu.Instantiate("one of many", fmi2CoSimulation, guid, "file:///nowhere",
+                                      &callbacks, fmi2False, fmi2True);
+    expect(c != NULL, "fmi2Instantiate");
+    DO(SetInteger, c, choices, 2, chosen);
+    DO(SetReal, c, inputs, 2, values);
+    DO(SetupExperiment, c, fmi2False, 0.0, 0.0, fmi2False, 0.0);
+    DO(EnterInitializationMode, c);
+    DO(ExitInitializationMode, c);
+    return c;
+}
+
+static void hand_on(fmi2Component from, fmi2Component to) {
     fmi2Byte bytes[MAX_BYTES];
     fmi2FMUstate state = NULL;
     size_t size = 0;
-    fmi2Real value;
-    fmi2Component c = fmu->Instantiate("one of many", fmi2CoSimulation, guid, "file:///nowhere",
-                                       &callbacks, fmi2False, fmi2True);
-    expect(c != NULL, "fmi2Instantiate");
-    expect(!fmu->SetInteger(c, choices, 2, values), "fmi2SetInteger");
-    expect(!fmu->SetupExperiment(c, fmi2False, 0.0, 0.0, fmi2False, 0.0), "fmi2SetupExperiment");
-    expect(!fmu->EnterInitializationMode(c), "fmi2EnterInitializationMode");
-    expect(!fmu->ExitInitializationMode(c), "fmi2ExitInitializationMode");
-    expect(!fmu->SetReal(c, &load, 1, &nothing), "fmi2SetReal");
-    expect(!fmu->DoStep(c, 0.0, 1e-3, fmi2True), "fmi2DoStep");
-    expect(fmu->DoStep(c, too_late, 1e-3, fmi2True) == fmi2Error, "fmi2DoStep, refused");
-    expect(!fmu->GetReal(c, &velocity, 1, &value), "fmi2GetReal");
-    expect(!fmu->GetFMUstate(c, &state), "fmi2GetFMUstate");
-    expect(!fmu->SerializedFMUstateSize(c, state, &size), "fmi2SerializedFMUstateSize");
-    expect(size <= MAX_BYTES && !fmu->SerializeFMUstate(c, state, bytes, size),
-           "fmi2SerializeFMUstate");
-    expect(!fmu->FreeFMUstate(c, &state), "fmi2FreeFMUstate");
-    expect(!fmu->DeSerializeFMUstate(c, bytes, size, &state), "fmi2DeSerializeFMUstate");
-    expect(!fmu->SetFMUstate(c, state), "fmi2SetFMUstate");
-    expect(!fmu->FreeFMUstate(c, &state), "fmi2FreeFMUstate");
-    expect(number % 2 || !fmu->Terminate(c), "fmi2Terminate");
-    fmu->FreeInstance(c);
+    DO(GetFMUstate, from, &state);
+    DO(SerializedFMUstateSize, from, state, &size);
+    expect(size <= MAX_BYTES, "fmi2SerializedFMUstateSize");
+    DO(SerializeFMUstate, from, state, bytes, size);
+    DO(FreeFMUstate, from, &state);
+    DO(DeSerializeFMUstate, to, bytes, size, &state);
+    DO(SetFMUstate, to, state);
+    DO(FreeFMUstate, to, &state);
+}
+
+static void *live(void *argument) {
+    Life *life = argument;
+    fmi2ValueReference references[OUTPUTS];
+    fmi2Component first = start(life->number), second = start(life->number);
+    int i;
+    for (i = 0; i < OUTPUTS; i++) references[i] = (fmi2ValueReference)(SETTABLE_COUNT + i);
+    for (i = 0; i < steps; i++) {
+        DO(DoStep, i < steps / 2 ? first : second, 1e-3 * i, 1e-3, fmi2True);
+        if (i + 1 == steps / 2) hand_on(first, second);
+    }
+    expect(fmu.DoStep(second, 1e6, 1e-3, fmi2True) == fmi2Error, "fmi2DoStep, refused");
+    DO(GetReal, second, references, OUTPUTS, life->outputs);
+    expect(life->number % 2 || !fmu.Terminate(second), "fmi2Terminate");
+    fmu.FreeInstance(first);
+    fmu.FreeInstance(second);
+    return NULL;
+}
+
+static void live_in_turn(int count) {
+    Life life;
+    for (life.number = 0; life.number < count; life.number++) {
+        if (life.number == count / 20) resident_kilobytes(); /* The first reading takes a place in the heap. */
+        if (life.number == count / 10) printf("%ld ", resident_kilobytes());
+        live(&life);
+    }
+    printf("%ld\n", resident_kilobytes());
+}
+
+static void live_at_once(int count) {
+    static Life together[MAX_THREADS], alone[MAX_THREADS];
+    pthread_t threads[MAX_THREADS];
+    int number;
+    for (number = 0; number < count; number++) {
+        together[number].number = alone[number].number = number;
+        expect(!pthread_create(&threads[number], NULL, live, &together[number]), "pthread_create");
+    }
+    for (number = 0; number < count; number++) pthread_join(threads[number], NULL);
+    for (number = 0; number < count; number++) {
+        live(&alone[number]);
+        expect(!memcmp(together[number].outputs, alone[number].outputs, sizeof alone->outputs),
+               "a thread with other numbers than alone");
+    }
 }
 
 int main(int count, char **arguments) {
-    FmuLibrary fmu;
-    long number, requested;
-    if (count != 4 || !load_fmu_library(&fmu, arguments[1])) return COULD_NOT_RUN;
-    requested = strtol(arguments[3], NULL, 10);
-    for (number = 0; number < requested; number++) {
-        if (number == requested / 20) resident_kilobytes(); /* The first reading takes a place in the heap. */
-        if (number == requested / 10) printf("%ld ", resident_kilobytes());
-        live(&fmu, arguments[2], number);
+    int lives;
+    if (count < 4 || count > 5 || !load_fmu_library(&fmu, arguments[1])) return COULD_NOT_RUN;
+    guid = arguments[2];
+    lives = atoi(arguments[3]);
+    if (count == 4) {
+        live_in_turn(lives);
+    } else {
+        steps = atoi(arguments[4]);
+        if (lives < 1 || lives > MAX_THREADS) return COULD_NOT_RUN;
+        live_at_once(lives);
     }
-    printf("%ld\n", resident_kilobytes());
     if (blocks_in_use) printf("%ld blocks left behind\n", blocks_in_use);
     return blocks_in_use ? FAILED : 0;
 }

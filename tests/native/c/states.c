@@ -1,8 +1,8 @@
 /* Restores states of any content with a valid seal, then steps and reads everything.
  *
- *     states LIBRARY GUID SETTABLE VARIABLES SEED CASES SECONDS
+ *     states LIBRARY GUID SEED CASES SECONDS
  *
- * SETTABLE of the VARIABLES can be set, and end a state; the numbers before them are its fields.
+ * The variables that can be set end a state; the numbers before them are its fields.
  * Each case takes the state of some device in motion, changes a few of its numbers, seals it anew and
  * restores it; what is refused is left, what is accepted is stepped, read and stored again. Fails (1)
  * when an output that is read with fmi2OK is not finite, when an accepted state cannot be stored, or
@@ -20,7 +20,7 @@ enum { STEPS = 3 };
 
 static FmuLibrary fmu;
 static double longest = 0.0, seconds;
-static int fields = 0, settable, variables;
+static int fields = 0;
 static long restored = 0, stepped = 0, read_out = 0;
 
 static void log_message(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status,
@@ -49,7 +49,7 @@ static void seal(fmi2Byte *bytes, size_t size) {
 static void fail(const char *what, long number, const fmi2Byte *bytes) {
     int i;
     printf("case %ld: %s\n", number, what);
-    for (i = 0; i < fields + settable; i++) printf("%d %.17g\n", i, number_at(bytes, i));
+    for (i = 0; i < fields + SETTABLE_COUNT; i++) printf("%d %.17g\n", i, number_at(bytes, i));
     exit(1);
 }
 
@@ -119,7 +119,7 @@ static int restore(fmi2Component c, const fmi2Byte *bytes, size_t size) {
 
 static void read_all(fmi2Component c, long number, const fmi2Byte *bytes) {
     fmi2ValueReference reference;
-    for (reference = 0; reference < (fmi2ValueReference)variables; reference++) {
+    for (reference = 0; reference < VARIABLE_COUNT; reference++) {
         fmi2Real value = 0.0;
         clock_t began = clock();
         if (reference == VR_FRICTION_LAW || reference == VR_FIDELITY || reference == VR_FRICTION_FACES) continue;
@@ -138,9 +138,9 @@ static void try_case(fmi2Component c, long number) {
     start(c);
     size = stored(c, bytes);
     if (size == 0) fail("a state could not be stored", number, bytes);
-    fields = (int)((size - HEADER) / NUMBER) - 1 - settable;
+    fields = (int)((size - HEADER) / NUMBER) - 1 - SETTABLE_COUNT;
     for (changes = 1 + (int)below(4); changes > 0; changes--) {
-        int index = (int)below((unsigned)(fields + settable));
+        int index = (int)below((unsigned)(fields + SETTABLE_COUNT));
         put(bytes, index, odd_number(number_at(bytes, index)));
     }
     seal(bytes, size);
@@ -163,12 +163,10 @@ int main(int count, char **arguments) {
     static const fmi2CallbackFunctions callbacks = {log_message, calloc, free, NULL, NULL};
     fmi2Component c;
     long number, cases;
-    if (count != 8 || !load_fmu_library(&fmu, arguments[1])) return 2;
-    settable = (int)strtol(arguments[3], NULL, 10);
-    variables = (int)strtol(arguments[4], NULL, 10);
-    random_state = 2 * strtoull(arguments[5], NULL, 10) + 1;
-    cases = strtol(arguments[6], NULL, 10);
-    seconds = strtod(arguments[7], NULL);
+    if (count != 6 || !load_fmu_library(&fmu, arguments[1])) return 2;
+    random_state = 2 * strtoull(arguments[3], NULL, 10) + 1;
+    cases = strtol(arguments[4], NULL, 10);
+    seconds = strtod(arguments[5], NULL);
     c = fmu.Instantiate("states", fmi2CoSimulation, arguments[2], "file:///nowhere", &callbacks,
                         fmi2False, fmi2False);
     if (!c) return 2;
