@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -161,16 +161,23 @@ class Instance(AnyInstance):
     """An instance of FMI 2.0."""
 
     def __init__(
-        self, unpacked: Unpacked, *, logging_on: bool = True, memory: HostMemory | None = None
+        self,
+        unpacked: Unpacked,
+        *,
+        logging_on: bool = True,
+        memory: HostMemory | None = None,
+        missing: Collection[str] = (),
     ) -> None:
+        """Make an instance; the callbacks called `missing` are null."""
         super().__init__(unpacked, FMU2Slave(**unpacked.arguments))
         # Not fmpy's own logger: that sends the messages of all instances to the newest of them.
-        callbacks = fmi2CallbackFunctions(
-            logger=fmi2CallbackLoggerTYPE(self._receive),
-            allocateMemory=fmi2CallbackAllocateMemoryTYPE(memory.allocate if memory else calloc),
-            freeMemory=fmi2CallbackFreeMemoryTYPE(memory.release if memory else free),
-        )
-        self.slave.instantiate(callbacks=callbacks, loggingOn=logging_on)
+        callbacks = {
+            "logger": fmi2CallbackLoggerTYPE(self._receive),
+            "allocateMemory": fmi2CallbackAllocateMemoryTYPE(memory.allocate if memory else calloc),
+            "freeMemory": fmi2CallbackFreeMemoryTYPE(memory.release if memory else free),
+        }
+        present = {name: function for name, function in callbacks.items() if name not in missing}
+        self.slave.instantiate(callbacks=fmi2CallbackFunctions(**present), loggingOn=logging_on)
 
     def _receive(self, _: object, name: bytes, status: int, category: bytes, text: bytes) -> None:
         self.entries.append(Entry(name.decode(), status, (category or b"").decode(), text.decode()))

@@ -3,6 +3,8 @@
 import ctypes
 from collections.abc import Sequence
 
+from fmpy.fmi1 import FMICallException
+
 from tests.fmu.host import AnyInstance
 
 OK, WARNING, DISCARD, ERROR = range(4)
@@ -14,6 +16,12 @@ def call(instance: AnyInstance, function: str, *arguments: object) -> int:
     foreign = instance.slave.dll[function]
     foreign.restype = ctypes.c_int
     return int(foreign(ctypes.c_void_p(instance.slave.component), *passed))
+
+
+def check(status: int) -> None:
+    """Raise what fmpy raises for a status that is not OK."""
+    if status != OK:
+        raise FMICallException(function="", status=status)
 
 
 def references(values: Sequence[int]) -> ctypes.Array[ctypes.c_uint]:

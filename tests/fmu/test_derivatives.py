@@ -1,49 +1,50 @@
 """First derivatives of inputs and outputs: refusals and bounded work; scenes judge motion."""
 
-import ctypes
 import math
 
 import pytest
 
 from fmu_src.python.slider_component.variables import VALUE_REFERENCE
 from tests.fmu.host import OUTPUTS, Instance, Instantiate
-from tests.fmu.native_calls import ERROR, call, reals, references
 from tests.fmus import native_fmu_only
 
 pytestmark = native_fmu_only
 
 STEP = 2.5e-3
 INPUTS = ("phase", "load", "frequency_ratio")
-FUNCTIONS = ("fmi2SetRealInputDerivatives", "fmi2GetRealOutputDerivatives")
+NO_OUTPUTS = ("phase", "slider_mass")
+MOVING = ("position", "velocity", "resonator_displacement", "resonator_velocity", "normal_force")
+JUMPING = ("contact_mode", "reversals", "stick_fraction", "last_event_time", "prediction_valid")
+GIVEN = {*MOVING, *JUMPING, "mean_velocity"}
+WITHOUT = tuple(name for name in OUTPUTS if name not in GIVEN)
 
 
-def test_texts_name_the_derivative_and_what_it_must_be(instance: Instance) -> None:
-    load, tolerance, position = (VALUE_REFERENCE[n] for n in ("load", "tolerance", "position"))
-    set_derivative = instance.slave.setRealInputDerivatives
-    with instance.refuses("derivative of load of order 2 refused: the order must be 1"):
-        set_derivative([load], [2], [1.0])
-    with instance.refuses("derivative of position of order 2 refused: the order must be 1"):
-        instance.slave.getRealOutputDerivatives([position], [2])
-    with instance.refuses(
-        "derivative of tolerance = 1.0 refused: it is no input", "phase, load or"
-    ):
-        set_derivative([tolerance], [1], [1.0])
-    with instance.refuses("derivative of load = nan refused: must be a finite number"):
-        set_derivative([load], [1], [math.nan])
-    for name in ("phase", "slider_mass"):
-        with instance.refuses(f"derivative of {name} refused: it is no output"):
-            instance.derivatives(name)
+NO_INPUT = ("derivative of tolerance = 1.0 refused: it is no input", "phase, load or")
 
 
-@pytest.mark.parametrize("function", FUNCTIONS)
-def test_other_types_and_references_are_refused(instance: Instance, function: str) -> None:
-    for reference, said in (
-        (VALUE_REFERENCE["fidelity"], "its type is Integer, not Real"),
-        (999, "valueReference = 999 refused"),
-    ):
-        arguments = (references([reference]), 1, (ctypes.c_int * 1)(1), reals([1.0]))
-        assert call(instance, function, *arguments) == ERROR
-        assert said in instance.log[-1]
+@pytest.mark.parametrize(
+    ("name", "order", "value", "said"),
+    [
+        ("load", 2, 1.0, ("derivative of load of order 2 refused: the order must be 1",)),
+        ("position", 2, None, ("derivative of position of order 2 refused: the order must be 1",)),
+        ("tolerance", 1, 1.0, NO_INPUT),
+        ("load", 1, math.nan, ("derivative of load = nan refused: must be a finite number",)),
+        *((n, 1, None, (f"derivative of {n} refused: it is no output",)) for n in NO_OUTPUTS),
+        *((n, 1, None, (f"derivative of {n} refused: this FMU does not",)) for n in WITHOUT),
+        *(("fidelity", 1, value, ("its type is Integer, not Real",)) for value in (None, 1.0)),
+        *((999, 1, value, ("valueReference = 999 refused",)) for value in (None, 1.0)),
+    ],
+)
+def test_texts_name_the_derivative_and_what_it_must_be(
+    instance: Instance, name: str | int, order: int, value: float | None, said: tuple[str, ...]
+) -> None:
+    """Of an output where there is no value."""
+    reference = name if isinstance(name, int) else VALUE_REFERENCE[name]
+    with instance.refuses(*said):
+        if value is None:
+            instance.slave.getRealOutputDerivatives([reference], [order])
+        else:
+            instance.slave.setRealInputDerivatives([reference], [order], [value])
 
 
 @pytest.mark.parametrize("fidelity", [0, 1, 2])
@@ -105,24 +106,11 @@ def test_a_prediction_that_takes_too_much_work_is_not_valid(instantiate: Instant
         assert instance.get("prediction_valid") == (valid,)
 
 
-MOVING = ("position", "velocity", "resonator_displacement", "resonator_velocity", "normal_force")
-JUMPING = ("contact_mode", "reversals", "stick_fraction", "last_event_time", "prediction_valid")
-WITHOUT = (
-    *("friction_force", "steady_velocity", "blocking_force", "slow_motion_error"),
-    "friction_power",
-)
-
-
 def test_a_slider_at_rest_on_bristles_accelerates_at_once(instantiate: Instantiate) -> None:
     instance = instantiate().initialize(friction_law=1, load=0.05)
     (acceleration,) = instance.derivatives("velocity")
     assert acceleration == pytest.approx(-0.05, rel=1e-12)
 
 
-def test_every_output_is_given_or_refused(instance: Instance) -> None:
-    given = {*MOVING, *JUMPING, "mean_velocity"}
-    assert given | set(WITHOUT) == set(OUTPUTS)
-    assert all(map(math.isfinite, instance.derivatives(*given)))
-    for name in WITHOUT:
-        with instance.refuses(f"derivative of {name} refused: this FMU does not provide it"):
-            instance.derivatives(name)
+def test_derivatives_are_finite_numbers(instance: Instance) -> None:
+    assert all(map(math.isfinite, instance.derivatives(*GIVEN)))

@@ -11,7 +11,7 @@ from fmpy.fmi3 import fmi3Error, fmi3InstanceEnvironment, fmi3LogMessageCallback
 from fmu_src.python.slider_component.variables import VARIABLES
 from tests.fmu.host import Unpacked
 from tests.fmu.host_3 import Instance3, instance_3
-from tests.fmu.native_calls import call
+from tests.fmu.native_calls import call, check
 
 STEP = 1e-3
 TIME = 1
@@ -42,49 +42,38 @@ def instance(unpacked_3: Unpacked) -> Any:
 @pytest.mark.parametrize("name", NOT_OFFERED)
 def test_what_is_not_offered_says_so(instance: Instance3, name: str) -> None:
     with instance.refuses(f"fmi3{name} refused"):
-        status = call(instance, f"fmi3{name}", *[ctypes.c_void_p()] * 8)
-        raise FMICallException(function=name, status=status)
-
-
-def refused_instantiation(instance: Instance3, function: str, *arguments: object) -> str:
-    """The text of a refused instantiation.
-
-    Called by ctypes: the slave of older versions of fmpy asks for no intermediate variables.
-    """
-    said: list[bytes] = []
-    logger = fmi3LogMessageCallback(lambda _, status, category, text: said.append(text))
-    instantiate = instance.slave.dll[f"fmi3Instantiate{function}"]
-    instantiate.restype = ctypes.c_void_p
-    callbacks = {"ModelExchange": 0, "CoSimulation": 1, "ScheduledExecution": 3}[function]
-    assert (
-        instantiate(*arguments, fmi3InstanceEnvironment(), logger, *[ctypes.c_void_p()] * callbacks)
-        is None
-    )
-    (message,) = said
-    return message.decode()
-
-
-@pytest.mark.parametrize("kind", ["ModelExchange", "ScheduledExecution"])
-def test_other_interface_types_are_refused(instance: Instance3, kind: str) -> None:
-    said = refused_instantiation(instance, kind, b"x", b"token", None, False, False)
-    assert said == f"fmi3Instantiate{kind} refused: this FMU is for co-simulation"
+        check(call(instance, f"fmi3{name}", *[ctypes.c_void_p()] * 8))
 
 
 @pytest.mark.parametrize(
-    ("name", "token", "intermediate", "text"),
+    ("kind", "wrong", "text"),
     [
-        (b"slider", b"another", 0, "instantiationToken = 'another' refused"),
-        (b"", None, 0, "instanceName refused: it is empty"),
-        (b"slider", None, 1, "nRequiredIntermediateVariables = 1 refused"),
+        *(
+            (kind, {}, f"fmi3Instantiate{kind} refused: this FMU is for co-simulation")
+            for kind in ("ModelExchange", "ScheduledExecution")
+        ),
+        ("CoSimulation", {"token": b"another"}, "instantiationToken = 'another' refused"),
+        ("CoSimulation", {"name": b""}, "instanceName refused: it is empty"),
+        ("CoSimulation", {"required": 1}, "nRequiredIntermediateVariables = 1 refused"),
     ],
 )
 def test_instantiation_is_refused(
-    instance: Instance3, name: bytes, token: bytes | None, intermediate: int, text: str
+    instance: Instance3, kind: str, wrong: dict[str, Any], text: str
 ) -> None:
-    token = token or instance.slave.guid.encode()
-    required = (ctypes.c_uint32 * 1)(TIME), ctypes.c_size_t(intermediate)
-    arguments = (name, token, None, *[False] * 4, *required)
-    assert text in refused_instantiation(instance, "CoSimulation", *arguments)
+    """Called by ctypes: the slave of older versions of fmpy asks for no intermediate variables."""
+    said: list[str] = []
+    logger = fmi3LogMessageCallback(lambda _, status, category, text: said.append(text.decode()))
+    instantiate = instance.slave.dll[f"fmi3Instantiate{kind}"]
+    instantiate.restype = ctypes.c_void_p
+    given = {"name": b"x", "token": instance.slave.guid.encode(), "required": 0} | wrong
+    arguments = [given["name"], given["token"], None, False, False]
+    if kind == "CoSimulation":
+        required = (ctypes.c_uint32 * 1)(TIME), ctypes.c_size_t(given["required"])
+        arguments += [False, False, *required]
+    callbacks = [ctypes.c_void_p()] * {"ModelExchange": 0, "CoSimulation": 1}.get(kind, 3)
+    assert instantiate(*arguments, fmi3InstanceEnvironment(), logger, *callbacks) is None
+    (message,) = said
+    assert text in message
 
 
 def test_time_is_read_and_not_set(instance: Instance3) -> None:
@@ -140,6 +129,7 @@ def test_null_pointers_are_refused(instance: Instance3) -> None:
 
 
 def test_calls_out_of_order_are_refused(unpacked_3: Unpacked) -> None:
+    """The scene `interface` tries others, and event mode without announcement."""
     with instance_3(unpacked_3) as instance:
         instance.slave.enterInitializationMode()
         with instance.refuses("enterInitializationMode refused in state 'initialization mode'"):
@@ -152,14 +142,10 @@ def test_calls_out_of_order_are_refused(unpacked_3: Unpacked) -> None:
         instance.handle_event(enter=False)
         with instance.refuses("updateDiscreteStates refused in state 'step mode'"):
             instance.slave.updateDiscreteStates()
-
-
-def test_event_mode_needs_the_announcement_of_the_host(unpacked_3: Unpacked) -> None:
     with instance_3(unpacked_3, event_mode=False) as instance:
         instance.initialize()
         with instance.refuses("fmi3EnterEventMode refused: eventModeUsed = false"):
             instance.slave.enterEventMode()
-        instance.step_to(STEP)
 
 
 def test_a_state_in_event_mode_goes_on_without_that_mode(unpacked_3: Unpacked) -> None:

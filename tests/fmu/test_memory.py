@@ -1,6 +1,7 @@
 """The native FMU's memory, by the functions of its host: tables come when they are first needed."""
 
 import math
+from collections.abc import Iterator
 
 import pytest
 from fmpy.fmi1 import FMICallException
@@ -14,54 +15,55 @@ SMALL = 40_000
 """What an instance may take until it uses a table, in bytes."""
 
 
-@pytest.mark.parametrize("fidelity", [2, 1, 0])
-def test_coulomb_friction_needs_little_memory(unpacked: Unpacked, fidelity: int) -> None:
+LUGRE = {"friction_law": 1, "averaging_order": 1}
+
+Hosted = tuple[HostMemory, Instance, Instance]
+"""Memory of a host, which it does not zero, an instance that takes it, and one that does not."""
+
+
+@pytest.fixture
+def hosted(unpacked: Unpacked) -> Iterator[Hosted]:
     memory = HostMemory()
-    instance = Instance(unpacked, memory=memory)
-    instance.initialize(fidelity=fidelity, averaging_order=1)
-    instance.step(0.01)
-    assert 0 < memory.in_use <= SMALL
+    instance, other = Instance(unpacked, memory=memory), Instance(unpacked)
+    yield memory, instance, other
     instance.free()
-    assert memory.in_use == 0
+    other.free()
+    assert memory.in_use == 0, "nothing is left behind"
 
 
 @pytest.mark.parametrize("fidelity", [2, 1, 0])
-def test_tables_come_when_they_are_needed(unpacked: Unpacked, fidelity: int) -> None:
-    """In memory that the host does not zero, they give the numbers of memory that it does."""
-    choices = {"friction_law": 1, "fidelity": fidelity, "averaging_order": 1}
-    memory = HostMemory()
-    instance, other = Instance(unpacked, memory=memory), Instance(unpacked).initialize(**choices)
-    instance.enter_initialization(**choices)
+def test_coulomb_friction_needs_little_memory(hosted: Hosted, fidelity: int) -> None:
+    memory, instance, _ = hosted
+    instance.initialize(fidelity=fidelity, averaging_order=1).step(0.01)
+    assert 0 < memory.in_use <= SMALL
+
+
+@pytest.mark.parametrize("fidelity", [2, 1, 0])
+def test_tables_come_when_they_are_needed(hosted: Hosted, fidelity: int) -> None:
+    memory, instance, other = hosted
+    instance.enter_initialization(**LUGRE, fidelity=fidelity)
     assert 0 < memory.in_use <= SMALL
     instance.slave.exitInitializationMode()
-    for each in (instance, other):
-        each.step(0.01)
+    instance.step(0.01)
+    other.initialize(**LUGRE, fidelity=fidelity).step(0.01)
     assert instance.get("velocity") == other.get("velocity") != (0.0,)
     taken = memory.in_use
     instance.slave.reset()
-    instance.initialize(**choices)
+    instance.initialize(**LUGRE, fidelity=fidelity)
     assert memory.in_use == taken, "an instance keeps its tables"
-    for each in (instance, other):
-        each.free()
-    assert memory.in_use == 0
 
 
 @pytest.mark.parametrize("fidelity", [2, 0])
-def test_without_memory_for_tables_a_call_is_refused(unpacked: Unpacked, fidelity: int) -> None:
+def test_without_memory_for_tables_a_call_is_refused(hosted: Hosted, fidelity: int) -> None:
     """It changes nothing: with memory the same call passes."""
-    choices = {"friction_law": 1, "fidelity": fidelity, "averaging_order": 1}
-    memory = HostMemory()
-    instance, other = Instance(unpacked, memory=memory), Instance(unpacked).initialize(**choices)
+    memory, instance, other = hosted
     memory.limit = memory.in_use + 1000
-    instance.enter_initialization(**choices)
+    instance.enter_initialization(**LUGRE, fidelity=fidelity)
     with pytest.raises(FMICallException):
         instance.slave.exitInitializationMode()
     assert instance.log == ["out of memory: the host gives none for tables of friction"]
     memory.limit = math.inf
     instance.slave.exitInitializationMode()
-    for each in (instance, other):
-        each.step(0.01)
+    instance.step(0.01)
+    other.initialize(**LUGRE, fidelity=fidelity).step(0.01)
     assert instance.get("velocity") == other.get("velocity")
-    for each in (instance, other):
-        each.free()
-    assert memory.in_use == 0

@@ -2,20 +2,13 @@
 
 import ctypes
 import math
-from dataclasses import dataclass, field
 from typing import Any
 
 import pytest
-from fmpy.fmi2 import (
-    fmi2CallbackAllocateMemoryTYPE,
-    fmi2CallbackFreeMemoryTYPE,
-    fmi2CallbackFunctions,
-    fmi2CallbackLoggerTYPE,
-)
 
 from fmu_src.python.slider_component.variables import VALUE_REFERENCE, VARIABLES
 from tests.fmu.host import HostMemory, Instance, Unpacked
-from tests.fmu.native_calls import DISCARD, ERROR, OK, call, reals, references
+from tests.fmu.native_calls import DISCARD, ERROR, OK, call, check, reals, references
 from tests.fmu.test_native_binaries import fmi_functions
 from tests.fmus import native_fmu_only
 
@@ -38,48 +31,10 @@ NOT_OFFERED = (
 )
 
 
-@dataclass
-class Host(HostMemory):
-    """A host that keeps what is logged; the callbacks called `missing` are null."""
-
-    missing: tuple[str, ...] = ()
-    log: list[tuple[bytes, int, bytes, bytes]] = field(default_factory=list)
-    kept: list[fmi2CallbackFunctions] = field(default_factory=list)
-
-    def callbacks(self) -> fmi2CallbackFunctions:
-        functions = {
-            "logger": fmi2CallbackLoggerTYPE(lambda _, *said: self.log.append(said)),
-            "allocateMemory": fmi2CallbackAllocateMemoryTYPE(self.allocate),
-            "freeMemory": fmi2CallbackFreeMemoryTYPE(self.release),
-        }
-        present = {k: f for k, f in functions.items() if k not in self.missing}
-        self.kept.append(fmi2CallbackFunctions(**present))
-        return self.kept[-1]
-
-
-def instantiate_as(
-    instance: Instance,
-    host: Host,
-    guid: str | None = None,
-    name: bytes | None = b"slider",
-    kind: int = 1,
-) -> int | None:
-    """The component that fmi2Instantiate makes; its own GUID unless another is given."""
-    function = instance.slave.dll.fmi2Instantiate
-    function.restype = ctypes.c_void_p
-    guid, callbacks = guid or instance.slave.guid, ctypes.byref(host.callbacks())
-    made: int | None = function(name, ctypes.c_int(kind), guid.encode(), None, callbacks, 0, 0)
-    return made
-
-
-def give_back(instance: Instance, component: int | None) -> None:
-    instance.slave.dll.fmi2FreeInstance(ctypes.c_void_p(component))
-
-
 @pytest.mark.parametrize(
     ("wrong", "text"),
     [
-        ({"guid": "{not-this-build}"}, "fmuGUID = '{not-this-build}' refused: must be '"),
+        ({"guid": b"{not-this-build}"}, "fmuGUID = '{not-this-build}' refused: must be '"),
         ({"kind": 0}, "fmuType = 0 refused: must be 1, fmi2CoSimulation"),
         ({"name": b""}, "instanceName refused: it is empty"),
         ({"name": None}, "instanceName refused: it is a null pointer"),
@@ -87,64 +42,60 @@ def give_back(instance: Instance, component: int | None) -> None:
     ids=["guid", "type", "empty name", "no name"],
 )
 def test_a_refused_instantiation_says_why(
-    instance: Instance, wrong: dict[str, Any], text: str
+    unpacked: Unpacked, wrong: dict[str, Any], text: str
 ) -> None:
-    host = Host()
-    assert instantiate_as(instance, host, **wrong) is None
-    ((_, status, category, said),) = host.log
-    assert (status, category) == (ERROR, b"logStatusError"), "also when no logging is asked for"
-    assert text in said.decode()
-    assert host.in_use == 0
+    """Also when no logging is asked for. It takes no memory."""
+    memory = HostMemory()
+    instance = Instance(unpacked, memory=memory)
+    slave, in_use = instance.slave, memory.in_use
+    given = {"name": b"slider", "kind": 1, "guid": slave.guid.encode()} | wrong
+    callbacks = ctypes.byref(slave.callbacks)
+    assert slave.fmi2Instantiate(*given.values(), None, callbacks, 0, 0) is None
+    assert memory.in_use == in_use
+    (entry,) = instance.entries
+    assert (entry.status, entry.category) == (ERROR, "logStatusError")
+    assert text in entry.text
+    instance.free()
 
 
 @pytest.mark.parametrize(
     "missing", [("allocateMemory",), ("freeMemory",), ("allocateMemory", "freeMemory", "logger")]
 )
 def test_a_host_without_memory_callbacks_is_served(
-    instance: Instance, missing: tuple[str, ...]
+    unpacked: Unpacked, missing: tuple[str, ...]
 ) -> None:
-    host = Host(missing=missing)
-    component = instantiate_as(instance, host)
-    assert component is not None
-    give_back(instance, component)
-    assert host.given == 0, "memory from one is never given to another"
+    memory = HostMemory()
+    Instance(unpacked, memory=memory, missing=missing).free()
+    assert memory.given == 0, "memory from one is never given to another"
 
 
-def test_a_host_that_runs_out_of_memory_gets_no_state(instance: Instance) -> None:
-    host = Host()
-    component = instantiate_as(instance, host)
-    host.limit = 0
-    state = ctypes.c_void_p()
-    function = instance.slave.dll.fmi2GetFMUstate
-    assert function(ctypes.c_void_p(component), ctypes.byref(state)) == ERROR
+def test_a_host_that_runs_out_of_memory_gets_no_state(unpacked: Unpacked) -> None:
+    memory, state = HostMemory(), ctypes.c_void_p()
+    instance = Instance(unpacked, memory=memory)
+    memory.limit = 0
+    assert call(instance, "fmi2GetFMUstate", ctypes.byref(state)) == ERROR
     assert state.value is None
-    assert host.log[-1][-1] == b"fmi2GetFMUstate: no memory for a state"
-    host.limit = math.inf
-    assert function(ctypes.c_void_p(component), ctypes.byref(state)) == OK, "it can go on"
-    instance.slave.dll.fmi2FreeFMUstate(ctypes.c_void_p(component), ctypes.byref(state))
-    give_back(instance, component)
-    assert host.given > 0 == host.in_use
+    assert instance.log[-1] == "fmi2GetFMUstate: no memory for a state"
+    memory.limit = math.inf
+    assert call(instance, "fmi2GetFMUstate", ctypes.byref(state)) == OK, "it can go on"
+    assert call(instance, "fmi2FreeFMUstate", ctypes.byref(state)) == OK
+    instance.free()
+    assert memory.given > 0 == memory.in_use
 
 
-@pytest.mark.parametrize("function", sorted(fmi_functions() - {"fmi2Instantiate"}))
+OF_NO_INSTANCE = {"fmi2Instantiate", "fmi2GetVersion", "fmi2GetTypesPlatform", "fmi2FreeInstance"}
+"""The scene `interface` calls those with and without instances."""
+
+
+@pytest.mark.parametrize("function", sorted(fmi_functions() - OF_NO_INSTANCE))
 def test_no_instance_is_an_error_and_no_crash(instance: Instance, function: str) -> None:
-    foreign = instance.slave.dll[function]
-    if function in ("fmi2GetVersion", "fmi2GetTypesPlatform"):
-        foreign.restype = ctypes.c_char_p
-        assert foreign() in (b"2.0", b"default")
-        return
-    foreign.restype = ctypes.c_int
-    status = foreign(*[ctypes.c_void_p()] * 8)
-    if function != "fmi2FreeInstance":
-        assert status == ERROR
+    assert instance.slave.dll[function](*[NULL] * 8) == ERROR
 
 
 @pytest.mark.parametrize("function", NOT_OFFERED)
 def test_what_is_not_offered_is_refused_by_name(instance: Instance, function: str) -> None:
-    before = instance.state()
-    assert call(instance, f"fmi2{function}", *[NULL] * 6) == ERROR
-    assert f"fmi2{function} refused" in instance.log[-1]
-    assert instance.state() == before
+    with instance.refuses(f"fmi2{function} refused"):
+        check(call(instance, f"fmi2{function}", *[NULL] * 6))
 
 
 TYPES = ("Real", "Integer", "Boolean", "String")
@@ -188,18 +139,16 @@ def test_a_reset_forgets_the_status_of_the_last_step(instance: Instance) -> None
 
 @pytest.mark.parametrize(
     ("function", "known"),
-    [("Status", 0), ("RealStatus", 2), ("BooleanStatus", 3), ("IntegerStatus", None),
-     ("StringStatus", None)],
-)  # fmt: skip
+    {"": 0, "Real": 2, "Boolean": 3, "Integer": None, "String": None}.items(),
+)
 def test_a_status_that_is_not_known_is_discarded(
     instance: Instance, function: str, known: int | None
 ) -> None:
-    place = ctypes.create_string_buffer(b"\x07" * 8, 8)
+    name, place = f"fmi2Get{function}Status", ctypes.create_string_buffer(b"\x07" * 8, 8)
     for kind in (-1, 0, 1, 2, 3, 99):
         expected = OK if kind == known else DISCARD
-        status = call(instance, f"fmi2Get{function}", ctypes.c_int(kind), place)
-        assert status == expected, kind
-        assert call(instance, f"fmi2Get{function}", ctypes.c_int(kind), NULL) == ERROR
+        assert call(instance, name, ctypes.c_int(kind), place) == expected, kind
+        assert call(instance, name, ctypes.c_int(kind), NULL) == ERROR
     if known is None:
         assert place.raw == b"\x07" * 8, "nothing was written"
 
@@ -259,11 +208,9 @@ def test_unknown_log_category_is_refused(instance: Instance, category: str | Non
 
 
 def test_invalid_category_counts_are_refused(instance: Instance) -> None:
-    null = ctypes.c_void_p()
-    assert call(instance, "fmi2SetDebugLogging", ctypes.c_int(1), 10**9, null) == ERROR
-    assert "nCategories = 1000000000 refused" in instance.log[-1]
-    assert call(instance, "fmi2SetDebugLogging", ctypes.c_int(1), 2, null) == ERROR
-    assert call(instance, "fmi2SetDebugLogging", ctypes.c_int(1), 0, null) == OK
+    for count, status in ((10**9, ERROR), (2, ERROR), (0, OK)):
+        assert call(instance, "fmi2SetDebugLogging", ctypes.c_int(1), count, NULL) == status
+    assert "nCategories = 1000000000 refused" in instance.log[0]
 
 
 @pytest.mark.parametrize("logging_on", [False, True])
