@@ -15,12 +15,11 @@ PERIOD = math.tau / 3500.0
 PERIODS = 200
 LIFTED = 2.0
 
-TABLE_1: dict[str, float] = {}
 STICK_SLIP = {"base_amplitude": 0.0, "load": 0.1}
 FLIGHT = {"normal_amplitude": 1.8, "friction_coefficient": 1.0, "phase": 0.7}
-LUGRE: dict[str, float] = {"friction_law": 1}
+LUGRE = {"friction_law": 1.0}
 DEVICES: dict[str, dict[str, float]] = {
-    "table 1": TABLE_1,
+    "table 1": {},
     "table 1, one degree of freedom": {"fidelity": 1},
     "table 1, LuGre": LUGRE,
     "table 1, stiff bristles": {**LUGRE, "bristle_stiffness": 1e12, "tolerance": 1e-12},

@@ -12,6 +12,8 @@ from tests.fmus import both_fmus
 
 pytestmark = both_fmus
 
+NO_PRELOAD = {"normal_preload": 0.0}
+
 
 def test_a_release_by_an_input_is_the_last_event(instantiate: Instantiate) -> None:
     """Where the parts of the step sum up to more than it by rounding, too."""
@@ -31,14 +33,10 @@ def test_a_release_by_an_input_is_the_last_event(instantiate: Instantiate) -> No
 @pytest.mark.parametrize(
     "device",
     [
-        {
-            "normal_preload": 0.0,
-            "damping_ratio": 0.23416453451909713,
-            "resonator_mass": 0.01242897871348076,
-        },
+        {"damping_ratio": 0.23416453451909713, "resonator_mass": 0.01242897871348076, **NO_PRELOAD},
         {"phase": 3.895139822727085, "drive_frequency": 8.5, "resonator_frequency": 53769.0},
-        {"normal_preload": 0.0, "frequency_ratio": 0.0},
-        {"phase": -2.1758310349471994, "normal_preload": 0.0},
+        {"frequency_ratio": 0.0, **NO_PRELOAD},
+        {"phase": -2.1758310349471994, **NO_PRELOAD},
     ],
 )
 @pytest.mark.parametrize("force", [-1.0, -0.3, 0.3, 1.0])
@@ -82,24 +80,37 @@ def test_a_first_slide_is_no_reversal_whatever_the_load_was_before(
     assert instance.get("contact_mode", "reversals") == (1.0, 0.0)
 
 
+def test_turns_in_flight_are_no_reversals(instantiate: Instantiate) -> None:
+    """Sliding begins at touchdown.
+
+    Hard bristles give Coulomb friction, and bend in flight, too, whenever the slider turns. The
+    contact is open for some periods of the drive.
+    """
+    thrown = {"tangential_force": 2000.0, "base_amplitude": 0.0, "resonator_mass": 0.0}
+    flight = {"normal_amplitude": 3.0, "frequency_ratio": 0.05, "bristle_damping": 0.0}
+    found = []
+    for law in (0, 1):
+        instance = instantiate().initialize(
+            **thrown, **flight, friction_law=law, bristle_stiffness=1e7
+        )
+        instance.step(40 * 1.795195802e-3)
+        found.append(instance.get("reversals", "last_event_time"))
+    coulomb, lugre = found
+    assert lugre == pytest.approx(coulomb, rel=1e-6)
+    assert coulomb[0] == 51.0, "79 with the turns in flight"
+
+
 @pytest.mark.parametrize("preload", [0.0, 5e-324, 1e-17])
 @pytest.mark.parametrize("ratio", [1.0, -1.0, 0.75, 100.0])
 def test_friction_of_bristles_with_next_to_no_preload(
     instantiate: Instantiate, preload: float, ratio: float
 ) -> None:
     """The kinks of the load are then an exact half turn apart, and meet where sliding turns."""
-    values = {
-        "fidelity": 0,
-        "averaging_order": 1,
-        "friction_law": 1,
-        "normal_amplitude": 1.0,
-        "frequency_ratio": ratio,
-    }
+    values = {"fidelity": 0, "averaging_order": 1, "friction_law": 1, "normal_amplitude": 1.0}
     for phase in (0.0, math.pi, -math.pi, math.pi / 2.0, 0.3):
         for velocity in (-0.144, -1.0, 0.2366097 - 0.0318182):
-            instance = instantiate().initialize(
-                normal_preload=preload, phase=phase, initial_velocity=velocity, **values
-            )
+            start = {"normal_preload": preload, "phase": phase, "initial_velocity": velocity}
+            instance = instantiate().initialize(**values, **start, frequency_ratio=ratio)
             (force,) = instance.get("friction_force")
             assert abs(force) <= 2.0 * (0.1 + 10.0 * 0.5) / math.pi
 

@@ -16,16 +16,12 @@ W = 3500
 RATIO = 1.37
 
 
-def apart(phase: float, exact: Fraction) -> float:
-    """Distance [rad] of a phase from an exact angle, on the circle."""
-    return abs(math.remainder(float((Fraction(phase) - exact) % TWO_PI), math.tau))
-
-
 def assert_phases(instance: Instance, seconds: int, allowed: float) -> None:
+    """The phases of drive and normal load are w t and ratio w t, up to an angle in rad."""
     moment = moment_of(instance.state())
-    theta, psi = Fraction(W * seconds), Fraction(RATIO) * W * seconds
-    assert apart(moment["theta"], theta) < allowed, "the drive phase is w t modulo a turn"
-    assert apart(moment["psi"], psi) < allowed, "that of the normal load is ratio w t"
+    for name, exact in (("theta", Fraction(W * seconds)), ("psi", Fraction(RATIO) * W * seconds)):
+        turned = float((Fraction(moment[name]) - exact) % TWO_PI)
+        assert abs(math.remainder(turned, math.tau)) < allowed, name
 
 
 def resident_kilobytes() -> int:

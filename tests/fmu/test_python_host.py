@@ -4,6 +4,7 @@ import gc
 import math
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -74,27 +75,25 @@ def test_freed_instances_are_gone(unpacked: Unpacked) -> None:
     assert alive() == before, "references that refusals keep must not keep instances"
 
 
-MALTREATMENT: tuple[Callable[[Instance], object], ...] = (
-    lambda i: i.set(load=math.nan),
-    lambda i: i.set(normal_preload=-1.0),
-    lambda i: i.set(slider_mass=2.0),
-    lambda i: i.set(friction_faces=1),
-    lambda i: i.set(position=0.0),
-    lambda i: i.slave.doStep(i.time, 0.0),
-    lambda i: i.slave.doStep(i.time, math.nan),
-    lambda i: i.slave.doStep(i.time + 1.0, STEP),
-    lambda i: i.slave.setupExperiment(startTime=0.0),
-    lambda i: i.slave.exitInitializationMode(),
-    lambda i: i.slave.getReal([999]),
-    lambda i: i.slave.getInteger([0]),
-    lambda i: i.restore(b"not a state"),
-)
-
-
 def maltreat(instance: Instance) -> None:
-    for call in MALTREATMENT:
+    bad_values: tuple[dict[str, float], ...] = (
+        *({"load": math.nan}, {"normal_preload": -1.0}, {"slider_mass": 2.0}),
+        *({"friction_faces": 1}, {"position": 0.0}),
+    )
+    slave, time = instance.slave, instance.time
+    calls: tuple[Callable[[], object], ...] = (
+        *(partial(instance.set, **values) for values in bad_values),
+        *(partial(slave.doStep, time, size) for size in (0.0, math.nan)),
+        partial(slave.doStep, time + 1.0, STEP),
+        partial(slave.setupExperiment, startTime=0.0),
+        slave.exitInitializationMode,
+        partial(slave.getReal, [999]),
+        partial(slave.getInteger, [0]),
+        partial(instance.restore, b"not a state"),
+    )
+    for call in calls:
         with pytest.raises(FMICallException):
-            call(instance)
+            call()
 
 
 STORM = """

@@ -65,14 +65,15 @@ CALLS: dict[str, tuple[Callable[[Instance], object], tuple[str, ...]]] = {
 """Calls in a run that ends at 1 s, and what the text names."""
 
 
-@pytest.mark.parametrize("call", CALLS)
-def test_text_names_call_value_and_requirement(instantiate: Instantiate, call: str) -> None:
+@pytest.mark.parametrize(("attempt", "fragments"), CALLS.values(), ids=CALLS)
+def test_text_names_call_value_and_requirement(
+    instantiate: Instantiate, attempt: Callable[[Instance], object], fragments: tuple[str, ...]
+) -> None:
     instance = instantiate()
     instance.slave.setupExperiment(startTime=0.0, stopTime=1.0)
     instance.slave.enterInitializationMode()
     instance.slave.exitInitializationMode()
     instance.step(STEP)
-    attempt, fragments = CALLS[call]
     with instance.refuses(*fragments):
         attempt(instance)
 
