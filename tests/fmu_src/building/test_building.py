@@ -11,6 +11,7 @@ import pytest
 
 from fmu_src.building.archive import write_archive
 from fmu_src.building.build_error import BuildError
+from fmu_src.building.build_folder import build_folder
 from fmu_src.building.cache import cache_folder, cached
 from fmu_src.building.compiling import Compiler, compile_binary
 from fmu_src.building.content import digest_of
@@ -52,6 +53,13 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return found
 
 
+@pytest.fixture
+def no_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("HOME", str(tmp_path / "file"))
+    assert cache_folder() is None
+
+
 @pytest.mark.usefixtures("folder")
 def test_equal_origins_are_made_once(make: Callable[[], bytes]) -> None:
     assert cached("library.so", b"sources", make) == b"binary 1"
@@ -73,13 +81,40 @@ def test_what_is_damaged_is_made_again(
     assert cached("library.so", b"sources", make) == b"binary 2"
 
 
-def test_without_a_home_all_is_made_again(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, make: Callable[[], bytes]
-) -> None:
-    (tmp_path / "file").touch()
-    monkeypatch.setenv("HOME", str(tmp_path / "file"))
-    assert cache_folder() is None
+@pytest.mark.usefixtures("no_home")
+def test_without_a_home_all_is_made_again(make: Callable[[], bytes]) -> None:
     assert [cached("library.so", b"sources", make) for _ in range(2)] == [b"binary 1", b"binary 2"]
+
+
+SOURCES = {"a.c": "int a;\n", "b.c": "int b;\n", "b.h": "extern int b;\n"}
+
+
+def content(folder: Path) -> dict[str, str]:
+    return {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="its builds use new folders")
+@pytest.mark.usefixtures("folder")
+def test_what_is_the_same_keeps_place_and_time() -> None:
+    """Builds compile what has changed since the last one."""
+    with build_folder("some-target", SOURCES) as first:
+        assert content(first) == SOURCES
+        (first / "library.so").touch()
+        times = {path.name: path.stat().st_mtime_ns for path in first.iterdir()}
+    changed = {"a.c": SOURCES["a.c"], "b.c": "int b = 1;\n", "c.c": "int c;\n"}
+    with build_folder("some-target", changed) as second:
+        assert second == first
+        assert content(second) == changed, "nothing is left of the build before"
+        assert (second / "a.c").stat().st_mtime_ns == times["a.c"]
+        assert (second / "b.c").stat().st_mtime_ns != times["b.c"]
+
+
+@pytest.mark.usefixtures("no_home")
+@pytest.mark.parametrize("target", ["some-target", None])
+def test_without_a_place_for_a_cache_the_folder_is_temporary(target: str | None) -> None:
+    with build_folder(target, SOURCES) as folder:
+        assert content(folder) == SOURCES
+    assert not folder.exists()
 
 
 @pytest.mark.usefixtures("folder")
@@ -102,18 +137,17 @@ def test_whatever_differs_gives_another_digest(other: dict[str, bytes]) -> None:
 
 @pytest.mark.parametrize(
     ("seconds", "text"),
-    [
-        (None, "1980-01-01T00:00:00Z"),
-        ("0", "1970-01-01T00:00:00Z"),
-        ("1700000000", "2023-11-14T22:13:20Z"),
-    ],
+    {
+        None: "1980-01-01T00:00:00Z",
+        "0": "1970-01-01T00:00:00Z",
+        "1700000000": "2023-11-14T22:13:20Z",
+    }.items(),
 )
 def test_the_date_is_never_that_of_the_build(
     monkeypatch: pytest.MonkeyPatch, seconds: str | None, text: str
 ) -> None:
-    if seconds is None:
-        monkeypatch.delenv("SOURCE_DATE_EPOCH", raising=False)
-    else:
+    monkeypatch.delenv("SOURCE_DATE_EPOCH", raising=False)
+    if seconds is not None:
         monkeypatch.setenv("SOURCE_DATE_EPOCH", seconds)
     assert date_text(date_of_build()) == text
 
@@ -160,26 +194,17 @@ def test_the_host_is_recognised_or_refused(
         assert host_platform("3.0") == found
 
 
-X86_64, ARM64 = 0x01000007, 0x0100000C
-
-
-def library(processor: int, size: int) -> bytes:
-    return struct.pack("<III", 0xFEEDFACF, processor, 3).ljust(size, b"x")
-
-
 def test_every_library_is_at_its_offset_in_the_header() -> None:
-    libraries = [library(X86_64, 20_000), library(ARM64, 70_001)]
-    data = universal_binary(libraries)
-    magic, count = struct.unpack_from(">II", data)
-    assert (magic, count) == (0xCAFEBABE, 2), "the header is in big-endian order"
-    for k, (processor, expected) in enumerate(zip((X86_64, ARM64), libraries, strict=True)):
-        found = struct.unpack_from(">IIIII", data, 8 + 20 * k)
-        assert found[:2] == (processor, 3)
-        offset, size, alignment = found[2:]
-        assert data[offset : offset + size] == expected
+    libraries = {
+        processor: struct.pack("<III", 0xFEEDFACF, processor, 3).ljust(size, b"x")
+        for processor, size in ((0x01000007, 20_000), (0x0100000C, 70_001))
+    }
+    data = universal_binary([*libraries.values()])
+    assert struct.unpack_from(">II", data) == (0xCAFEBABE, 2), "the header is big-endian"
+    for k, (processor, library) in enumerate(libraries.items()):
+        *found, offset, size, alignment = struct.unpack_from(">IIIII", data, 8 + 20 * k)
+        assert found == [processor, 3]
+        assert data[offset : offset + size] == library
         assert offset % (1 << alignment) == 0, "a library begins on a page"
-
-
-def test_other_libraries_than_those_of_macos_are_refused() -> None:
     with pytest.raises(ValueError, match="begins with 0x464c457f: must be 0xfeedfacf"):
         universal_binary([b"\x7fELF" + bytes(60)])
