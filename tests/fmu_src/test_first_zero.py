@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmu_src.python.slider_component.first_zero import Signal, Watch, first_zero
+from fmu_src.python.slider_component.first_zero import Watch, first_zero
 
 Wave = tuple[float, float, float]
 """Amplitude, frequency (rad/s) and phase (rad) of a sine."""
@@ -194,18 +194,13 @@ def test_a_zero_where_it_is_expected_costs_few_evaluations() -> None:
     assert work <= 3
 
 
-def zero_of(signal: Signal, noise: float = 1e-16) -> float | None:
-    """That of the Python build in [0, 1), of a signal that is no sum of sines."""
-    return first_zero(Watch(signal, noise, 1.0), 1.0)
-
-
 @pytest.mark.parametrize("bound", [1e300, math.inf, math.nan])
 def test_a_search_that_hardly_advances_ends(bound: float) -> None:
     """A bound of the curvature beyond all devices makes all steps short, and then longer."""
-    assert zero_of(lambda t: (1.0, 0.0, bound)) is None
+    assert first_zero(Watch(lambda t: (1.0, 0.0, bound), 1e-16, 1.0), 1.0) is None
 
 
 def test_a_zero_that_short_steps_pass_is_refined() -> None:
     """A bound of the curvature far above it makes all steps short, and then longer."""
-    found = zero_of(lambda t: ((2e-3 - t) * 1e-9, -1e-9, 1.0), noise=1e-30)
-    assert found == pytest.approx(2e-3, rel=1e-12)
+    watch = Watch(lambda t: ((2e-3 - t) * 1e-9, -1e-9, 1.0), 1e-30, 1.0)
+    assert first_zero(watch, 1.0) == pytest.approx(2e-3, rel=1e-12)

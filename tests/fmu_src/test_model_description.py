@@ -7,30 +7,18 @@ import pytest
 from pythonfmu import Fmi2Slave
 
 from fmu_src.model_description import LOG_CATEGORIES, model_description
-from fmu_src.python.slider_component.variable import Variable
 from fmu_src.python.slider_component.variables import VARIABLES
 
 
 def describe(**changes: Any) -> bytes:
-    arguments: dict[str, Any] = {
-        "model": "SliderResonatorPy",
-        "guid": "a-guid",
-        "generation_tool": "a tool",
-        "generated": "1980-01-01T00:00:00Z",
-        "host_manages_memory": False,
-    }
-    return model_description(**(arguments | changes))
+    named = {"model": "SliderResonatorPy", "guid": "a-guid", "generation_tool": "a tool"}
+    built = {"generated": "1980-01-01T00:00:00Z", "host_manages_memory": False}
+    return model_description(**(named | built | changes))
 
 
 @pytest.fixture(scope="module")
 def root() -> ET.Element:
     return ET.fromstring(describe())
-
-
-def found(root: ET.Element, path: str) -> ET.Element:
-    element = root.find(path)
-    assert element is not None, f"{path} is missing from the description"
-    return element
 
 
 @pytest.mark.parametrize(
@@ -51,17 +39,16 @@ def test_display_units(
     root: ET.Element, unit: str, display: str, value: float, shown: float
 ) -> None:
     path = f"UnitDefinitions/Unit[@name='{unit}']/DisplayUnit[@name='{display}']"
-    factor = float(found(root, path).attrib["factor"])
+    (factor,) = (float(element.attrib["factor"]) for element in root.iterfind(path))
     assert factor * value == pytest.approx(shown, rel=1e-14), f"{value} {unit} in {display}"
 
 
 @pytest.mark.parametrize("host_manages_memory", [True, False])
 @pytest.mark.parametrize("takes_derivatives", [True, False])
 def test_capabilities(host_manages_memory: bool, takes_derivatives: bool) -> None:
-    described = ET.fromstring(
-        describe(host_manages_memory=host_manages_memory, takes_derivatives=takes_derivatives)
-    )
-    assert found(described, "CoSimulation").attrib == {
+    given = {"host_manages_memory": host_manages_memory, "takes_derivatives": takes_derivatives}
+    (simulation,) = ET.fromstring(describe(**given)).iterfind("CoSimulation")
+    assert simulation.attrib == {
         "modelIdentifier": "SliderResonatorPy",
         "needsExecutionTool": "false",
         "canHandleVariableCommunicationStepSize": "true",
@@ -81,10 +68,6 @@ def test_log_categories_are_those_that_the_binary_uses(root: ET.Element) -> None
     assert names == list(LOG_CATEGORIES) == list(Fmi2Slave.log_categories)
 
 
-def _changed(name: str, **changes: Any) -> list[Variable]:
-    return [replace(v, **changes) if v.name == name else v for v in VARIABLES]
-
-
 @pytest.mark.parametrize(
     ("name", "changes", "text"),
     [
@@ -95,5 +78,6 @@ def _changed(name: str, **changes: Any) -> list[Variable]:
     ids=["unit", "display unit", "dependency"],
 )
 def test_a_broken_table_is_refused_by_name(name: str, changes: dict[str, Any], text: str) -> None:
+    table = [replace(v, **changes) if v.name == name else v for v in VARIABLES]
     with pytest.raises(ValueError, match=text):
-        describe(variables=_changed(name, **changes))
+        describe(variables=table)

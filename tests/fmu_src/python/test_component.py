@@ -9,12 +9,9 @@ import pytest
 from fmu_src.python.slider_component import lugre, prediction, resolved
 from fmu_src.python.slider_component.component import Component, motion_of
 from fmu_src.python.slider_component.device import Device
-from fmu_src.python.slider_component.first_zero import Watch, first_zero
-from fmu_src.python.slider_component.moment import Moment
 from fmu_src.python.slider_component.outputs import OUTPUTS
 from fmu_src.python.slider_component.parameters import Inputs
 from fmu_src.python.slider_component.period_map import PeriodMap
-from fmu_src.python.slider_component.segment import Series
 from fmu_src.python.slider_component.snapshot import from_bytes, to_bytes
 from fmu_src.python.slider_component.values import BY_NAME, SETTABLE, Refusal, checked
 from fmu_src.python.slider_component.variables import VARIABLES
@@ -27,14 +24,6 @@ def running(start_time: float = 0.0, **values: float) -> Component:
     component.set(values)
     component.exit_initialization()
     return component
-
-
-def one(component: Component, name: str) -> float:
-    return component.get(name)[0]
-
-
-def outputs(component: Component) -> dict[str, float]:
-    return dict(zip(OUTPUTS, component.get(*OUTPUTS), strict=True))
 
 
 def test_damaged_and_foreign_states_are_refused_and_change_nothing() -> None:
@@ -76,77 +65,63 @@ def test_values_that_are_not_finite_are_refused(value: object) -> None:
             checked(BY_NAME[name], value)
 
 
-TABLE_1 = Device()
-PERIOD = math.tau / 3500.0
-"""Drive period of table 1 [s]."""
+def counted(monkeypatch: pytest.MonkeyPatch, place: object, name: str) -> list[tuple[Any, ...]]:
+    """The arguments of all calls of a function, or of a class, from now on."""
+    calls: list[tuple[Any, ...]] = []
+    function = getattr(place, name)
+
+    def counting(*arguments: Any, **settings: Any) -> Any:
+        calls.append(arguments)
+        return function(*arguments, **settings)
+
+    monkeypatch.setattr(place, name, counting)
+    return calls
 
 
-def after(periods: int, device: Device) -> Moment:
-    motion = motion_of(device, Inputs())
-    return motion.advance(motion.start(), periods * PERIOD)
+def run(periods: int, **changes: Any) -> None:
+    """Advance table 1 with changes by periods of its drive."""
+    motion = motion_of(replace(Device(), **changes), Inputs())
+    motion.advance(motion.start(), periods * math.tau / 3500.0)
 
 
 def test_searches_for_a_zero_are_few(monkeypatch: pytest.MonkeyPatch) -> None:
     """Per drive period: two while it moves, none where nothing can happen."""
-    searches = []
-
-    def counted(watch: Watch, limit: float) -> float | None:
-        searches.append(1)
-        return first_zero(watch, limit)
-
-    monkeypatch.setattr(resolved, "first_zero", counted)
-    after(100, TABLE_1)
+    searches = counted(monkeypatch, resolved, "first_zero")
+    run(100)
     assert len(searches) <= 3 * 100
     searches.clear()
-    after(100, replace(TABLE_1, base_amplitude=0.0))
+    run(100, base_amplitude=0.0)
     assert searches == []
 
 
 def test_stiffness_costs_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    made = []
-
-    class Counted(Series):
-        def __init__(self, *args: Any, **settings: Any) -> None:
-            made.append(1)
-            super().__init__(*args, **settings)
-
-    monkeypatch.setattr(lugre, "Series", Counted)
-
-    def series(stiffness: float) -> int:
-        made.clear()
-        after(50, replace(TABLE_1, friction_law=1, bristle_stiffness=stiffness))
-        return len(made)
-
-    assert 0 < series(1e8) <= 1.5 * series(1e5)
+    series, made = counted(monkeypatch, lugre, "Series"), []
+    for stiffness in (1e5, 1e8):
+        run(50, friction_law=1, bristle_stiffness=stiffness)
+        made.append(len(series))
+        series.clear()
+    assert 0 < made[1] <= 1.5 * made[0]
 
 
 def test_a_long_step_takes_few_maps(monkeypatch: pytest.MonkeyPatch) -> None:
-    maps = []
-    sections = PeriodMap.sections
-
-    def counted(self: PeriodMap, now: Moment, count: int, budget: Any) -> Any:
-        maps.append(count)
-        return sections(self, now, count, budget)
-
-    monkeypatch.setattr(PeriodMap, "sections", counted)
-    after(20_000, replace(TABLE_1, fidelity=0))
-    assert sum(maps) <= 3000
+    calls = counted(monkeypatch, PeriodMap, "sections")
+    run(20_000, fidelity=0)
+    assert sum(count for _, _, count, *_ in calls) <= 3000
 
 
 def test_work_is_bounded_in_a_search(monkeypatch: pytest.MonkeyPatch) -> None:
     # Enough for each map of a search, but not for all. A prediction that was made is kept.
     monkeypatch.setattr(prediction, "MAX_SEGMENTS", 500)
-    assert one(running(normal_amplitude=1.51), "prediction_valid") == 0.0
+    assert running(normal_amplitude=1.51).get("prediction_valid") == [0.0]
     monkeypatch.undo()
-    assert one(running(normal_amplitude=1.52), "prediction_valid") == 1.0
+    assert running(normal_amplitude=1.52).get("prediction_valid") == [1.0]
 
 
 @pytest.mark.parametrize("phase", [0.3, -2.0, 3.0])
 def test_whole_turns_of_phase_change_nothing(phase: float) -> None:
     far = phase + 1e12 * math.tau
-    near = running(phase=math.remainder(far, math.tau))
-    turned = running(phase=far)
-    near.step(0.0, 0.01)
-    turned.step(0.0, 0.01)
-    assert outputs(turned) == outputs(near)
-    assert one(turned, "phase") == far
+    near, turned = running(phase=math.remainder(far, math.tau)), running(phase=far)
+    for component in (near, turned):
+        component.step(0.0, 0.01)
+    assert turned.get(*OUTPUTS) == near.get(*OUTPUTS)
+    assert turned.get("phase") == [far]
