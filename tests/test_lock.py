@@ -10,15 +10,12 @@ from packaging.utils import canonicalize_name
 
 from tests.processes import ROOT
 
-
-def project() -> dict[str, object]:
-    content = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    own = content["project"]
-    extras = own["optional-dependencies"].values()
-    return {
-        "requirements.lock": [*own["dependencies"], *(name for extra in extras for name in extra)],
-        "requirements-lint.lock": content["dependency-groups"]["lint"],
-    }
+CONTENT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+PROJECT = CONTENT["project"]
+WANTED = {
+    "requirements.lock": sum(PROJECT["optional-dependencies"].values(), PROJECT["dependencies"]),
+    "requirements-lint.lock": CONTENT["dependency-groups"]["lint"],
+}
 
 
 def locked(name: str) -> dict[str, set[str]]:
@@ -36,13 +33,10 @@ def locked(name: str) -> dict[str, set[str]]:
     return versions
 
 
-@pytest.mark.parametrize("name", ["requirements.lock", "requirements-lint.lock"])
+@pytest.mark.parametrize("name", WANTED)
 def test_every_requirement_is_locked_at_a_version_that_it_allows(name: str) -> None:
     versions = locked(name)
-    wanted = project()[name]
-    assert isinstance(wanted, list)
-    for line in wanted:
-        requirement = Requirement(line)
+    for requirement in map(Requirement, WANTED[name]):
         if requirement.name == "slider-resonator":
             continue
         found = versions.get(canonicalize_name(requirement.name), set())
@@ -81,8 +75,7 @@ def needed(requirement: Requirement, extras: list[str]) -> bool:
 
 
 def test_the_wheel_installs_no_compiler_and_no_build_tool() -> None:
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    found = installed_with(project["dependencies"])
+    found = installed_with(PROJECT["dependencies"])
     assert "fmpy" in found
     assert "lxml" in found, "what fmpy requires is among them"
     assert not found & BUILD_TOOLS

@@ -1,6 +1,7 @@
 """The wheel: what it brings, and that it works where the user has folders of the same names."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -41,6 +42,14 @@ def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+def printed(folder: Path, path: list[object], *arguments: object) -> str:
+    """What Python prints in a folder, with other folders on its path, without an error."""
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, path))}
+    done = run_command(sys.executable, *arguments, cwd=folder, env=environment)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
 def test_wheel_installs_one_package_with_all_its_files(installed: Path) -> None:
     names = {path.name for path in installed.iterdir() if path.suffix != ".dist-info"}
     assert names == {"slider_resonator"}
@@ -59,38 +68,21 @@ def test_folder_with_a_harness_of_its_own(
     for name in ("harness", "scenes", "fmu", "device"):
         (tmp_path / name).mkdir()
         (tmp_path / name / "__init__.py").write_text("raise RuntimeError('not ours')\n")
-    path = os.pathsep.join([".", str(installed)])
-    result = run_command(
-        *(sys.executable, "-m", "slider_resonator", "validate", native_fmu),
-        *("--scene", "blocking_force_table_1"),
-        cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": path},
-    )
-    assert result.returncode == 0, result.stdout + result.stderr
-    assert "passed" in result.stdout
+    arguments = ("validate", native_fmu, "--scene", "blocking_force_table_1")
+    assert "passed" in printed(tmp_path, [".", installed], "-m", "slider_resonator", *arguments)
 
 
 def test_wheel_brings_the_finished_fmu_and_no_build_tool(
     installed: Path, native_fmu: Path, tmp_path: Path
 ) -> None:
     script = "import slider_resonator as sr\nwith sr.open_fmu() as fmu: print(fmu.path)"
-    done = run_command(
-        *(sys.executable, "-c", script),
-        cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(installed)},
-    )
-    assert done.returncode == 0, done.stderr
-    path = Path(done.stdout.strip())
+    path = Path(printed(tmp_path, [installed], "-c", script).strip())
     assert path.is_relative_to(installed)
     assert path.read_bytes() == native_fmu.read_bytes()
     (metadata,) = installed.glob("*.dist-info/METADATA")
-    always = [
-        line
-        for line in metadata.read_text(encoding="utf-8").splitlines()
-        if line.startswith("Requires-Dist: ") and "extra ==" not in line
-    ]
-    assert always
-    assert not [line for line in always if "ziglang" in line or "pythonfmu" in line]
+    asked = re.findall(r"^Requires-Dist: (?!.*extra ==)(.*)$", metadata.read_text("utf-8"), re.M)
+    assert asked
+    assert not [name for name in asked if name.startswith(("ziglang", "pythonfmu"))]
 
 
 def test_nothing_of_the_build_stays_in_the_sources(wheel: Path) -> None:

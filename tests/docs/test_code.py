@@ -12,8 +12,6 @@ from slider_resonator.sweeping.grid import read_grid
 from slider_resonator.sweeping.picture import check_picture
 from tests.processes import ROOT, run_command
 
-DOCS = ROOT / "docs"
-
 
 def blocks_of(page: str, language: str = "python") -> list[str]:
     """The blocks of code on a page."""
@@ -95,15 +93,12 @@ def test_documented_code_of_other_hosts_prints_the_documented_output(code: str) 
     assert said in done.stdout.splitlines()
 
 
-def test_the_map_has_40_000_points_that_all_repeat() -> None:
-    sweep = read_grid(DOCS / "steady_velocity.toml")
+def test_the_grids_of_the_documentation_are_read(tmp_path: Path) -> None:
+    """That of the map has points that all repeat."""
+    sweep = read_grid(ROOT / "docs" / "steady_velocity.toml")
     check_picture(sweep, "--plot")
     assert len(sweep.points) == 40_000
-    ratios = {ratio for ratio, _ in sweep.points}
-    assert all(abs(20.0 * ratio - round(20.0 * ratio)) < 1e-9 for ratio in ratios)
-
-
-def test_the_grids_of_the_page_are_read(tmp_path: Path) -> None:
+    assert all(abs(20.0 * ratio - round(20.0 * ratio)) < 1e-9 for ratio, _ in sweep.points)
     counts = []
     for text in blocks_of("docs/sweeps.md", "toml"):
         (tmp_path / "grid.toml").write_text(text, encoding="utf-8")

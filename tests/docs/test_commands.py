@@ -3,6 +3,7 @@
 import re
 import shlex
 from collections.abc import Iterator
+from itertools import product
 from pathlib import Path
 
 import click
@@ -35,14 +36,13 @@ def calls(*programs: str) -> list[ParameterSet]:
     """Return the arguments after one of the programs, without placeholders, by page."""
     found = []
     for page in PAGES:
-        for line in commands(page.read_text(encoding="utf-8")):
-            for program in programs:
-                rest = line.strip().removeprefix(program)
-                following = (" ", "", ".") if program.startswith("python -m ") else (" ", "")
-                is_call = rest != line.strip() and rest[:1] in following
-                if is_call and not re.search(r"\[|\.\.\.|COMMAND|<", rest):
-                    words = shlex.split(rest, comments=True)
-                    found.append(pytest.param(words, id=f"{page.name}: {' '.join(words)}"))
+        for line, program in product(commands(page.read_text(encoding="utf-8")), programs):
+            rest = line.strip().removeprefix(program)
+            following = (" ", "", ".") if program.startswith("python -m ") else (" ", "")
+            is_call = rest != line.strip() and rest[:1] in following
+            if is_call and not re.search(r"\[|\.\.\.|COMMAND|<", rest):
+                words = shlex.split(rest, comments=True)
+                found.append(pytest.param(words, id=f"{page.name}: {' '.join(words)}"))
     return found
 
 
@@ -94,34 +94,21 @@ TO_BE_ADDED = {"tests/fmu_src/python/test_dahl.py"}
 """Paths of the exercise in docs/architecture.md."""
 
 
-def relative_links(text: str) -> list[str]:
-    """Return the targets of all links and images that are not URLs."""
-    targets = re.findall(r"\]\(([^)\s]+)\)", text)
-    return [target for target in targets if not re.match(r"[a-z]+:", target)]
-
-
 def anchors(page: Path) -> set[str]:
     """Return the anchors that GitHub gives the headings of a page."""
     headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
-def paths_of_tests(text: str) -> set[str]:
-    """Return the paths in `tests` that stand in backticks, alone or in a command."""
-    code = " ".join(re.findall(r"`([^`\n]+)`", text))
-    return set(re.findall(r"(?<!\S)tests/[\w./-]+(?!\S)", code))
-
-
 @pytest.mark.parametrize("page", ALL_PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
-def test_relative_links_exist(page: Path) -> None:
-    for target in relative_links(page.read_text(encoding="utf-8")):
+def test_links_and_paths_of_tests_exist(page: Path) -> None:
+    """Links and images that are no URLs; paths that stand in backticks, alone or in a command."""
+    text = page.read_text(encoding="utf-8")
+    for target in re.findall(r"\]\((?![a-z]+:)([^)\s]+)\)", text):
         path, _, anchor = target.partition("#")
         file = (page.parent / path).resolve() if path else page
         assert file.exists(), f"{page.name} links to {target}"
         assert not anchor or anchor in anchors(file), f"{page.name} links to {target}"
-
-
-@pytest.mark.parametrize("page", ALL_PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
-def test_paths_of_tests_exist(page: Path) -> None:
-    paths = paths_of_tests(page.read_text(encoding="utf-8")) - TO_BE_ADDED
+    code = " ".join(re.findall(r"`([^`\n]+)`", text))
+    paths = set(re.findall(r"(?<!\S)tests/[\w./-]+(?!\S)", code)) - TO_BE_ADDED
     assert not {path for path in paths if not (ROOT / path).exists()}

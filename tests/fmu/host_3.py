@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from fmpy.fmi3 import FMU3Slave
@@ -19,12 +18,11 @@ class Located(NamedTuple):
     outputs: Mapping[str, float]
 
 
-@dataclass
-class Run:
+class Run(NamedTuple):
     """The outputs at the ends of the steps asked for, and the events."""
 
-    rows: list[tuple[float, ...]] = field(default_factory=list)
-    events: list[Located] = field(default_factory=list)
+    rows: list[tuple[float, ...]]
+    events: list[Located]
 
 
 class _Slave(FMU3Slave):  # type: ignore[misc]
@@ -86,9 +84,9 @@ class Instance3(AnyInstance):
 
     def run(self, steps: int, size: float) -> Run:
         """Take equal steps, from time 0 on."""
-        run = Run()
+        run = Run([], [])
         for index in range(1, steps + 1):
-            run.events += self.step_to(index * size)
+            run.events.extend(self.step_to(index * size))
             run.rows.append(self.get(*OUTPUTS))
         return run
 

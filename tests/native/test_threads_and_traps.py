@@ -38,11 +38,11 @@ def test_resolved_motion_raises_no_exception_that_hosts_trap(
     preloaded = ("-shared", "-fPIC", "-Wl,--no-as-needed", "-lm")
     trap = program(PROGRAMS / "trap.c", tmp_path, preloaded)
     command = [native_driver(), product.library, product.guid, "file:///nowhere"]
+    trapping = {"LD_PRELOAD": str(trap)}
     died = {}
     for name, problem in PROBLEMS.items():
-        for law, fidelity in ((law, fidelity) for law, fidelity in CHOICES if fidelity > 0):
+        for law, fidelity in CHOICES:
             commands = script(problem.start_values, law, fidelity)
-            done = run(command, commands, {"LD_PRELOAD": str(trap)})
-            if done.returncode < 0:
-                died[name, law, fidelity] = done.returncode
+            if fidelity > 0 and (code := run(command, commands, trapping).returncode) < 0:
+                died[name, law, fidelity] = code
     assert not died, f"ended by signals: {died}"

@@ -15,11 +15,11 @@ from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
 
 
-def changed(package: Path, target: Path, old: str, new: str, sets: str = ".ssv") -> Path:
-    """The package with another text in those of its parameter sets whose names end so."""
+def changed(package: Path, target: Path, old: str, new: str) -> Path:
+    """The package with another text in its parameter sets."""
 
     def alter(name: str, content: bytes) -> bytes:
-        return content.replace(old.encode(), new.encode()) if name.endswith(sets) else content
+        return content.replace(old.encode(), new.encode()) if name.endswith(".ssv") else content
 
     return faulty_fmus.altered(package, target, alter)
 
@@ -85,24 +85,20 @@ def test_a_package_that_cannot_be_run_is_no_verdict(
     assert list(temporary.iterdir()) == [], "nothing that was unpacked is left behind"
 
 
-def test_what_is_no_package_is_reported(tmp_path: Path) -> None:
-    assert "none.ssp: no such file" in refused(
-        "closed-loop", tmp_path / "none.ssp", "--out", tmp_path
-    )
+def test_what_is_no_package_is_reported(closed_loop_package: Path, tmp_path: Path) -> None:
     (tmp_path / "text.ssp").write_text("no zip")
-    assert "text.ssp: no parameter set design can be read" in refused(
-        "closed-loop", tmp_path / "text.ssp", "--out", tmp_path
-    )
-
-
-def test_a_package_of_an_earlier_version_is_named_with_what_it_lacks(
-    closed_loop_package: Path, tmp_path: Path
-) -> None:
-    old = tmp_path / "old.ssp"
-    with zipfile.ZipFile(closed_loop_package) as new, zipfile.ZipFile(old, "w") as archive:
+    with (
+        zipfile.ZipFile(closed_loop_package) as new,
+        zipfile.ZipFile(tmp_path / "old.ssp", "w") as old,
+    ):
         for name in new.namelist():
             if name != WITH_CONNECTORS:
-                archive.writestr(name, new.read(name))
-    said = refused("closed-loop", old, "--out", tmp_path)
-    assert f"old.ssp: has no {WITH_CONNECTORS}" in said
-    assert "`make build` builds one" in said
+                old.writestr(name, new.read(name))
+    for package, said in {
+        "none.ssp": "none.ssp: no such file",
+        "text.ssp": "text.ssp: no parameter set design can be read",
+        "old.ssp": f"old.ssp: has no {WITH_CONNECTORS}",
+    }.items():
+        told = refused("closed-loop", tmp_path / package, "--out", tmp_path)
+        assert said in told
+    assert "`make build` builds one" in told, "a package of an earlier version"

@@ -12,15 +12,16 @@ from tests.harness.public_json import assert_public_keys
 FMPY = ("--host", "fmpy")
 
 
+Arguments = tuple[str | Path, ...]
+
+
 @pytest.fixture
-def others(python_fmu: Path, native_3_fmu: Path) -> tuple[str | Path, ...]:
+def others(python_fmu: Path, native_3_fmu: Path) -> Arguments:
     """The options that name the other FMUs."""
     return "--python-fmu", python_fmu, "--fmi3-fmu", native_3_fmu
 
 
-def test_an_fmu_that_fmpy_cannot_run_is_no_verdict(
-    others: tuple[str | Path, ...], tmp_path: Path
-) -> None:
+def test_an_fmu_that_fmpy_cannot_run_is_no_verdict(others: Arguments, tmp_path: Path) -> None:
     broken = tmp_path / "broken.fmu"
     broken.write_bytes(b"no zip")
     done = call("hosts", broken, *others, *FMPY)
@@ -30,7 +31,7 @@ def test_an_fmu_that_fmpy_cannot_run_is_no_verdict(
 
 def test_a_host_that_fails_is_a_verdict(
     native_fmu: Path,
-    others: tuple[str | Path, ...],
+    others: Arguments,
     monkeypatch: pytest.MonkeyPatch,
     tmp_path: Path,
 ) -> None:
@@ -45,14 +46,11 @@ def test_a_host_that_fails_is_a_verdict(
 
 
 def test_hosts_that_are_not_installed_are_no_verdict(
-    native_fmu: Path, others: tuple[str | Path, ...], tmp_path: Path
+    native_fmu: Path, others: Arguments, tmp_path: Path
 ) -> None:
     out = tmp_path / "hosts.md"
-    done = call(
-        "hosts",
-        *(native_fmu, *others, "--host", "cofmupy"),
-        *("--own-environments", tmp_path / "nowhere", "--out", out, "--json"),
-    )
+    nowhere = ("--own-environments", tmp_path / "nowhere")
+    done = call("hosts", native_fmu, *others, *nowhere, "--host", "cofmupy", "--out", out, "--json")
     assert done.exit_code == 2
     assert "cofmupy: there is no" in json.loads(done.stdout)["error"]
     assert not out.exists(), "a table that lacks a host is not written"

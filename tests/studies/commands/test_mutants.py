@@ -9,17 +9,14 @@ from tests.harness.public_json import assert_public_keys
 
 
 def test_the_list_shows_names_and_diffs(python_fmu: Path) -> None:
-    result = call("mutants", python_fmu, "--list", "--file", "values.py", "--sample", "3")
+    listing = ("mutants", python_fmu, "--list", "--file", "values.py")
+    result = call(*listing, "--sample", "3")
     assert result.exit_code == 0, result.output
     assert result.output.count("--- values.py") == 3
     assert "3 variants" in result.output
-
-
-def test_the_list_as_json(python_fmu: Path) -> None:
-    files = ("--file", "values.py", "--file", "modelDescription.xml")
-    result = call("mutants", python_fmu, "--list", "--json", *files)
-    assert_public_keys("mutants --list", result.output)
-    mutants = json.loads(result.output)["mutants"]
+    printed = call(*listing, "--file", "modelDescription.xml", "--json").output
+    assert_public_keys("mutants --list", printed)
+    mutants = json.loads(printed)["mutants"]
     assert {m["file"] for m in mutants} == {"values.py", "modelDescription.xml"}
 
 
@@ -37,13 +34,22 @@ def test_rejected_mutants_pass_the_command(python_fmu: Path, tmp_path: Path) -> 
     assert result.exit_code == (0 if rejected == 2 else 1)
 
 
-def test_mutation_runs_that_cannot_start_are_refused(python_fmu: Path, tmp_path: Path) -> None:
-    for arguments, reason in (
-        ([tmp_path / "no.fmu"], "no such file"),
-        ([python_fmu, "--file", "valus.py"], "did you mean 'values.py'"),
-        ([python_fmu, "--file", "__init__.py"], "nothing to change"),
-    ):
-        assert reason in refused("mutants", *arguments)
+@pytest.mark.parametrize(
+    ("built", "arguments", "reason"),
+    [
+        ("tmp_path", [], "no such file"),
+        ("python_fmu", ["--file", "valus.py"], "did you mean 'values.py'"),
+        ("python_fmu", ["--file", "__init__.py"], "nothing to change"),
+        ("python_fmu", ["--native"], "has no C sources to change"),
+        ("native_fmu", ["--native", "--file", "lugr.c"], "did you mean 'lugre.c'"),
+        ("native_fmu", ["--native", "--kind", "sign"], "must be without --kind"),
+    ],
+)
+def test_runs_that_cannot_start_are_refused(
+    request: pytest.FixtureRequest, built: str, arguments: list[str], reason: str
+) -> None:
+    fmu = request.getfixturevalue(built)
+    assert reason in refused("mutants", fmu / "no.fmu" if fmu.is_dir() else fmu, *arguments)
 
 
 @pytest.mark.isolated
@@ -60,12 +66,3 @@ def test_a_native_run_counts_what_is_rejected(native_fmu: Path) -> None:
     assert written["rate"] == pytest.approx(sum(rejected.values()) / len(rejected))
     assert written["false_alarms"] == 0
     assert result.exit_code == 0, "each fault that is left is rejected"
-
-
-def test_native_runs_that_cannot_start_are_refused(native_fmu: Path, python_fmu: Path) -> None:
-    for arguments, reason in (
-        ([python_fmu], "has no C sources to change"),
-        ([native_fmu, "--file", "lugr.c"], "did you mean 'lugre.c'"),
-        ([native_fmu, "--kind", "sign"], "must be without --kind"),
-    ):
-        assert reason in refused("mutants", "--native", *arguments)

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -52,26 +53,26 @@ def test_linear_velocities_are_limits_of_small_ones() -> None:
 
 
 def test_blocking_loads_stop_the_motion() -> None:
-    velocity = theory.steady_velocity(1.3, 0.7, 1.1, theory.blocking_load(0.7, 1.1))
-    assert velocity == pytest.approx(0.0, abs=1e-14), "(21) is the load of (20) at rest"
-    case = LugreCase(strength=0.5, phase=0.4)
-    velocity = theory.lugre_steady_velocity(case, theory.lugre_blocking_load(case))
-    assert velocity == pytest.approx(0.0, abs=1e-12)
-    blocking = theory.uniform_blocking_load(CASE, 1000.0, 1000.0)
-    velocity = theory.uniform_velocity(CASE, 1000.0, 1000.0, load=blocking)
-    assert velocity == pytest.approx(0.0, abs=1e-10)
+    """(21) is the load of (20) at rest."""
+    case, stiff = LugreCase(strength=0.5, phase=0.4), (CASE, 1000.0, 1000.0)
+    blocking = theory.uniform_blocking_load(*stiff)
+    for velocity, allowed in (
+        (theory.steady_velocity(1.3, 0.7, 1.1, theory.blocking_load(0.7, 1.1)), 1e-14),
+        (theory.lugre_steady_velocity(case, theory.lugre_blocking_load(case)), 1e-12),
+        (theory.uniform_velocity(*stiff, load=blocking), 1e-10),
+    ):
+        assert velocity == pytest.approx(0.0, abs=allowed)
 
 
 @pytest.mark.parametrize("load", [1.1, -1.1, 1.5, math.nan])
 def test_loads_above_friction_are_refused(load: float) -> None:
-    velocities: list[Callable[[], float]] = [
-        lambda: theory.steady_velocity(1.0, 1.0, 0.5, load),
-        lambda: theory.lugre_steady_velocity(LugreCase(), load),
-        lambda: theory.uniform_velocity(LugreCase(), 10.0, 10.0, load=load),
-    ]
-    for velocity in velocities:
+    for velocity in (
+        partial(theory.steady_velocity, 1.0, 1.0, 0.5),
+        partial(theory.lugre_steady_velocity, LugreCase()),
+        partial(theory.uniform_velocity, LugreCase(), 10.0, 10.0),
+    ):
         with pytest.raises(ValueError, match=r"load = "):
-            velocity()
+            velocity(load=load)
 
 
 def test_table_1_has_the_strength_and_length_of_the_paper() -> None:
@@ -116,10 +117,8 @@ def test_steady_velocity_of_the_paper_case() -> None:
 
 
 def test_soft_bristle_is_on_the_slow_manifold() -> None:
-    errors = []
-    for stiffness in (10.0, 1.0):
-        found = theory.uniform_velocity(LugreCase(), stiffness, 1000.0)
-        errors.append(abs(found - theory.lugre_steady_velocity(LugreCase())))
+    limit = theory.lugre_steady_velocity(LugreCase())
+    errors = [abs(theory.uniform_velocity(LugreCase(), s, 1000.0) - limit) for s in (10.0, 1.0)]
     assert errors[1] < 1e-6, "(17) is the limit of a bristle slower than the vibration"
     assert errors[0] / errors[1] == pytest.approx(100.0, rel=0.1), "the error is of order kappa^2"
 
@@ -129,9 +128,9 @@ def test_stiff_bristle_approaches_coulomb_friction(phase: float, order: float) -
     """The turnover takes an angle of order kappa^(-1/2), which in quadrature cancels."""
     target = theory.steady_velocity(1.0, 1.0, phase)
     case = LugreCase(strength=0.4, phase=phase)  # q / mu = 1: velocities in units of mu
-    errors = []
-    for stiffness in (1e8, 1e10):
-        found = theory.uniform_velocity(case, stiffness, 1000.0)
-        errors.append(abs(found / 0.4 - target))
+    errors = [
+        abs(theory.uniform_velocity(case, stiffness, 1000.0) / 0.4 - target)
+        for stiffness in (1e8, 1e10)
+    ]
     assert errors[1] < 3e-4, "(5) is the limit of a bristle faster than the vibration"
     assert math.log10(errors[0] / errors[1]) / 2.0 == pytest.approx(order, abs=0.02)
