@@ -56,14 +56,13 @@ Found = tuple[float | None, int]
 
 
 def native(signal: Sum, search: Search) -> Found:
-    numbers = [number for wave in signal.waves for number in wave]
+    waves = [number for wave in signal.waves for number in wave]
     work = ctypes.c_int()
-    asked = (search.noise, search.fastest, search.limit, search.expected)
     zero = LIBRARY[0].first_zero_of_waves(
-        *(ctypes.c_double(number) for number in (signal.offset, signal.loose)),
-        (ctypes.c_double * len(numbers))(*numbers),
+        *map(ctypes.c_double, (signal.offset, signal.loose)),
+        (ctypes.c_double * len(waves))(*waves),
         len(signal.waves),
-        *(ctypes.c_double(number) for number in asked),
+        *map(ctypes.c_double, (search.noise, search.fastest, search.limit, search.expected)),
         ctypes.byref(work),
     )
     return (None if zero < 0.0 else zero), work.value
@@ -77,8 +76,7 @@ def python(signal: Sum, search: Search) -> Found:
         calls.append(t)
         return signal.value(t), sum(a * w * math.cos(w * t + p) for a, w, p in signal.waves), bound
 
-    watch = Watch(evaluated, search.noise, search.fastest)
-    return first_zero(watch, search.limit), len(calls)
+    return first_zero(Watch(evaluated, search.noise, search.fastest), search.limit), len(calls)
 
 
 both = pytest.mark.parametrize("find", [native, python])

@@ -74,9 +74,7 @@ def scrolled_on_a_phone(browser: Chrome) -> list[str]:
 
 def told(browser: Chrome) -> list[str]:
     """Return what the plots say of their points at present."""
-    return [
-        str(tip) for tip in browser.execute_script(f"return {TIPS}.map((tip) => tip.textContent)")
-    ]
+    return list(browser.execute_script(f"return {TIPS}.map((tip) => tip.textContent)"))
 
 
 def first_plot(browser: Chrome) -> WebElement:

@@ -94,6 +94,7 @@ return found;
 """The texts of the page, each with left, top, right and bottom [px]."""
 
 
+MASS_REFUSED = "slider_mass = -1.0 refused: must be a finite number of at least 1e-12 kg"
 UNFOLD = "document.querySelectorAll('details').forEach((d) => d.open = true)"
 
 
@@ -198,10 +199,7 @@ def test_nothing_is_loaded_and_nothing_is_complained_of(browser: Chrome, page: s
 @pytest.mark.parametrize(
     ("settings", "said"),
     [
-        (
-            "slider_mass=-1",
-            "slider_mass = -1.0 refused: must be a finite number of at least 1e-12 kg",
-        ),
+        ("slider_mass=-1", MASS_REFUSED),
         ("t=-1", "t = -1 refused: must be above 0 and at most 3600 s"),
         ("position=1", "position refused: must be device, t, an input or a parameter"),
         ("device=drill", f"device = drill refused: must be one of {', '.join(EXAMPLES)}"),
@@ -313,48 +311,37 @@ def test_a_saved_device_file_is_the_device_for_other_commands(
     assert results(browser) == found
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        (
-            '[device]\nslider_mass = "5 mm"\n',
-            "line 2: slider_mass = 5 mm refused: mm is no unit of kg that is known here; "
-            'must be a text with a unit such as "2 g"',
-        ),
-        (
-            "[device]\n# mine\nslider_mas = 5\n",
-            "line 3: slider_mas refused: must be a parameter, such as slider_mass",
-        ),
-        (
-            "[device]\nfriction_faces = two\n",
-            "line 2: friction_faces = two refused: must be a finite number, "
-            'or a text with a unit such as "2 %"',
-        ),
-        (
-            "[device]\nslider_mass = -1\n",
-            "slider_mass = -1.0 refused: must be a finite number of at least 1e-12 kg",
-        ),
-        (
-            "slider_mass = 1\n[device]\n",
-            "line 1: slider_mass refused: must be below [device], "
-            "or one of name, title, description",
-        ),
-        ("[wheel]\nmass = 1\n", "line 1: [wheel] refused: must be [device]"),
-        (
-            "[device]\nslider_mass = 1\n\n[[expect]]\n",
-            "the file refused: must be a device file; it is a scene: slider-resonator run FILE",
-        ),
-        (
-            "[grid]\n",
-            "the file refused: must be a device file; it is a grid: slider-resonator sweep FILE",
-        ),
-        (
-            "[device]\nload = [1, 2]\n",
-            'line 2: load = [1, 2] refused: must be [device], or a name = a number or "text"',
-        ),
-        ("title = 'none'\n", "the file must have a table headed [device]"),
-    ],
-)
+REFUSED_FILES = {
+    '[device]\nslider_mass = "5 mm"\n': (
+        "line 2: slider_mass = 5 mm refused: mm is no unit of kg that is known here; "
+        'must be a text with a unit such as "2 g"'
+    ),
+    "[device]\n# mine\nslider_mas = 5\n": (
+        "line 3: slider_mas refused: must be a parameter, such as slider_mass"
+    ),
+    "[device]\nfriction_faces = two\n": (
+        "line 2: friction_faces = two refused: must be a finite number, "
+        'or a text with a unit such as "2 %"'
+    ),
+    "[device]\nslider_mass = -1\n": MASS_REFUSED,
+    "slider_mass = 1\n[device]\n": (
+        "line 1: slider_mass refused: must be below [device], or one of name, title, description"
+    ),
+    "[wheel]\nmass = 1\n": "line 1: [wheel] refused: must be [device]",
+    "[device]\nslider_mass = 1\n\n[[expect]]\n": (
+        "the file refused: must be a device file; it is a scene: slider-resonator run FILE"
+    ),
+    "[grid]\n": (
+        "the file refused: must be a device file; it is a grid: slider-resonator sweep FILE"
+    ),
+    "[device]\nload = [1, 2]\n": (
+        'line 2: load = [1, 2] refused: must be [device], or a name = a number or "text"'
+    ),
+    "title = 'none'\n": "the file must have a table headed [device]",
+}
+
+
+@pytest.mark.parametrize(("text", "expected"), REFUSED_FILES.items())
 def test_a_device_file_is_refused_by_line_key_value_and_requirement(
     browser: Chrome, page: str, tmp_path: Path, text: str, expected: str
 ) -> None:
@@ -378,28 +365,21 @@ def test_curves_are_saved_where_the_prediction_is_valid(
     path = saved(browser, tmp_path, chart.find_element(By.TAG_NAME, "button"))
     rows = list(csv.DictReader(path.read_text().splitlines()))
     assert len(rows) > 50
-    shown = {"predicted", "run"}
+    device = read_device_file("stick_slip").values | {"friction_coefficient": 0.5}
+    columns = {"predicted [mm/s]": "steady_velocity", "ends of runs [mm/s]": "mean_velocity"}
+    shown = set()
     for row in rows[::6]:
         record = simulate_fmu(
             str(native_fmu),
-            start_values=read_device_file("stick_slip").values
-            | {"friction_coefficient": 0.5, "phase": math.radians(float(row["phase [deg]"]))},
-            output=["steady_velocity", "prediction_valid", "mean_velocity"],
-            stop_time=0.05,
-            step_size=0.05,
-            output_interval=0.05,
+            start_values=device | {"phase": math.radians(float(row["phase [deg]"]))},
+            output=["prediction_valid", *columns.values()],
+            **dict.fromkeys(("stop_time", "step_size", "output_interval"), 0.05),
         )[-1]
-        is_valid = record["prediction_valid"] == 1
-        shown.discard("predicted" if is_valid else "run")
-        column, name = (
-            ("predicted [mm/s]", "steady_velocity")
-            if is_valid
-            else ("ends of runs [mm/s]", "mean_velocity")
-        )
-        (other,) = {"predicted [mm/s]", "ends of runs [mm/s]"} - {column}
+        column, other = list(columns)[:: 1 if record["prediction_valid"] == 1 else -1]
         assert row[other] == ""
-        assert float(row[column]) == pytest.approx(1e3 * record[name], rel=1e-9)
-    assert shown == set(), "this device has phases with and without a prediction"
+        assert float(row[column]) == pytest.approx(1e3 * record[columns[column]], rel=1e-9)
+        shown.add(column)
+    assert shown == set(columns), "this device has phases with and without a prediction"
 
 
 @pytest.mark.parametrize("name", SCREENS)

@@ -21,6 +21,7 @@ from fmu_src.building.cache import cached
 from studies.hosts.compiler import compile_program, compiler_version, native_compiler
 from studies.hosts.driver_host import BINARY
 from studies.hosts.job import describe
+from tests.processes import run_command
 
 PROGRAMS = Path(__file__).parent / "c"
 FAULT = 99
@@ -90,13 +91,10 @@ def run(
     command: Sequence[object], commands: str = "", environment: Mapping[str, str] | None = None
 ) -> subprocess.CompletedProcess[str]:
     """Run a program on standard input `commands`; the caller judges how it ended."""
-    return subprocess.run(
-        [str(part) for part in command],
+    return run_command(
+        *command,
         input=commands,
         env=os.environ | dict(environment or {}),
-        capture_output=True,
-        text=True,
         errors="replace",
         timeout=400,
-        check=False,
     )

@@ -2,12 +2,10 @@
  *
  * Runs table 1 for 40 steps of 1 ms in event mode and prints the values of the references
  * after each step, then the number of events. References: friction_law, fidelity, those to print. */
-#include <dlfcn.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "fmi3Functions.h"
+#include "fmu_library.h"
 
 enum { MAX_OUTPUTS = 32, STEPS = 40 };
 static const double STEP = 1e-3;
@@ -17,13 +15,9 @@ static void *library;
 typedef void (*Function)(void);
 
 static Function function(const char *name) {
-    void *found = dlsym(library, name);
     Function address;
-    if (found == NULL) {
-        fprintf(stderr, "%s: missing\n", name);
-        exit(2);
-    }
-    memcpy(&address, &found, sizeof address); /* a cast is no ISO C */
+    (void)load_fmu_library; /* that of FMI 2.0 */
+    if (!find_function(library, name, &address, sizeof address)) exit(2);
     return address;
 }
 
@@ -54,10 +48,7 @@ int main(int count, char **arguments) {
     fmi3ValueReference references[MAX_OUTPUTS];
     double values[MAX_OUTPUTS];
     size_t outputs = 0;
-    if (count < 7 || (library = dlopen(arguments[1], RTLD_NOW)) == NULL) {
-        fprintf(stderr, "cannot load: %s\n", count < 7 ? "arguments are missing" : dlerror());
-        return 2;
-    }
+    if (count < 7 || (library = open_library(arguments[1])) == NULL) return 2;
     fmi3Int32 choices[] = {atoi(arguments[3]), atoi(arguments[4])};
     fmi3ValueReference chosen[] = {(fmi3ValueReference)atoi(arguments[5]),
                                    (fmi3ValueReference)atoi(arguments[6])};
