@@ -14,6 +14,7 @@ from fmpy.validation import validate_fmu
 from build_fmu import main
 from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import MODEL as PYTHON_MODEL
+from fmu_src.controller.variables import VARIABLES as CONTROLLER
 from fmu_src.python.slider_component.variables import VARIABLES
 from tests.fmus import every_fmu, every_slider
 from tests.processes import ROOT, run_command
@@ -23,6 +24,8 @@ NATIVE = ["--only", "native", "--platform", HOST]
 NATIVE_3 = ["--only", "fmi3", "--platform", HOST]
 OPTIONS = {"SliderResonatorPy": PYTHON, "SliderResonator": NATIVE, "SliderResonator3": NATIVE_3}
 """Options that build an FMU, by its name."""
+TABLES = {"VelocityController": CONTROLLER}
+"""Other variables than those of the slider, by the name of the FMU."""
 
 
 @pytest.fixture
@@ -109,41 +112,38 @@ def test_entries_are_in_order_and_carry_no_trace_of_the_build(
 
 
 @every_slider
-def test_icon_licence_and_page_are_inside(archive: zipfile.ZipFile) -> None:
+def test_icon_and_licence_are_inside(archive: zipfile.ZipFile) -> None:
     icons = [name for name in archive.namelist() if name.endswith(".png")]
     assert icons in (["model.png"], ["terminalsAndIcons/icon.png"])
     assert archive.read(icons[0]).startswith(b"\x89PNG")
     licence = archive.read("documentation/licenses/license.txt")
     assert licence == (ROOT / "LICENSE").read_bytes()
-    page = archive.read("documentation/index.html").decode()
-    for v in VARIABLES:
-        assert page.count(f"<td><code>{v.name}</code></td>") == 1, v.name
 
 
-@every_slider
+@every_fmu
 def test_variables_are_those_of_the_table(fmu: Path) -> None:
     """After the time, which is a variable in FMI 3.0. Numbers read back exactly."""
-    variables = read_model_description(str(fmu)).modelVariables[-len(VARIABLES) :]
+    table = TABLES.get(fmu.stem, VARIABLES)
+    variables = read_model_description(str(fmu)).modelVariables[-len(table) :]
     first = variables[0].valueReference
     types = {"Float64": "Real", "Int32": "Integer"}
-    for reference, (row, found) in enumerate(zip(VARIABLES, variables, strict=True), start=first):
+    page = zipfile.ZipFile(fmu).read("documentation/index.html").decode()
+    for reference, (row, found) in enumerate(zip(table, variables, strict=True), start=first):
         assert (found.name, found.valueReference) == (row.name, reference)
         assert (types.get(found.type, found.type), found.causality) == (row.type, row.causality)
         assert (found.variability, found.description) == (row.variability, row.description)
         assert (found.unit, found.displayUnit) == (row.unit, row.display_unit), row.name
         numbers = (found.start, found.min, found.max, found.nominal)
-        assert [None if x is None else float(x) for x in numbers] == [
-            row.start,
-            row.minimum,
-            row.maximum,
-            row.nominal,
-        ], row.name
-    assert first == {PYTHON_MODEL: 0, "SliderResonator": 0, "SliderResonator3": 2}[fmu.stem]
+        expected = (row.start, row.minimum, row.maximum, row.nominal)
+        assert tuple(None if x is None else float(x) for x in numbers) == expected, row.name
+        assert page.count(f"<td><code>{row.name}</code></td>") == 1, row.name
+    assert first == (2 if fmu.stem == "SliderResonator3" else 0)
 
 
-@every_slider
+@every_fmu
 def test_dependencies_are_those_of_the_table(fmu: Path) -> None:
-    outputs = {v.name: v for v in VARIABLES if v.causality == "output"}
+    table = TABLES.get(fmu.stem, VARIABLES)
+    outputs = {v.name: v for v in table if v.causality == "output"}
     description = read_model_description(str(fmu))
     for unknowns, attribute in (
         (description.outputs, "depends_on"),
@@ -156,6 +156,13 @@ def test_dependencies_are_those_of_the_table(fmu: Path) -> None:
             assert set(found).isdisjoint(outputs), "on no other output"
             assert set(unknown.dependenciesKind) <= {"dependent"}, name
             assert len(unknown.dependenciesKind) == len(found), f"{name}: one kind for each"
+
+
+def test_only_the_velocity_error_of_the_controller_depends_on_inputs() -> None:
+    depends = {v.name: v.depends_on for v in CONTROLLER if v.causality == "output" and v.depends_on}
+    assert depends == {"velocity_error": ("velocity_reference", "measured_velocity")}, (
+        "with none at all, FMI Library takes each output to depend on each input"
+    )
 
 
 @pytest.mark.parametrize(

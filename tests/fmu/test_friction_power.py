@@ -1,6 +1,6 @@
-"""The mean power of friction over a drive period, at its start and in long steps.
+"""The mean power of friction over a drive period, and outputs of averaged motion at a change.
 
-Scenes compare it with force times velocity of the references.
+Scenes compare the power with force times velocity of the references.
 """
 
 import math
@@ -13,6 +13,7 @@ from tests.fmus import both_fmus
 pytestmark = both_fmus
 
 TURN = 2.0 * math.pi / 3500.0
+AVERAGED = {"fidelity": 0, "averaging_order": 1}
 
 
 def test_before_a_period_is_complete_it_is_the_mean_since_the_start(
@@ -49,9 +50,42 @@ def test_averaged_power_is_bounded_work_at_any_ratio(instantiate: Instantiate) -
     """What a rapid normal load adds falls with the square of the ratio."""
     powers = []
     for ratio in (999.0, 10001.0, 1e300):
-        values = {"fidelity": 0, "averaging_order": 1, "phase": 0.7, "frequency_ratio": ratio}
-        instance = instantiate().initialize(**values)
+        instance = instantiate().initialize(**AVERAGED, phase=0.7, frequency_ratio=ratio)
         instance.step(0.5 * TURN)
         powers += instance.get("friction_power")
     assert powers[0] == pytest.approx(powers[2], rel=1e-5)
     assert powers[1] == pytest.approx(powers[2], rel=1e-7)
+
+
+def test_friction_follows_a_change_of_the_drive_at_once(instantiate: Instantiate) -> None:
+    """The momentum stays, so that a smaller swing makes another slow velocity of it."""
+    instance = instantiate().initialize(**AVERAGED, load=0.05)
+    for _ in range(10):
+        instance.step(100 * TURN)
+    instance.set(amplitude_deviation=-0.5)
+    at_once = instance.get("friction_force", "friction_power")
+    instance.step(1e-9)
+    assert at_once == pytest.approx(instance.get("friction_force", "friction_power"), rel=1e-8)
+
+
+@pytest.mark.parametrize("amplitude", [0.0, 1e-9])
+def test_a_slider_that_creeps_under_a_vibrating_load_is_in_the_error(
+    instantiate: Instantiate, amplitude: float
+) -> None:
+    """Resolved, it creeps whenever friction falls below the load; averaged, it rests."""
+    creeps = instantiate().initialize(base_amplitude=amplitude, load=0.19)
+    rests = instantiate().initialize(**AVERAGED, base_amplitude=amplitude, load=0.19)
+    for instance in (creeps, rests):
+        instance.step(20 * TURN)
+    (resolved,) = creeps.get("mean_velocity")
+    averaged, error = rests.get("mean_velocity", "slow_motion_error")
+    assert abs(resolved) > 2e-5
+    assert abs(resolved - averaged) <= error <= 10.0 * abs(resolved - averaged)
+
+
+def test_without_any_vibration_averages_have_no_error(instantiate: Instantiate) -> None:
+    instance = instantiate().initialize(
+        **AVERAGED, base_amplitude=0.0, normal_amplitude=0.0, load=0.19
+    )
+    instance.step(1.0)
+    assert instance.get("slow_motion_error") == (0.0,)

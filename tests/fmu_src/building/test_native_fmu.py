@@ -9,7 +9,7 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from fmpy import read_model_description, simulate_fmu
+from fmpy import simulate_fmu
 
 from fmu_src.building.build_error import BuildError
 from fmu_src.building.c_sources import (
@@ -21,7 +21,6 @@ from fmu_src.building.c_sources import (
 from fmu_src.building.compiling import FLAGS, Compiler, default_compiler
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST, host_platform
-from fmu_src.controller.variables import VARIABLES
 from fmu_src.sources import C_SOURCES, CONTROLLER_SOURCES
 from tests.processes import run_command
 
@@ -194,21 +193,6 @@ def test_sources_that_make_no_library_are_refused(
     with pytest.raises(BuildError, match=said):
         build_native(tmp_path / "dist", platforms=[HOST], code=code | {file: text})
     assert not (tmp_path / "dist").exists()
-
-
-def test_the_controller_is_described(controller_fmu: Path) -> None:
-    description = read_model_description(str(controller_fmu))
-    found = [(v.name, v.causality, v.unit) for v in description.modelVariables]
-    assert found == [(v.name, v.causality, v.unit) for v in VARIABLES]
-    page = contents(controller_fmu)["documentation/index.html"].decode()
-    for variable in VARIABLES:
-        assert page.count(f"<td><code>{variable.name}</code></td>") == 1, variable.name
-    depends = {u.variable.name: [d.name for d in u.dependencies] for u in description.outputs}
-    assert depends == {
-        "phase": [],
-        "effort": [],
-        "velocity_error": ["velocity_reference", "measured_velocity"],
-    }, "with none at all, FMI Library takes each output to depend on each input"
 
 
 def test_fmi_functions_are_shared_and_the_model_is_not(controller_fmu: Path) -> None:
