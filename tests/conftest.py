@@ -1,5 +1,7 @@
 import os
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import Phase, settings
@@ -33,35 +35,27 @@ def fmus_in_this_process(request: pytest.FixtureRequest, monkeypatch: pytest.Mon
         run_in_this_process(monkeypatch)
 
 
-@pytest.fixture(scope="session")
-def python_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The Python FMU, built once for the whole run."""
-    return build_python(tmp_path_factory.mktemp("fmu"))
+def built(build: Callable[..., Path], **options: object) -> Any:
+    """A fixture with an FMU, built once for the whole run; a native one for this machine only."""
+
+    @pytest.fixture(scope="session")
+    def fixture(tmp_path_factory: pytest.TempPathFactory) -> Path:
+        return build(tmp_path_factory.mktemp("fmu"), **options)
+
+    return fixture
 
 
-@pytest.fixture(scope="session")
-def native_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The native FMU for the platform of this machine, built once for the whole run."""
-    return build_native(tmp_path_factory.mktemp("native_fmu"), platforms=[HOST])
-
-
-@pytest.fixture(scope="session")
-def native_3_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The native FMU of FMI 3.0 for the platform of this machine."""
-    return build_native_3(tmp_path_factory.mktemp("native_3_fmu"), platforms=[HOST])
+python_fmu = built(build_python)
+native_fmu = built(build_native, platforms=[HOST])
+native_3_fmu = built(build_native_3, platforms=[HOST])
+controller_fmu = built(build_controller, platforms=[HOST])
 
 
 @pytest.fixture(scope="session")
 def fmu(request: pytest.FixtureRequest) -> Path:
     """The Python FMU; in tests marked with `fmus.both_fmus` the native one as well."""
-    built: Path = request.getfixturevalue(f"{getattr(request, 'param', 'python')}_fmu")
-    return built
-
-
-@pytest.fixture(scope="session")
-def controller_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The velocity controller for the platform of this machine."""
-    return build_controller(tmp_path_factory.mktemp("controller_fmu"), platforms=[HOST])
+    found: Path = request.getfixturevalue(f"{getattr(request, 'param', 'python')}_fmu")
+    return found
 
 
 @pytest.fixture(scope="session")

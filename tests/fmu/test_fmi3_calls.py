@@ -1,18 +1,25 @@
-"""Functions of FMI 3.0: order of calls, values, and what is refused."""
+"""The native FMU of FMI 3.0: order of calls, values, refusals, its description, and scenes."""
 
 import ctypes
 import math
+import zipfile
+from pathlib import Path
 from typing import Any
 
+import fmpy
 import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import fmi3Error, fmi3InstanceEnvironment, fmi3LogMessageCallback, fmi3OK
+from lxml import etree
 
 from fmu_src.python.slider_component.variables import VARIABLES
+from slider_resonator.checks.validate import validate
+from slider_resonator.scenes.scene_files import find_scene
 from tests.fmu.host import Unpacked
 from tests.fmu.host_3 import Instance3, instance_3
 from tests.fmu.native_calls import call, check
 
+SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
 STEP = 1e-3
 TIME = 1
 NOT_OFFERED = (
@@ -171,3 +178,34 @@ def test_debug_logging_selects_categories(instance: Instance3) -> None:
     with instance.refuses("fmi3SetDebugLogging: category 'noise' refused: must be one of"):
         instance.slave.setDebugLogging(True, ["noise"])
     assert instance.entries[-1][1:3] == (fmi3Error, "logStatusError")
+
+
+def test_capabilities(unpacked_3: Unpacked) -> None:
+    simulation = unpacked_3.description.coSimulation
+    assert simulation.hasEventMode
+    assert simulation.canHandleVariableCommunicationStepSize
+    assert simulation.canGetAndSetFMUstate
+    assert simulation.canSerializeFMUstate
+    assert not simulation.canReturnEarlyAfterIntermediateUpdate
+    assert not simulation.providesIntermediateUpdate
+    assert not simulation.needsExecutionTool
+    assert unpacked_3.description.modelExchange is None
+
+
+def test_the_flange_names_variables(native_3_fmu: Path, unpacked_3: Unpacked) -> None:
+    """In a document that fmpy's validation does not read."""
+    with zipfile.ZipFile(native_3_fmu) as archive:
+        root = etree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
+    etree.XMLSchema(etree.parse(str(SCHEMA))).assertValid(root)
+    members = [m.get("variableName") for m in root.iter("TerminalMemberVariable")]
+    assert members == ["position", "velocity", "load"]
+    assert set(members) < {v.name for v in unpacked_3.description.modelVariables}
+
+
+@pytest.mark.isolated  # some scenes judge what an FMU does to its process
+@pytest.mark.parametrize("name", ["interface", "changing_inputs", "tuned", "burst"])
+def test_scene_passes(native_3_fmu: Path, name: str) -> None:
+    (result,) = validate([native_3_fmu], [find_scene(name)])
+    assert not result.run_failures
+    failed = [(c.quantity, c.fmu, c.reference) for c in result.checks if not c.passed]
+    assert not failed, "FMI 3.0 is another shell around the same component"

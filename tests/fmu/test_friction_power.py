@@ -48,7 +48,7 @@ def test_long_steps_give_the_power_of_short_ones(
 
 def test_averaged_power_is_bounded_work_at_any_ratio(instantiate: Instantiate) -> None:
     """What a rapid normal load adds falls with the square of the ratio."""
-    powers = []
+    powers: list[float] = []
     for ratio in (999.0, 10001.0, 1e300):
         instance = instantiate().initialize(**AVERAGED, phase=0.7, frequency_ratio=ratio)
         instance.step(0.5 * TURN)

@@ -11,7 +11,7 @@ from fmu_src.python.slider_component.variables import VARIABLES
 
 
 def describe(**changes: Any) -> bytes:
-    named = {"model": "SliderResonatorPy", "guid": "a-guid", "generation_tool": "a tool"}
+    named: dict[str, Any] = {"model": "SliderResonatorPy", "guid": "a-guid", "generation_tool": "a tool"}
     built = {"generated": "1980-01-01T00:00:00Z", "host_manages_memory": False}
     return model_description(**(named | built | changes))
 

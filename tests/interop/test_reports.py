@@ -37,6 +37,12 @@ LOOKS = 50
 TIPS = "[...document.querySelectorAll('.tip')].filter((tip) => !tip.hidden)"
 
 
+@pytest.fixture
+def page(tmp_path: Path) -> Path:
+    """Where a report is written."""
+    return tmp_path / "index.html"
+
+
 def opened(browser: Chrome, page: Path) -> int:
     """Open a page and scroll to each of its plots; return how many there are."""
     browser.get_log("browser")
@@ -96,8 +102,7 @@ def hovered(browser: Chrome) -> str:
     return ""
 
 
-def test_a_plot_out_of_sight_is_printed(browser: Chrome, tmp_path: Path) -> None:
-    page = tmp_path / "index.html"
+def test_a_plot_out_of_sight_is_printed(browser: Chrome, page: Path) -> None:
     line = Series("first", [1.0, 3.0], [1.0, 3.0], "#123456")
     plot = HoverPlot("A plot", Axis("time [s]"), Axis("way [m]"), [line])
     write_plot_page(page, "Plots", [plot_html(plot)] * 20)
@@ -107,8 +112,7 @@ def test_a_plot_out_of_sight_is_printed(browser: Chrome, tmp_path: Path) -> None
     assert len(drawn) == len(browser.find_elements("css selector", ".plot")) == 20
 
 
-def test_keys_and_fingers_lead_from_point_to_point(browser: Chrome, tmp_path: Path) -> None:
-    page = tmp_path / "index.html"
+def test_keys_and_fingers_lead_from_point_to_point(browser: Chrome, page: Path) -> None:
     lines = [
         Series("first", [1.0, 3.0, 2.0], [1.0, 3.0, 2.0], "#123456", notes=["a", "c", "b"]),
         Series("second", [1.0, 3.0], [5.0, 6.0], "#654321", notes=["d", "e"]),
@@ -133,9 +137,8 @@ def test_keys_and_fingers_lead_from_point_to_point(browser: Chrome, tmp_path: Pa
     assert told(browser) == ["first\ntime [s]: 1\nway [m]: 1\na"]
 
 
-def test_validation(browser: Chrome, native_fmu_for_wine: Path, tmp_path: Path) -> None:
+def test_validation(browser: Chrome, native_fmu_for_wine: Path, page: Path) -> None:
     scenes = [find_scene(name) for name in ("table_1", "load_speed")]
-    page = tmp_path / "report.html"
     write_html(page, validate([native_fmu_for_wine], scenes))
     assert opened(browser, page) == 4, "FMU on reference, and their difference, of each scene"
     text = hovered(browser)
@@ -143,8 +146,7 @@ def test_validation(browser: Chrome, native_fmu_for_wine: Path, tmp_path: Path) 
     assert re.search(r"\w \[m/?s?\]: \d", text), "the quantity that is drawn, with its unit"
 
 
-def test_a_link_unfolds_the_scene_that_it_leads_to(browser: Chrome, tmp_path: Path) -> None:
-    page = tmp_path / "report.html"
+def test_a_link_unfolds_the_scene_that_it_leads_to(browser: Chrome, page: Path) -> None:
     checks = [replace(PASSED, scene=f"scene_{number}") for number in range(MAX_UNFOLDED + 1)]
     write_html(page, [Validation("good.fmu", tuple(checks), 1.0)])
     browser.get(page.as_uri())
@@ -154,7 +156,7 @@ def test_a_link_unfolds_the_scene_that_it_leads_to(browser: Chrome, tmp_path: Pa
     assert unfolded.get_attribute("id") == "scene-0-2"
 
 
-def test_dark_pages_are_readable_and_print_light(browser: Chrome, tmp_path: Path) -> None:
+def test_dark_pages_are_readable_and_print_light(browser: Chrome, page: Path) -> None:
     def colours(media: str) -> tuple[str, str]:
         features = [{"name": "prefers-color-scheme", "value": "dark"}]
         emulated = {"media": media, "features": features}
@@ -163,7 +165,6 @@ def test_dark_pages_are_readable_and_print_light(browser: Chrome, tmp_path: Path
         ink, paper = browser.execute_script(f"return [{style}.color, {style}.backgroundColor]")
         return ink, paper
 
-    page = tmp_path / "index.html"
     write_page(page, "Text", ["<p>text</p>"])
     browser.get(page.as_uri())
     try:
@@ -173,8 +174,7 @@ def test_dark_pages_are_readable_and_print_light(browser: Chrome, tmp_path: Path
         browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": []})
 
 
-def test_trade(browser: Chrome, tmp_path: Path) -> None:
-    page = tmp_path / "index.html"
+def test_trade(browser: Chrome, page: Path) -> None:
     write_trades(page, [TRADE], PROVENANCE)
     assert opened(browser, page) == 1
     text = hovered(browser)
@@ -182,8 +182,7 @@ def test_trade(browser: Chrome, tmp_path: Path) -> None:
     assert "error: " in text
 
 
-def test_stress(browser: Chrome, tmp_path: Path) -> None:
-    page = tmp_path / "index.html"
+def test_stress(browser: Chrome, page: Path) -> None:
     write_stress_page(page, [RESULT], PROVENANCE)
     assert opened(browser, page) == 0
     cells = browser.find_elements("css selector", "td[title]")
@@ -192,14 +191,13 @@ def test_stress(browser: Chrome, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("phases", [3, 9])
-def test_sweep(browser: Chrome, native_fmu_for_wine: Path, tmp_path: Path, phases: int) -> None:
+def test_sweep(browser: Chrome, native_fmu_for_wine: Path, page: Path, phases: int) -> None:
     axis = {"from": 0.05, "to": 0.5, "count": 8, "spacing": "log"}
     phase = {"from": 0.0, "to": 1.0, "count": phases}
     sweep = grid_from(
         {"title": "</script><b>", "grid": {"friction_coefficient": axis, "phase": phase}}, "grid"
     )
-    done = run_sweep(sweep, native_fmu_for_wine, tmp_path / "a.csv", workers=1)
-    page = tmp_path / "sweep.html"
+    done = run_sweep(sweep, native_fmu_for_wine, page.with_name("a.csv"), workers=1)
     write_sweep_page(page, sweep, done.columns, provenance_of(native_fmu_for_wine))
     assert opened(browser, page) == 1
     assert "steady velocity [mm/s]: " in hovered(browser)

@@ -79,10 +79,6 @@ static void instantiate(unsigned slot) {
     if (made) fmu.SetDebugLogging(made, fmi2True, 0, NULL);
 }
 
-static fmi2Status new_state(fmi2Component c) {
-    return fmu.GetFMUstate(c, or_null(&states[below(STATES)]));
-}
-
 static fmi2Status read_values(fmi2Component c) {
     size_t i, count = random_count();
     fmi2Real *values = or_null(reals);
@@ -133,7 +129,7 @@ static fmi2Integer *orders(void) {
     X(fmi2SetInteger, 6, fmu.SetInteger(c, REFS, or_null(integers))) \
     X(fmi2SetBoolean, 2, fmu.SetBoolean(c, REFS, or_null(integers))) \
     X(fmi2SetString, 2, fmu.SetString(c, REFS, or_null(strings))) \
-    X(fmi2GetFMUstate, 6, new_state(c)) \
+    X(fmi2GetFMUstate, 6, fmu.GetFMUstate(c, or_null(&states[below(STATES)]))) \
     X(fmi2SetFMUstate, 6, fmu.SetFMUstate(c, states[below(STATES)])) \
     X(fmi2FreeFMUstate, 2, fmu.FreeFMUstate(c, or_null(&states[below(STATES)]))) \
     X(fmi2SerializeFMUstate, 6, write_state(c)) \

@@ -48,7 +48,9 @@ def test_the_driver_reports_errors(
     done = run([native_driver(), binary.library, guid or binary.guid, "file:///"], f"{commands}\n")
     assert done.returncode == code
     assert message in done.stderr
-    assert "usage: driver LIBRARY GUID RESOURCES" in run([native_driver()]).stderr
+    usage = run([native_driver()])
+    assert usage.returncode == 2
+    assert "usage: driver LIBRARY GUID RESOURCES" in usage.stderr
 
 
 JOB = Job(
