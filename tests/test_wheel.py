@@ -50,7 +50,7 @@ def printed(folder: Path, path: list[object], *arguments: object) -> str:
     return done.stdout
 
 
-def test_wheel_installs_one_package_with_all_its_files(installed: Path) -> None:
+def test_wheel_installs_one_package_with_all_its_files(wheel: Path, installed: Path) -> None:
     names = {path.name for path in installed.iterdir() if path.suffix != ".dist-info"}
     assert names == {"slider_resonator"}
     source, package = ROOT / "harness" / "slider_resonator", installed / "slider_resonator"
@@ -58,6 +58,8 @@ def test_wheel_installs_one_package_with_all_its_files(installed: Path) -> None:
         expected = {path.relative_to(source) for path in source.rglob(pattern)}
         assert expected
         assert {path.relative_to(package) for path in package.rglob(pattern)} == expected
+    built_from = wheel.parent / "source" / "harness" / "slider_resonator"
+    assert not (built_from / "finished").exists(), "nothing of the build stays in the sources"
 
 
 @pytest.mark.slow
@@ -83,11 +85,6 @@ def test_wheel_brings_the_finished_fmu_and_no_build_tool(
     asked = re.findall(r"^Requires-Dist: (?!.*extra ==)(.*)$", metadata.read_text("utf-8"), re.M)
     assert asked
     assert not [name for name in asked if name.startswith(("ziglang", "pythonfmu"))]
-
-
-def test_nothing_of_the_build_stays_in_the_sources(wheel: Path) -> None:
-    source = wheel.parent / "source"
-    assert not (source / "harness" / "slider_resonator" / "finished").exists()
 
 
 def test_a_folder_without_fmus_makes_no_wheel(tmp_path: Path) -> None:

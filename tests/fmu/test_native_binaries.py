@@ -45,13 +45,6 @@ def complete_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return build_native(tmp_path_factory.mktemp("complete"))
 
 
-def linux_binary(version: FmiVersion, folder: Path) -> bytes:
-    """That for Linux, which any machine builds quickly."""
-    build = build_native if version == "2.0" else build_native_3
-    with zipfile.ZipFile(build(folder, platforms=[LINUX.name])) as archive:
-        return next(archive.read(n) for n in archive.namelist() if n.endswith(".so"))
-
-
 @pytest.fixture(scope="session")
 def binaries(complete_fmu: Path) -> dict[str, bytes]:
     with zipfile.ZipFile(complete_fmu) as archive:
@@ -92,7 +85,9 @@ def test_platforms_of_fmi_3(tmp_path: Path) -> None:
 @pytest.mark.parametrize("version", ["2.0", "3.0"])
 def test_linux_shows_fmi_and_needs_old_systems_only(version: FmiVersion, tmp_path: Path) -> None:
     """The versions of symbols that it needs of others are texts in it, such as GLIBC_2.2.5."""
-    data = linux_binary(version, tmp_path)
+    build = build_native if version == "2.0" else build_native_3
+    with zipfile.ZipFile(build(tmp_path, platforms=[LINUX.name])) as archive:
+        (data,) = (archive.read(n) for n in archive.namelist() if n.endswith(".so"))
     assert elf_exports(data) == fmi_functions(version), "nothing but FMI is shown"
     versions = re.findall(rb"\0([A-Z]+)_(\d[\d.]*)(?=\0)", data)
     assert {name for name, _ in versions} == {b"GLIBC"}

@@ -16,18 +16,9 @@ pytestmark = native_fmu_only
 
 NULL = ctypes.c_void_p()
 NOT_OFFERED = (
-    "EnterEventMode",
-    "NewDiscreteStates",
-    "EnterContinuousTimeMode",
-    "CompletedIntegratorStep",
-    "SetTime",
-    "SetContinuousStates",
-    "GetDerivatives",
-    "GetEventIndicators",
-    "GetContinuousStates",
-    "GetNominalsOfContinuousStates",
-    "CancelStep",
-    "GetDirectionalDerivative",
+    *("EnterEventMode", "NewDiscreteStates", "EnterContinuousTimeMode", "CompletedIntegratorStep"),
+    *("SetTime", "SetContinuousStates", "GetDerivatives", "GetEventIndicators", "CancelStep"),
+    *("GetContinuousStates", "GetNominalsOfContinuousStates", "GetDirectionalDerivative"),
 )
 
 

@@ -11,9 +11,9 @@ from fmu_src.python.slider_component.variables import VARIABLES
 
 
 def describe(**changes: Any) -> bytes:
-    named: dict[str, Any] = {"model": "SliderResonatorPy", "guid": "a-guid", "generation_tool": "a tool"}
-    built = {"generated": "1980-01-01T00:00:00Z", "host_manages_memory": False}
-    return model_description(**(named | built | changes))
+    given: dict[str, Any] = {"model": "SliderResonatorPy", "guid": "a-guid"}
+    given |= {"generation_tool": "a tool", "generated": "1980-01-01T00:00:00Z"}
+    return model_description(**(given | {"host_manages_memory": False} | changes))
 
 
 @pytest.fixture(scope="module")

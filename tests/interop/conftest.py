@@ -15,9 +15,7 @@ from fmu_src.building.platforms import HOST
 if TYPE_CHECKING:
     from selenium.webdriver import Chrome
 
-collect_ignore = (
-    [] if find_spec("selenium") else ["test_docs_site.py", "test_reports.py", "test_web_page.py"]
-)
+collect_ignore = [] if find_spec("selenium") else ["test_reports.py", "test_web_page.py"]
 """Tests in a browser, which `make test` must not need: `make interop` installs what drives it."""
 
 

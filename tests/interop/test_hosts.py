@@ -1,4 +1,4 @@
-"""Table 1 in every host: each fidelity with each friction law, compared with fmpy."""
+"""Table 1 in every host, compared with fmpy: each fidelity and friction law; the closed loop."""
 
 import sys
 import zipfile
@@ -9,6 +9,10 @@ import pytest
 
 from slider_resonator.device.interface import OUTPUTS
 from slider_resonator.errors import HarnessError
+from studies.closed_loop.duty import Duty
+from studies.closed_loop.judge import judge_agreement, judge_intervals
+from studies.closed_loop.loop import HOSTS, run_loop
+from studies.closed_loop.prediction import predicted_errors
 from studies.hosts.hosts import OWN_ENVIRONMENTS, Host, hosts
 from studies.hosts.runs import ALLOWED, CASES, FMI_3, by_case, run_host, run_jobs, table_1_jobs
 from tests.processes import ROOT, run_command
@@ -78,3 +82,22 @@ def test_sources_compiled_by_fmutool_give_the_same_numbers(
     compared = by_case(ours, run_jobs(FMPY, table_1_jobs(compiled)))
     failed = {case.title: compared[case] for case in CASES if not compared[case].passed}
     assert failed == {}, "another compiler must not make another motion"
+
+
+@pytest.mark.parametrize("host", HOSTS[1:], ids=lambda host: host.name)
+def test_another_master_matches_fmpy_in_closed_loop(closed_loop_package: Path, host: Host) -> None:
+    """Masters that hand values on without fmpy's delay of the inputs."""
+    duty = Duty()
+    fmpy, other = (run_loop(closed_loop_package, chosen, duty) for chosen in (HOSTS[0], host))
+    for record in other:
+        failed = [held for held in judge_intervals(record, duty) if not held.passed]
+        assert failed == [], "the velocity has to come back after each step of the load"
+    predicted = predicted_errors(closed_loop_package, other[0], duty)
+    for agreement in judge_agreement(*other, duty, predicted):
+        assert agreement.passed, agreement
+    for theirs, ours in zip(other, fmpy, strict=True):
+        ends = np.searchsorted(
+            ours.times, [interval.end - 0.5 * duty.step for interval in duty.intervals]
+        )
+        assert theirs.velocity[ends] == pytest.approx(ours.velocity[ends], rel=1e-3)
+        assert theirs.phase[ends] == pytest.approx(ours.phase[ends], abs=1e-3)

@@ -1,6 +1,8 @@
-"""The reports in a real browser, without a network: they draw, tell points, and log nothing."""
+"""Reports and documentation in a real browser, without a network."""
 
 import re
+import subprocess
+import sys
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -29,6 +31,7 @@ from tests.harness.stressing.test_run import RESULT
 from tests.harness.trading.test_results import TRADE
 from tests.harness.verdicts import PASSED
 from tests.interop.conftest import PHONE, screen
+from tests.processes import ROOT
 
 pytestmark = pytest.mark.interop
 
@@ -202,3 +205,35 @@ def test_sweep(browser: Chrome, native_fmu_for_wine: Path, page: Path, phases: i
     assert opened(browser, page) == 1
     assert "steady velocity [mm/s]: " in hovered(browser)
     assert browser.title == "</script><b>"
+
+
+WITHOUT = ("-D", "exclude_patterns=reference.md")
+"""Made of all docstrings, and not looked at here."""
+PAGES = ("index", "numbers", "commands", "validation", "hosts")
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("site")
+    pages = [f"docs/{name}.md" for name in PAGES]
+    build = [sys.executable, "-m", "sphinx", "-q", *WITHOUT, "docs", str(folder), *pages]
+    subprocess.run(build, check=True, cwd=ROOT)
+    return folder
+
+
+def test_pages_fit_and_wide_tables_keep_their_first_column(browser: Chrome, site: Path) -> None:
+    with screen(browser, *PHONE):
+        for name in PAGES:
+            browser.get((site / f"{name}.html").as_uri())
+            width = browser.execute_script("return document.documentElement.scrollWidth")
+            assert width <= PHONE[0], f"{name}: the page itself must not scroll sideways"
+            moved, stays = browser.execute_script(
+                "const wide = [...document.querySelectorAll('.table-wrapper')]"
+                ".filter((one) => one.scrollWidth > one.clientWidth + 1);"
+                "wide.forEach((one) => { one.scrollLeft = 80 });"
+                "return [wide.length, wide.filter((one) => Math.abs("
+                "one.querySelector('td').getBoundingClientRect().left"
+                " - one.getBoundingClientRect().left) < 8).length]"
+            )
+            assert stays == moved, f"{name}: the first column must stay"
+            assert moved == (1 if name == "hosts" else 0), name

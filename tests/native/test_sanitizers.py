@@ -41,16 +41,12 @@ def memory_checked(tmp_path_factory: pytest.TempPathFactory) -> Binary:
     return sanitized_binary(tmp_path_factory.mktemp("memory_checked"), MEMORY)
 
 
-@pytest.fixture(scope="module")
-def memory_checked_driver(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return program(SOURCES / "driver.c", tmp_path_factory.mktemp("driver"), MEMORY)
-
-
 @pytest.mark.parametrize(("law", "fidelity"), CHOICES)
 def test_no_device_makes_undefined_behaviour(
-    memory_checked: Binary, memory_checked_driver: Path, law: int, fidelity: int
+    memory_checked: Binary, tmp_path: Path, law: int, fidelity: int
 ) -> None:
-    command = [memory_checked_driver, memory_checked.library, memory_checked.guid, "file:///"]
+    driver = program(SOURCES / "driver.c", tmp_path, MEMORY)
+    command = [driver, memory_checked.library, memory_checked.guid, "file:///"]
     ran = 0
     for name, values in devices().items():
         done = run(command, script(values, law, fidelity), SPEAK_UP)

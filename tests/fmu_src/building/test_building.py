@@ -25,6 +25,7 @@ from fmu_src.building.platforms import (
     platforms_named,
 )
 from fmu_src.building.universal_binary import universal_binary
+from fmu_src.compare import main
 
 FILES = {"b/two": b"2", "a": b"1" * 1000}
 
@@ -208,3 +209,22 @@ def test_every_library_is_at_its_offset_in_the_header() -> None:
         assert offset % (1 << alignment) == 0, "a library begins on a page"
     with pytest.raises(ValueError, match="begins with 0x464c457f: must be 0xfeedfacf"):
         universal_binary([b"\x7fELF" + bytes(60)])
+
+
+def test_files_that_differ_or_are_missing_are_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """As CI compares builds of two platforms; each makes its own binary for macOS."""
+    for name, files in {
+        "a": {"same": b"1", "other": b"1", "only_here": b"1", "darwin64": b"1"},
+        "b": {"same": b"1", "other": b"2", "only_there": b"1", "darwin64": b"2"},
+    }.items():
+        write_archive(tmp_path, name, files)
+    for second, code, printed in (
+        ("a", 0, []),
+        ("b", 1, [f"a.fmu: {name} differs" for name in ("only_here", "only_there", "other")]),
+    ):
+        both = [str(tmp_path / f"{name}.fmu") for name in ("a", second)]
+        monkeypatch.setattr(sys, "argv", ["compare", *both])
+        assert main() == code
+        assert capsys.readouterr().out.splitlines() == printed

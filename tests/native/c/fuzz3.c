@@ -99,6 +99,8 @@ static int load(const char *path) {
 #define SerializedFMUstateSize SerializedFMUStateSize
 #define SerializeFMUstate SerializeFMUState
 #define DeSerializeFMUstate DeserializeFMUState
+#define GET_REALS(c, references, count, values) \
+    fmu.GetFloat64(c, references, count, values, one_in(10) ? random_count() : count)
 #include "fuzzing.h"
 
 static const char *token;
@@ -134,18 +136,6 @@ static void instantiate(unsigned slot) {
                                              NULL, NULL, NULL)) {
         fail("an instance of a kind that is not offered");
     }
-}
-
-static fmi3Status read_values(fmi3Instance c) {
-    size_t i, count = random_count(), room = one_in(10) ? random_count() : count;
-    double *values = or_null(reals);
-    fmi3Status status;
-    if (one_in(2))
-        for (i = 0; i < ROOM; i++) references[i] = 1 + below(VARIABLE_COUNT + 1);
-    status = fmu.GetFloat64(c, or_null(references), count, values, room);
-    for (i = 0; status == fmi3OK && values && i < count; i++)
-        if (!isfinite(values[i])) fail("an output that is not finite");
-    return status;
 }
 
 static fmi3Status step(fmi3Instance c) {

@@ -2,7 +2,7 @@
  *
  * A fuzzer first names its types Instance, State, Byte, Status, Reference, Integer and String, and the reference
  * FIRST of its first variable, and says whether its host's MEMORY_MAY_RUN_OUT; its `fmu` has the calls for states
- * by their names of FMI 2.0. */
+ * by their names of FMI 2.0, and GET_REALS reads variables. */
 #ifndef NATIVE_FUZZING_H
 #define NATIVE_FUZZING_H
 
@@ -105,6 +105,18 @@ static Status read_state(Instance c) {
     size_t flips = one_in(2) ? below(4) : 0, size = one_in(20) ? below(MAX_BYTES) : stored_size;
     while (flips-- > 0 && stored_size > 0) stored[below((uint32_t)stored_size)] ^= (Byte)(1 << below(8));
     return fmu.DeSerializeFMUstate(c, or_null(stored), size, or_null(&states[below(STATES)]));
+}
+
+static Status read_values(Instance c) {
+    size_t i, count = random_count();
+    double *values = or_null(reals);
+    Status status;
+    if (one_in(2))
+        for (i = 0; i < ROOM; i++) references[i] = (FIRST > 0) + random_reference();
+    status = GET_REALS(c, or_null(references), count, values);
+    for (i = 0; status == OK && values && i < count; i++)
+        if (!isfinite(values[i])) fail("an output that is not finite");
+    return status;
 }
 
 static Status set_logging(Instance c) {

@@ -9,9 +9,6 @@ from studies.hosts.step_cost import LONG_STEP, ONE_PERIOD, StepCost
 from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
 
-FMPY = ("--host", "fmpy")
-
-
 Arguments = tuple[str | Path, ...]
 
 
@@ -24,7 +21,7 @@ def others(python_fmu: Path, native_3_fmu: Path) -> Arguments:
 def test_an_fmu_that_fmpy_cannot_run_is_no_verdict(others: Arguments, tmp_path: Path) -> None:
     broken = tmp_path / "broken.fmu"
     broken.write_bytes(b"no zip")
-    done = call("hosts", broken, *others, *FMPY)
+    done = call("hosts", broken, *others, "--host", "fmpy")
     assert done.exit_code == 2
     assert f"{broken}: does not run in fmpy: BadZipFile" in done.stderr
 

@@ -23,7 +23,7 @@ from studies.hosts.step_cost import (
 )
 from studies.hosts.table import BEGIN, COLUMNS, END
 from tests.native.toolchain import run, unpacked_binary
-from tests.processes import has_ended
+from tests.processes import ROOT, has_ended
 
 
 def test_a_package_that_is_missing_is_named_with_what_installs_it() -> None:
@@ -158,11 +158,8 @@ def test_deviations_count_in_shares_of_each_peak(
     assert found.passed == (deviation is not None and deviation <= ALLOWED == 1e-11)
 
 
-PAGE = Path(__file__).parents[3] / "docs" / "hosts.md"
-
-
 def test_the_table_of_the_page_is_one_that_this_code_writes() -> None:
-    text = PAGE.read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "hosts.md").read_text(encoding="utf-8")
     between = text.partition(BEGIN)[2].partition(END)[0].strip().splitlines()
     head, _, *rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in between]
     assert head == [column.heading for column in COLUMNS]
