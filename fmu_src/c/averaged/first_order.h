@@ -14,7 +14,7 @@
 typedef struct {
     double steady_velocity, blocking_force;
     bool holds, valid;
-} Prediction;
+} Averages;
 
 /* Averaged theory of the device and inputs of a system (eqs 20-22 with both faces).
  *
@@ -22,4 +22,4 @@ typedef struct {
  * exceeds full friction the velocity is the limit v_q of the theory, with its sign. Both results are 0 without
  * vibration, and where undamped resonance leaves no steady vibration. In these cases, and where the vibration does not
  * break the contact loose, they are not `valid`. */
-Prediction first_order_prediction(const System *system, double normal_lead);
+Averages first_order_averages(const System *system, double normal_lead);

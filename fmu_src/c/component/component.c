@@ -24,7 +24,7 @@ static bool prepare(Component *component, const double values[SETTABLE_COUNT], R
     }
     component->system = system;
     component->prepared = true;
-    component->theory.known = false;
+    component->theory = (Theory){0};
     return true;
 }
 
@@ -84,7 +84,7 @@ static bool take_values(Component *component, const double values[SETTABLE_COUNT
     if (running && in_place) {
         Inputs inputs = reduced_inputs(values);
         system_change(&component->system, inputs.phase, inputs.load);
-        component->theory.known = false;
+        component->theory = (Theory){0};
     } else if (running && !prepare(component, values, refusal)) {
         return false;
     }

@@ -12,7 +12,7 @@ typedef struct {
     bool prepared; /* whether a system of the present values is prepared */
     System system; /* that system */
     Tables tables; /* of friction, to which systems point */
-    Theory theory; /* the last prediction */
+    Theory theory; /* the last predictions */
 } Component;
 
 #include "component_functions.h"

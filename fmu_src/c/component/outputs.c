@@ -1,7 +1,6 @@
 #include "outputs.h"
 
 #include "../base/elementary.h"
-#include "../leap/prediction.h"
 #include "../resolved/motion.h"
 #include "variables.h"
 
@@ -34,14 +33,16 @@ static double normal_lead(const System *system, const Moment *moment) {
     return nearbyint(remainder(lead, TAU / turns) * LEAD_PARTS) / LEAD_PARTS;
 }
 
-static const Prediction *theory_of(const System *system, const Moment *moment, Theory *theory) {
+static Prediction predict(const System *system, const Moment *moment, Theory *theory, Quantity quantity) {
     double lead = normal_lead(system, moment);
-    if (!theory->known || theory->normal_lead != lead) {
-        theory->prediction = prediction_of(system, lead);
-        theory->normal_lead = lead;
-        theory->known = true;
+    if (theory->normal_lead != lead) {
+        *theory = (Theory){.normal_lead = lead};
     }
-    return &theory->prediction;
+    if (!theory->known[quantity]) {
+        theory->predictions[quantity] = prediction_of(system, lead, quantity);
+        theory->known[quantity] = true;
+    }
+    return theory->predictions[quantity];
 }
 
 double output_value(unsigned reference, const System *system, const Moment *moment, double last_event_time,
@@ -70,11 +71,12 @@ double output_value(unsigned reference, const System *system, const Moment *mome
     case VR_LAST_EVENT_TIME:
         return last_event_time;
     case VR_STEADY_VELOCITY:
-        return theory_of(system, moment, theory)->steady_velocity;
+        return predict(system, moment, theory, STEADY_VELOCITY).value;
     case VR_BLOCKING_FORCE:
-        return theory_of(system, moment, theory)->blocking_force;
+        return predict(system, moment, theory, BLOCKING_FORCE).value;
     case VR_PREDICTION_VALID:
-        return theory_of(system, moment, theory)->valid ? 1.0 : 0.0;
+        return predict(system, moment, theory, STEADY_VELOCITY).valid &&
+               predict(system, moment, theory, BLOCKING_FORCE).valid;
     case VR_FRICTION_POWER:
         return system->motion->power(system, moment);
     case VR_SLOW_MOTION_ERROR:

@@ -1,13 +1,13 @@
 /* The outputs of the interface, each from the present moment and the present inputs. */
 #pragma once
 
-#include "../averaged/first_order.h"
+#include "../leap/prediction.h"
 
-/* A cache of the prediction of a system at `normal_lead` [rad]; its owner clears `known` when the system changes. */
+/* A cache of the predictions of a system at `normal_lead` [rad]; its owner clears it when the system changes. */
 typedef struct {
-    bool known;
     double normal_lead;
-    Prediction prediction;
+    bool known[QUANTITIES];
+    Prediction predictions[QUANTITIES];
 } Theory;
 
 /* The output `reference` of the system at this moment; `last_event_time` [s]. */

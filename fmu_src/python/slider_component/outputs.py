@@ -6,19 +6,19 @@ from math import remainder, tau
 from .averaged import Averaged
 from .contact import STICK
 from .moment import Moment
-from .prediction import Prediction, prediction, turns_of_load
+from .prediction import prediction, turns_of_load
 from .resolved import Resolved
 
 Motion = Resolved | Averaged
 """A device under held inputs; `Leaping` is one that is resolved."""
 
 
-def _theory(motion: Motion, now: Moment) -> Prediction:
+def _predicted(motion: Motion, now: Moment, blocked: bool) -> tuple[float, bool]:
     device, inputs = motion.system.device, motion.system.inputs
     ratio, turns = inputs.frequency_ratio, turns_of_load(device, inputs.frequency_ratio)
     lead = remainder(now.psi - ratio * now.theta, tau / turns) if turns else 0.0
     # Without the rounding errors of phases it is the same from one period to the next.
-    return prediction(device, inputs, round(lead, 12))
+    return prediction(device, inputs, round(lead, 12), blocked)
 
 
 OUTPUTS: dict[str, Callable[[Motion, Moment], float]] = {
@@ -35,9 +35,11 @@ OUTPUTS: dict[str, Callable[[Motion, Moment], float]] = {
         now.stick_fraction, now.sticking, float(motion.mode(now) == STICK)
     ),
     "last_event_time": lambda motion, now: now.last_event_time,
-    "steady_velocity": lambda motion, now: _theory(motion, now).steady_velocity,
-    "blocking_force": lambda motion, now: _theory(motion, now).blocking_force,
-    "prediction_valid": lambda motion, now: float(_theory(motion, now).valid),
+    "steady_velocity": lambda motion, now: _predicted(motion, now, False)[0],
+    "blocking_force": lambda motion, now: _predicted(motion, now, True)[0],
+    "prediction_valid": lambda motion, now: float(
+        all(_predicted(motion, now, blocked)[1] for blocked in (False, True))
+    ),
     "friction_power": lambda motion, now: motion.friction_power(now),
     "slow_motion_error": lambda motion, now: motion.slow_motion_error(now),
 }

@@ -35,7 +35,7 @@ CONVERGED = 1e-10
 """Change at which the iteration ends: the next one would be rounding."""
 
 
-class Prediction(NamedTuple):
+class Averages(NamedTuple):
     """Steady velocity [m/s] and blocking force [N], and whether they are `valid`: they apply.
 
     Friction `holds` a load below that of sliding.
@@ -47,17 +47,20 @@ class Prediction(NamedTuple):
     valid: bool
 
 
-@lru_cache(maxsize=8)
-def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction:
-    """The prediction of the averaging order of the device.
+@lru_cache(maxsize=16)
+def prediction(
+    device: Device, inputs: Inputs, normal_lead: float, blocked: bool
+) -> tuple[float, bool]:
+    """The steady velocity, or the `blocked` force, by the averaging order; whether it is valid.
 
-    By second order both are those of periodic motions of the full device, looked for from averages
-    on, and valid only where such were found. `normal_lead` [rad] is psi - n theta, which earlier
-    changes of the ratio make different from 0.
+    By second order it is that of a periodic motion of the full device, looked for from averages on,
+    and valid only where one was found. `normal_lead` [rad] is psi - n theta, which earlier changes
+    of the ratio make different from 0.
     """
     first = first_order(device, inputs, normal_lead)
+    value = first.blocking_force if blocked else first.steady_velocity
     if device.averaging_order == 1:
-        return first
+        return value, first.valid
     full, turns = replace(device, fidelity=2), turns_of_load(device, inputs.frequency_ratio)
     if device.resonator_mass == 0.0:
         # It moves nothing: one that settles within a period takes its place, so that the search
@@ -67,11 +70,9 @@ def prediction(device: Device, inputs: Inputs, normal_lead: float) -> Prediction
         if turns is not None and first.holds:
             period_map = PeriodMap(System(full, inputs), turns)
             psi = (normal_lead + inputs.frequency_ratio * period_map.section) % tau
-            start = first.steady_velocity, inputs.load
-            velocity = periodic_motion(period_map, psi, *start, blocked=False)
-            force = periodic_motion(period_map, psi, 0.0, first.blocking_force, blocked=True)
-            return Prediction(velocity, force, holds=True, valid=True)
-    return first._replace(valid=False)
+            start = (0.0, value) if blocked else (value, inputs.load)
+            return periodic_motion(period_map, psi, *start, blocked), True
+    return value, False
 
 
 def turns_of_load(device: Device, ratio: float) -> int | None:
@@ -96,14 +97,14 @@ def theory_range(device: Device) -> tuple[float, ...]:
     return velocity**2, drag, tau * normal * (1.0 + 2.0 * (mu * (1.0 + drag) + bent))
 
 
-def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Prediction:
+def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Averages:
     """Averaged theory at the present inputs (eqs 20-22 with both faces).
 
     Where the load exceeds full friction the velocity is the limit v_q of the theory, with its sign.
     Both are 0 without vibration, and where undamped resonance leaves no steady one. In these cases,
     and where the vibration does not break the contact loose, they are not `valid`.
     """
-    fast, holding, none = None, inf, Prediction(0.0, 0.0, holds=False, valid=False)
+    fast, holding, none = None, inf, Averages(0.0, 0.0, holds=False, valid=False)
     with suppress(Refusal):
         fast = Vibration(device)
         holding = abs(Vibration(device, held=True).force)
@@ -135,7 +136,7 @@ def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Predictio
         above = law.mean(load, middle) + inputs.load > noise
         low, high = (middle, high) if above else (low, middle)
     velocity = fast.velocity * cos(0.5 * (low + high))
-    return Prediction(velocity, -law.mean(load, 0.5 * pi), holds, valid)
+    return Averages(velocity, -law.mean(load, 0.5 * pi), holds, valid)
 
 
 def periodic_motion(

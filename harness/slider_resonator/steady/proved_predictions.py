@@ -81,7 +81,7 @@ def proved_predictions(
     """
     proved: list[float | None] = [None] * len(points)
     guessed = "load" if quantity == "blocking_force" else "initial_velocity"
-    if any(name not in instance.fmu.variables for name in (quantity, "prediction_valid", *DEVICE)):
+    if any(name not in instance.fmu.variables for name in (quantity, *DEVICE)):
         return proved
     try:
         instance.start({})
@@ -143,7 +143,7 @@ def _candidate(
     try:
         instance.start(values)
         with instance.explained():
-            prediction, valid = instance.block((quantity, "prediction_valid")).read()
+            prediction = instance.value(quantity)
     except HarnessError:
         instance.recreate()
         return None
@@ -151,7 +151,7 @@ def _candidate(
     displacement, swing = _vibration(parameters)
     drive = device["drive_frequency"] * (1.0 + values.get("frequency_deviation", 0.0))
     size = (abs(swing), abs(displacement), abs(displacement) * drive)
-    if valid != 1.0 or 0.0 in size or not all(map(isfinite, (prediction, *size))):
+    if 0.0 in size or not all(map(isfinite, (prediction, *size))):
         return None
     velocity = prediction
     if quantity == "blocking_force":

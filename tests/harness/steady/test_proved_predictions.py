@@ -89,3 +89,20 @@ def test_slow_motions_are_proved_too(instance: Instance) -> None:
     proved = proved_predictions(instance, "steady_velocity", slow, 20)
     for values, velocity in zip(slow, proved, strict=True):
         assert velocity == pytest.approx(0.0, abs=1e-9), f"by symmetry, {values}"
+
+
+def test_each_quantity_is_predicted_by_itself(instance: Instance) -> None:
+    """The steady motion of this device repeats, though no single load is found that blocks it."""
+    held = {
+        "phase": 0.38668099944118417,
+        "load": 0.2870146635603288,
+        "friction_coefficient": 10.84295972505037,
+        "normal_amplitude": 0.6929569152692459,
+        "resonator_frequency": 1138.806110654186,
+        "damping_ratio": 0.06049979809842225,
+    }
+    found = find_steady(instance, held)
+    assert found.status == "steady" and found.prediction_valid is False
+    assert found.predicted == pytest.approx(found.steady_velocity, rel=1e-9)
+    proved = proved_predictions(instance, "steady_velocity", [held], 20)
+    assert proved == [pytest.approx(found.steady_velocity, rel=1e-9)]
