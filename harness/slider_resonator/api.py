@@ -283,8 +283,8 @@ def fit(
 ) -> Fit:
     """Estimate the parameters `free` of a device from measurements, with 95 % intervals.
 
-    `data` is a CSV file, as `slider-resonator fit --help` describes, several of these, or columns
-    of numbers by heading, such as `{"phase [deg]": ..., "velocity [mm/s]": ...}` or a DataFrame.
+    `data` is a CSV file, as `slider-resonator fit --help` describes, columns of numbers by heading,
+    such as `{"phase [deg]": ..., "velocity [mm/s]": ...}`, a DataFrame, or several of these.
     `values` are parameters and inputs that are not in the data. The result has `parameters`, and
     the `device` to go on with.
     """

@@ -127,35 +127,50 @@ def read_measurements(path: Path) -> Measurements:
         raise HarnessError(said if str(path) in said else f"{path}: {said}") from error
 
 
-def measurements_of(data: Any) -> Measurements:
-    """Return measurements as they are, of a DataFrame or columns by heading, of a file or several.
+def measurements_of(data: Any, source: str = "data") -> Measurements:
+    """Return measurements as they are, or of a file, a DataFrame, columns by heading, or several.
 
     Raises HarnessError as `read_measurements` and `measurements_from` do.
     """
     if isinstance(data, Measurements):
         return data
+    if isinstance(data, str | Path):
+        return read_measurements(Path(data))
     if hasattr(data, "to_dict"):
         data = data.to_dict("list")
     if isinstance(data, Mapping):
-        return measurements_from(data)
-    files = [data] if isinstance(data, str | Path) else data
-    return sum((read_measurements(Path(one)) for one in files), Measurements())
+        return measurements_from(data, source)
+    parts = (measurements_of(one, f"data {number}") for number, one in enumerate(data, 1))
+    return sum(parts, Measurements())
 
 
-def measurements_from(table: Mapping[str, Any]) -> Measurements:
+def measurements_from(table: Mapping[str, Any], source: str = "data") -> Measurements:
     """Return measurements from columns of numbers by heading, as `read_measurements` has them.
 
-    NaN is an empty cell. Raises HarnessError with heading and requirement.
+    NaN is an empty cell. Columns of text with other headings are ignored, and noted.
+    Raises HarnessError with heading and requirement.
     """
     try:
-        columns = {heading: np.asarray(values, np.float64) for heading, values in table.items()}
+        headings, columns, ignored = _Headings.among(table), dict[str, Array](), []
+        for heading, values in table.items():
+            is_known = headings.parts(heading)[0] in headings.names
+            try:
+                column = np.asarray(values, np.float64)
+            except (ValueError, TypeError) as error:
+                if is_known:
+                    raise ValueError(f"{heading}: {error}") from error
+                column = np.full(len(values), nan)
+            if is_known or np.isfinite(column).any():
+                columns[heading] = column
+            else:
+                ignored.append(heading)
         shapes = {values.shape for values in columns.values()}
         if len(shapes) != 1 or len(shape := shapes.pop()) != 1:
             raise ValueError("must be columns of one length")
         rows = [f"row {number}" for number in range(1, shape[0] + 1)]
-        return _measurements("data", rows, [*columns.items()])
+        return _measurements(source, rows, [*columns.items()], ignored)
     except (ValueError, TypeError) as error:
-        raise HarnessError(f"data: {error}") from error
+        raise HarnessError(f"{source}: {error}") from error
 
 
 def _measurements(

@@ -6,7 +6,7 @@ import pytest
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.fitting.measurements import Measurements
-from slider_resonator.fitting.reading import read_measurements
+from slider_resonator.fitting.reading import measurements_of, read_measurements
 from tests.harness.golden import assert_mistakes_as_before
 
 
@@ -94,6 +94,17 @@ def test_tables_of_other_programs(tmp_path: Path, content: bytes, notes: tuple[s
     assert data.measured.tolist() == pytest.approx([0.047, 0.050])
     assert data.shown("steady_velocity", 5e-4) == "0.5 mm/s"
     assert data.notes == tuple(f"{path}: {note}" for note in notes)
+
+
+def test_columns_of_a_script_are_read_as_a_file_is(tmp_path: Path) -> None:
+    path = tmp_path / "data.csv"
+    path.write_text(PLAIN)
+    table = {"phase [deg]": [45], "velocity [mm/s]": [40], "when": ["10:02"], "by": [None]}
+    data = measurements_of([path, table, str(path)])
+    assert data.measured.tolist() == pytest.approx([0.047, 0.050, 0.040, 0.047, 0.050])
+    assert "data 2: ignored 'when', 'by': no numbers, or row numbers" in data.notes
+    with pytest.raises(HarnessError, match=r"data: velocity \[mm/s\]: could not convert string"):
+        measurements_of(table | {"velocity [mm/s]": ["fast"]})
 
 
 def test_a_run_has_the_names_of_a_table_for_the_drive(tmp_path: Path) -> None:
