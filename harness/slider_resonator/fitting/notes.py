@@ -28,6 +28,7 @@ MISSED = 0.5
 """Root mean square of residuals over that of the quantity from which the fit is not near it."""
 SUPPOSITIONS = {
     "phase in rad": ("phase", 180.0 / pi),
+    "phase in deg": ("phase", pi / 180.0),
     "the other sign of phase": ("phase", -1.0),
     "the other sign of load": ("load", -1.0),
 }

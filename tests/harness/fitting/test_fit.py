@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from math import nan
+from math import nan, pi
 from pathlib import Path
 from typing import Any
 
@@ -337,6 +337,7 @@ def test_a_phase_and_a_load_that_are_not_given_are_noted() -> None:
         (("phase", 1.0), ("velocity", 1e3), "read in m/s: with steady_velocity in mm/s"),
         (("phase", 1.0), ("velocity [mm/s]", 1.0), "read in mm/s: with steady_velocity in m/s"),
         (("phase [deg]", 1.0), ("velocity", 1.0), "with phase in rad"),
+        (("phase", 180.0 / pi), ("velocity", 1.0), "with phase in deg"),
         (("phase", -1.0), ("velocity", 1.0), "with the other sign of phase"),
     ],
 )
