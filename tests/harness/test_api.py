@@ -120,6 +120,7 @@ def test_results_say_what_was_found_on_a_screen(native_fmu: Path, tmp_path: Path
         (record, f"mean_velocity           {record.final('mean_velocity'):.9g} m/s"),
         (motion, f"{motion.steady_velocity:.10g} m/s"),
         (blocking, f"{blocking.blocking_force:.10g} N"),
+        (blocking, "on 2 faces"),
         (table, "amplitude_deviation 0 to 1"),
         (table, f"{min(table.columns['steady_velocity']):.6g} to"),
         (validation, f"passed: {len(validation.checks)} of {len(validation.checks)} checks"),

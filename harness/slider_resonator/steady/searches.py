@@ -227,7 +227,7 @@ def _result(
     return kind(
         *(status, reason, facts[kind.searched], facts.prediction_valid),
         {name: facts[name] for name in kind.held},
-        facts.device.friction_faces,
+        int(facts.device.friction_faces),
         iterations=found.iterations,
         residual=found.residual,
         **answer,
