@@ -101,7 +101,8 @@ def sweep_command(
 
     [list] has parallel lists, [random] count, seed and ranges; the points of all three are
     combined. A range may have spacing = "log". OUTPUT.STATISTIC (mean, rms, minimum, maximum,
-    peak_to_peak, last) needs a run: [run] has drive_periods, steps_per_period and skip_periods.
+    peak_to_peak, last) is taken over a run from the initial state: [run] has drive_periods, by
+    default 100, steps_per_period (16) and skip_periods (0).
 
     \b
     Examples:
