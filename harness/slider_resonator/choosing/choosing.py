@@ -75,8 +75,8 @@ class Choosing:
         if scene.need is None:
             raise SceneError(
                 f"{scene.source}: scene {scene.name} has no [need]; must have a table of what it "
-                "needs, such as mean_velocity = { rel = 0.01 }, as the scene feed_forward has; on "
-                "the command line --need says it"
+                "needs, such as mean_velocity = { rel = 0.01 }, as the scene feed_forward has; "
+                "`slider-resonator choose --need` says it, too"
             )
         self.instance = instance
         self.needs = scene.need.needs

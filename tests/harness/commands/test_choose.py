@@ -74,7 +74,7 @@ def test_a_setting_changes_the_scene(native_fmu: Path, tmp_path: Path) -> None:
 def test_a_scene_without_needs_is_refused_and_one_with_some_named(native_fmu: Path) -> None:
     said = refused("choose", "lift_off", "--fmu", native_fmu)
     assert "has no [need]; must" in said
-    assert "as the scene feed_forward has" in said
+    assert "as the scene feed_forward has; `slider-resonator choose --need` says it, too" in said
 
 
 def test_a_run_uses_the_choice_and_reports_it(native_fmu: Path, tmp_path: Path) -> None:
