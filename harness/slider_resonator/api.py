@@ -217,24 +217,26 @@ def validate(
 
 
 def choose(
-    scene: SceneLike,
+    scene: SceneLike = "table_1",
     fmu: str | Path | None = None,
     *,
     device: DeviceLike | None = None,
     need: Mapping[str, Value] | None = None,
     time: Value | None = None,
+    step: Value | None = None,
     **values: Value,
 ) -> Choice:
     """Choose the cheapest fidelity, friction law, tolerance and step that meet a scene's needs.
 
     `need` has the allowed errors of quantities, such as `{"position": "2 um", "velocity": "1 %"}`,
-    in place of the scene's, `time` (s) is that of the run. A `device` takes the place of the
-    scene's, as in `OpenFmu.run`.
+    in place of the scene's, `time` (s) is that of the run, `step` (s) between samples of signals.
+    A `device` takes the place of the scene's, as in `OpenFmu.run`.
     """
     read = _scene_of(scene, _stated(device), values)
     with explained():
-        if time is not None:
-            read = read.timed(stop_time=positive_time(str(time)))
+        if time is not None or step is not None:
+            spans = [one if one is None else positive_time(str(one)) for one in (time, step)]
+            read = read.timed(stop_time=spans[0], step_size=spans[1])
         if need:
             read = read.needing({name: allowed_error(name, str(e)) for name, e in need.items()})
     return choose_model(read, _fmu(fmu))

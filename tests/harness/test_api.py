@@ -111,7 +111,8 @@ def test_results_say_what_was_found_on_a_screen(native_fmu: Path, tmp_path: Path
     task = {"measures": ["steady_velocity"], "grid": grid}
     table = sr.sweep(task, tmp_path / "table.csv", native_fmu, workers=1)
     (validation,) = sr.validate(native_fmu, scenes=["blocking_force_table_1"])
-    choice = sr.choose({**SHORT, "need": {"mean_velocity": {"rel": 0.01}}}, native_fmu)
+    choice = sr.choose(fmu=native_fmu, need={"position": "1 %"}, time="50 ms", step="5 ms")
+    assert choice.step == 5e-3
     measured = {"phase [deg]": np.array([0.0]), "velocity [mm/s]": [120.0]}
     frame: Any = SimpleNamespace(to_dict=lambda orient: {"list": measured}[orient])
     fit = sr.fit(frame, "friction_coefficient", native_fmu)

@@ -8,6 +8,7 @@ from typing import Any
 from slider_resonator.choosing.candidate import Candidate, uses_tolerance
 from slider_resonator.choosing.errors import ErrorEstimate
 from slider_resonator.device.model import Model
+from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.scenes.key_table import units_of
 from slider_resonator.scenes.scene import Scene
@@ -154,7 +155,8 @@ class Choice(Shown, Tabular):
         """Return what was chosen, without the needs, for people."""
         step = "none, nothing is run"
         if self.step is not None:
-            step = f"{self.step:.6g} s, {self.step / self.drive_period:.4g} drive periods"
+            periods = float(f"{self.step / self.drive_period:.4g}")
+            step = f"{self.step:.6g} s, {number_of(periods, 'drive period')}"
         step += f", tolerance {self.tolerance:g}" if uses_tolerance(self.model) else ""
         step += f"; {INPUTS[self.inputs]}" if self.step and self.inputs else ""
         step += "; steps also end where inputs jump" if self.step and self.jumps else ""

@@ -35,6 +35,7 @@ def _need(text: str) -> tuple[str, AllowedTable]:
     "[need]. Repeatable.",
 )
 @options.stop_time_option
+@options.step_option("The sampling step of signals, such as position")
 @options.fmu_option
 @options.device_options
 @options.time_limit_option(TIME_LIMIT, "For the whole choice.")
@@ -43,6 +44,7 @@ def choose_command(
     scene: str,
     needs: dict[str, AllowedTable],
     stop_time: float | None,
+    step_size: float | None,
     fmu: Path,
     given: options.Given,
     time_limit: float,
@@ -65,14 +67,15 @@ def choose_command(
     \b
     Examples:
       slider-resonator choose --device mine.toml --time "200 ms" --need mean_velocity="1 %"
+      slider-resonator choose --device mine.toml --time "1 s" --step "1 ms" --need position="2 um"
       slider-resonator choose feed_forward
       slider-resonator choose scenes/mine.toml --json
       slider-resonator choose feed_forward --set friction_law=1 bristle_stiffness=1e6
     """
     given.check_left_to_choose()
     read = given.scene(scene)
-    if stop_time is not None:
-        read = read.timed(stop_time=stop_time)
+    if stop_time is not None or step_size is not None:
+        read = read.timed(stop_time=stop_time, step_size=step_size)
     if needs:
         read = read.needing(needs)
     provenance = provenance_of(fmu)

@@ -67,6 +67,12 @@ stop_time_option = click.option(
 )
 
 
+def step_option(what: str) -> Callable[[FC], FC]:
+    """Return --step, a size of steps; `what` is its meaning."""
+    said = f"{what}, in s or with a unit, in place of what the scene says."
+    return click.option("--step", "step_size", type=DURATION, help=said)
+
+
 def target(suffixes: Sequence[str] = ()) -> Parsed[Path]:
     """Return a file to write, checked before anything runs; `suffixes` are the allowed ones."""
     return Parsed("FILE", partial(writable, suffixes=suffixes))

@@ -51,12 +51,7 @@ def _overlay(text: str) -> tuple[str, float] | Path:
 @options.fmu_argument
 @click.argument("scene", required=False)
 @options.stop_time_option
-@click.option(
-    "--step",
-    "step_size",
-    type=options.DURATION,
-    help="The communication step, in s or with a unit, in place of what the scene says.",
-)
+@options.step_option("The communication step")
 @click.option("--out", type=options.target(), help="CSV file of the run.")
 @click.option(
     "--plot",

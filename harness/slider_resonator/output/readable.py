@@ -11,9 +11,10 @@ def readable(value: float, digits: int) -> str:
     return f"{0.0 if abs(value) < NOISE else value:.{digits}g}"
 
 
-def number_of(count: int, noun: str) -> str:
-    """Return a count with its noun, such as `1 check` and `2 checks`."""
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+def number_of(count: float, noun: str) -> str:
+    """Return a number with its noun, such as `1 check`, `2 checks` and `0.5 drive periods`."""
+    said = f"{count:.10g}"
+    return f"{said} {noun}" if said == "1" else f"{said} {noun}s"
 
 
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")

@@ -47,8 +47,10 @@ def test_a_choice_has_reasons_against_the_others(native_fmu: Path, tmp_path: Pat
 
 def test_needs_and_time_need_no_scene_file(native_fmu: Path) -> None:
     device = ("--device", "ultrasonic_slider", "--set", "phase=30 deg")
-    needs = ("--need", "mean_velocity=1 %", "--need", "position=2 um", "--time", "20 ms")
-    result = call("choose", "--fmu", native_fmu, *device, *needs, "--json")
+    needs = ("--need", "mean_velocity=1 %", "--need", "position=2 um")
+    asked = ("choose", "--fmu", native_fmu, *device, *needs, "--time", "20 ms", "--step", "50 us")
+    assert "step     5e-05 s, 1 drive period\n" in call(*asked).stdout
+    result = call(*asked, "--json")
     answer = json.loads(result.stdout)
     assert result.exit_code == 0
     assert answer["allowed"]["position"] == 2e-6
