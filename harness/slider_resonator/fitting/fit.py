@@ -38,6 +38,7 @@ from slider_resonator.fitting.result import AS_STATED, Fit, FittedParameter
 from slider_resonator.fmu.isolation.process import FmuDied, Task
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks
 from slider_resonator.output.progress import Progress, counted, no_progress
+from slider_resonator.output.readable import number_of
 
 STARTS = 5
 REACH = 3.0
@@ -111,7 +112,7 @@ def fit(
             notes.append(NO_INTERVALS)
         notes += misfit_notes(measurements, predicted, best.jacobian)
     if not directions:
-        for one in others:
+        for one in [] if unmet else others:
             pairs = zip(free, one.internal.tolist(), strict=True)
             said = ", ".join(f"{which.name} = {which.value(x):.6g}" for which, x in pairs)
             notes.append(f"the data are met as well, or almost, by {said}; bounds decide")
@@ -164,7 +165,8 @@ def _problem(
     count = len(measurements.measured)
     if count < len(free):
         raise HarnessError(
-            f"{count} measured numbers for {len(free)} free parameters; must be at least as many"
+            f"{number_of(count, 'measured number')} for "
+            f"{number_of(len(free), 'free parameter')}; must be at least as many"
         )
     return Problem(parameters, free, measurements.under(inputs))
 

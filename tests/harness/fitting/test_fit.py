@@ -410,7 +410,7 @@ def test_a_parameter_without_bounds_may_be_free(instance: Instance) -> None:
 
 
 def test_data_that_do_not_suit_what_is_free_are_refused(instance: Instance) -> None:
-    with pytest.raises(HarnessError, match="1 measured numbers for 2 free parameters"):
+    with pytest.raises(HarnessError, match="1 measured number for 2 free parameters"):
         fitted(instance, datasheet(0.1, None, []), ["slider_mass", "damping_ratio"])
     data = measurements_from({"damping_ratio": [0.1, 0.2], "velocity": [0.1, 0.1]})
     with pytest.raises(HarnessError, match="damping_ratio is free, and a column of data; must be"):
