@@ -126,7 +126,8 @@ byId("file").addEventListener("change", () => guarded(async () => {
 byId("save").addEventListener("click", () => {
   const settings = settingsOf(location.hash);
   const { title } = DEVICES.get(settings.device);
-  download("device.toml", deviceText(valuesOf(settings), settings.changes.size ? "" : title));
+  const isOther = PARAMETERS.some(({ name }) => settings.changes.has(name));
+  download("device.toml", deviceText(valuesOf(settings), isOther ? "" : title));
 });
 byId("share").addEventListener("click", async () => {
   await navigator.clipboard.writeText(location.href);

@@ -290,6 +290,12 @@ def test_a_saved_device_file_is_the_device_for_other_commands(
     path = saved(browser, tmp_path, browser.find_element(By.ID, "save"))
     wanted = Device.from_mapping(read_device_file(name).values | {"friction_coefficient": 0.35})
     assert Device.from_mapping(read_device_file(str(path)).values) == wanted
+    show(browser, page, address({"device": name, "phase": 0.3}))
+    (tmp_path / "same").mkdir()
+    same = saved(browser, tmp_path / "same", browser.find_element(By.ID, "save"))
+    assert read_device_file(str(same)).title == read_device_file(name).title, (
+        "inputs are not its own"
+    )
     show(browser, page)
     browser.find_element(By.ID, "file").send_keys(str(path))
     WebDriverWait(browser, SECONDS).until(
