@@ -7,7 +7,6 @@ from slider_resonator.steady.reference_steady import (
     reference_blocking_force,
     reference_steady_velocity,
 )
-from tests.harness.references.lugre_problems import unit_device
 
 TABLE_1 = Device()
 
@@ -26,6 +25,28 @@ KAPPAS = [
     pytest.param(kappa, marks=() if kappa in QUICK else pytest.mark.slow)
     for kappa in (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 ]
+
+
+def unit_device(kappa: float, frequency: float, amplitude_ratio: float) -> Device:
+    """Model 2 of the paper with q = 1, mu = 0.4, sigma_1 = 1 at a stiffness number kappa.
+
+    In its units x0 = 1 m, w0 = 1 rad/s: one mass, driven directly, on one face.
+    """
+    friction = 0.4
+    return Device(
+        slider_mass=1.0,
+        resonator_mass=0.0,
+        base_amplitude=0.0,
+        tangential_force=frequency,
+        drive_frequency=frequency,
+        normal_amplitude=amplitude_ratio,
+        friction_coefficient=friction,
+        friction_faces=1,
+        friction_law=1,
+        bristle_stiffness=kappa * friction * frequency,
+        bristle_damping=1.0,
+        fidelity=1,
+    )
 
 
 @pytest.mark.parametrize("amplitude_ratio", [0.8, 1.6])
