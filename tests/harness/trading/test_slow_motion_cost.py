@@ -5,7 +5,6 @@ Both are run in turn, and the ratio is the median of these pairs, so that a busy
 down.
 """
 
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import tau
@@ -15,7 +14,9 @@ import numpy as np
 import pytest
 
 from slider_resonator.arrays import Array
+from slider_resonator.device.schedule import schedule
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.run import run
 
 PAIRS = 5
 PERIOD = tau / 3500.0
@@ -62,17 +63,8 @@ def mean_velocities(
     The instance is new: an old one may keep tables.
     """
     instance.recreate()
-    instance.set_up()
-    instance.set(values)
-    read = instance.block(("mean_velocity",)).read
-    found = []
-    began = time.process_time()
-    instance.call("fmi2EnterInitializationMode")
-    instance.begin()
-    for _ in range(count):
-        instance.step_by(size)
-        found += read()
-    return np.array(found), time.process_time() - began
+    found = run(instance, values, schedule(count * size, size), outputs=("mean_velocity",))
+    return found["mean_velocity"], found.start_cpu + found.step_cpu
 
 
 @pytest.mark.parametrize(
