@@ -45,6 +45,8 @@ FAULTS: Mapping[str, tuple[int, str]] = {
     "kill_parent": (2, "its process ended with SIGKILL"),
 }
 """What the FMU does in fmi2DoStep, with the exit code of `validate` and the reason."""
+OFTEN = ("fork_and_exit", "fork_twice")
+"""Run on each push."""
 ENDED_SOON = ("fork_many", "eat")
 """Ended once they have too much, which takes some seconds on a busy machine."""
 
@@ -100,10 +102,7 @@ def outlive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., tu
 
 @pytest.mark.parametrize(
     "fault",
-    [
-        pytest.param(name, marks=() if name == "fork_and_exit" else pytest.mark.slow)
-        for name in FAULTS
-    ],
+    [pytest.param(name, marks=() if name in OFTEN else pytest.mark.slow) for name in FAULTS],
 )
 def test_validate_outlives_an_fmu(
     hostile_fmu: Path, tmp_path: Path, outlive: Callable[..., tuple[int, str]], fault: str

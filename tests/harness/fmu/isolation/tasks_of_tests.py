@@ -74,18 +74,6 @@ def start_child(instance: Instance, pid_file: Path) -> None:
         os.abort()
 
 
-def start_daemon(instance: Instance, pid_file: Path) -> None:
-    """Start a process that leaves the session, and whose parent ends at once."""
-    if os.fork() == 0:
-        os.setsid()
-        child = os.fork()
-        if child:
-            pid_file.write_text(str(child))
-            os._exit(0)
-        time.sleep(600.0)
-    os.wait()
-
-
 def print_much(instance: Instance) -> None:
     """Print more than a file may have."""
     for _ in range(80):

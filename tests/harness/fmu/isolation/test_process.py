@@ -1,4 +1,3 @@
-import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import chdir
@@ -124,15 +123,6 @@ def test_a_process_that_does_not_end_itself_is_killed(
     with pytest.raises(FmuDied, match="within the time limit of 1 s"):
         isolated.run(tasks.stop)
     assert not list(temporary.iterdir())
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="only Linux hands orphans over")
-def test_a_process_that_has_left_the_session_is_ended(native_fmu: Path, tmp_path: Path) -> None:
-    pid_file = tmp_path / "pid"
-    with IsolatedFmu(native_fmu, 60.0) as isolated:
-        isolated.run(partial(tasks.start_daemon, pid_file=pid_file))
-        assert not has_ended(int(pid_file.read_text()), tries=1)
-    assert has_ended(int(pid_file.read_text()))
 
 
 def test_what_an_fmu_prints_is_limited(isolated: IsolatedFmu) -> None:
