@@ -52,11 +52,11 @@ def altered(fmu: Path, out: Path, alter: Callable[[str, bytes], bytes | None]) -
     return out
 
 
-def redescribed(fmu: Path, out: Path, old: bytes, new: bytes) -> Path:
-    """Copy an FMU with one place in its description replaced."""
+def redescribed(fmu: Path, out: Path, old: bytes, new: bytes, file: str = DESCRIPTION) -> Path:
+    """Copy an FMU with one place in its description, or in another file, replaced."""
 
     def alter(name: str, content: bytes) -> bytes:
-        return content.replace(old, new, 1) if name == DESCRIPTION else content
+        return content.replace(old, new, 1) if name == file else content
 
     return altered(fmu, out, alter)
 

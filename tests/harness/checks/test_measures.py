@@ -90,34 +90,32 @@ def test_the_travel_of_the_last_step_alone_counts() -> None:
 
 
 TABLE_1 = Device()
+STILL = replace(TABLE_1, base_amplitude=0.0)
+FREE = replace(TABLE_1, friction_coefficient=0.0)
+RESONANT = replace(FREE, damping_ratio=0.0, resonator_frequency=3500.0 * (1 / 1.1) ** 0.5)
+CHANGE = 2.0 * 0.1 * 2.0 / (1.1 * 3500.0)
+"""Of the velocity by friction, in a radian of the drive."""
 
 
-def scale(quantity: str, device: Device = TABLE_1) -> float:
-    return smallest_reference(quantity, device) / NEAR_ZERO
-
-
-def test_scales_of_table_1_are_those_of_the_paper() -> None:
-    assert scale("steady_velocity") == pytest.approx(910.947 / (1.1 * 3500.0), rel=1e-5)
-    assert scale("position") == pytest.approx(67.603e-6, rel=1e-4)
-    assert scale("blocking_force") == pytest.approx(2 * 0.1 * (1.0 + 1.0))
-    assert scale("normal_force") == 2.0
-
-
-def test_quantities_without_a_scale_have_none() -> None:
-    frictionless = replace(TABLE_1, friction_coefficient=0.0)
-    assert scale("velocity", replace(frictionless, base_amplitude=0.0)) == 0.0
-    assert scale("beat_frequency") == 0.0, "a beat may be as slow as it likes"
-    undamped = replace(TABLE_1, damping_ratio=0.0, resonator_frequency=3500.0 * (1 / 1.1) ** 0.5)
-    frictionless = replace(undamped, friction_coefficient=0.0)
-    assert scale("velocity", frictionless) == 0.0, "at resonance the vibration grows for ever"
-
-
-def test_without_vibration_friction_gives_the_scale() -> None:
-    """It changes the velocity by at most this in a radian of the drive."""
-    still = replace(TABLE_1, base_amplitude=0.0)
-    change = 2.0 * 0.1 * 2.0 / (1.1 * 3500.0)
-    assert scale("velocity", still) == pytest.approx(change)
-    assert scale("position", still) == pytest.approx(change / 3500.0)
+@pytest.mark.parametrize(
+    ("quantity", "device", "scale"),
+    [
+        ("steady_velocity", TABLE_1, pytest.approx(910.947 / (1.1 * 3500.0), rel=1e-5)),
+        ("position", TABLE_1, pytest.approx(67.603e-6, rel=1e-4)),
+        ("blocking_force", TABLE_1, pytest.approx(2 * 0.1 * (1.0 + 1.0))),
+        ("normal_force", TABLE_1, 2.0),
+        # Without vibration friction gives the scale.
+        ("velocity", STILL, pytest.approx(CHANGE)),
+        ("position", STILL, pytest.approx(CHANGE / 3500.0)),
+        # These have none: at resonance the vibration grows for ever, a beat is as slow as it likes.
+        ("velocity", replace(FREE, base_amplitude=0.0), 0.0),
+        ("velocity", RESONANT, 0.0),
+        ("beat_frequency", TABLE_1, 0.0),
+    ],
+)
+def test_natural_scales(quantity: str, device: Device, scale: float) -> None:
+    """Those of table 1 are the paper's."""
+    assert smallest_reference(quantity, device) / NEAR_ZERO == scale
 
 
 def overview(count: int, *quantities: str, tube: bool = False) -> Curves:

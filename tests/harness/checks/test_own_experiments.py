@@ -12,16 +12,9 @@ from slider_resonator.checks.own_experiments import own_experiments, validate_ow
 from slider_resonator.fmu.opening import Fmu
 from tests.fmus import every_slider
 from tests.harness.calling import call, refused
-from tests.harness.faulty_fmus import altered
+from tests.harness.faulty_fmus import altered, redescribed
 
 OWN = "extra/org.fmi-standard.fmi-ls-ref/"
-
-
-def with_file(fmu: Path, folder: Path, name: str, old: bytes, new: bytes) -> Path:
-    def alter(place: str, content: bytes) -> bytes:
-        return content.replace(old, new, 1) if place == OWN + name else content
-
-    return altered(fmu, folder / "altered.fmu", alter)
 
 
 @every_slider
@@ -34,8 +27,9 @@ def test_every_build_carries_experiments_and_agrees_with_them(fmu: Fmu) -> None:
 
 def test_wrong_result_has_experiment_variable_and_time(native_fmu: Path, tmp_path: Path) -> None:
     (experiment,) = (e for e in own_experiments(native_fmu) if e.scene.name == "table_1")
-    value = f"{experiment.results['velocity'][50]:.12g}".encode()
-    wrong = with_file(native_fmu, tmp_path, "table_1_ref.csv", b"," + value, b"," + value + b"1e-3")
+    value = f",{experiment.results['velocity'][50]:.12g}".encode()
+    results = f"{OWN}table_1_ref.csv"
+    wrong = redescribed(native_fmu, tmp_path / "a.fmu", value, value + b"1e-3", results)
     result = call("validate", wrong, "--own")
     assert result.exit_code == 1, result.output
     said = " ".join(result.output.split())
@@ -67,7 +61,8 @@ def test_wrong_result_has_experiment_variable_and_time(native_fmu: Path, tmp_pat
 def test_experiments_that_cannot_be_read_are_named(
     native_fmu: Path, tmp_path: Path, name: str, old: bytes, new: bytes, text: str
 ) -> None:
-    (validation,) = validate_own([with_file(native_fmu, tmp_path, name, old, new)])
+    other = redescribed(native_fmu, tmp_path / "a.fmu", old, new, OWN + name)
+    (validation,) = validate_own([other])
     (failure,) = validation.run_failures
     assert text in failure.reason
 

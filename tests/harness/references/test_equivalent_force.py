@@ -11,7 +11,6 @@ from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
 
 TABLE_1 = Device()
-SLIPPING_RESONANCE = {"damping_ratio": 0.0, "resonator_frequency": 3500.0 * math.sqrt(1.0 / 1.1)}
 
 
 def test_table_1_figures() -> None:
@@ -56,18 +55,3 @@ def test_equivalent_force_matches_the_frictionless_device(device: Device) -> Non
     resonator = force.resonator_amplitude * np.sin(frequency * times + turned)
     allowed = 1e-7 * abs(force.resonator_amplitude)
     assert run.resonator_displacement == pytest.approx(resonator, abs=allowed), "as (32) says"
-
-
-@pytest.mark.parametrize(
-    ("changed", "load", "message"),
-    [
-        ({}, 0.25, r"load = 0\.25 .* 0\.2"),
-        ({"normal_amplitude": 3.0}, 0.32, r"load = 0\.32"),
-        ({"base_amplitude": 0.0}, 0.0, r"base_amplitude = 0\.0 m and tangential_force"),
-        ({"normal_preload": 0.0}, 0.0, r"normal_preload = 0\.0 N must be greater than 0"),
-        (SLIPPING_RESONANCE, 0.0, r"damping_ratio = 0\.0 .* greater than 0"),
-    ],
-)
-def test_device_without_average(changed: dict[str, float], load: float, message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        steady_velocity(Device.from_mapping(changed), 0.0, load, 1.0)

@@ -137,39 +137,3 @@ def test_a_scene_is_made_of_data_without_a_file(tmp_path: Path) -> None:
     assert (scene.source, scene.files) == ("a table", (tmp_path / "load.csv",))
     with pytest.raises(SceneError, match="a table: titel: unknown key 'titel'"):
         scene_from({"name": "mine", "titel": "Mine"}, "a table")
-
-
-CSV = '{ csv = "x.csv" }\n'
-RECORDED = {
-    f"[inputs]\nload = {CSV}": "inputs.load",
-    f"[tuning]\nnormal_preload = {CSV}": "tuning.normal_preload",
-    f"[beside.inputs]\nphase = {CSV}": "beside.inputs.phase",
-}
-"""Tables that take the values of a CSV file, and the key that does."""
-
-
-@pytest.mark.parametrize("text", RECORDED)
-def test_a_csv_that_a_run_goes_beyond_is_refused(tmp_path: Path, text: str) -> None:
-    csv = tmp_path / "x.csv"
-    for first, stop, span in (
-        (0.01, 0.05, r"from 0\.01 s to 0\.05 s, must have them from 0 s to 0\.05 s"),
-        (-1, 0.06, r"must have them from 0 s to 0\.06 s, the end of the run"),
-    ):
-        csv.write_text(f"time,value\n{first},1\n0.05,2\n")
-        with pytest.raises(SceneError, match=rf"{RECORDED[text]}: csv .*x\.csv: .*{span}"):
-            scene_of(RUN.replace("0.1", f"{stop}") + text, tmp_path)
-    assert scene_of(RUN.replace("0.1", "0.05") + text, tmp_path).stop_time == 0.05
-
-
-@pytest.mark.parametrize(
-    "expect",
-    [
-        'quantity = "reversals"\nvalue = 3',
-        'quantity = "steady_status"\nvalue = "stuck"',
-        'quantity = "contact_mode"\nreference = "located_events"',
-        'quantity = "steady_velocity"\nat_most = 1.0',
-        'quantity = "steady_velocity"\nvalue = 0.0\nabsolute = 0.0',
-    ],
-)
-def test_counts_words_and_bounds_need_no_tolerance_and_0_is_one(expect: str) -> None:
-    assert len(scene_of(f'{RUN}[[expect]]\n{expect}\nwhy = "test"\n').expect) == 1

@@ -81,17 +81,6 @@ def test_phase_is_slow_up_to_a_detuning_of_one_tenth() -> None:
     assert (np.diff(beating.mean_velocity) > 0.0).any(), "with one it swings"
 
 
-def test_invalid_averages_are_refused() -> None:
-    held = [HeldInputs(0.0, 1.0)]
-    with pytest.raises(ValueError, match=r"normal_preload = 0\.0"):
-        simulate_averaged(replace(COULOMB, normal_preload=0.0), held, np.array([1.0]))
-    with pytest.raises(ValueError, match="within the held inputs"):
-        simulate_averaged(COULOMB, held, np.array([2.0]))
-    block, growing = replace(COULOMB, base_amplitude=0.0), HeldInputs(0.0, 1.0, load_rate=0.3)
-    with pytest.raises(ValueError, match=r"load_rate = 0\.3: must be 0"):
-        simulate_averaged(block, [growing], np.array([1.0]))
-
-
 @pytest.mark.parametrize("law", [0, 1])
 def test_friction_and_load_are_the_rate_of_momentum(law: int) -> None:
     device = Device(fidelity=0, normal_amplitude=1.3, friction_law=law, friction_faces=1)

@@ -88,12 +88,6 @@ def test_mean_friction_matches_an_integrated_bristle(
     assert found == pytest.approx(mean, abs=2e-7), "the explicit periodic response is the response"
 
 
-@pytest.mark.parametrize("stiffness", [0.0, math.nan])
-def test_invalid_bristles_are_refused_by_name(stiffness: float) -> None:
-    with pytest.raises(ValueError, match=r"stiffness = .* must be greater than 0"):
-        uniform_average.mean_friction(0.1, LugreCase(), stiffness, 1.0)
-
-
 @pytest.mark.parametrize(
     ("amplitude_ratio", "ratio", "turns"),
     [(1.0, 2.0, 1), (1.0, 1.5, 0), (1.1, 1.5, 2), (3.0, -2 / 3, 3), (3.0, 0.25, 4), (3.0, 0.2, 0)],

@@ -11,7 +11,6 @@ from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved.contact import is_lifted, time_to_contact_change
 from slider_resonator.references.resolved.mode_sequence import ModeSequence, Segment, SegmentResult
 from slider_resonator.references.resolved.polynomial_roots import first_fall
-from slider_resonator.references.resolved.simulate import simulate
 
 
 @pytest.mark.parametrize("rate", [3500.0, -3500.0, 0.5])
@@ -107,8 +106,3 @@ def test_unresolvable_contact_is_an_error_with_its_time() -> None:
 
     with pytest.raises(RuntimeError, match=r"contact at t = 0\.25 s"):
         ModeSequence(BLOCK, stuttering, np.empty(0)).run([HeldInputs(0.25, 1.0)])
-
-
-def test_times_outside_are_refused() -> None:
-    with pytest.raises(ValueError, match="must lie within"):
-        simulate(BLOCK, [HeldInputs(0.0, 1.0)], np.array([1.5]))
