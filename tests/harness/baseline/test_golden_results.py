@@ -73,9 +73,7 @@ def test_judged_changes(point: ScenePoint, name: str, golden: Any, now: Any, pas
     assert verdict.against == "baseline"
 
 
-def test_new_and_missing_quantities_are_changes_and_other_points_another_run(
-    point: ScenePoint,
-) -> None:
+def test_missing_quantities_are_changes(point: ScenePoint) -> None:
     golden = {"reversals": Measurement(199.0)}
     ((new, _),) = compare_golden(point, {}, golden, 1e-8)
     ((gone, _),) = compare_golden(point, golden, {}, 1e-8)

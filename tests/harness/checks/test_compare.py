@@ -142,9 +142,7 @@ def test_near_a_reference_of_zero_the_absolute_tolerance_counts(noise: float, pa
 
 
 @pytest.mark.parametrize(("noise", "passed"), [(5e-19, True), (2e-18, False)])
-def test_zero_without_a_scale_may_be_the_rounding_of_a_usual_value(
-    noise: float, passed: bool
-) -> None:
+def test_rounding_passes_for_zero(noise: float, passed: bool) -> None:
     verdict = judge(
         fmu(record=RecordOf(resonator_displacement=noise * WAVE)),
         reference(signal=lambda name, output: 0.0 * WAVE),

@@ -126,9 +126,7 @@ RESONANCE = "resonator_frequency = 2474.8737341529163"
         (f"damping_ratio = 0.0\nresonator_mass = 1.0\n{RESONANCE}", False),
     ],
 )
-def test_averages_serve_without_friction_or_vibration_but_not_in_undamped_resonance(
-    instance: Instance, device: str, averages: bool
-) -> None:
+def test_averages_of_special_devices(instance: Instance, device: str, averages: bool) -> None:
     run = "[run]\ndrive_periods = 500\nsteps_per_period = 1\n"
     text = f"[device]\n{device}\n{run}[need]\nmean_velocity = {{ rel = 0.05 }}\n"
     choice = choose_with(instance, scene_of(text))

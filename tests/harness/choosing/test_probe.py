@@ -17,7 +17,7 @@ AVERAGED = Candidate(Model(0, 0, 1), 1e-8, None)
 
 
 @pytest.mark.usefixtures("stated_costs")
-def test_a_scene_that_cannot_be_resolved_as_a_whole_confirms_the_resolved_model_only(
+def test_partial_probe_confirms_only_the_resolved_model(
     instance: Instance, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(probes, "LONGEST", 1e-3)

@@ -174,7 +174,7 @@ def test_ramps_apply_to_some_fmus_only(native_fmu: Path, python_fmu: Path, tmp_p
     assert "canInterpolateInputs" in said
 
 
-def test_scenes_that_do_not_apply_are_left_out_unless_they_are_named(
+def test_scenes_that_do_not_apply_are_left_out(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     old = faulty_fmus.without_later_variables(native_fmu, tmp_path / "old.fmu")

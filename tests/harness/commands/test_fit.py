@@ -61,7 +61,7 @@ def test_what_is_left_open_is_exit_code_1(data: Path, native_fmu: Path) -> None:
         ("--blocking=2 N", 0, "above 1.5: check normal_preload, units and signs, and friction_f"),
     ],
 )
-def test_datasheets_that_hardly_any_device_has_are_noted(
+def test_doubtful_datasheets_are_noted(
     native_fmu: Path, datasheet: str, code: int, text: str
 ) -> None:
     free = ("--free", "friction_coefficient", "--starts", 3, "--fmu", native_fmu)

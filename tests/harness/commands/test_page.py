@@ -16,9 +16,7 @@ def fmu_with(page: str, folder: Path) -> Path:
     return folder / "with_page.fmu"
 
 
-def test_without_settings_the_page_is_that_in_the_fmu_or_beside_it(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_the_page_is_in_the_fmu_or_beside_it(native_fmu: Path, tmp_path: Path) -> None:
     beside = Path(shutil.copy(native_fmu, tmp_path))
     (tmp_path / "slider-resonator.html").write_text(PAGE, encoding="utf-8")
     for fmu in (fmu_with(PAGE, tmp_path), beside):

@@ -37,9 +37,7 @@ step_size = 0.005
 """
 
 
-def test_scene_or_option_say_how_lines_reach_the_fmu(
-    native_fmu: Path, python_fmu: Path, tmp_path: Path
-) -> None:
+def test_ramps_are_held_or_passed_on(native_fmu: Path, python_fmu: Path, tmp_path: Path) -> None:
     held, passed = tmp_path / "held.toml", tmp_path / "passed.toml"
     held.write_text(LINE)
     passed.write_text(LINE + "interpolate = true\n")

@@ -32,7 +32,7 @@ def text_of(*arguments: object, code: int = 0) -> str:
     return result.output
 
 
-def test_results_of_the_axes_are_written(
+def test_results_of_axes_are_written(
     native_fmu: Path, tmp_path: Path, few_cases: list[Case]
 ) -> None:
     flies = Limit("position", 1.0, 1e-9, "it flies")
@@ -95,7 +95,7 @@ def test_old_names_go_on_working(native_fmu: Path, monkeypatch: pytest.MonkeyPat
     assert drawn == [(7, 3), (7, 4)]
 
 
-def test_a_device_is_run_by_all_models_and_again_by_the_name_of_a_case(
+def test_a_device_is_run_by_all_models(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     mine = tmp_path / "mine.toml"

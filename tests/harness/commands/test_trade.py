@@ -27,7 +27,7 @@ from tests.html_pages import Page
 
 
 @pytest.mark.slow
-def test_every_method_is_a_row_or_an_omission_and_the_files_can_be_read(
+def test_every_method_is_in_the_files(
     native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # A nearer guess spares searches for steady motion some steps: no answer depends on it.

@@ -54,7 +54,7 @@ def test_a_failure_exits_with_1(native_fmu: Path, tmp_path: Path) -> None:
         (b"</ModelStructure>", b"", "modelDescription.xml cannot be read"),
     ],
 )
-def test_run_failures_exit_with_2_and_all_reports(
+def test_run_failures_are_in_all_reports(
     native_fmu: Path, tmp_path: Path, old: bytes, new: bytes, cause: str
 ) -> None:
     fmu = faulty_fmus.redescribed(native_fmu, tmp_path / "faulty.fmu", old, new)

@@ -63,7 +63,7 @@ def test_outputs_are_read_before_and_after_a_change() -> None:
     st.lists(st.floats(-1, 12), min_size=1, max_size=20),
     st.booleans(),
 )
-def test_vectorised_values_equal_single_values(
+def test_signal_over_times(
     points: list[tuple[float, float]], times: list[float], hold: bool
 ) -> None:
     ascending = sorted(dict(points).items())

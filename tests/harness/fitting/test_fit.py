@@ -146,7 +146,7 @@ def test_a_run_is_fitted_over_time(instance: Instance, first: int) -> None:
 @pytest.mark.parametrize(
     ("run_noise", "points"), [(5e-7, POINTS * 2), (5e-5, POINTS * 2), (5e-5, POINTS[:4])]
 )
-def test_noisy_source_does_not_outweigh_an_exact_one(
+def test_noise_is_that_of_each_source(
     instance: Instance, run_noise: float, points: Sequence[Point]
 ) -> None:
     """Each quantity of each source errs by what its own residuals say.
@@ -242,7 +242,7 @@ def test_slopes_at_a_bound_are_those_inside(instance: Instance) -> None:
         (["slider_mass"], {"slider_mass": (-1.0, 1.0)}, "slider_mass = -1.0: must be a finite"),
     ],
 )
-def test_what_cannot_be_free_is_refused(
+def test_refused_free_parameters(
     free: list[str], bounds: dict[str, tuple[float, float]], said: str
 ) -> None:
     with pytest.raises(HarnessError) as error:

@@ -54,9 +54,7 @@ def test_a_refusal_carries_the_words_of_the_fmu(instance: Instance) -> None:
     assert record.final("position") != 0.0, "the instance is usable after a refusal"
 
 
-def test_an_instance_that_cannot_be_created_again_is_not_used_after_it_was_freed(
-    fmu: Fmu, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_instance_that_cannot_be_recreated(fmu: Fmu, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object, **__: object) -> None:
         raise OSError("no memory")
 
@@ -71,7 +69,7 @@ def test_an_instance_that_cannot_be_created_again_is_not_used_after_it_was_freed
         assert instance.value("position") == 0.0
 
 
-def test_loading_a_library_leaves_the_working_folder_as_it_is(
+def test_loading_leaves_the_working_folder(
     fmu: Fmu, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     before = Path.cwd()

@@ -86,9 +86,7 @@ def test_what_declares_no_dependencies_depends_on_all(native_fmu: Path, tmp_path
         assert description_faults(fmu.description) == []
 
 
-def test_files_that_are_missing_unlisted_or_of_another_platform_are_named(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_wrong_files_of_an_archive_are_named(native_fmu: Path, tmp_path: Path) -> None:
     description = read_model_description(str(native_fmu))
     with ZipFile(native_fmu) as archive:
         archive.extractall(tmp_path)

@@ -18,9 +18,7 @@ from tests.harness.scene_text import HEAD, read_scene
         ("mistakes_beyond_the_schema.txt", HEAD),
     ],
 )
-def test_a_mistake_is_one_line_with_file_key_and_remedy(
-    tmp_path: Path, name: str, head: str
-) -> None:
+def test_mistakes_are_explained(tmp_path: Path, name: str, head: str) -> None:
     (tmp_path / "short.csv").write_text("time,load\n0,0\n0.05,1\n")
     (tmp_path / "late.csv").write_text("time,load\n0.01,1\n0.1,2\n")
     (tmp_path / "bare.csv").write_text("0,0\n1,1\n")

@@ -50,9 +50,7 @@ IN_FLIGHT = {"frequency_ratio": 2.0, "normal_amplitude": 3.0}
         ),
     ],
 )
-def test_missing_steady_motion_is_explained(
-    instance: Instance, values: Values, status: str, reason: str
-) -> None:
+def test_no_steady_motion(instance: Instance, values: Values, status: str, reason: str) -> None:
     motion = find_steady(instance, values)
     assert (motion.steady_velocity, motion.status) == (None, status)
     assert reason in motion.reason
@@ -110,9 +108,7 @@ def test_searches_find_what_the_reference_has(instance: Instance, values: Values
         {"normal_preload": 0.0},
     ],
 )
-def test_run_from_the_steady_state_stays_there(
-    instance: Instance, stiffness: float, changed: Values
-) -> None:
+def test_steady_state_stays(instance: Instance, stiffness: float, changed: Values) -> None:
     values = {**LUGRE, "bristle_stiffness": stiffness, "tolerance": 1e-11, **changed}
     motion = find_steady(instance, values)
     assert motion.status == "steady"
@@ -165,7 +161,7 @@ def test_a_bristle_without_friction_does_not_matter(changed: Values) -> None:
     assert not facts(**{**LUGRE, **changed}).bends
 
 
-def test_a_bristle_needs_outputs_that_follow_what_is_set(
+def test_outputs_must_follow_what_is_set(
     instance: Instance, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     set_values = instance.set

@@ -195,9 +195,7 @@ def test_kept_points_do_not_replace_other_results(native_fmu: Path, tmp_path: Pa
 
 
 @pytest.mark.slow
-def test_a_cluster_writes_the_same_table_as_this_machine_also_when_a_worker_is_killed(
-    native_fmu: Path, tmp_path: Path
-) -> None:
+def test_cluster_writes_the_same_table(native_fmu: Path, tmp_path: Path) -> None:
     start: Callable[..., LocalCluster] = LocalCluster
     victims: list[int] = []
 

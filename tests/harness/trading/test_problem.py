@@ -107,9 +107,7 @@ def test_each_error_is_a_share_of_the_peak(short: Problem) -> None:
     assert found["event_times"] == pytest.approx(1e-3), "in drive periods"
 
 
-def test_a_shorter_run_is_compared_where_it_has_been_and_nan_is_infinitely_wrong(
-    short: Problem,
-) -> None:
+def test_short_runs_and_nan_have_errors(short: Problem) -> None:
     solution = drifting(short)
     early = solution.times <= 2.0001 * short.period
     half = Solution(solution.times[early], solution.position[early], solution.velocity[early])

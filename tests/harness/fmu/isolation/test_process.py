@@ -71,7 +71,7 @@ def test_an_interrupted_task_leaves_no_answer_to_the_next(native_fmu: Path) -> N
             interrupted.run(tasks.disturb)
 
 
-def test_a_process_that_cannot_be_listened_to_is_ended(
+def test_process_without_listener_is_ended(
     native_fmu: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[Supervised] = []
@@ -115,7 +115,7 @@ def test_a_crash_of_fmi_3_names_its_function(native_3_fmu: Path) -> None:
         isolated.run(tasks.crash_in_step_of_fmi_3)
 
 
-def test_a_process_that_does_not_end_itself_is_killed(
+def test_stopped_process_is_killed(
     native_fmu: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     isolated = IsolatedFmu(native_fmu, 1.0)

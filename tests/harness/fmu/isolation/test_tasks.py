@@ -73,7 +73,7 @@ def test_an_fmu_that_cannot_be_used_is_reported_once(tmp_path: Path) -> None:
     assert "no such file" in str(outcome.error)
 
 
-def test_an_fmu_that_opens_once_at_a_time_runs_in_one_process(
+def test_fmu_that_opens_once_has_one_process(
     native_fmu: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[object] = []

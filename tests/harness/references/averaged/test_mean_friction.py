@@ -47,7 +47,7 @@ def test_slow_start_is_the_momentum_of_the_drive() -> None:
 
 @pytest.mark.parametrize(("velocity", "stiffness"), [(-0.6, 20.0), (0.0, 20.0), (0.3, 1000.0)])
 @pytest.mark.parametrize(("ratio", "amplitude_ratio"), [(1, 0.8), (3, 1.9)])
-def test_mean_friction_matches_an_integrated_bristle(
+def test_integrated_bristle_has_the_mean_friction(
     velocity: float, stiffness: float, ratio: int, amplitude_ratio: float
 ) -> None:
     """The bristle as a state under the prescribed velocity, over the turn that it repeats.
