@@ -1,13 +1,16 @@
-"""Steps and tolerances that are tried."""
+"""Steps and tolerances that are tried, what their errors are measured against, and their cost."""
 
 from itertools import pairwise
 from math import inf, log2, pi
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from slider_resonator.choosing.candidate import coarsest
-from slider_resonator.choosing.probe import Probe
+from slider_resonator.choosing import probe as probes
+from slider_resonator.choosing.candidate import Candidate, coarsest
+from slider_resonator.choosing.probe import CAUTION, Probe
+from slider_resonator.device.model import Model
 from slider_resonator.fmu.instance import Instance
 from tests.harness.scene_text import scene_of
 
@@ -73,3 +76,38 @@ def test_numbers_at_the_end_of_a_long_scene_are_tried_in_halves(instance: Instan
     run = "[run]\ndrive_periods = 70000\nsteps_per_period = 1\n[need]\n"
     steps = ladder(instance, f"{run}mean_velocity = {{ rel = 0.1 }}\n")
     assert [round(step / PERIOD) for step in steps] == [70_000, 35_000, 17_500, 8750]
+
+
+RUN = "[run]\ndrive_periods = {}\nsteps_per_period = 0.01\n[need]\n{} = {{ rel = {} }}\n"
+RESOLVED, AVERAGED = Model(2, 0), Model(0, 0, 1)
+
+
+@pytest.mark.usefixtures("stated_costs")
+def test_partial_probe_confirms_only_the_resolved_model(
+    instance: Instance, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(probes, "LONGEST", 1e-3)
+    text = f"[inputs]\nfrequency_ratio = 1.01\n{RUN.format(1e5, 'position', 0.1)}"
+    probe = Probe(instance, scene_of(text))
+    step = probe.scene.step_size
+    averaged, _ = probe.measure(Candidate(AVERAGED, 1e-8, step))
+    resolved, seconds = probe.measure(Candidate(RESOLVED, 1e-8, step))
+    assert probe.covers == "beginning"
+    assert averaged["position"].error == inf
+    assert "too long" in averaged["position"].reason
+    assert resolved["position"].error > 5.0 * CAUTION * 1e-12 * resolved["position"].magnitude
+    assert seconds > 0.01
+
+
+@pytest.mark.usefixtures("stated_costs")
+def test_steps_of_no_effect_are_joined(instance: Instance, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = RUN.format(4000, "position", 0.1).replace("0.01", "1")
+    found = []
+    for steps in (probes.MAX_STEPS, 100):
+        monkeypatch.setattr(probes, "MAX_STEPS", steps)
+        monkeypatch.setattr(probes, "TIMED_STEPS", steps)
+        probe = Probe(instance, scene_of(text))
+        found.append(probe.measure(Candidate(AVERAGED, 1e-8, probe.scene.step_size)))
+    one, joined = (errors["position"].error for errors, _ in found)
+    assert joined == pytest.approx(one, rel=0.1)
+    assert found[1][1] == pytest.approx(found[0][1], rel=0.1), "all steps cost"

@@ -1,4 +1,7 @@
-"""Motions with closed forms, which the reference must reproduce."""
+"""Motions with closed forms, also under inputs and parameters that change."""
+
+import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -6,7 +9,9 @@ import pytest
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.resolved.contact import STICK
+from slider_resonator.references.averaged.averaged_motion import simulate_averaged
+from slider_resonator.references.phase import Elapsed, advanced
+from slider_resonator.references.resolved.contact import LIFTED, STICK
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 
@@ -91,3 +96,72 @@ def test_slider_breaks_loose_where_the_drive_exceeds_friction() -> None:
     assert deviation(run, "velocity", np.maximum(push, 0.0) / FREQUENCY) <= ALLOWED
     assert run.event_times[0] == pytest.approx(release / FREQUENCY, rel=1e-13)
     assert run.contact_mode[np.searchsorted(times, run.event_times[0])] == 1
+
+
+def test_contact_changes_of_a_chirp_are_exact() -> None:
+    chirp = HeldInputs(0.0, 0.03, 0.2, 0.01, 1.0, ratio_rate=13.0)
+    run = simulate(Device(normal_amplitude=1.6), [chirp], np.array([chirp.stop]))
+    changes = run.event_times[np.flatnonzero(np.diff(run.modes == 2))]
+    assert len(changes) > 10
+    angle = 0.2 + 3500.0 * (changes + 0.5 * 13.0 * changes**2)
+    assert np.abs(1.0 + 1.6 * np.sin(angle)).max() < 1e-11
+
+
+def test_flight_under_a_chirp_that_fades_is_seen() -> None:
+    """1 + 3 sin(-1.1) < 0: the contact is open, though the chirp ends before it would touch."""
+    held = HeldInputs(0.0, 9e-5, phase=-1.1, frequency_ratio=0.1, ratio_rate=-1000.0)
+    motion = simulate(Device(normal_amplitude=3.0), [held], np.array([9e-5]))
+    assert motion.contact_mode[-1] == LIFTED
+
+
+def test_another_drive_frequency_changes_a_rate_and_no_phase() -> None:
+    """Without friction a rigid slider under F sin(theta) has M v = F (1 - cos theta) / w."""
+    slider = Device(resonator_mass=0.0, friction_coefficient=0.0, tangential_force=2.0)
+    inputs = [
+        HeldInputs(0.0, 0.3, tuned=(("drive_frequency", 10.0),)),
+        HeldInputs(0.3, 0.6, tuned=(("drive_frequency", 17.0),)),
+    ]
+    motion = simulate(slider, inputs, np.array([0.3, 0.6]))
+    first = 2.0 * (1.0 - math.cos(3.0)) / 10.0
+    second = first + 2.0 * (math.cos(3.0) - math.cos(3.0 + 17.0 * 0.3)) / 17.0
+    assert motion.velocity == pytest.approx([first, second], rel=1e-12)
+    angle = np.array([3.0, 3.0 + 17.0 * 0.3])
+    assert motion.normal_force == pytest.approx(np.maximum(0.0, 1.0 + np.sin(angle)))
+
+
+@pytest.mark.parametrize("at", [0.0501, 0.0504, 0.0507])
+def test_averaged_motion_takes_over_what_the_resolved_device_has(at: float) -> None:
+    """Whatever the angle at which the drive changes, the slow velocity must be that of the pair."""
+    device = Device(damping_ratio=0.2)
+    inputs = [
+        HeldInputs(0.0, at, tuned=(("base_amplitude", 1e-4), ("drive_frequency", 3500.0))),
+        HeldInputs(at, 0.15, tuned=(("base_amplitude", 5e-5), ("drive_frequency", 3200.0))),
+    ]
+    period = 2.0 * math.pi / 3200.0
+    times = 0.15 - np.array([1.0, 0.0]) * period
+    resolved = simulate(device, inputs, times)
+    mean = float(np.diff(resolved.position)[0]) / period
+    averaged = simulate_averaged(device, inputs, times)
+    jump = 0.1 * 3500.0 * 5e-5 / 1.1
+    assert float(averaged.mean_velocity.mean()) == pytest.approx(mean, abs=0.03 * jump)
+
+
+def test_many_steps_lose_no_digits() -> None:
+    turn = Fraction(2.0 * math.pi) + Fraction(2.4492935982947064e-16)
+    angle, plain = 0.0, 0.0
+    for _ in range(100_000):
+        angle = advanced(angle, 0.37)
+        plain += 0.37
+    exact = 100_000 * Fraction(0.37)
+    exact -= round(exact / turn) * turn
+    assert abs(Fraction(angle) - exact) < 1e-11, "rounding of single steps is all that adds up"
+    assert abs(math.remainder(plain, 2.0 * math.pi) - exact) > 1e-10, "a plain sum is far worse"
+
+
+def test_elapsed_time_keeps_the_rounding_of_its_steps() -> None:
+    elapsed = Elapsed()
+    for _ in range(100_000):
+        elapsed.add(1e-3 / 3.0)
+    exact = 100_000 * Fraction(1e-3 / 3.0)
+    found = Fraction(elapsed.seconds) + Fraction(elapsed.carry)
+    assert abs(found - exact) < Fraction(1e-17), "a plain sum is off by 1e-11 here"

@@ -1,8 +1,10 @@
-"""Which tasks are run, and how often, where an FMU dies; the processes are tested beside this."""
+"""Which tasks are run, and how often, where an FMU dies, in one process or several."""
 
 from collections.abc import Callable
+from contextlib import closing
 from functools import partial
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import pytest
@@ -12,10 +14,17 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation import tasks
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, Outcome, run_all_tasks, run_tasks
-from tests.harness.fmu.isolation.tasks_of_tests import own_process, position_after, refused
+from tests.harness.fmu.isolation.tasks_of_tests import (
+    abort,
+    hang,
+    own_process,
+    position_after,
+    refused,
+)
 
 MOVE = partial(position_after, time=0.01)
-Named = tuple[str, Callable[[Instance], Any]]
+Task = Callable[[Instance], Any]
+Named = tuple[str, Task]
 
 
 def die(instance: Instance, over_limit: bool = False) -> None:
@@ -89,3 +98,37 @@ def test_fmu_that_opens_once_has_one_process(
     finished = list(run_tasks(native_fmu, given, 60.0, name=str, jobs=2))
     assert [ending(outcome) for _, outcome in finished] == ["done"] * 4
     assert len(started) > 1
+
+
+@pytest.mark.isolated
+def test_processes_share_the_tasks_and_end_with_the_run(native_fmu: Path) -> None:
+    given: list[Named] = [*((str(index), own_process) for index in range(6)), ("hangs", hang)]
+    with closing(run_tasks(native_fmu, given, 60.0, name=str, jobs=2)) as finished:
+        done = [next(finished) for _ in range(6)]
+        began = monotonic()
+    assert monotonic() - began < 10.0, "the task at work is ended"
+    assert [item for item, _ in done] == [item for item, _ in given[:6]]
+    assert len({outcome.value for _, outcome in done}) == 2
+
+
+@pytest.mark.isolated
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "faults",
+    [
+        {8: abort, 9: refused},
+        {0: refused, 2: abort, 5: abort, 9: abort},
+        {2: abort, 7: abort, 8: abort},
+    ],
+)
+def test_outcomes_do_not_depend_on_jobs(native_fmu: Path, faults: dict[int, Task]) -> None:
+    points = ["a", "b", "c1", "c2", "d", "e", "f", "g", "h", "k1", "k2"]
+    given = [(point, faults.get(index, MOVE)) for index, point in enumerate(points)]
+    alone, shared = (
+        [
+            (item, one.value, type(one.error), str(one.error))
+            for item, one in run_tasks(native_fmu, given, 60.0, name=lambda of: of[0], jobs=jobs)
+        ]
+        for jobs in (1, 2)
+    )
+    assert shared == alone
