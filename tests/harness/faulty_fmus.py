@@ -61,6 +61,18 @@ def redescribed(fmu: Path, out: Path, old: bytes, new: bytes, file: str = DESCRI
     return altered(fmu, out, alter)
 
 
+def renumber(root: ET.Element, places: dict[str, str]) -> None:
+    """Give the variables of the structure their new indices, and leave out those without one."""
+    for parent in root.iterfind("ModelStructure/*"):
+        parent[:] = [unknown for unknown in parent if unknown.attrib["index"] in places]
+        for unknown in parent:
+            unknown.set("index", places[unknown.attrib["index"]])
+            kept = [i for i in unknown.attrib.get("dependencies", "").split() if i in places]
+            unknown.set("dependencies", " ".join(places[index] for index in kept))
+            unknown.attrib.pop("dependenciesKind", None)
+        parent[:] = sorted(parent, key=lambda unknown: int(unknown.attrib["index"]))
+
+
 def without_later_variables(fmu: Path, out: Path) -> Path:
     """Copy an FMU without the variables that came after the first version of the interface."""
 
@@ -76,15 +88,7 @@ def without_later_variables(fmu: Path, out: Path) -> Path:
                 places[str(index)] = str(len(places) + 1)
             else:
                 variables.remove(variable)
-        for parent in root.iterfind("ModelStructure/*"):
-            for unknown in list(parent):
-                if unknown.attrib["index"] not in places:
-                    parent.remove(unknown)
-                    continue
-                unknown.set("index", places[unknown.attrib["index"]])
-                kept = [i for i in unknown.attrib.get("dependencies", "").split() if i in places]
-                unknown.set("dependencies", " ".join(places[index] for index in kept))
-                unknown.attrib.pop("dependenciesKind", None)
+        renumber(root, places)
         root.set("description", "without later variables")
         return ET.tostring(root)
 

@@ -6,7 +6,7 @@ from xml.etree import ElementTree as ET
 
 import fmpy
 
-from tests.harness.faulty_fmus import shared_library
+from tests.harness.faulty_fmus import renumber, shared_library
 
 SOURCE = Path(__file__).with_name("foreign_fmu.c")
 IDENTIFIER = "foreign_slider"
@@ -46,14 +46,7 @@ def _description(xml: bytes) -> bytes:
     for unit in units:
         for display in unit.findall("DisplayUnit"):
             unit.remove(display)
-    places = _turn_round(root)
-    for unknown in root.iterfind("ModelStructure/*/Unknown"):
-        unknown.set("index", places[unknown.attrib["index"]])
-        if "dependencies" in unknown.attrib:
-            dependencies = [places[index] for index in unknown.attrib["dependencies"].split()]
-            unknown.set("dependencies", " ".join(dependencies))
-    for parent in root.iterfind("ModelStructure/*"):
-        parent[:] = sorted(parent, key=lambda unknown: int(unknown.attrib["index"]))
+    renumber(root, _turn_round(root))
     return ET.tostring(root)
 
 

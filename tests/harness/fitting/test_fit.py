@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from slider_resonator.arrays import Array
-from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.fitting.estimation import Problem, minimise, predict
 from slider_resonator.fitting.fit import NO_INTERVALS, fit, isolated
@@ -83,10 +82,20 @@ def interval(found: Fit, of: int = 0) -> tuple[float, float]:
     return one.low or nan, one.high or nan
 
 
-def test_exact_data_give_the_parameters_back(instance: Instance) -> None:
-    found = fitted(instance, measured(instance, TRUE, POINTS), list(TRUE))
-    for one in found.parameters:
-        assert one.value == pytest.approx(TRUE[one.name], rel=1e-7)
+@pytest.mark.parametrize(
+    ("known", "true"),
+    [
+        ({}, TRUE),
+        # A parameter without bounds.
+        (AVERAGES, {"tangential_force": 40.0, "friction_coefficient": 0.13}),
+    ],
+)
+def test_exact_data_give_the_parameters_back(
+    instance: Instance, known: dict[str, float], true: dict[str, float]
+) -> None:
+    data = measured(instance, {**known, **true}, POINTS)
+    found = fitted(instance, data, list(true), parameters=known)
+    assert [one.value for one in found.parameters] == pytest.approx([*true.values()], rel=1e-7)
     assert found.starts_agreeing >= 2
     assert not found.open_directions
 
@@ -214,6 +223,9 @@ def test_what_the_data_leave_open_is_named(instance: Instance) -> None:
     assert {one.name for one in found.parameters if one.is_open} == set(free[:3])
     low, high = interval(found, free.index("damping_ratio"))
     assert low < 0.08 < high
+    still = {**AVERAGES, "base_amplitude": 0.0}
+    found = fitted(instance, data, ["friction_coefficient"], parameters=still, starts=1)
+    assert found.parameters[0].is_open, "a device that never moves"
 
 
 def test_slopes_at_a_bound_are_those_inside(instance: Instance) -> None:
@@ -293,17 +305,6 @@ def test_systematic_residuals_are_noted(instance: Instance) -> None:
     assert "the longest from line " in note
 
 
-def test_a_frequency_in_hertz_is_noted(instance: Instance) -> None:
-    start = VARIABLES["drive_frequency"].start or 0.0
-    hertz = round(start / (2.0 * np.pi))
-    columns = {"phase": [0.2], "load": [0], "frequency": [hertz], "velocity": [0.1]}
-    (note,) = data_notes(measurements_from(columns), {})
-    assert note.startswith(f"data: drive_frequency = {hertz:g} is in rad/s")
-    assert note.endswith('write "drive_frequency [Hz]" as heading')
-    columns["frequency [Hz]"] = columns.pop("frequency")
-    assert not data_notes(measurements_from(columns), {})
-
-
 def test_all_solutions_are_named_and_the_nearest_to_the_start_is_taken(instance: Instance) -> None:
     """The velocity has a peak over the damping: it is the same on both sides."""
     drive = np.pi * 2.0 * 1.98e4
@@ -321,7 +322,8 @@ def test_all_solutions_are_named_and_the_nearest_to_the_start_is_taken(instance:
     assert other.parameters[0].value == pytest.approx(0.0318838, rel=1e-5)
 
 
-def test_a_phase_and_a_load_that_are_not_given_are_noted() -> None:
+def test_data_that_leave_doubts_are_noted() -> None:
+    """A phase and a load that are not given, and a frequency that may be in Hz."""
     columns = {"velocity": [0.1, np.nan], "force": [np.nan, 0.2]}
     phase, load = data_notes(measurements_from(columns), {})
     assert "no phase is given, and 0 rad assumed" in phase
@@ -329,6 +331,12 @@ def test_a_phase_and_a_load_that_are_not_given_are_noted() -> None:
     held = {"phase": 0.3, "load": 0.1}
     assert not data_notes(measurements_from(columns).under(held), {})
     assert not data_notes(measurements_from({"force": [0.2]}).under({"phase": 0.3}), {})
+    columns = {"phase": [0.2], "load": [0], "frequency": [557], "velocity": [0.1]}
+    (note,) = data_notes(measurements_from(columns), {})
+    assert note.startswith("data: drive_frequency = 557 is in rad/s")
+    assert note.endswith('write "drive_frequency [Hz]" as heading')
+    columns["frequency [Hz]"] = columns.pop("frequency")
+    assert not data_notes(measurements_from(columns), {})
 
 
 @pytest.mark.parametrize(
@@ -371,13 +379,6 @@ def test_stated_deviations_are_used(instance: Instance) -> None:
     assert widths[1] / widths[0] == pytest.approx(2.0, rel=0.1)
 
 
-def test_data_of_a_device_that_never_moves_leave_all_open(instance: Instance) -> None:
-    data = measurements_from({"phase": [0.1, 0.2, 0.3], "velocity": [0.1, 0.1, 0.1]})
-    still = {**AVERAGES, "base_amplitude": 0.0}
-    found = fitted(instance, data, ["friction_coefficient"], parameters=still, starts=1)
-    assert found.parameters[0].is_open
-
-
 @pytest.mark.nightly
 def test_intervals_cover_the_truth_in_90_to_99_of_100(instance: Instance) -> None:
     """Random devices and truths, 20 velocities with 1 % noise, three free parameters each."""
@@ -399,14 +400,6 @@ def test_intervals_cover_the_truth_in_90_to_99_of_100(instance: Instance) -> Non
     for name, count in covered.items():
         assert judged[name] >= 95, "few devices leave a parameter open"
         assert 0.90 <= count / judged[name] <= 0.99, name
-
-
-def test_a_parameter_without_bounds_may_be_free(instance: Instance) -> None:
-    true = {**AVERAGES, **TRUE, "tangential_force": 40.0}
-    start = {**true, "tangential_force": 30.0}
-    free = ["tangential_force", "friction_coefficient"]
-    found = fitted(instance, measured(instance, true, POINTS), free, parameters=start)
-    assert found.parameters[0].value == pytest.approx(40.0, rel=1e-6)
 
 
 def test_data_that_do_not_suit_what_is_free_are_refused(instance: Instance) -> None:

@@ -40,24 +40,10 @@ from tests.harness.known_provenance import PROVENANCE
 def row(
     cost: float, error: float, kind: str = RESOLVED, quantity: str = "position", family: str = "any"
 ) -> Row:
-    return Row(
-        scene="s",
-        answer="run",
-        kind=kind,
-        family=family,
-        method=f"{family}, {'tol 1e-06' if kind == PEER else 'steps of 10 periods'}",
-        fidelity=None,
-        friction_law=0,
-        step=None,
-        tolerance=None,
-        periods=10,
-        cpu=(0.9 * cost, cost, 1.2 * cost),
-        start_cpu=None,
-        steps=None,
-        evaluations=None,
-        events=None,
-        errors={quantity: error},
-    )
+    setting = "tol 1e-06" if kind == PEER else "steps of 10 periods"
+    cpu = (0.9 * cost, cost, 1.2 * cost)
+    errors = {quantity: error}
+    return Row(kind, family, f"{family}, {setting}", 0, periods=10, cpu=cpu, errors=errors)
 
 
 sizes = st.floats(1e-11, 1e3)
