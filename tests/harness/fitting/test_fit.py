@@ -15,8 +15,8 @@ from slider_resonator.errors import FmuError, HarnessError
 from slider_resonator.fitting.estimation import Problem, minimise, predict
 from slider_resonator.fitting.fit import NO_INTERVALS, fit, isolated
 from slider_resonator.fitting.free import free_parameters
-from slider_resonator.fitting.measurements import Measurements, Point, datasheet, points_between
-from slider_resonator.fitting.notes import OUTLIER_LEVEL, data_notes, outlying
+from slider_resonator.fitting.measurements import Measurements, Point, datasheet
+from slider_resonator.fitting.notes import OUTLIER_LEVEL, outlying
 from slider_resonator.fitting.reading import measurements_from
 from slider_resonator.fitting.report import parameter_table
 from slider_resonator.fitting.result import Fit
@@ -119,13 +119,6 @@ def test_the_curve_of_the_fit_is_drawn_between_the_points(instance: Instance) ->
         return [task(instance) for task in tasks]
 
     assert not fit(data, ["damping_ratio"], device, run, starts=1).between
-
-
-def test_points_between_others_need_few_curves_over_a_continuous_variable() -> None:
-    faces = [Point({"friction_faces": n}, "steady_velocity", 0.0) for n in (1, 2)]
-    assert len(points_between([velocity_at(phase) for phase in (0.1, 0.2, 0.2)])) == 200
-    for points in ([velocity_at(0.1)] * 2, faces, [velocity_at(n, n) for n in range(20)]):
-        assert not points_between(points)
 
 
 def test_a_datasheet_is_solved_without_intervals(instance: Instance) -> None:
@@ -320,23 +313,6 @@ def test_all_solutions_are_named_and_the_nearest_to_the_start_is_taken(instance:
     assert "are met as well, or almost, by damping_ratio = 0.0318838" in note
     other = fitted(instance, data, ["damping_ratio"], parameters={**device, "damping_ratio": 0.04})
     assert other.parameters[0].value == pytest.approx(0.0318838, rel=1e-5)
-
-
-def test_data_that_leave_doubts_are_noted() -> None:
-    """A phase and a load that are not given, and a frequency that may be in Hz."""
-    columns = {"velocity": [0.1, np.nan], "force": [np.nan, 0.2]}
-    phase, load = data_notes(measurements_from(columns), {})
-    assert "no phase is given, and 0 rad assumed" in phase
-    assert "no load is given, and 0 N assumed" in load
-    held = {"phase": 0.3, "load": 0.1}
-    assert not data_notes(measurements_from(columns).under(held), {})
-    assert not data_notes(measurements_from({"force": [0.2]}).under({"phase": 0.3}), {})
-    columns = {"phase": [0.2], "load": [0], "frequency": [557], "velocity": [0.1]}
-    (note,) = data_notes(measurements_from(columns), {})
-    assert note.startswith("data: drive_frequency = 557 is in rad/s")
-    assert note.endswith('write "drive_frequency [Hz]" as heading')
-    columns["frequency [Hz]"] = columns.pop("frequency")
-    assert not data_notes(measurements_from(columns), {})
 
 
 @pytest.mark.parametrize(

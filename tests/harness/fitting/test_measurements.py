@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from slider_resonator.errors import HarnessError
-from slider_resonator.fitting.measurements import Measurements
+from slider_resonator.fitting.measurements import Measurements, Point, points_between
+from slider_resonator.fitting.notes import data_notes
 from slider_resonator.fitting.reading import measurements_of, read_measurements
 from tests.harness.golden import assert_mistakes_as_before
 
@@ -117,3 +118,29 @@ def test_bad_data_are_explained(tmp_path: Path) -> None:
     assert_mistakes_as_before("data_mistakes.txt", tmp_path / "data.csv", read_measurements)
     with pytest.raises(HarnessError, match=r"one of .*steady_velocity, tangential_force, time, "):
         read(tmp_path, "phase,velocty\n0,1\n")
+
+
+def test_points_between_others_need_few_curves_over_a_continuous_variable() -> None:
+    faces = [Point({"friction_faces": n}, "steady_velocity", 0.0) for n in (1, 2)]
+    sine = [Point({"phase": phase}, "steady_velocity", 0.0) for phase in (0.1, 0.2, 0.2)]
+    many = [Point({"phase": n, "load": n}, "steady_velocity", 0.0) for n in range(20)]
+    assert len(points_between(sine)) == 200
+    for points in (sine[1:], faces, many):
+        assert not points_between(points)
+
+
+def test_data_that_leave_doubts_are_noted() -> None:
+    """A phase and a load that are not given, and a frequency that may be in Hz."""
+    columns = {"velocity": [0.1, np.nan], "force": [np.nan, 0.2]}
+    phase, load = data_notes(measurements_of(columns), {})
+    assert "no phase is given, and 0 rad assumed" in phase
+    assert "no load is given, and 0 N assumed" in load
+    held = {"phase": 0.3, "load": 0.1}
+    assert not data_notes(measurements_of(columns).under(held), {})
+    assert not data_notes(measurements_of({"force": [0.2]}).under({"phase": 0.3}), {})
+    columns = {"phase": [0.2], "load": [0], "frequency": [557], "velocity": [0.1]}
+    (note,) = data_notes(measurements_of(columns), {})
+    assert note.startswith("data: drive_frequency = 557 is in rad/s")
+    assert note.endswith('write "drive_frequency [Hz]" as heading')
+    columns["frequency [Hz]"] = columns.pop("frequency")
+    assert not data_notes(measurements_of(columns), {})
