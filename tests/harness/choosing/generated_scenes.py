@@ -37,22 +37,17 @@ def generated_scene(seed: int) -> Scene:
     periods = log(rng, 30.0, LONGEST[law])
     duration = periods * 2.0 * pi / device["drive_frequency"]
     inputs = _inputs(rng, Device.from_mapping(device), duration, steady)
-    content: dict[str, Any] = {
-        "name": f"scene_{seed}",
-        "title": f"Scene {seed}",
-        "device": device,
-        "inputs": inputs,
-    }
+    content: dict[str, Any] = {"device": device, "inputs": inputs}
     if not steady:
         per_period = min(one_of(rng, 1.0, 4.0, 16.0), MAX_CHECKPOINTS / periods)
         content["run"] = {"stop_time": duration, "steps_per_period": per_period}
-    beats = _beats(inputs)
     ramps = any(isinstance(given, dict) and "ramp" in given for given in inputs.values())
     fast = equivalent_force(Device.from_mapping(device)).velocity_amplitude
-    need: dict[str, Any] = _needs(rng, steady, beats, 1e-4 if ramps else 1e-5, fast)
+    need = _needs(rng, inputs, steady, 1e-4 if ramps else 1e-5, fast)
     if law == 1 and rng.uniform() < 0.5:
         need["friction_law"] = "free"
-    return scene_from({**content, "need": need}, f"scene_{seed}")
+    name = f"scene_{seed}"
+    return scene_from({"name": name, "title": name, **content, "need": need}, name)
 
 
 def random_device(rng: Rng) -> dict[str, float]:
@@ -88,21 +83,15 @@ def random_device(rng: Rng) -> dict[str, float]:
 
 
 def _inputs(rng: Rng, device: Device, duration: float, steady: bool) -> dict[str, Any]:
-    friction = device.friction_faces * device.friction_coefficient * device.normal_preload
-    alpha = device.normal_amplitude / device.normal_preload
-    angle = equivalent_force(device).angle
+    sliding = device.friction_faces * device.friction_coefficient
+    friction = sliding * device.normal_preload
     phase = rng.uniform(-pi, pi)
-    blocking = 2.0 / pi * friction * alpha * np.sin(phase + angle)
-    kind = one_of(rng, 0, 0, 1, 2, 3)
-    if kind == 0:
-        load = 0.0
-    elif kind == 1:
-        load = blocking * rng.uniform(0.9, 1.1)
-    elif kind == 2:
-        load = blocking * rng.uniform(-1.0, 1.0)
-    else:
-        load = friction * rng.uniform(-0.7, 0.7)
-    inputs: dict[str, Any] = {"phase": phase, "load": float(load)}
+    turned = np.sin(phase + equivalent_force(device).angle)
+    blocking = 2.0 / pi * sliding * device.normal_amplitude * turned
+    limits = ((0.0, 0.0, 0.0), (blocking, 0.9, 1.1), (blocking, -1.0, 1.0), (friction, -0.7, 0.7))
+    force, low, high = limits[int(one_of(rng, 0, 0, 1, 2, 3))]
+    load = float(force * rng.uniform(low, high)) if force else 0.0
+    inputs: dict[str, Any] = {"phase": phase, "load": load}
     ratio = one_of(rng, 0, 0, 0, 0, 1, 2, 3)
     if ratio == 1:
         inputs["frequency_ratio"] = one_of(rng, 2.0, 3.0, 5.0, 1.5, 0.0)
@@ -114,7 +103,7 @@ def _inputs(rng: Rng, device: Device, duration: float, steady: bool) -> dict[str
         return inputs
     times = np.sort([rng.uniform(0.0, duration) for _ in range(ceil(rng.uniform(0.0, 3.0)))])
     way = "steps" if rng.uniform() < 0.5 else "ramp"
-    loads = [float(load)] + [float(load + friction * rng.uniform(-0.5, 0.5)) for _ in times]
+    loads = [load] + [float(load + friction * rng.uniform(-0.5, 0.5)) for _ in times]
     phases = [phase] + [phase + rng.uniform(-1.0, 1.0) for _ in times]
     for name, values in (("load", loads), ("phase", phases)):
         if rng.uniform() < 0.6:
@@ -125,22 +114,19 @@ def _inputs(rng: Rng, device: Device, duration: float, steady: bool) -> dict[str
     return inputs
 
 
-def _needs(rng: Rng, steady: bool, beats: bool, tightest: float, fast: float) -> dict[str, Any]:
+def _needs(
+    rng: Rng, inputs: dict[str, Any], steady: bool, tightest: float, fast: float
+) -> dict[str, Any]:
+    ratio = inputs.get("frequency_ratio", 1.0)
+    beats = isinstance(ratio, float) and 0.0 < abs(ratio - 1.0) < 0.1
+    names = ["mean_velocity"] * 4 + ["position"] * 2 + ["velocity", "event_times"]
+    names += ["beat"] * 3 * beats
     if steady:
         names = ["steady_velocity", "blocking_force"]
-    else:
-        names = ["mean_velocity"] * 4 + ["position"] * 2 + ["velocity", "event_times"]
-        names += ["beat"] * 3 * beats
     chosen = {names[int(rng.integers(len(names)))] for _ in range(ceil(rng.uniform(0, 1.5)))}
-    scale = {"event_times": 1e-2, "beat": 1e-1}
-    needs = {}
+    needs: dict[str, Any] = {}
     for name in sorted(chosen):
-        share = log(rng, tightest, 0.5) * scale.get(name, 1.0)
+        share = log(rng, tightest, 0.5) * {"event_times": 1e-2, "beat": 1e-1}.get(name, 1.0)
         absolute = name.endswith("velocity") and rng.uniform() < 0.5
         needs[name] = {"abs": share * fast} if absolute else {"rel": share}
     return needs
-
-
-def _beats(inputs: dict[str, Any]) -> bool:
-    ratio = inputs.get("frequency_ratio", 1.0)
-    return isinstance(ratio, float) and 0.0 < abs(ratio - 1.0) < 0.1

@@ -52,13 +52,11 @@ def test_a_drive_that_changes_is_held_over_the_steps_of_the_scene() -> None:
 def test_a_window_is_a_period_of_the_drive_as_it_is() -> None:
     found = problem(SCAN)
     assert found.periods == 16
-    turned = 0.0
-    ends = [0.0]
-    for inputs in found.lines(16):
-        rate = found.device.tuned(inputs.tuned).drive_frequency / (2.0 * pi)
-        for turn in range(len(ends), int(turned + rate * (inputs.stop - inputs.start) + 1e-9) + 1):
-            ends.append(inputs.start + (turn - turned) / rate)
-        turned += rate * (inputs.stop - inputs.start)
+    lines = found.lines(16)
+    times = np.array([0.0, *(inputs.stop for inputs in lines)])
+    rates = [found.device.tuned(inputs.tuned).drive_frequency / (2.0 * pi) for inputs in lines]
+    turned = np.append(0.0, np.cumsum(rates * np.diff(times)))
+    ends = np.interp(np.arange(17), turned, times)
     assert found.ends(16) == pytest.approx(ends, rel=1e-12)
     assert found.windows(8)[-1, [0, -1]] == pytest.approx(ends[7:9], rel=1e-12)
 
