@@ -1,6 +1,8 @@
-"""The command line as users and CI jobs use it: output, JSON, exit codes."""
+"""The command line as users and CI jobs use it: output, JSON, exit codes, refusals."""
 
 import json
+import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -9,7 +11,10 @@ from pathlib import Path
 import pytest
 
 from slider_resonator import cli
+from slider_resonator.commands import options
+from slider_resonator.errors import unknown_name
 from tests.harness.calling import call, refused
+from tests.harness.golden import SCREENS, assert_as_before, without_long_lists
 from tests.harness.public_json import assert_public_keys
 
 
@@ -151,3 +156,52 @@ def test_no_steady_motion_exits_with_1_and_a_status(native_fmu: Path) -> None:
 def test_system_errors(error: OSError, words: str, capsys: pytest.CaptureFixture[str]) -> None:
     cli._report(error)
     assert capsys.readouterr().err == f"{words}\n"
+
+
+FILES = {
+    "mine.toml": "[device]\nslider_mass = 2\n",
+    "grid.toml": "[grid]\nphase = [1]\n",
+    "fase.toml": "[grid]\nfase = [1]\n",
+    "three.toml": "[grid]\nphase = [1]\nload = [0]\nfidelity = [2]\n",
+}
+FILE = "refused_commands.txt"
+PROMPT = "$ slider-resonator "
+
+
+def test_refused_commands_write_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A command that is added to the file gets its text by `UPDATE_SCREENS=1`."""
+    for name, text in FILES.items():
+        (tmp_path / name).write_text(text)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(options, "default_fmus", lambda: (Path("none.fmu"),))  # built or not
+    said = []
+    lines = (SCREENS / FILE).read_text(encoding="utf-8").splitlines()
+    for command in (line.removeprefix(PROMPT) for line in lines if line.startswith(PROMPT)):
+        result = call(*shlex.split(command))
+        assert (result.exit_code, result.stdout) == (2, ""), command
+        reason = re.sub(r"(?s)^Usage:.*(?=Error: )", "", result.stderr)
+        said.append(f"{PROMPT}{command}\n{without_long_lists(reason)}")
+    assert {path.name for path in tmp_path.iterdir()} == FILES.keys()
+    assert_as_before(FILE, "".join(said))
+
+
+def test_the_nearest_name_is_suggested_whatever_its_case() -> None:
+    text = unknown_name("input", "Phse", ["phase", "load"])
+    assert text == "unknown input 'Phse'; did you mean 'phase'? (must be one of load, phase)"
+    assert "did you mean" not in unknown_name("input", "xyzzy", ["phase", "load"])
+    scenes = [f"scene_{number}" for number in range(200)] + ["steady_contact"]
+    text = unknown_name("scene", "steady_velocity", scenes)
+    assert text.startswith("unknown scene 'steady_velocity'; did you mean 'steady_contact'?")
+    assert "(must be one of 201, such as steady_contact, scene_" in text
+    assert len(text) < 250
+
+
+def test_the_only_name_with_that_part_comes_before_one_that_looks_like_it() -> None:
+    text = unknown_name("parameter or input", "preload", ["load", "normal_preload", "phase"])
+    assert "did you mean 'normal_preload'?" in text
+
+
+def test_a_symbol_stands_for_its_parameter() -> None:
+    text = unknown_name("parameter", "mu", ["slider_mass", "friction_coefficient"])
+    assert "'mu'; did you mean 'friction_coefficient'?" in text
+    assert "did you mean" not in unknown_name("output", "mu", ["position"])

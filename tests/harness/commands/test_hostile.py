@@ -45,7 +45,7 @@ FAULTS: Mapping[str, tuple[int, str]] = {
     "kill_parent": (2, "its process ended with SIGKILL"),
 }
 """What the FMU does in fmi2DoStep, with the exit code of `validate` and the reason."""
-OFTEN = ("fork_and_exit", "fork_twice")
+OFTEN = ("crash", "fork_and_exit", "fork_twice")
 """Run on each push."""
 ENDED_SOON = ("fork_many", "eat")
 """Ended once they have too much, which takes some seconds on a busy machine."""

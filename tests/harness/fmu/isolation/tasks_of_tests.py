@@ -2,12 +2,9 @@
 
 import os
 import signal
-import subprocess
-import sys
 import time
 from collections.abc import Callable
 from ctypes import POINTER, c_bool, c_double, cast
-from pathlib import Path
 
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.instance import Instance
@@ -64,14 +61,6 @@ def disturb(instance: Instance) -> str:
     """Print, and read what there is to read."""
     os.write(1, b"printed")
     return os.read(0, 100).decode()
-
-
-def start_child(instance: Instance, pid_file: Path) -> None:
-    """Start a process that holds the pipes, and crash."""
-    code = "import time; time.sleep(600)"
-    with subprocess.Popen([sys.executable, "-c", code], close_fds=False) as child:
-        pid_file.write_text(str(child.pid))
-        os.abort()
 
 
 def print_much(instance: Instance) -> None:

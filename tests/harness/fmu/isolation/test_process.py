@@ -12,7 +12,6 @@ from slider_resonator.fmu.isolation import process
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from slider_resonator.fmu.isolation.supervised import Supervised
 from tests.harness.fmu.isolation import tasks_of_tests as tasks
-from tests.processes import has_ended
 
 pytestmark = pytest.mark.isolated
 
@@ -93,18 +92,6 @@ def test_process_without_listener_is_ended(
 
 def test_the_fmu_shares_no_stream_with_the_harness(isolated: IsolatedFmu) -> None:
     assert isolated.run(tasks.disturb) == ""
-
-
-def test_crash_leaves_nothing(native_fmu: Path, tmp_path: Path, temporary: Path) -> None:
-    pid_file = tmp_path / "pid"
-    start_child = partial(tasks.start_child, pid_file=pid_file)
-    with IsolatedFmu(native_fmu, 60.0) as isolated:
-        with pytest.raises(FmuDied, match="its process ended with SIGABRT"):
-            isolated.run(start_child)
-        with pytest.raises(FmuDied, match="has been ended"):
-            isolated.run(start_child)
-    assert has_ended(int(pid_file.read_text()))
-    assert not list(temporary.iterdir())
 
 
 def test_a_crash_of_fmi_3_names_its_function(native_3_fmu: Path) -> None:
