@@ -119,6 +119,7 @@ def test_a_key_that_is_not_set_leaves_a_digest_as_it_was() -> None:
 
 
 def test_written_results_are_read_back(tmp_path: Path) -> None:
+    """Others written in their place replace everything and leave nothing behind."""
     write_recorded(tmp_path / "mine", RECORDED)
     read = read_recorded(tmp_path / "mine")
     assert read.provenance == RECORDED.provenance
@@ -129,6 +130,12 @@ def test_written_results_are_read_back(tmp_path: Path) -> None:
         for name in SIGNALS:
             assert np.allclose(golden[name].value, GOLDEN[name].value, rtol=1e-12, atol=0.0)
             assert golden[name].times == pytest.approx(STORED_TIMES, rel=0.0, abs=0.0)
+    numbers = {"reversals": Measurement(1.0)}
+    write_recorded(tmp_path / "mine", Recorded({(): numbers}, {"fmu": "other.fmu"}))
+    files = {path.name for path in (tmp_path / "mine").iterdir()}
+    assert files == {"numbers.csv", "provenance.csv"}
+    assert [path.name for path in tmp_path.iterdir()] == ["mine"]
+    assert [path.name for path in recorded_scenes(tmp_path)] == ["mine"]
 
 
 @settings(max_examples=10)
@@ -144,16 +151,6 @@ def test_digits_are_kept(tmp_path_factory: pytest.TempPathFactory, numbers: list
         value = golden["steady_velocity"].value
         assert value == pytest.approx(number, rel=10.0 ** (1 - DIGITS))
         assert str(value) != "-0.0"
-
-
-def test_writing_again_replaces_everything_and_leaves_nothing_behind(tmp_path: Path) -> None:
-    write_recorded(tmp_path / "mine", RECORDED)
-    numbers = {"reversals": Measurement(1.0)}
-    write_recorded(tmp_path / "mine", Recorded({(): numbers}, {"fmu": "other.fmu"}))
-    files = {path.name for path in (tmp_path / "mine").iterdir()}
-    assert files == {"numbers.csv", "provenance.csv"}
-    assert [path.name for path in tmp_path.iterdir()] == ["mine"]
-    assert [path.name for path in recorded_scenes(tmp_path)] == ["mine"]
 
 
 @pytest.mark.parametrize(

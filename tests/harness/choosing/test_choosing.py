@@ -10,7 +10,6 @@ from slider_resonator.choosing.choice import Evaluation, cheapest
 from slider_resonator.choosing.choosing import choose_with
 from slider_resonator.choosing.probe import Probe
 from slider_resonator.device.model import Model
-from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
 from tests.harness.scene_text import scene_of, table_1
 
@@ -134,13 +133,6 @@ def test_averages_of_special_devices(instance: Instance, device: str, averages: 
     refused = [m for m in choice.ruled_out if "damping_ratio = 0.0 refused" in m.why]
     assert (refused == []) == averages
     assert all(choice.model != m.model for m in refused)
-
-
-def test_a_device_that_the_fmu_refuses_is_no_answer(instance: Instance) -> None:
-    run = "[run]\ndrive_periods = 10\nsteps_per_period = 1\n[need]\nposition = { rel = 1.0 }\n"
-    device = "[device]\nfriction_law = 1\nfriction_coefficient = 0.0\n"
-    with pytest.raises(Refusal, match="friction_coefficient"):
-        choose_with(instance, scene_of(device + run))
 
 
 RAMPED = (

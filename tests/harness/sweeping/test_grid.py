@@ -78,26 +78,19 @@ POINTS = ((0.0, 0.1), (2.0, 0.1 + 0.2))
 ROWS: list[Row] = [(0, [None, None], 'load, "x"'), (1, [1.0 / 3.0, "steady"], None)]
 
 
-def test_parquet_has_typed_columns_in_the_order_of_the_points(tmp_path: Path) -> None:
-    path = tmp_path / "a.parquet"
-    columns = table_columns(TASK, POINTS, ROWS)
-    write_table(path, TASK, columns)
-    read = parquet.read_table(path)
-    assert read.to_pydict() == columns
-    kinds = ["int64", "int64", "double", "double", "string", "string"]
-    assert [str(kind) for kind in read.schema.types] == kinds
-
-
-def test_csv_gives_back_the_same_numbers(tmp_path: Path) -> None:
-    path = tmp_path / "a.csv"
-    write_table(path, TASK, table_columns(TASK, POINTS, ROWS))
-    with path.open(encoding="utf-8", newline="") as file:
+def test_tables_give_back_the_same_numbers(tmp_path: Path) -> None:
+    """Of parquet in typed columns, in the order of the points."""
+    columns, kinds = table_columns(TASK, POINTS, ROWS), ["int64"] * 2 + ["double"] * 2
+    for suffix in ("parquet", "csv"):
+        write_table(tmp_path / f"a.{suffix}", TASK, columns)
+    typed = parquet.read_table(tmp_path / "a.parquet")
+    assert typed.to_pydict() == columns
+    assert [str(kind) for kind in typed.schema.types] == [*kinds, "string", "string"]
+    with (tmp_path / "a.csv").open(encoding="utf-8", newline="") as file:
         first, second = csv.DictReader(file)
-    assert first["error"] == 'load, "x"'
-    assert first["steady_velocity"] == ""
+    assert (first["error"], first["steady_velocity"]) == ('load, "x"', "")
     assert second["fidelity"] == "2"
-    assert float(second["phase"]) == 0.1 + 0.2
-    assert float(second["steady_velocity"]) == 1.0 / 3.0
+    assert [float(second[name]) for name in ("phase", "steady_velocity")] == [0.1 + 0.2, 1.0 / 3.0]
 
 
 def test_without_pyarrow_only_csv_is_possible(monkeypatch: pytest.MonkeyPatch) -> None:
