@@ -74,18 +74,6 @@ def test_a_scene_at_fault_is_reported_too(native_fmu: Path, tmp_path: Path) -> N
         assert "mine.toml" in said
 
 
-def test_a_folder_of_scenes(native_fmu: Path, tmp_path: Path) -> None:
-    for name in ("one", "two"):
-        faulty_fmus.scene(tmp_path, name)
-    result = call("validate", native_fmu, "--scene", tmp_path, "--json")
-    assert result.exit_code == 0, result.output
-    assert_public_keys("validate ONE", result.stdout)
-    assert [check["scene"] for check in json.loads(result.stdout)["checks"]] == ["one", "two"]
-    empty = tmp_path / "empty"
-    empty.mkdir()
-    assert "with scene files" in call("validate", native_fmu, "--scene", empty).stderr
-
-
 def test_the_public_keys_of_several_fmus_stay(native_fmu: Path, tmp_path: Path) -> None:
     failing = faulty_fmus.compiled(native_fmu, tmp_path / "failing.fmu", "IN_STEP=return 3;")
     scene = faulty_fmus.scene(tmp_path)

@@ -94,31 +94,6 @@ def test_loading_leaves_the_working_folder(
     assert Path.cwd() == before
 
 
-def test_a_recreated_instance_is_as_new(fmu: Fmu) -> None:
-    with instantiate(fmu) as instance:
-        instance.start({"phase": 1.0})
-        instance.step_to(PERIOD)
-        instance.recreate()
-        assert instance.time == 0.0
-        instance.start({})
-        assert instance.value("phase") == 0.0
-
-
-def test_a_run_records_every_output_at_every_point(instance: Instance) -> None:
-    shares: list[float] = []
-    periods = schedule(10 * PERIOD, PERIOD)
-    record = run(instance, {}, periods, progress=lambda _, share: shares.append(share))
-    assert shares[-1] == 1.0
-    assert shares == sorted(shares)
-    assert record.times.shape == (11,)
-    assert record["position"].shape == (11,)
-    assert record["position"][0] == 0.0
-    assert record.final("reversals") == 19.0, "two reversals in each period but the first"
-    assert record.wall_time > 0.0
-    assert record.start_cpu > 0.0
-    assert record.step_cpu > 0.0
-
-
 def test_what_an_fmu_writes_beyond_the_limit_is_named(instance: Instance) -> None:
     def refused() -> None:
         instance.messages.append("OSError(27, 'File too large')")

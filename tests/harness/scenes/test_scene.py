@@ -8,7 +8,7 @@ import pytest
 from slider_resonator.device.device import Device
 from slider_resonator.errors import SceneError
 from slider_resonator.scenes.json_schema import scene_schema
-from slider_resonator.scenes.scene import read_scenes, scene_from
+from slider_resonator.scenes.scene import read_scenes
 from tests.harness.golden import assert_mistakes_as_before
 from tests.harness.scene_text import HEAD, read_scene, scene_of
 
@@ -117,27 +117,6 @@ def test_deviations_over_time_are_of_what_the_drive_is_tuned_to() -> None:
 def test_the_refusal_of_a_scene_without_a_run_names_the_command_scenes() -> None:
     with pytest.raises(SceneError, match=r"no \[run\].*the command scenes"):
         scene_of("").schedule()
-
-
-def test_a_sweep_varies_parameters_and_inputs() -> None:
-    sweep = '[sweep]\nvariable = "{}"\nvalues = [1.0, 2.0]\n'
-    points = scene_of("[inputs]\nload = 0.3\n" + sweep.format("load")).points()
-    assert [(point.at, point.scene.values["load"]) for point in points] == [
-        ({"load": 1.0}, 1.0),
-        ({"load": 2.0}, 2.0),
-    ]
-    points = scene_of(sweep.format("slider_mass")).points()
-    assert [point.scene.device.slider_mass for point in points] == [1.0, 2.0]
-
-
-def test_a_scene_is_made_of_data_without_a_file(tmp_path: Path) -> None:
-    (tmp_path / "load.csv").write_text("time,load\n0,0.1\n")
-    content = {"name": "mine", "title": "Mine", "inputs": {"load": {"csv": "load.csv"}}}
-    scene = scene_from(content, "a table", tmp_path)
-    assert scene.values["load"] == 0.1
-    assert (scene.source, scene.files) == ("a table", (tmp_path / "load.csv",))
-    with pytest.raises(SceneError, match="a table: titel: unknown key 'titel'"):
-        scene_from({"name": "mine", "titel": "Mine"}, "a table")
 
 
 @pytest.mark.parametrize(
