@@ -1,4 +1,4 @@
-"""Steady motion and blocking force of the built FMU."""
+"""Steady motion and blocking force: of the built FMU, of references, and of averages."""
 
 from math import pi, sqrt
 
@@ -9,6 +9,7 @@ from slider_resonator.device.device import Device
 from slider_resonator.device.interface import INPUT_STARTS
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.references.averaged import device_average
 from slider_resonator.steady.periodic import (
     FIRM,
     Facts,
@@ -56,17 +57,11 @@ def test_no_steady_motion(instance: Instance, values: Values, status: str, reaso
     assert reason in motion.reason
 
 
-@pytest.mark.parametrize(
-    ("values", "status"),
-    [
-        ({"base_amplitude": 0.0, "normal_amplitude": 0.5}, "stuck"),
-        ({"frequency_ratio": 1.001}, "slow_beat"),
-        ({"frequency_ratio": 1.37}, "no_common_period"),
-    ],
-)
-def test_no_blocking_force(instance: Instance, values: Values, status: str) -> None:
-    blocking = find_blocking(instance, values)
-    assert (blocking.blocking_force, blocking.status) == (None, status)
+def test_no_blocking_force(instance: Instance) -> None:
+    still = {"base_amplitude": 0.0, "normal_amplitude": 0.5}
+    for values, status in ((still, "stuck"), ({"frequency_ratio": 1.001}, "slow_beat")):
+        blocking = find_blocking(instance, values)
+        assert (blocking.blocking_force, blocking.status) == (None, status)
 
 
 @pytest.mark.parametrize(
@@ -202,3 +197,62 @@ def test_maps_can_be_chained(instance: Instance, stiffness: float | None) -> Non
     allowed = 1e-9 if stiffness else 1e-11
     assert end == pytest.approx(second, rel=allowed)
     assert displacement == pytest.approx(moved + further, rel=allowed)
+
+
+@pytest.mark.slow
+def test_what_never_repeats_has_no_steady_motion() -> None:
+    assert reference_steady_velocity(Device(), 0.0, 0.0, 1.001) is None
+    assert reference_blocking_force(Device(), 0.0, 1.001) is None
+    for device, load in ((Device(), 0.25), (Device(friction_law=1), 3.0)):
+        found = reference_steady_velocity(device, 0.0, load, 1.0)
+        assert found is None, "a load above friction"
+
+
+QUICK = (0.1, 10.0)
+KAPPAS = [
+    pytest.param(kappa, marks=() if kappa in QUICK else pytest.mark.slow)
+    for kappa in (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
+]
+
+
+def unit_device(kappa: float, frequency: float, amplitude_ratio: float) -> Device:
+    """Model 2 of the paper with q = 1, mu = 0.4, sigma_1 = 1 at a stiffness number kappa.
+
+    In its units x0 = 1 m, w0 = 1 rad/s: one mass, driven directly, on one face.
+    """
+    friction = 0.4
+    return Device(
+        slider_mass=1.0,
+        resonator_mass=0.0,
+        base_amplitude=0.0,
+        tangential_force=frequency,
+        drive_frequency=frequency,
+        normal_amplitude=amplitude_ratio,
+        friction_coefficient=friction,
+        friction_faces=1,
+        friction_law=1,
+        bristle_stiffness=kappa * friction * frequency,
+        bristle_damping=1.0,
+        fidelity=1,
+    )
+
+
+@pytest.mark.parametrize("amplitude_ratio", [0.8, 1.6])
+@pytest.mark.parametrize("kappa", KAPPAS)
+def test_errors_of_averages_fall_with_the_frequency(kappa: float, amplitude_ratio: float) -> None:
+    """Soft to hard bristles, closed and lifting: velocity and blocking force."""
+    errors = []
+    for frequency in (1000.0, 4000.0):
+        device = unit_device(kappa, frequency, amplitude_ratio)
+        averages = (
+            device_average.steady_velocity(device, 1.0, 0.0, 1.0),
+            device_average.blocking_force(device, 1.0, 1.0),
+        )
+        exact = (
+            reference_steady_velocity(device, 1.0, 0.0, 1.0, averages[0]),
+            reference_blocking_force(device, 1.0, 1.0),
+        )
+        errors.append(np.subtract(averages, np.array(exact, dtype=float)))
+    for coarse, fine in zip(*errors, strict=True):
+        assert abs(coarse) < 2e-3, "of v_q, or of N0"
+        assert coarse / fine == pytest.approx(4.0, rel=0.02), "averages err by 1 / Omega"
