@@ -3,7 +3,7 @@
 import time
 import tomllib
 from dataclasses import dataclass, replace
-from itertools import chain
+from itertools import chain, product
 from math import inf
 from pathlib import Path
 
@@ -82,9 +82,12 @@ class Judge:
                 estimates[name] = steady_error(found, exact, self.law)
         except FmuError:
             return inf, cost
-        return max(
-            _over(e.error, self.needs[name].at(e.magnitude)) for name, e in estimates.items()
-        ), cost
+        excess = 0.0
+        for name, one in estimates.items():
+            allowed = self.needs[name].at(one.magnitude)
+            if one.error > 0.0:
+                excess = max(excess, one.error / allowed if allowed > 0.0 else inf)
+        return excess, cost
 
     def _run(self, candidate: Candidate) -> tuple[Record, float]:
         own = self.scene.timed(step_size=candidate.step).schedule()
@@ -109,17 +112,6 @@ class Judge:
         return self._true_records[step]
 
 
-def candidates(instance: Instance, scene: Scene) -> list[Candidate]:
-    """Return all that `choose_with` chooses from."""
-    of_scene = Choosing(instance, scene)
-    return [
-        Candidate(model, tolerance, step)
-        for model in of_scene.models()
-        for tolerance in tolerances(model)
-        for step in of_scene.steps(model)
-    ]
-
-
 def judge(instance: Instance, scene: Scene, choice: Choice) -> Verdict:
     """Return the verdict on a choice, by runs of candidates in its step and larger ones."""
     reference = Judge(instance, scene)
@@ -127,11 +119,14 @@ def judge(instance: Instance, scene: Scene, choice: Choice) -> Verdict:
     excess, cost = reference.tried(chosen)
     largest = LARGER_STEPS * (choice.step or 0.0)
     costs = {chosen: cost} if excess <= 1.0 else {}
-    for candidate in candidates(instance, scene):
-        if candidate != chosen and (choice.step or 0.0) <= (candidate.step or 0.0) <= largest:
-            other, seconds = reference.tried(candidate)
-            if other <= 1.0:
-                costs[candidate] = seconds
+    choosing = Choosing(instance, scene)
+    for model in choosing.models():
+        for tolerance, step in product(tolerances(model), choosing.steps(model)):
+            candidate = Candidate(model, tolerance, step)
+            if candidate != chosen and (choice.step or 0.0) <= (step or 0.0) <= largest:
+                other, seconds = reference.tried(candidate)
+                if other <= 1.0:
+                    costs[candidate] = seconds
     near = [each for each in costs if costs[each] < 2.0 * min(costs.values())]
     for _ in range(REPEATS):
         for each in {chosen, *near}:
@@ -140,10 +135,6 @@ def judge(instance: Instance, scene: Scene, choice: Choice) -> Verdict:
         del costs[chosen]
     best = min(costs, key=lambda each: costs[each]) if costs else None
     return Verdict(excess, costs.get(chosen, cost), best, costs[best] if best else inf)
-
-
-def _over(error: float, allowed: float) -> float:
-    return error / allowed if allowed > 0.0 else inf if error > 0.0 else 0.0
 
 
 WITHIN = 1.5

@@ -1,21 +1,32 @@
-"""The FMU as a method, and methods measured: each is a row or an omission."""
+"""The problem that every method solves, errors of solutions, and methods measured."""
 
 from collections.abc import Callable
-from math import inf
+from dataclasses import replace
+from math import inf, nan, pi
 
 import numpy as np
 import pytest
 
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.progress import no_progress
+from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trading import measure
 from slider_resonator.trading.fmu_methods import FmuMethods
-from slider_resonator.trading.measure import measure_trade
-from slider_resonator.trading.problem import Problem
+from slider_resonator.trading.measure import find_reference, measure_trade
+from slider_resonator.trading.peer_methods import shoot
+from slider_resonator.trading.problem import MIN_PERIODS, Problem
 from slider_resonator.trading.result import PEER, Row
-from slider_resonator.trading.solution import Method, Solution, errors
+from slider_resonator.trading.solution import Method, Solution, errors, windows
 from tests.harness.in_process import InProcess
-from tests.harness.trading.problems import RAMP, SCAN, STICKING, TABLE_1, problem, reference_of
+from tests.harness.trading.problems import (
+    BEAT,
+    RAMP,
+    SCAN,
+    STICKING,
+    TABLE_1,
+    problem,
+    reference_of,
+)
 
 
 def followed(problem: Problem, method: Method) -> dict[str, float]:
@@ -135,3 +146,122 @@ def test_method_that_cannot_stick_is_omitted(monkeypatch: pytest.MonkeyPatch) ->
     trade = measure_trade(sticking, {}, no_progress, repeats=1)
     assert [(o.method, o.quantity) for o in trade.omissions] == [("sliding", "all")]
     assert "sticks" in trade.omissions[0].reason
+
+
+PERIOD = 2.0 * pi / 3500.0
+
+
+def test_a_scene_without_a_run_is_as_long_as_the_longest_step() -> None:
+    found = problem(TABLE_1)
+    assert found.periods == MIN_PERIODS == 1000
+    assert found.horizons == (31, 62, 125, 250, 500, 1000)
+    assert found.constant
+    assert found.steady
+    assert found.beat is None
+
+
+def test_the_full_device_is_the_reference_whatever_the_scene_asks_for() -> None:
+    found = problem("[device]\nfidelity = 0\nfriction_law = 1\ntolerance = 1e-3\n")
+    assert (found.device.fidelity, found.device.friction_law) == (2, 1)
+    assert found.parameters == {}, "fidelity, law and tolerance are for the methods to set"
+
+
+def test_inputs_that_vary_allow_no_steady_motion() -> None:
+    found = problem(RAMP)
+    assert not found.constant
+    assert not found.steady
+    assert found.periods == 16, "the scene sets the duration of its inputs"
+    assert found.lengths == (16,), "a method that stops earlier has not seen all of them"
+
+
+def test_a_drive_that_changes_is_held_over_the_steps_of_the_scene() -> None:
+    found = problem(SCAN)
+    assert not found.constant
+    drives = [found.device.tuned(inputs.tuned) for inputs in found.lines(16)]
+    assert [drives[i].base_amplitude for i in (0, 10, -1)] == pytest.approx([1e-4, 0.0, 1.5e-4])
+    ramp = np.arange(5) * PERIOD / 2.0 / 0.02 * 0.2 - 0.1
+    rates = [drive.drive_frequency for drive in drives[:5]]
+    assert rates == pytest.approx(3500.0 * (1.0 + ramp)), "whatever the step of a method"
+
+
+def test_a_window_is_a_period_of_the_drive_as_it_is() -> None:
+    found = problem(SCAN)
+    assert found.periods == 16
+    lines = found.lines(16)
+    times = np.array([0.0, *(inputs.stop for inputs in lines)])
+    rates = [found.device.tuned(inputs.tuned).drive_frequency / (2.0 * pi) for inputs in lines]
+    turned = np.append(0.0, np.cumsum(rates * np.diff(times)))
+    ends = np.interp(np.arange(17), turned, times)
+    assert found.ends(16) == pytest.approx(ends, rel=1e-12)
+    assert found.windows(8)[-1, [0, -1]] == pytest.approx(ends[7:9], rel=1e-12)
+
+
+def test_table_1_by_a_run_and_by_shooting() -> None:
+    reference = find_reference(problem(TABLE_1, max_periods=2))
+    assert reference.steady_velocity == pytest.approx(0.12666700, rel=1e-7)
+    assert reference.blocking_force == pytest.approx(0.0851861, rel=1e-6)
+    assert not reference.sticks, "reversals follow each other without a stick"
+
+
+def test_any_integrator_can_be_shot_with() -> None:
+    table_1 = problem(TABLE_1)
+    found = shoot(table_1, "steady_velocity", simulate, 1e-9, inf)
+    assert found.value == pytest.approx(0.12666700, rel=1e-7)
+    assert 30 <= found.periods <= 100, "a long run needs thousands"
+    with pytest.raises(RuntimeError, match="more than its budget of 0 s"):
+        shoot(table_1, "steady_velocity", simulate, 1e-9, 0.0)
+
+
+@pytest.fixture
+def short() -> Problem:
+    return problem(TABLE_1, max_periods=4)
+
+
+def drifting(problem: Problem) -> Solution:
+    times = problem.readings(4)
+    wave = np.sin(problem.device.drive_frequency * times)
+    return Solution(times, 2.0 * times + 1e-6 * wave, 2.0 + 0.5 * wave, last_event=0.9 * times)
+
+
+def test_each_error_is_a_share_of_the_peak(short: Problem) -> None:
+    solution = drifting(short)
+    assert solution.last_event is not None
+    reference = windows(short, solution, 4)
+    late = replace(
+        solution,
+        position=1.01 * solution.position,
+        velocity=solution.velocity + 0.025,
+        last_event=solution.last_event + 1e-3 * short.period,
+    )
+    found = errors(short, late, reference, 4)
+    for name in ("position", "mean_velocity", "slow_displacement"):
+        assert found[name] == pytest.approx(0.01), name
+    assert found["velocity"] == pytest.approx(0.01)
+    assert found["event_times"] == pytest.approx(1e-3), "in drive periods"
+
+
+def test_short_runs_and_nan_have_errors(short: Problem) -> None:
+    solution = drifting(short)
+    early = solution.times <= 2.0001 * short.period
+    half = Solution(solution.times[early], solution.position[early], solution.velocity[early])
+    found = errors(short, half, windows(short, solution, 4), 2)
+    assert found["position"] == 0.0
+    assert "event_times" not in found, "a method that locates no events has no error of them"
+    broken = replace(solution, velocity=np.full_like(solution.velocity, nan))
+    assert errors(short, broken, windows(short, solution, 4), 4)["velocity"] == inf
+
+
+@pytest.mark.parametrize(("step", "reported"), [(1, True), (7, True), (10, False), (100, False)])
+def test_a_beat_needs_enough_samples(step: int, reported: bool) -> None:
+    beating = problem(BEAT)
+    assert beating.beat is not None
+    ends = beating.ends(1600)[::step]
+    history = (ends, np.sin(2.0 * np.pi * 1.001 * beating.beat * ends))
+    times = beating.readings(1600)
+    solution = Solution(times, times, np.ones_like(times), history=history)
+    found = errors(beating, solution, windows(beating, solution, 1600), 1600)
+    assert ("beat_frequency" in found) == reported, "twenty periods are a beat"
+    early = replace(solution, history=(history[0][:1], history[1][:1]))
+    assert "beat_frequency" not in errors(beating, early, windows(beating, solution, 1600), 1600)
+    if reported:
+        assert found["beat_frequency"] == pytest.approx(1e-3, rel=1e-3)
