@@ -34,8 +34,6 @@ def test_a_fit_writes_its_device(data: Path, native_fmu: Path, tmp_path: Path) -
     (other / "device.toml").write_text("[device]\n", encoding="utf-8")
     said = refused("fit", data, *device, "--free", "damping_ratio", "--out", other)
     assert "has a device.toml that no fit has written" in " ".join(said.split())
-    said = refused("fit", data, *device, "--free", "damping_ratoi", "--starts", 1)
-    assert "did you mean 'damping_ratio'" in said
     assert "95 % from" in (tmp_path / "fit.html").read_text(encoding="utf-8")
     residuals = np.genfromtxt(tmp_path / "residuals.csv", delimiter=",", names=True)
     assert np.rad2deg(residuals["phase"]) == pytest.approx([-40.0, -10.0, 20.0, 50.0])

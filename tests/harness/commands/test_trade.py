@@ -57,9 +57,8 @@ def test_every_method_is_in_the_files(
     assert names == followed | omitted
     assert not followed & omitted
 
-    resolved = [
-        row for row in rows if row["family"] == "native FMU, fidelity 2" and row["answer"] == "run"
-    ]
+    followed_exactly = ("native FMU, fidelity 2", "run")
+    resolved = [row for row in rows if (row["family"], row["answer"]) == followed_exactly]
     assert resolved
     for row in resolved:
         assert float(row["error_position"]) < 1e-10

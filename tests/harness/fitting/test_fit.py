@@ -23,6 +23,7 @@ from slider_resonator.fitting.result import Fit
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.isolation.process import FmuDied, Task
 
+Values = Mapping[str, float]
 TRUE = {"friction_coefficient": 0.13, "damping_ratio": 0.08, "normal_amplitude": 0.7}
 AVERAGES = {"fidelity": 0, "averaging_order": 1}
 """A model whose predictions cost next to nothing."""
@@ -47,11 +48,7 @@ def fitted(
 
 
 def measured(
-    instance: Instance,
-    true: Mapping[str, float],
-    points: Sequence[Point],
-    noise: float = 0.0,
-    seed: int = 0,
+    instance: Instance, true: Values, points: Sequence[Point], noise: float = 0.0, seed: int = 0
 ) -> Measurements:
     """Let the FMU measure, with normal errors of `noise` times the root mean square."""
     values = predict(instance, true, Measurements(tuple(points)))
@@ -62,11 +59,7 @@ def measured(
 
 
 def recorded(
-    instance: Instance,
-    true: Mapping[str, float],
-    columns: Mapping[str, Array],
-    noise: Mapping[str, float],
-    seed: int = 0,
+    instance: Instance, true: Values, columns: Mapping[str, Array], noise: Values, seed: int = 0
 ) -> dict[str, Array]:
     """Return outputs of the FMU under inputs over time, with normal errors of these sizes."""
     none = {name: 0.0 * columns["time"] for name in noise}
@@ -114,9 +107,9 @@ def test_the_curve_of_the_fit_is_drawn_between_the_points(instance: Instance) ->
     )
 
     def run(label: str, tasks: Sequence[Task]) -> list[Any]:
-        if label == "drawing":
-            raise FmuError("crashed")
-        return [task(instance) for task in tasks]
+        if label != "drawing":
+            return [task(instance) for task in tasks]
+        raise FmuError("crashed")
 
     assert not fit(data, ["damping_ratio"], device, run, starts=1).between
 

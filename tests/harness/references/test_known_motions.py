@@ -44,42 +44,32 @@ def deviation(run: Trajectory, signal: str, exact: Array) -> float:
     return float(np.abs(getattr(run, signal) - exact).max() / np.abs(exact).max())
 
 
-@pytest.mark.parametrize(
-    ("parameters", "load", "signals", "event_times", "sticks"),
-    [
-        pytest.param(
-            *(RIGID | {"initial_velocity": 0.02}, 0.0),
-            *({"position": 0.02 * SLIDING - 0.1 * SLIDING**2}, [0.1], 1),
-            id="constant friction slides to a stop and sticks",
-        ),
-        pytest.param(
-            *(RIGID | FREE | {"initial_velocity": 0.3, "initial_position": -1.0}, 0.5),
-            *({"position": -1.0 + 0.3 * TIMES - 0.25 * TIMES**2}, [], 0),
-            id="free flight under a load",
-        ),
-        pytest.param(
-            *(BUILT_IN, 0.0, {"resonator_displacement": SECULAR}, [], 0),
-            id="undamped resonator on a held slider at resonance",
-        ),
-        pytest.param(
-            *(FREE | RESONANT, 0.0),
-            *({"resonator_displacement": SECULAR, "velocity": RECOIL}, [], 0),
-            id="undamped resonator on a free slider at resonance, with its recoil",
-        ),
-        pytest.param(
-            *(OPENING, 0.0, {"normal_force": np.maximum(0.0, 1.0 + 2.0 * np.sin(40.0 * TIMES))}),
-            *([7.0 * np.pi / 240.0, 11.0 * np.pi / 240.0], 1),
-            id="lifting off and touching down without any force",
-        ),
-    ],
-)
-def test_motion_matches_the_closed_form(
-    parameters: dict[str, float],
-    load: float,
-    signals: dict[str, Array],
-    event_times: list[float],
-    sticks: int,
-) -> None:
+MOTIONS: dict[str, tuple[dict[str, float], float, dict[str, Array], list[float], int]] = {
+    "constant friction slides to a stop and sticks": (
+        *(RIGID | {"initial_velocity": 0.02}, 0.0),
+        *({"position": 0.02 * SLIDING - 0.1 * SLIDING**2}, [0.1], 1),
+    ),
+    "free flight under a load": (
+        *(RIGID | FREE | {"initial_velocity": 0.3, "initial_position": -1.0}, 0.5),
+        *({"position": -1.0 + 0.3 * TIMES - 0.25 * TIMES**2}, [], 0),
+    ),
+    "undamped resonator on a held slider at resonance": (
+        *(BUILT_IN, 0.0, {"resonator_displacement": SECULAR}, [], 0),
+    ),
+    "undamped resonator on a free slider at resonance, with its recoil": (
+        *(FREE | RESONANT, 0.0, {"resonator_displacement": SECULAR, "velocity": RECOIL}, [], 0),
+    ),
+    "lifting off and touching down without any force": (
+        *(OPENING, 0.0, {"normal_force": np.maximum(0.0, 1.0 + 2.0 * np.sin(40.0 * TIMES))}),
+        *([7.0 * np.pi / 240.0, 11.0 * np.pi / 240.0], 1),
+    ),
+}
+"""Parameters and load, signals, and times of changes of contact mode, with sticks among them."""
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_motion_matches_the_closed_form(name: str) -> None:
+    parameters, load, signals, event_times, sticks = MOTIONS[name]
     run = simulate(Device.from_mapping(parameters), [HeldInputs(0.0, STOP, load=load)], TIMES)
     for signal, exact in signals.items():
         assert deviation(run, signal, exact) <= ALLOWED, signal

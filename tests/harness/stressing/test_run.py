@@ -4,7 +4,6 @@ Each passes, or is refused with name, value and requirement.
 """
 
 from collections import Counter
-from collections.abc import Set
 from dataclasses import replace
 from pathlib import Path
 
@@ -212,11 +211,6 @@ def test_other_steps_cover_the_same_times(cases: list[Case]) -> None:
         assert case.other_holds != case.holds, case.name
 
 
-EVERY, EVERY_OF_SECOND_ORDER = 17, 41
-"""Of how many cases of a model the Python FMU runs one, and of those that leap."""
-NATIVE, NATIVE_OF_SECOND_ORDER = 7, 23
-"""The same for the native FMU."""
-
 LUGRE = {f"LuGre, fidelity {n}" for n in range(3)}
 STEADY_FORCE = {f"{law}, fidelity {n}" for law in ("Coulomb", "LuGre") for n in range(2)}
 STEADY_FORCE |= {"Coulomb, fidelity 0, order 2"}
@@ -240,42 +234,30 @@ LONG_FOR_PYTHON = {
 """Steps that would take the Python FMU minutes: it refuses them by its bound of work."""
 
 
-def cases_in_part(every: int, of_second_order: int) -> list[Case]:
-    """Return one case in so many of each model."""
-    return [
-        case
-        for model in MODELS
-        for case in [one for one in axis_cases() if one.model == model][
-            :: of_second_order if model.leaps else every
-        ]
-    ]
-
-
-def judged(fmu: Path, cases: list[Case], too_long: Set[str] = frozenset()) -> StressResult:
-    result = run_cases(fmu, cases, no_progress)
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("fmu", "every", "of_second_order", "too_long"),
+    [("native_fmu", 7, 23, set()), ("python_fmu", 17, 41, LONG_FOR_PYTHON)],
+)
+def test_cases_of_the_axes(
+    request: pytest.FixtureRequest, fmu: str, every: int, of_second_order: int, too_long: set[str]
+) -> None:
+    """One in `every` of each model; of those that leap, fewer."""
+    cases: list[Case] = []
+    for model in MODELS:
+        own = [case for case in axis_cases() if case.model == model]
+        cases += own[:: of_second_order if model.leaps else every]
+    result = run_cases(request.getfixturevalue(fmu), cases, no_progress)
+    assert [one.name for one in result.verdicts] == [case.name for case in cases], "none skipped"
     failed = [f"{one.name}: {one.reason}" for one in result.verdicts if one.verdict == FAILED]
     assert failed == []
-    assert [one.name for one in result.verdicts] == [case.name for case in cases], "none skipped"
     # Values that leave the range of numbers may be refused by name: that is what their axis tries.
     beyond = {case.name for case in cases if case.axis == "overflow"}
     refused = {one.name for one in result.verdicts if one.verdict == REFUSED} - beyond
     assert refused == (WITHOUT_MEANING | too_long) & {case.name for case in cases}
-    return result
-
-
-@pytest.mark.slow
-def test_native(native_fmu: Path) -> None:
-    cases = cases_in_part(NATIVE, NATIVE_OF_SECOND_ORDER)
-    result = judged(native_fmu, cases)
-    assert sum(result.counts.values()) == len(cases)
     has_reference = sum(check.name == REFERENCE for one in result.verdicts for check in one.checks)
     assert has_reference >= 0.6 * len(cases), "most cases have a reference"
     assert f"{has_reference} cases compared with a reference" in result.summary
     assert result.most_expensive is not None
     assert f"(bound {MAX_RELATIVE_COST:g})" in result.summary, "the worst cost of a step is printed"
     assert result.most_expensive.cost_ratio <= MAX_RELATIVE_COST
-
-
-@pytest.mark.slow
-def test_python(python_fmu: Path) -> None:
-    judged(python_fmu, cases_in_part(EVERY, EVERY_OF_SECOND_ORDER), LONG_FOR_PYTHON)
