@@ -3,7 +3,6 @@ from pathlib import Path
 
 import pytest
 
-from slider_resonator.checks.compare import Check
 from slider_resonator.checks.fmu_side import PREDICTIONS, FmuSide
 from slider_resonator.checks.measuring import measure
 from slider_resonator.checks.validate import validate, worst_of_sweeps
@@ -12,8 +11,8 @@ from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
 from tests.harness import faulty_fmus
-from tests.harness.foreign_fmus import foreign
 from tests.harness.scene_text import read_scene, scene_of
+from tests.harness.verdicts import PASSED
 
 EXPECT = '[[expect]]\nquantity = "steady_velocity"\nvalue = 0.126667\nrelative = 1e-6\nwhy = "x"\n'
 
@@ -28,10 +27,8 @@ def test_a_sweep_is_judged_at_every_point(native_fmu: Path) -> None:
 
 
 def test_a_failure_is_worse_than_any_pass() -> None:
-    def made(passed: bool, deviation: float) -> Check:
-        return Check("s", "q", "1", 1.0, "value", 1.0, deviation, 1.0, passed, "why")
-
-    ((worst, _),) = worst_of_sweeps([made(True, 0.9), made(False, 0.1), made(True, 0.5)])
+    near, farther = replace(PASSED, deviation=9e-8), replace(PASSED, deviation=5e-8)
+    ((worst, _),) = worst_of_sweeps([near, replace(PASSED, passed=False), farther])
     assert not worst.passed
 
 
@@ -50,7 +47,7 @@ def test_other_scenes_are_judged_after_a_refused_one(native_fmu: Path, tmp_path:
 
 @pytest.fixture(scope="module")
 def stranger(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return foreign(native_fmu, tmp_path_factory.mktemp("foreign") / "foreign.fmu")
+    return faulty_fmus.foreign(native_fmu, tmp_path_factory.mktemp("foreign") / "foreign.fmu")
 
 
 LIFE = """
