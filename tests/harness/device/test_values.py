@@ -1,5 +1,5 @@
 import math
-from math import inf, nan, pi
+from math import inf, pi
 from typing import Any
 
 import pytest
@@ -15,17 +15,11 @@ from slider_resonator.fmu.opening import Fmu
 @pytest.mark.parametrize(
     ("name", "value", "said"),
     [
-        ("load", nan, "load = nan: must be a finite number"),
         ("load", 10**400, "load = 1000"),
-        ("load", True, "load = True: must be a number"),
         ("friction_law", 10**400, "must be an integer up to 2147483647"),
         ("fidelity", inf, "fidelity = inf: must be an integer"),
-        ("friction_faces", 1.5, "friction_faces = 1.5: must be an integer"),
         ("fidelity", 2.0**32 + 2, "must be an integer up to 2147483647"),
-        ("drive_frequency", 0.0, "= 0.0: must be a finite number of at least 1e-06 rad/s"),
         ("tolerance", 0.1, "tolerance = 0.1: must be a finite number from 1e-14 to 0.01"),
-        ("fidelity", 7.0, "fidelity = 7: must be an integer from 0 to 2"),
-        ("base_amplitude", "3 kg", "'3 kg': not in m; must be a number in m"),
         ("drive_frequency", "20 khz", "unknown unit 'khz'"),
         ("slider_mass", "50 gr", "unknown unit 'gr'"),
         (
@@ -39,6 +33,7 @@ from slider_resonator.fmu.opening import Fmu
     ],
 )
 def test_invalid_value_is_refused_by_name(name: str, value: Any, said: str) -> None:
+    """Others are among the mistakes in files and in commands."""
     variable = VARIABLES[name]
     with pytest.raises(ValueError, match=name) as error:
         variable.in_si(value) if isinstance(value, str) else variable.checked(value)

@@ -58,10 +58,8 @@ def test_a_write_that_fails_is_named(tmp_path: Path, target: str, written: str, 
     [
         ("pipe", "is a pipe; must be a regular file"),
         ("link", "is a symbolic link; must be a regular file"),
-        ("missing/out.csv", "there is no folder missing"),
         ("file/out.csv", "Not a directory"),
         ("x" * 300, "name too long"),
-        ("p.txt", r"'\.txt'; must be one of \.png, \.svg"),
     ],
 )
 def test_what_cannot_be_written_is_refused(
@@ -72,8 +70,7 @@ def test_what_cannot_be_written_is_refused(
     Path("link").symlink_to("elsewhere")
     Path("file").touch()
     with pytest.raises(HarnessError, match=refused):
-        writable(target, (".png", ".svg") if target == "p.txt" else ())
-    assert not Path("missing").exists()
+        writable(target)
     assert writable("p.PNG", (".png",)).name == "p.PNG"
 
 

@@ -109,7 +109,6 @@ def test_what_other_programs_write_is_read(tmp_path: Path, text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "must begin with 'time'"),
         ("time,load\n0\n", "line 2"),
         ("# a comment\ntime;load\n0;1\n1;x\n", "line 4: load = 'x'"),
         ("time,load\n0,1 000,5\n", "line 2"),

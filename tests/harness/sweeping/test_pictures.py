@@ -12,7 +12,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.sweeping.grid import Sweep, grid_from
 from slider_resonator.sweeping.measures import Row
 from slider_resonator.sweeping.page import MAX_POINTS, check_page, write_sweep_page
-from slider_resonator.sweeping.picture import check_picture, sweep_figure
+from slider_resonator.sweeping.picture import sweep_figure
 from slider_resonator.sweeping.table import Columns, table_columns
 from tests.harness.known_provenance import PROVENANCE
 from tests.html_pages import Page
@@ -101,9 +101,3 @@ def test_lines_maps_and_samples_are_drawn(content: dict[str, Any], drawn: type) 
     sweep = grid_from(content, "grid.toml")
     axes = sweep_figure(sweep, columns_of(sweep)).axes[0]
     assert isinstance([*axes.collections, *axes.lines][0], drawn)
-
-
-def test_three_variables_have_no_picture() -> None:
-    grid = {"phase": [0], "load": [0], "friction_law": [0]}
-    with pytest.raises(HarnessError, match=r"3 variables.*must be one"):
-        check_picture(grid_from({"grid": grid}, "grid.toml"), "--plot")

@@ -114,22 +114,16 @@ RAMPS = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("device", "held", "share"),
-    [
-        (Device(), RAMPS, 0.02),
-        (Device(normal_amplitude=1.5), until(4 * PERIOD, frequency_ratio=3.0), 0.05),
-        (Device(fidelity=1, tangential_force=50.0), until(4 * PERIOD, phase=0.4), 0.05),
-    ],
-)
-def test_sgn_agrees_with_events(device: Device, held: list[HeldInputs], share: float) -> None:
+def test_sgn_agrees_with_events() -> None:
+    """Other devices are compared on bristles, with the same equations."""
+    device, held = Device(), RAMPS
     times = np.linspace(0.0, held[-1].stop, 201)
     exact = resolved.simulate(device, held, times)
     coarse, fine = (
         simulate(device, held, times, method=DOP853, rtol=atol, atol=atol) for atol in (1e-4, 1e-8)
     )
     errors = [max(deviation(exact, run, name) for name in SIGNALS[:4]) for run in (coarse, fine)]
-    assert errors[1] < min(1e-4, share * errors[0]), errors
+    assert errors[1] < min(1e-4, 0.02 * errors[0]), errors
     assert deviation(exact, fine, "velocity") < 1e-5
     assert fine.evaluations > 2 * coarse.evaluations
     assert fine.normal_force == pytest.approx(exact.normal_force, abs=1e-12), "psi is continuous"
