@@ -197,10 +197,7 @@ def test_arrays_and_numbers_of_numpy_are_data(native_fmu: Path, tmp_path: Path) 
         (lambda: sr.choose("table_1", "no.fmu", time=-1), "time = '-1': must be above 0 s, and"),
         (lambda: sr.sweep({"grid": {"phase": 3}}, "a.csv"), r"grid\.phase = 3: must be a list"),
         (lambda: sr.fit("no.csv", "damping_ratio"), r"no\.csv cannot be read"),
-        (
-            lambda: sr.fit({"phase": [0], "force": [1, 2]}, "damping_ratio"),
-            "must be columns of one",
-        ),
+        (lambda: sr.fit({"phase": [0], "force": [1, 2]}, "damping_ratio"), "must be columns of"),
         (lambda: sr.fit({"fase": [0]}, "damping_ratio"), "data: unknown column 'fase'; did you"),
         (lambda: sr.fit({}, "damping_ratio"), "data: must be columns of one"),
         (lambda: sr.to_toml("no.toml"), r"no\.toml: cannot be read: No such file"),

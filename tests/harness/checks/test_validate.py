@@ -140,9 +140,7 @@ SIGNAL = '[[expect]]\nquantity = "{}"\nreference = "averaged"\nrelative = 1.0\nw
 @pytest.mark.parametrize("quantity", sorted(PREDICTIONS))
 def test_a_scene_that_expects_a_prediction_reads_it(instance: Instance, quantity: str) -> None:
     side = FmuSide(instance, scene_of(SLOW))
-    assert not set(PREDICTIONS.values()) & set(side.record.outputs), (
-        "what nobody asks for costs nothing"
-    )
+    assert not set(PREDICTIONS.values()) & set(side.record.outputs), "nobody asks for them"
     expect = SIGNAL if quantity.endswith("_in_run") else NUMBER
     expecting = FmuSide(instance, scene_of(SLOW + expect.format(quantity)))
     assert measure(quantity, expecting).applicable

@@ -121,9 +121,7 @@ def test_an_edited_scene_is_recorded_anew(native_fmu: Path, baseline: Path, scen
 
 
 def test_what_cannot_run_exits_with_2(native_fmu: Path, baseline: Path, tmp_path: Path) -> None:
-    fmu = faulty_fmus.compiled(
-        native_fmu, tmp_path / "failing.fmu", "IN_STEP=return 3;", "VALUE=1.0"
-    )
+    fmu = faulty_fmus.compiled(native_fmu, tmp_path / "no.fmu", "IN_STEP=return 3;", "VALUE=1.0")
     report = tmp_path / "report.json"
     assert "fmi2DoStep failed" in refused("check", fmu, baseline, "--json", report)
     assert len(json.loads(report.read_text())["errors"]) == 3, "one for each point"

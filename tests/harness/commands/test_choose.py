@@ -30,9 +30,7 @@ def test_a_choice_has_reasons_against_the_others(native_fmu: Path, tmp_path: Pat
     assert result.exit_code == 0
     assert_public_keys("choose", result.stdout)
     answer = json.loads(result.stdout)
-    assert (answer["fidelity"], answer["meets"]) == (0, True), (
-        "averages and leaps are the cheap ones"
-    )
+    assert (answer["fidelity"], answer["meets"]) == (0, True), "averages and leaps are cheap"
     assert 0.0 < answer["error"]["mean_velocity"] < answer["allowed"]["mean_velocity"]
     others = [(other["fidelity"], other["averaging_order"]) for other in answer["ruled_out"]]
     other_order = 3 - answer["averaging_order"]

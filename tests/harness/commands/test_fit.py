@@ -59,9 +59,7 @@ def test_what_is_left_open_is_exit_code_1(data: Path, native_fmu: Path) -> None:
         ("--blocking=2 N", 0, "above 1.5: check normal_preload, units and signs, and friction_f"),
     ],
 )
-def test_doubtful_datasheets_are_noted(
-    native_fmu: Path, datasheet: str, code: int, text: str
-) -> None:
+def test_doubtful_datasheets(native_fmu: Path, datasheet: str, code: int, text: str) -> None:
     free = ("--free", "friction_coefficient", "--starts", 3, "--fmu", native_fmu)
     ran = call("fit", datasheet, *free)
     assert ran.exit_code == code, ran.output

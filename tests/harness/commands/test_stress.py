@@ -32,9 +32,7 @@ def text_of(*arguments: object, code: int = 0) -> str:
     return result.output
 
 
-def test_results_of_axes_are_written(
-    native_fmu: Path, tmp_path: Path, few_cases: list[Case]
-) -> None:
+def test_results_are_written(native_fmu: Path, tmp_path: Path, few_cases: list[Case]) -> None:
     flies = Limit("position", 1.0, 1e-9, "it flies")
     few_cases.append(Case("steps", "wrong", Model(1, 0), {}, HOLDS, limits=(flies,)))
     out = tmp_path / "new"

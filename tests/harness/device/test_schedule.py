@@ -63,9 +63,7 @@ def test_outputs_are_read_before_and_after_a_change() -> None:
     st.lists(st.floats(-1, 12), min_size=1, max_size=20),
     st.booleans(),
 )
-def test_signal_over_times(
-    points: list[tuple[float, float]], times: list[float], hold: bool
-) -> None:
+def test_values_in_time(points: list[tuple[float, float]], times: list[float], hold: bool) -> None:
     ascending = sorted(dict(points).items())
     signal = steps(ascending) if hold else ramp(ascending)
     asked = np.array(sorted([*times, *signal.times]))

@@ -36,15 +36,13 @@ def velocity_at(phase: float, load: float = 0.0) -> Point:
 POINTS = tuple(velocity_at(0.3 * i, 0.01 * (i % 3)) for i in range(10))
 
 
-def fitted(
-    instance: Instance, measurements: Measurements, free: Sequence[str], **known: Any
-) -> Fit:
+def fitted(instance: Instance, data: Measurements, free: Sequence[str], **known: Any) -> Fit:
     """Fit in this process."""
 
     def run(_: str, tasks: Sequence[Task]) -> list[Any]:
         return [task(instance) for task in tasks]
 
-    return fit(measurements, free, known.pop("parameters", {}), run, **known)
+    return fit(data, free, known.pop("parameters", {}), run, **known)
 
 
 def measured(

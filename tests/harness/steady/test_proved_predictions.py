@@ -69,9 +69,7 @@ def test_other_predictions_are_not_proved(instance: Instance, values: Mapping[st
 
 
 @pytest.mark.parametrize("error", [1e-5, 1e-4, 0.01])
-def test_wrong_predictions(
-    instance: Instance, monkeypatch: pytest.MonkeyPatch, error: float
-) -> None:
+def test_wrong_velocity(instance: Instance, monkeypatch: pytest.MonkeyPatch, error: float) -> None:
     """As much as v_q times `error`, which is some 0.26 m/s."""
     read = module._candidate
 

@@ -156,9 +156,7 @@ def test_a_bristle_without_friction_does_not_matter(changed: Values) -> None:
     assert not facts(**{**LUGRE, **changed}).bends
 
 
-def test_outputs_must_follow_what_is_set(
-    instance: Instance, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_outputs_must_follow_inputs(instance: Instance, monkeypatch: pytest.MonkeyPatch) -> None:
     set_values = instance.set
     monkeypatch.setattr(instance, "set", lambda new: None if new is FIRM else set_values(new))
     with pytest.raises(FmuError, match=r"normal_force = .* N must be the normal_preload of 1\.0 N"):

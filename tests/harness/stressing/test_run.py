@@ -55,9 +55,7 @@ def test_a_hang_costs_one_case(native_fmu: Path) -> None:
     assert "no answer within the time limit of 2 s" in result.verdicts[0].reason
     assert shares == [0.0, 0.5], "progress is shown by cases"
     assert "2 cases: 1 passed, 0 refused by name, 1 failed, none skipped" in result.summary
-    assert f"--case '{ENDLESS.name}'" in "\n".join(result.sentences()), (
-        "the command that runs it again"
-    )
+    assert f"--case '{ENDLESS.name}'" in "\n".join(result.sentences()), "to run it again"
 
 
 @pytest.mark.isolated

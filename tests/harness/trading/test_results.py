@@ -87,9 +87,7 @@ def test_classes_are_compared_where_they_reach_the_error() -> None:
     assert reported["mean_velocity", PEER].ratio == pytest.approx((20.0,) * 3)
     assert sentence(reported["position", AVERAGED]) == "averages and leaps: not reached"
     assert sentence(reported["position", PEER]) == "peers: not reached"
-    assert sentence(reported["position", RESOLVED]).startswith(
-        "resolved: 300 us a simulated second"
-    )
+    assert sentence(reported["position", RESOLVED]).startswith("resolved: 300 us a simulated")
     assert "20 times the cost of resolved" in sentence(reported["mean_velocity", PEER])
     assert "30 times cheaper than resolved" in sentence(reported["mean_velocity", AVERAGED])
     assert heading("mean_velocity", 1e-2) == "at an error of 1 % in mean velocity"

@@ -82,9 +82,7 @@ def test_an_fmu_that_cannot_be_used_is_reported_once(tmp_path: Path) -> None:
     assert "no such file" in str(outcome.error)
 
 
-def test_fmu_that_opens_once_has_one_process(
-    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_fmu_that_opens_once(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     started: list[object] = []
 
     def licensed(*arguments: Any) -> IsolatedFmu:

@@ -221,15 +221,8 @@ def test_integrated_bristle_has_the_mean_friction(
 
     def turn(bristle: float) -> tuple[float, float]:
         """Deflection after a turn and mean friction over it, from a deflection."""
-        solution = solve_ivp(
-            rates,
-            (0.0, 2.0 * math.pi),
-            (bristle, 0.0),
-            method="DOP853",
-            rtol=1e-10,
-            atol=1e-13,
-            max_step=0.02 if stiffness == 20.0 else 0.01,
-        )
+        span, options = (0.0, 2.0 * math.pi), {"rtol": 1e-10, "atol": 1e-13, "max_step": 0.01}
+        solution = solve_ivp(rates, span, (bristle, 0.0), method="DOP853", **options)
         end, friction = solution.y[:, -1]
         return float(end), float(friction) / (2.0 * math.pi)
 

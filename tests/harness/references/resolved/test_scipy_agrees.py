@@ -118,9 +118,7 @@ def test_slips_within_a_long_step_are_found() -> None:
         (Lugre(friction_faces=1, friction_coefficient=0.3), {"phase": 1.0}),
     ],
 )
-def test_reversals_lift_offs_and_touchdowns_are_located(
-    device: Device, inputs: dict[str, float]
-) -> None:
+def test_events_of_bristles_are_located(device: Device, inputs: dict[str, float]) -> None:
     held = until(DURATION[1], **inputs)
     times = np.linspace(0.0, DURATION[1], 121)
     exact = simulate(device, held, times)
