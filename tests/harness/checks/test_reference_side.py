@@ -80,13 +80,10 @@ def test_at_an_event_both_of_its_sides_are_right(early: float) -> None:
     last = references.in_run("located_events", last_events)
     assert last.upper[-1] == pytest.approx(3.0, abs=1e-9)
     assert last.lower[-1] == pytest.approx(2.5, abs=1e-9)
-
-
-def test_away_from_events_there_is_one_right_value() -> None:
     references = side_until(PURE_SINE, 3.3)
     for name in ("contact_mode", "friction_force"):
         tube = references.beside_events("located_events", name)
-        assert tube.upper[-1] == tube.lower[-1] == tube.middle[-1]
+        assert tube.upper[-1] == tube.lower[-1] == tube.middle[-1], "away from events"
 
 
 def test_an_event_that_a_change_of_inputs_causes_has_one_right_side() -> None:

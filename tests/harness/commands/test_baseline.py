@@ -138,9 +138,6 @@ def test_what_is_not_recorded_is_named(native_fmu: Path, baseline: Path, tmp_pat
     said = refused("check", native_fmu, tmp_path / "empty", "--json", report)
     assert "nothing is recorded here; `slider-resonator baseline record FMU --dir " in said
     assert "nothing is recorded" in json.loads(report.read_text())["error"]
-
-
-def test_a_built_in_scene_that_is_gone_is_named(native_fmu: Path, baseline: Path) -> None:
     file = baseline / "one" / "provenance.csv"
     file.write_text(re.sub("(?m)^scene_file,.*$", "scene_file,built in", file.read_text()))
     said = refused("check", native_fmu, baseline)

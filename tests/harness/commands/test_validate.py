@@ -51,7 +51,7 @@ def test_a_failure_exits_with_1(native_fmu: Path, tmp_path: Path) -> None:
     ("old", "new", "cause"),
     [
         (b'guid="', b'guid="0', "GUID"),
-        (b"</ModelStructure>", b"", "Description.xml cannot be read"),
+        (b"</ModelStructure>", b"", "cannot be read"),
     ],
 )
 def test_run_failures_are_in_all_reports(

@@ -221,8 +221,9 @@ def test_integrated_bristle_has_the_mean_friction(
 
     def turn(bristle: float) -> tuple[float, float]:
         """Deflection after a turn and mean friction over it, from a deflection."""
-        span, options = (0.0, 2.0 * math.pi), {"rtol": 1e-10, "atol": 1e-13, "max_step": 0.01}
-        solution = solve_ivp(rates, span, (bristle, 0.0), method="DOP853", **options)
+        span, start = (0.0, 2.0 * math.pi), (bristle, 0.0)
+        options = {"rtol": 1e-10, "atol": 1e-13, "max_step": 0.01}
+        solution = solve_ivp(rates, span, start, "DOP853", **options)  # type: ignore[call-overload]
         end, friction = solution.y[:, -1]
         return float(end), float(friction) / (2.0 * math.pi)
 
