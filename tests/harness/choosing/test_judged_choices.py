@@ -302,10 +302,6 @@ def hard_scene(name: str) -> dict[str, Scene]:
     return {name: scene_from({"name": name, "title": name, **SCENES[name]}, "hard_scenes.toml")}
 
 
-def random_scenes(seeds: range) -> dict[str, Scene]:
-    return {f"scene_{seed}": generated_scene(seed) for seed in seeds}
-
-
 @pytest.mark.usefixtures("stated_costs")
 @pytest.mark.parametrize("name", OFTEN)
 def test_a_choice_for_a_hard_scene_meets_its_needs(instance: Instance, name: str) -> None:
@@ -314,7 +310,7 @@ def test_a_choice_for_a_hard_scene_meets_its_needs(instance: Instance, name: str
 
 @pytest.mark.usefixtures("stated_costs")
 def test_choices_for_random_scenes_meet_their_needs(instance: Instance) -> None:
-    judged(instance, random_scenes(range(FIRST)))
+    judged(instance, {f"scene_{seed}": generated_scene(seed) for seed in range(FIRST)})
 
 
 @pytest.mark.slow
@@ -326,4 +322,5 @@ def test_a_choice_for_a_hard_scene_costs_little(instance: Instance, name: str) -
 @pytest.mark.nightly
 @pytest.mark.parametrize("first", range(0, COUNT, CHUNK))
 def test_choices_for_random_scenes_cost_little(instance: Instance, first: int) -> None:
-    judged(instance, random_scenes(range(first, first + CHUNK)))
+    seeds = range(first, first + CHUNK)
+    judged(instance, {f"scene_{seed}": generated_scene(seed) for seed in seeds})

@@ -1,13 +1,22 @@
+"""Values of variables, and signals and schedules of inputs."""
+
 import math
-from math import inf, pi
+from collections.abc import Callable
+from dataclasses import replace
+from math import inf, nan, pi
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from slider_resonator.device.device import Device
+from slider_resonator.device.drive_periods import common_period
+from slider_resonator.device.held_inputs import HeldInputs, check_times
 from slider_resonator.device.interface import INPUT_STARTS, INPUTS, PARAMETERS, VARIABLES
+from slider_resonator.device.schedule import communication_points, schedule, step_count
+from slider_resonator.device.signal import Signal, constant, ramp, steps
 from slider_resonator.device.variable import Variable
 from slider_resonator.fmu.opening import Fmu
 
@@ -103,3 +112,148 @@ def test_fmu_has_this_interface_and_these_starts(fmu: Fmu) -> None:
 def test_a_drive_may_deviate_beyond_what_a_parameter_can_say() -> None:
     slow = Device.from_mapping({"drive_frequency": 1e-5, "frequency_deviation": -0.95})
     assert slow.tuned([("fidelity", 1)]).drive_frequency == pytest.approx(5e-7)
+
+
+def test_steps_hold_until_the_next_point() -> None:
+    signal = steps([(0.0, 1.0), (0.5, 2.0)])
+    assert [signal.at(t) for t in (-1.0, 0.0, 0.4999, 0.5, 9.0)] == [1.0, 1.0, 1.0, 2.0, 2.0]
+    assert signal.jumps == (0.5,)
+
+
+def test_sizes_of_steps_follow_each_other_and_the_last_step_ends_at_the_stop() -> None:
+    times = communication_points(1.0, (0.1, 0.3), jumps=[0.45])
+    assert times == pytest.approx([0.0, 0.1, 0.4, 0.45, 0.5, 0.8, 0.9, 1.0])
+    assert step_count(1.0, (0.1, 0.3)) == 6, "as many as whole rounds have"
+
+
+def test_a_tuned_parameter_parts_the_inputs() -> None:
+    plan = schedule(
+        1.0,
+        0.25,
+        {"normal_preload": steps([(0.0, 1.0), (0.3, 2.0)])},
+        load=steps([(0.0, 0.1), (0.5, 0.2)]),
+    )
+    assert plan.times.tolist() == [0.0, 0.25, 0.3, 0.5, 0.75, 1.0]
+    assert plan.changes.tolist() == [2, 3]
+    assert plan.readings().tolist() == plan.times.tolist(), "read once unless it is asked"
+    held = plan.held()
+    assert [(h.start, h.load, Device().tuned(h.tuned).normal_preload) for h in held] == [
+        (0.0, 0.1, 1.0),
+        (0.3, 0.1, 2.0),
+        (0.5, 0.2, 2.0),
+    ]
+    assert Device(slider_mass=3.0).tuned(held[1].tuned) == Device(
+        slider_mass=3.0, normal_preload=2.0
+    )
+    assert Device().tuned(HeldInputs(0.0, 1.0).tuned) == Device()
+
+
+def test_outputs_are_read_before_and_after_a_change() -> None:
+    plan = schedule(1.0, 0.5, load=steps([(0.0, 0.1), (0.5, 0.2), (1.0, 0.3)]))
+    plan = replace(plan, reads_twice=True)
+    before, after = 0.5, float(np.nextafter(0.5, 1.0))
+    assert plan.readings().tolist() == [0.0, before, after, 1.0], "nothing is set at the stop"
+    finer = plan.read_at(np.linspace(0.5, 1.0, 3), 0.0025)
+    assert (finer.reads_twice, finer.readings().tolist()) == (True, [0, before, after, 0.75, 1.0])
+
+
+@given(
+    st.lists(st.tuples(st.floats(0, 10), st.floats(-1e3, 1e3)), min_size=1, max_size=6),
+    st.lists(st.floats(-1, 12), min_size=1, max_size=20),
+    st.booleans(),
+)
+def test_values_in_time(points: list[tuple[float, float]], times: list[float], hold: bool) -> None:
+    ascending = sorted(dict(points).items())
+    signal = steps(ascending) if hold else ramp(ascending)
+    asked = np.array(sorted([*times, *signal.times]))
+    assert signal.over(asked).tolist() == [signal.at(time) for time in asked.tolist()]
+
+
+@given(
+    stop=st.floats(0.1, 10.0),
+    step=st.floats(0.01, 3.0),
+    jumps=st.lists(st.floats(0.0, 10.0), max_size=5),
+)
+def test_every_jump_is_a_communication_point(stop: float, step: float, jumps: list[float]) -> None:
+    points = communication_points(stop, step, jumps)
+    assert points[0] == 0.0
+    assert points[-1] == stop
+    assert np.all(np.diff(points) > 0.0)
+    assert np.max(np.diff(points)) <= step * (1.0 + 1e-6)
+    assert {t for t in jumps if 0.0 < t < stop} <= set(points.tolist())
+
+
+def test_jump_replaces_a_grid_point_just_before_it() -> None:
+    """Otherwise a whole step, or a sliver of one, would hold the old value."""
+    jump = 0.3 * (1.0 + 1e-12)
+    made = schedule(1.0, 0.1, load=steps([(0.0, 0.0), (jump, 5.0)]))
+    assert len(made.times) == 11
+    assert jump in made.times
+    assert made.sampled[3, 1] == 5.0
+
+
+def test_extra_readings_keep_the_held_inputs() -> None:
+    plan = schedule(1.0, 0.25, load=ramp([(0.0, 0.0), (1.0, 4.0)]), phase=constant(0.3))
+    more = plan.read_at(np.array([0.1, 0.25 + 1e-12, 0.6]), 1e-9)
+    assert more.times.tolist() == [0.0, 0.1, 0.25, 0.5, 0.6, 0.75, 1.0]
+    assert more.held() == plan.held()
+    assert more.signals["phase"] is plan.signals["phase"], "what is constant stays so"
+
+
+def test_lines_are_held_or_have_rates_and_corners() -> None:
+    signals = {
+        "load": ramp([(0.0, 0.0), (0.35, 0.7), (1.0, 0.7)]),
+        "phase": steps([(0.0, 0.2), (0.5, 0.7)]),
+    }
+    held, lines = (schedule(1.0, 0.1, None, line, **signals) for line in (False, True))
+    assert not held.ramps
+    assert lines.ramps
+    assert 0.35 in lines.times
+    assert 0.35 not in held.times
+    rates = lines.rates
+    inside = lines.times[:-1] < 0.35
+    assert rates[:-1, 1] == pytest.approx(np.where(inside, 2.0, 0.0))
+    assert not rates[:, [0, 2]].any(), "steps have no rate"
+    *_, last = lines.held()
+    assert (last.start, last.phase, last.load, last.load_rate) == (0.5, 0.7, 0.7, 0.0)
+    finer = lines.read_at(np.arange(0.2, lines.times[-1], 0.01), 1e-4)
+    assert np.allclose(finer.rates[:, 1], np.where(finer.times < 0.35 - 1e-9, 2.0, 0.0))
+
+
+HELD = [HeldInputs(0.0, 0.1), HeldInputs(0.1, 0.3, load=0.05)]
+
+
+def test_times_within_the_inputs_are_accepted() -> None:
+    check_times(np.array([0.0, 0.1, 0.1, 0.3]), HELD)
+    check_times(np.empty(0), HELD)
+
+
+@pytest.mark.parametrize(
+    ("call", "given", "message"),
+    [
+        (Signal, ((), ()), "at least one point"),
+        (Signal, ((0.0, 1.0), (1.0, nan)), "finite"),
+        (step_count, (0.0, 1.0), "must be positive"),
+        (step_count, (1.0, 0.0), "must be positive"),
+        (step_count, (nan, 1.0), "must be positive"),
+        (step_count, (1.0, (0.1, 0.0)), "must be positive"),
+        (check_times, (np.array([0.1, 0.4]), HELD), r"to 0\.4 s must lie within .* 0\.0 to 0\.3 s"),
+        (check_times, (np.array([0.2, 0.1]), HELD), "ascending row"),
+        (check_times, (np.array([[0.1], [0.2]]), HELD), "ascending row"),
+        (check_times, (np.array([0.1, nan]), HELD), "ascending row"),
+    ],
+)
+def test_refusals(call: Callable[..., object], given: tuple[Any, ...], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        call(*given)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "count"),
+    [
+        *((1.0, 1), (3.0, 1), (0.0, 1), (-1.0, 1), (1.5, 2), (1.0 / 3.0, 3), (-2.4, 5)),
+        *((19.0 / 20.0, 20), (1.001, None), (2.0**0.5, None), (1.0 + 1e-9, None)),
+    ],
+)
+def test_a_rational_ratio_repeats_after_its_denominator(ratio: float, count: int | None) -> None:
+    assert common_period(ratio) == count

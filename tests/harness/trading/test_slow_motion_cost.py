@@ -41,17 +41,16 @@ class Gain:
     count: int = 10
 
 
-def on_bristles(stiffness: float, leaps: float, bristles: float) -> Gain:
-    return Gain({"friction_law": 1, "bristle_stiffness": stiffness}, leaps, 4.0, bristles)
-
-
+SOFT, MEDIUM, HARD = (
+    {"friction_law": 1, "bristle_stiffness": stiffness} for stiffness in (1e4, 1e5, 1e7)
+)
 GAINS = {
     "3500 rad/s": Gain({}, 3e-7, 5.0),
     "35 000 rad/s": Gain(FAST, 3e-7, 30.0),
     "steps of 1000 periods": Gain({}, 1e-5, 8.0, size=1000.0 * PERIOD, count=60, max_error=3e-5),
-    "LuGre, 1e4": on_bristles(1e4, 1e-7, 3e-8),
-    "LuGre, 1e5": on_bristles(1e5, 3e-7, 3e-7),
-    "LuGre, 1e7": on_bristles(1e7, 3e-7, 3e-5),
+    "LuGre, 1e4": Gain(SOFT, 1e-7, 4.0, 3e-8),
+    "LuGre, 1e5": Gain(MEDIUM, 3e-7, 4.0, 3e-7),
+    "LuGre, 1e7": Gain(HARD, 3e-7, 4.0, 3e-5),
 }
 
 
