@@ -1,6 +1,5 @@
 """Open an FMU: unpack the archive, read its description and check its interface."""
 
-import re
 import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -59,8 +58,8 @@ class Fmu:
     @cached_property
     def log_categories(self) -> frozenset[str]:
         """The names of its log categories, which fmpy does not read."""
-        text = (self.folder / "modelDescription.xml").read_text(encoding="utf-8")
-        return frozenset(re.findall(r'<Category\s+name="([^"]*)"', text))
+        root = ET.parse(self.folder / "modelDescription.xml")
+        return frozenset(one.get("name", "") for one in root.iter("Category"))
 
     @property
     def takes_equal_steps_only(self) -> bool:

@@ -99,6 +99,18 @@ def test_damage_and_missing_binaries_are_refused(native_fmu: Path, tmp_path: Pat
     assert "no binary for " in refusal(path)
 
 
+def test_log_categories_are_read_in_any_encoding(native_fmu: Path, tmp_path: Path) -> None:
+    def alter(name: str, content: bytes) -> bytes:
+        if name != XML:
+            return content
+        text = content.decode().replace("UTF-8", "ISO-8859-1", 1)
+        return text.replace('author="', 'author="Föppl, ', 1).encode("latin-1")
+
+    path = faulty_fmus.altered(native_fmu, tmp_path / "other.fmu", alter)
+    with open_fmu(path) as fmu, open_fmu(native_fmu) as other:
+        assert fmu.log_categories == other.log_categories != set()
+
+
 def test_limit_that_is_no_number(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(limits.MEMORY, "much")
     with pytest.raises(HarnessError, match="SLIDER_RESONATOR_MAX_MEMORY = 'much': must be a whole"):
