@@ -76,7 +76,7 @@ class Variable:
         """
         if isinstance(value, bool) or not isinstance(value, Real):
             raise ValueError(f"{self.name} = {value!r}: must be a number")
-        number: Any = value
+        number: Any = getattr(value, "item", lambda: value)()  # those of numpy have other bounds
         if self.kind == "Integer":
             check_integer(self.name, number)
             number = int(number)

@@ -24,6 +24,7 @@ from slider_resonator.fmu.opening import Fmu
 @pytest.mark.parametrize(
     ("name", "value", "said"),
     [
+        ("load", np.float32(inf), "load = inf: must be a finite number"),
         ("load", 10**400, "load = 1000"),
         ("friction_law", 10**400, "must be an integer up to 2147483647"),
         ("fidelity", inf, "fidelity = inf: must be an integer"),
