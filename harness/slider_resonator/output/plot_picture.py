@@ -21,7 +21,9 @@ def draw_plot(axes: Axes, plot: HoverPlot) -> None:
         if series.cells:
             _fill_cells(axes, plot, series)
         elif series.colours:
-            axes.scatter(series.x, [y or 0.0 for y in series.y], c=series.colours, s=12)
+            y = [y or 0.0 for y in series.y]
+            # With an edge: the middle of a scale may be white.
+            axes.scatter(series.x, y, 12, series.colours, edgecolors="0.5", linewidths=0.4)
         else:
             _draw_line(axes, series)
     axes.set(xlabel=plot.x.label, ylabel=plot.y.label)

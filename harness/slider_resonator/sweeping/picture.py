@@ -47,7 +47,7 @@ def sweep_figure(sweep: Sweep, columns: Columns) -> Figure:
             draw_plot(axes, plot)
             if scale is not None:
                 figure.colorbar(scale, ax=axes, label=plot.title)
-            if len(plot.series) > 1:
+            if len(plot.series) > 1 or NO_ANSWER in plot.series[0].label:
                 axes.legend()
     return figure
 
@@ -91,7 +91,8 @@ def measure_plot(
         looks = {"colour": colours[len(found) // 2], "marker": "●", "colours": colours}
         all_series.append(series(answers.words, found, up, cells=sweep.is_grid, **looks))
     if none.any():
-        all_series.append(series(NO_ANSWER, np.flatnonzero(none), up, colour=GREY, marker="✖"))
+        missed, chosen = f"{answers.words}: {NO_ANSWER}", np.flatnonzero(none)
+        all_series.append(series(missed, chosen, up, colour=GREY, marker="✖"))
     return HoverPlot(answers.label, axes[abscissa], axes[ordinate], all_series), scale
 
 

@@ -168,9 +168,14 @@ def test_axes_are_logarithmic_where_the_grid_is(tmp_path: Path) -> None:
     assert plot["x"]["log"]
 
 
-def test_a_sweep_without_any_answer_has_a_page(tmp_path: Path) -> None:
-    (plot,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS, "load": AXIS}}, answered=False)
-    assert [one["label"] for one in plot["series"]] == ["no answer"]
+def test_a_sweep_without_any_answer_is_drawn_and_says_so(tmp_path: Path) -> None:
+    content = {"grid": {"phase": AXIS, "load": AXIS}}
+    (plot,) = plots(tmp_path / "a.html", content, answered=False)
+    assert [one["label"] for one in plot["series"]] == ["steady velocity: no answer"]
+    sweep = grid_from(content, "grid.toml")
+    (axes,) = sweep_figure(sweep, columns_of(sweep, answered=False)).axes
+    assert axes.get_legend_handles_labels()[1] == ["steady velocity: no answer"]
+    assert axes.get_legend() is not None
 
 
 def test_too_many_points_are_refused() -> None:
