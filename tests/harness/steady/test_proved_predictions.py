@@ -100,7 +100,8 @@ def test_each_quantity_is_predicted_by_itself(instance: Instance) -> None:
         "damping_ratio": 0.06049979809842225,
     }
     found = find_steady(instance, held)
-    assert found.status == "steady" and found.prediction_valid is False
+    assert found.status == "steady"
+    assert found.prediction_valid is False
     assert found.predicted == pytest.approx(found.steady_velocity, rel=1e-9)
     proved = proved_predictions(instance, "steady_velocity", [held], 20)
     assert proved == [pytest.approx(found.steady_velocity, rel=1e-9)]
