@@ -69,6 +69,8 @@ class Root:
     x: Vector
     iterations: int
     residual: float
+    inverse: Matrix
+    """Inverse of the scaled Jacobian (n, n)."""
 
 
 def central_jacobian(function: Callable[[Vector], Vector], x: Vector, steps: Vector) -> Matrix:
@@ -90,14 +92,16 @@ def solve(
     scale: Vector,
     *,
     tolerance: float = 1e-11,
+    inverse: Matrix | None = None,
 ) -> Root:
     """Find a zero of `function`, (n,) -> (n,) and finite, the change of a state over a period.
 
     The search starts at `guess` (n,). `scale` (n,) is the typical size of each unknown and of the
-    function value beside it; `tolerance` bounds the last correction, in units of it. Raises
-    NoPeriodicMotion where there is no zero, or none can be singled out. With a singular Jacobian
-    some more steps are taken in the directions that it determines: a residual that vanishes then
-    shows a family of zeros, one that remains shows that there is none.
+    function value beside it; `tolerance` bounds the last correction, in units of it. The `inverse`
+    of a zero nearby is tried first. Raises NoPeriodicMotion where there is no zero, or none can be
+    singled out. With a singular Jacobian some more steps are taken in the directions that it
+    determines: a residual that vanishes then shows a family of zeros, one that remains shows that
+    there is none.
     """
 
     def scaled(y: Vector) -> Vector:
@@ -117,13 +121,17 @@ def solve(
     steps = np.full_like(y, DIFFERENCE)
     iterations = 0
     value = scaled(y)
-    jacobian = central_jacobian(scaled, y, steps)
-    inverse = _inverse(jacobian)
-    while inverse is not None:
+    is_kept = inverse is not None
+    while True:
+        if not is_kept:
+            jacobian = central_jacobian(scaled, y, steps)
+            inverse = _inverse(jacobian)
+        if inverse is None:
+            break
         correction = -inverse @ value
         size = float(np.linalg.norm(correction))
         if size <= tolerance:
-            return Root(y * scale, iterations, residual())
+            return Root(y * scale, iterations, residual(), inverse)
         if iterations == MAX_ITERATIONS:
             raise unconverged("out of iterations")
         iterations += 1
@@ -133,16 +141,16 @@ def solve(
             trial_value = scaled(trial)
             contraction = float(np.linalg.norm(inverse @ trial_value)) / size
             if contraction <= 1.0 - damping / 4.0:
+                y, value = trial, trial_value
                 break
             if size <= ROUNDING * tolerance:
-                return Root(y * scale, iterations, residual())
+                return Root(y * scale, iterations, residual(), inverse)
+            if is_kept:  # a new Jacobian may bring it closer
+                break
             damping /= 2.0
             if damping < SMALLEST_DAMPING:
                 raise unconverged("no step brings it closer")
-        y, value = trial, trial_value
-        if contraction > KEEP:
-            jacobian = central_jacobian(scaled, y, steps)
-            inverse = _inverse(jacobian)
+        is_kept = contraction <= KEEP
     determined = np.linalg.pinv(jacobian, rcond=SINGULAR)
     for _ in range(SINGULAR_STEPS):
         y = y - determined @ value
@@ -170,6 +178,8 @@ def _inverse(jacobian: Matrix) -> Matrix | None:
 
 DOUBLINGS = 6
 """Maximum doublings of the bounds, which begin at the scale of the slow state."""
+EXACT = 1e-14
+"""Last correction, in units of the scale, of fast states that are found to rounding."""
 
 
 def bracketed_state(period_map: PeriodMap, guess: Vector, scale: Vector) -> Vector | None:
@@ -177,16 +187,18 @@ def bracketed_state(period_map: PeriodMap, guess: Vector, scale: Vector) -> Vect
 
     `guess` (n,) starts the fast entries, `scale` (n,) is the typical size of each entry.
     """
-    state = guess.copy()
+    state, inverse = guess.copy(), None
 
     def fast_change(fast: Vector) -> Vector:
         return period_map(np.append(state[0], fast))[0][1:] - fast
 
     def slow_change(slow: float) -> float:
         """Return the change of entry 0; leaves in `state` the state that it belongs to."""
+        nonlocal inverse
         state[0] = slow
         if len(state) > 1:
-            state[1:] = solve(fast_change, state[1:], scale[1:]).x
+            fast = solve(fast_change, state[1:], scale[1:], tolerance=EXACT, inverse=inverse)
+            state[1:], inverse = fast.x, fast.inverse
         return float(period_map(state)[0][0]) - slow
 
     try:

@@ -57,6 +57,19 @@ def test_no_steady_motion(instance: Instance, values: Values, status: str, reaso
     assert reason in motion.reason
 
 
+def test_a_kept_jacobian_that_does_not_help_is_renewed(instance: Instance) -> None:
+    values = {"phase": 5.83, "normal_amplitude": 1.3, "frequency_ratio": 0.5, "load": 0.11}
+    resonator = {"base_amplitude": 1e-5, "resonator_frequency": 1e3, "damping_ratio": 0.01}
+    blocking = find_blocking(instance, {**values, **resonator})
+    assert blocking.blocking_force == pytest.approx(-0.038269024, rel=1e-6)
+
+
+def test_bracketing_keeps_its_jacobian(instance: Instance) -> None:
+    motion = find_steady(instance, {"damping_ratio": 0.0})
+    assert motion.steady_velocity is not None
+    assert motion.periods <= 120
+
+
 def test_no_blocking_force(instance: Instance) -> None:
     still = {"base_amplitude": 0.0, "normal_amplitude": 0.5}
     for values, status in ((still, "stuck"), ({"frequency_ratio": 1.001}, "slow_beat")):
