@@ -52,11 +52,11 @@ class FmuPlugin(WorkerPlugin):
 
 def run_task(plugin_name: str, task: Task) -> Outcome:
     """Run a task of a sweep, on a worker."""
-    plugin: Any = get_worker().plugins.get(plugin_name)
-    if plugin is None:
+    plugin = get_worker().plugins.get(plugin_name)
+    processes: LocalProcesses | None = getattr(plugin, "processes", None)
+    if processes is None:  # also where the plugin refused to set up
         return Outcome(error=HarnessError("this worker has not been given the FMU"))
-    outcome: Outcome = plugin.processes.run(task)
-    return outcome
+    return processes.run(task)
 
 
 class DaskProcesses:

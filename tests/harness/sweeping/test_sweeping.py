@@ -221,13 +221,19 @@ def test_no_scheduler(native_fmu: Path, tmp_path: Path, monkeypatch: pytest.Monk
             run_sweep(FEW, native_fmu, tmp_path / "a.csv", workers=1, dask=address)
 
 
-def test_a_worker_of_another_version_refuses(native_fmu: Path, tmp_path: Path) -> None:
+def test_a_worker_of_another_version_refuses(
+    native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     plugin = cluster.FmuPlugin("digest", native_fmu.name, native_fmu.read_bytes(), 60.0)
     plugin.version = "0.0"
     worker = SimpleNamespace(address="tcp://192.0.2.7:1", local_directory=str(tmp_path))
     with pytest.raises(HarnessError, match=r"worker tcp://192\.0\.2\.7:1 has .*must be 0\.0"):
         plugin.setup(cast(Worker, worker))
     assert list(tmp_path.iterdir()) == []
+    worker.plugins = {plugin.name: plugin}
+    monkeypatch.setattr(cluster, "get_worker", lambda: worker)
+    for name in (plugin.name, "other"):
+        assert "has not been given the FMU" in str(cluster.run_task(name, print).error)
 
 
 def test_no_distributed(native_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
