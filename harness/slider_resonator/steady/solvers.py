@@ -145,10 +145,10 @@ def solve(
                 break
             if size <= ROUNDING * tolerance:
                 return Root(y * scale, iterations, residual(), inverse)
-            if is_kept:  # a new Jacobian may bring it closer
-                break
             damping /= 2.0
             if damping < SMALLEST_DAMPING:
+                if is_kept:
+                    break  # a new Jacobian may bring it closer
                 raise unconverged("no step brings it closer")
         is_kept = contraction <= KEEP
     determined = np.linalg.pinv(jacobian, rcond=SINGULAR)
@@ -207,6 +207,6 @@ def bracketed_state(period_map: PeriodMap, guess: Vector, scale: Vector) -> Vect
             if slow_change(-bound) > 0.0 > slow_change(bound):
                 slow_change(scipy.optimize.brentq(slow_change, -bound, bound, xtol=1e-10 * bound))
                 return state
-    except NoPeriodicMotion:
+    except (NoPeriodicMotion, ValueError):  # by rounding the bounds may change sides
         pass
     return None

@@ -202,3 +202,13 @@ def test_no_load_blocks_what_does_not_move(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(_Slider, "run", lambda _, state, *__: (0.5 * state[None], np.zeros(1)))
     with pytest.raises(NoPeriodicMotion):
         blocked_point(_Slider(), WarmedUp(np.ones(2), np.ones(2), 0.0), 0.1, 1.0)
+
+
+def test_bounds_that_change_sides_by_rounding_are_no_bracket() -> None:
+    """Each bound is computed again, and then the state grows at both."""
+    grows = iter([True, False, True, True])
+
+    def period_map(state: Vector) -> tuple[Vector, float]:
+        return state + (1e-16 if next(grows) else -1e-16), 0.0
+
+    assert bracketed_state(period_map, np.zeros(1), np.full(1, 1e-3)) is None
