@@ -93,9 +93,9 @@ static bool breaks_loose(const Balance *balance, double friction) {
     return fmin(force, held_amplitude(device)) > friction * (grip / bristle->coefficient);
 }
 
-Averages first_order_averages(const System *system, double normal_lead) {
+Prediction first_order_prediction(const System *system, double normal_lead, Quantity quantity) {
     if (system->fast.velocity == 0.0) {
-        return (Averages){0.0, 0.0, false, false};
+        return (Prediction){0.0, false, false};
     }
     Balance balance = balance_of(system, normal_lead);
     double first = friction_at(&balance, 0.0), last = friction_at(&balance, PI);
@@ -103,11 +103,13 @@ Averages first_order_averages(const System *system, double normal_lead) {
     if (first == last) {
         /* No friction: every velocity is steady without a load, and none with one. */
         double fastest = load != 0.0 ? -copysign(balance.fast.velocity, load) : 0.0;
-        return (Averages){fastest, 0.0, false, false};
+        return (Prediction){quantity == STEADY_VELOCITY ? fastest : 0.0, false, false};
+    }
+    bool holds = fabs(load) < first;
+    bool valid = holds && breaks_loose(&balance, first);
+    if (quantity == BLOCKING_FORCE) {
+        return (Prediction){-friction_at(&balance, 0.5 * PI), holds, valid};
     }
     Point low = {0.0, first + load - balance.noise}, high = {PI, last + load - balance.noise};
-    double turning = balanced_turning(&balance, low, high);
-    bool holds = fabs(load) < first;
-    return (Averages){balance.fast.velocity * cos(turning), -friction_at(&balance, 0.5 * PI), holds,
-                      holds && breaks_loose(&balance, first)};
+    return (Prediction){balance.fast.velocity * cos(balanced_turning(&balance, low, high)), holds, valid};
 }

@@ -9,12 +9,13 @@
 
 #include "../friction/system.h"
 
-/* Steady velocity [m/s] and blocking force [N] by averaged theory, and whether they apply. Friction `holds` a load
- * below that of sliding. */
+/* A quantity that is predicted [m/s, N], its value, and whether it applies. Friction `holds` a load below that of
+ * sliding. */
+typedef enum { STEADY_VELOCITY, BLOCKING_FORCE, QUANTITIES } Quantity;
 typedef struct {
-    double steady_velocity, blocking_force;
+    double value;
     bool holds, valid;
-} Averages;
+} Prediction;
 
 /* Averaged theory of the device and inputs of a system (eqs 20-22 with both faces).
  *
@@ -22,4 +23,4 @@ typedef struct {
  * exceeds full friction the velocity is the limit v_q of the theory, with its sign. Both results are 0 without
  * vibration, and where undamped resonance leaves no steady vibration. In these cases, and where the vibration does not
  * break the contact loose, they are not `valid`. */
-Averages first_order_averages(const System *system, double normal_lead);
+Prediction first_order_prediction(const System *system, double normal_lead, Quantity quantity);

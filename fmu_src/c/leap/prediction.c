@@ -260,15 +260,9 @@ static bool full_system(const System *system, System *full) {
     return true;
 }
 
-/* A quantity by averages. */
-static Prediction predicted(const Averages *averages, Quantity quantity) {
-    double value = quantity == BLOCKING_FORCE ? averages->blocking_force : averages->steady_velocity;
-    return (Prediction){value, averages->valid};
-}
-
 /* Find the periodic motion that a quantity belongs to, from averages on, which must hold the load. */
-static bool find(const PeriodMap *map, double psi, const Averages *start, Quantity quantity, Prediction *exact) {
-    *exact = (Prediction){predicted(start, quantity).value, true};
+static bool find(const PeriodMap *map, double psi, Quantity quantity, const Prediction *start, Prediction *exact) {
+    *exact = (Prediction){start->value, true, true};
     return start->holds && (quantity == BLOCKING_FORCE ? find_blocked : find_steady)(map, psi, &exact->value);
 }
 
@@ -276,33 +270,30 @@ static bool find(const PeriodMap *map, double psi, const Averages *start, Quanti
  * Where bristles damp less than they hold, one velocity alone balances a load: the balance of Coulomb friction is then
  * a good and cheap guess. */
 static Prediction second_order(const System *system, double normal_lead, Quantity quantity) {
-    System full, coulomb = *system;
+    System full;
     PeriodMap map;
-    Averages start;
-    Prediction exact;
+    Prediction start, exact;
     int turns = turns_of_load(system);
     bool repeats = turns > 0 && full_system(system, &full) && period_map_prepare(&map, &full, turns);
     double psi = repeats ? within_turn(normal_lead + system->inputs.frequency_ratio * map.section) : 0.0;
     double damping = damping_share(&system->bristle, system->fast.velocity, system->device.drive_frequency);
     if (repeats && is_elastic(&system->bristle) && damping <= 1.0) {
+        System coulomb = *system;
         coulomb.bristle = (Bristle){system->bristle.coefficient, INFINITY, 0.0};
-        start = first_order_averages(&coulomb, normal_lead);
-        if (find(&map, psi, &start, quantity, &exact)) {
+        start = first_order_prediction(&coulomb, normal_lead, quantity);
+        if (find(&map, psi, quantity, &start, &exact)) {
             return exact;
         }
     }
-    start = first_order_averages(system, normal_lead);
-    if (repeats && find(&map, psi, &start, quantity, &exact)) {
+    start = first_order_prediction(system, normal_lead, quantity);
+    if (repeats && find(&map, psi, quantity, &start, &exact)) {
         return exact;
     }
     start.valid = false;
-    return predicted(&start, quantity);
+    return start;
 }
 
 Prediction prediction_of(const System *system, double normal_lead, Quantity quantity) {
-    if (system->device.averaging_order == 1) {
-        Averages averages = first_order_averages(system, normal_lead);
-        return predicted(&averages, quantity);
-    }
-    return second_order(system, normal_lead, quantity);
+    return system->device.averaging_order == 1 ? first_order_prediction(system, normal_lead, quantity)
+                                               : second_order(system, normal_lead, quantity);
 }

@@ -6,13 +6,6 @@
 /* Number of turns of the drive, at most 32, after which the normal load repeats; 0 if it does not. */
 int turns_of_load(const System *system);
 
-/* A quantity that is predicted [m/s, N], and its value. */
-typedef enum { STEADY_VELOCITY, BLOCKING_FORCE, QUANTITIES } Quantity;
-typedef struct {
-    double value;
-    bool valid;
-} Prediction;
-
 /* The prediction of the averaging order of the device; `normal_lead` [rad] is psi - ratio theta. Where second order
  * finds no periodic motion, or the normal load never repeats, it is that of first order and not `valid`. */
 Prediction prediction_of(const System *system, double normal_lead, Quantity quantity);

@@ -97,6 +97,7 @@ def theory_range(device: Device) -> tuple[float, ...]:
     return velocity**2, drag, tau * normal * (1.0 + 2.0 * (mu * (1.0 + drag) + bent))
 
 
+@lru_cache(maxsize=8)  # for both quantities
 def first_order(device: Device, inputs: Inputs, normal_lead: float) -> Averages:
     """Averaged theory at the present inputs (eqs 20-22 with both faces).
 

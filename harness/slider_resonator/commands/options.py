@@ -11,7 +11,7 @@ import click
 
 from slider_resonator.device.interface import SETTABLE, VARIABLES, settable_value
 from slider_resonator.device.units import is_number, positive_time
-from slider_resonator.errors import HarnessError
+from slider_resonator.errors import HarnessError, SceneError
 from slider_resonator.fmu import finished
 from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.output.console import print_text
@@ -191,8 +191,13 @@ def each_once(
 
 
 def _no_toml(kind: str, text: str) -> Path:
-    """Return the path of a file of a kind; SceneError for a scene, grid or device in its place."""
+    """Return the path of a file of a kind.
+
+    Raises SceneError for a scene, grid, device or setting in its place.
+    """
     path = Path(text)
+    if text.partition("=")[0] in SETTABLE and not path.exists():
+        raise SceneError(f"{text}: no such file; must be a file, or --set {text}")
     if path.suffix == ".toml" and path.is_file():
         refuse_other_kinds(read_toml(path), text, kind)
     return path

@@ -168,8 +168,6 @@ def lacking(path: Path) -> tuple[str, ...]:
 def _read_description(path: Path) -> ModelDescription:
     if not path.is_file():
         problem = "is a directory; must be an FMU file" if path.is_dir() else "no such file"
-        if path.name.partition("=")[0] in VARIABLES:
-            problem += f"; must be an FMU file, or --set {path}"
         raise FmuError(f"{path}: {problem}")
     if not zipfile.is_zipfile(path):
         raise FmuError(f"{path}: not an FMU: it is no zip archive")

@@ -142,7 +142,7 @@ def transferred_differences(fmu: FmuSide) -> list[str]:
         running, taken = plain.started(), Running(other, plain.schedule)
         steps = {int(share * running.steps) for share in TRANSFERRED_AT}
 
-        def take_over(step: int) -> None:
+        def transfer(step: int) -> None:
             if step in steps:
                 with SavedState.of(instance) as state:
                     state.transfer(other)
@@ -152,7 +152,7 @@ def transferred_differences(fmu: FmuSide) -> list[str]:
                 what = f"in another instance from step {step} on"
                 found.extend(plain.differences(what, taken.rows, begin=len(running.rows) - 1))
 
-        running.finish(before=take_over)
+        running.finish(before=transfer)
     return found + plain.differences("while its state is taken over", running.rows)
 
 
