@@ -8,10 +8,9 @@
 #define SHORTER 0.5
 #define LONGER 2.0
 
-/* Shares of the allowed error: of a velocity that hardly changes, so that no other point is evaluated, and of the
+/* Share of the allowed error: for a velocity that hardly changes, so that no other point is evaluated, and for the
  * integration of interpolated rates. */
-#define STAYS 0.1
-#define INTEGRATED 0.01
+#define SMALL_SHARE 0.1
 
 /* Rate of the slow velocity over v_q that is rounding. */
 #define ROUNDING (4.0 * EPSILON)
@@ -44,9 +43,13 @@ static double periods_of_error(double factor, double h) {
 }
 
 /* Error of a rate on the line between two points where that is the tangent at the first one: by the slope at the other.
- * A line that meets the rates there by accident has the wrong slope. */
-static double error_of_line(const PathPoint *to, double tangent, double length) {
-    return BENT * fabs(length * (to->rates.jerk / to->rates.acceleration - tangent));
+ * A line that meets the rates there by accident has the wrong slope. On a short way the slope changes by less than its
+ * rounding: it changes by as much as itself within the reach of a step. */
+static double error_of_line(const SlowPath *path, const PathPoint *to, double length) {
+    const SlowRates *first = &path->here.rates, *last = &to->rates;
+    double slope = first->jerk / first->acceleration;
+    double bent = fabs(last->jerk / last->acceleration - fmin(0.0, slope));
+    return BENT * fabs(length) * fmin(bent, fabs(slope * length) / reach_of_step(path));
 }
 
 static double interpolated_acceleration(const SlowPath *path, double velocity) {
@@ -63,11 +66,24 @@ static bool interpolated_rate(void *data, double t, double v, SlowRate *rate) {
     return true;
 }
 
+/* First step over the time in which rates change, where the slow velocity still changes by one tolerance: most devices
+ * hold it. */
+#define EXPECTED_STEP 3.3
+
+double expected_step(const SlowPath *path) {
+    const PeriodMap *map = path->manifold.map;
+    double acceleration = fabs(path->here.rates.acceleration);
+    double gain = fabs(path->here.rates.jerk) / fmax(acceleration, SMALLEST);
+    double change = acceleration / (fmax(gain, SMALLEST) * map->speed);
+    return gain > 0.0 ? EXPECTED_STEP / gain * pow(map->tolerance / fmax(change, SMALLEST), 1.0 / ORDER) : INFINITY;
+}
+
 /* Integrate interpolated rates over `h` periods; a velocity that settles to a share of `allowed` stays. Return false
- * where it changes by more than `reach`, or by jumps. */
+ * where it changes by more than `reach`, or by jumps. A first step that is too long may have a small estimate by
+ * accident. */
 static bool integrate(SlowPath *path, double h, double reach, double allowed, SlowPoint *now) {
     const PathPoint *here = &path->here;
-    double step = h;
+    double step = expected_step(path);
     *now = (SlowPoint){.velocity = here->velocity, .rate = {here->rates.acceleration, here->rates.travel}};
     while (now->t < h) {
         SlowStep found;
@@ -77,7 +93,7 @@ static bool integrate(SlowPath *path, double h, double reach, double allowed, Sl
         }
         runge_kutta_step(interpolated_rate, &path->interpolant, now, step, &found);
         bool beyond = !(fabs(found.to.velocity - here->velocity) <= reach);
-        if (found.error <= INTEGRATED * allowed) {
+        if (found.error <= SMALL_SHARE * allowed) {
             if (beyond) {
                 return false;
             }
@@ -85,11 +101,11 @@ static bool integrate(SlowPath *path, double h, double reach, double allowed, Sl
             double rate = fabs(found.to.rate.acceleration);
             double slowed = fabs(now->rate.acceleration) - rate;
             *now = found.to;
-            if (rate * change <= slowed * INTEGRATED * allowed) {
+            if (rate * change <= slowed * SMALL_SHARE * allowed) {
                 break;
             }
         }
-        step *= beyond ? SHORTER : step_growth(found.error, INTEGRATED * allowed);
+        step *= beyond ? SHORTER : step_growth(found.error, SMALL_SHARE * allowed);
     }
     now->travel += (h - now->t) * now->rate.travel;
     return true;
@@ -107,7 +123,7 @@ static bool try_step(SlowPath *path, double h, PathStep *result) {
     const PathPoint *here = &path->here;
     double rate = here->rates.acceleration, allowed = map->tolerance * map->speed;
     double reach = reach_of_step(path);
-    if (fabs(rate) <= fmax(STAYS * allowed / h, ROUNDING * map->speed)) {
+    if (fabs(rate) <= fmax(SMALL_SHARE * allowed / h, ROUNDING * map->speed)) {
         *result = (PathStep){h, h * here->rates.travel, 1.0, h * here->rates.error};
         return true;
     }
@@ -129,7 +145,7 @@ static bool try_step(SlowPath *path, double h, PathStep *result) {
         double periods = periods_of_error(factor, h);
         bool likely = IMPROVED * periods * residual <= allowed;
         if (path->interpolant.count == 2) {
-            likely = likely && periods * error_of_line(&landing, gain, end - here->velocity) <= allowed;
+            likely = likely && periods * error_of_line(path, &landing, end - here->velocity) <= allowed;
         }
         if (likely) {
             SlowPoint to;
@@ -171,10 +187,6 @@ bool interpolated_step(SlowPath *path, double *h, PathStep *result) {
 /* What the error of Hermite's rule counts: it mostly is one to two times the estimate. */
 #define HERMITE_SHARE 0.5
 
-/* First step over the time in which rates change, where the slow velocity still changes by one tolerance: most devices
- * hold it. */
-#define EXPECTED_STEP 3.3
-
 /* Largest decay of the slow velocity in a period, over the share of friction: beyond, it is noise. */
 #define MAX_DECAY 4.0
 
@@ -190,14 +202,6 @@ static bool rate_at(void *data, double n, double velocity, SlowRate *rate) {
 double periods_in_beat(const PeriodMap *map, double n) {
     double chirp = map->system.plant.normal_rate * map->period * map->period;
     return PI / 4.0 / fabs(map->drift + chirp * n);
-}
-
-double expected_step(const SlowPath *path) {
-    const PeriodMap *map = path->manifold.map;
-    double acceleration = fabs(path->here.rates.acceleration);
-    double gain = fabs(path->here.rates.jerk) / fmax(acceleration, SMALLEST);
-    double change = acceleration / (fmax(gain, SMALLEST) * map->speed);
-    return gain > 0.0 ? EXPECTED_STEP / gain * pow(map->tolerance / fmax(change, SMALLEST), 1.0 / ORDER) : INFINITY;
 }
 
 /* What a change of the slow velocity over `h` periods differs by from the integral of the cubic with the rates at both

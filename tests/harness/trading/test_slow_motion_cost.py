@@ -45,8 +45,8 @@ def on_bristles(stiffness: float, leaps: float, bristles: float) -> Gain:
 
 
 GAINS = {
-    "3500 rad/s": Gain({}, 3e-7, 5.0),
-    "35 000 rad/s": Gain(FAST, 3e-7, 30.0),
+    "3500 rad/s": Gain({}, 1e-6, 5.0),
+    "35 000 rad/s": Gain(FAST, 1e-6, 30.0),
     "steps of 1000 periods": Gain({}, 1e-5, 8.0, size=1000.0 * PERIOD, count=60, max_error=3e-5),
     "LuGre, 1e4": on_bristles(1e4, 1e-7, 3e-8),
     "LuGre, 1e5": on_bristles(1e5, 3e-7, 3e-7),

@@ -5,7 +5,7 @@ import pytest
 
 from slider_resonator.fmu.finished import FMUS
 from studies.commands import bench
-from studies.hosts.step_cost import LONG_STEP, ONE_PERIOD, StepCost
+from studies.hosts.step_cost import STEPS, StepCost
 from tests.harness.calling import call, refused
 from tests.harness.public_json import assert_public_keys
 
@@ -76,16 +76,13 @@ def test_bad_arguments_are_refused(
 def test_costs_are_printed_and_returned_as_json(
     native_fmu: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    costs = (
-        StepCost("resolved Coulomb, 1 ms", 4, 1.03, 1.01, 1.25),
-        StepCost(ONE_PERIOD, 0, 0.7, 0.6, 0.9),
-        StepCost(LONG_STEP, 0, 55.0, 50.0, 70.0),
-    )
+    costs = tuple(StepCost(s.name, len(s.outputs), 1.03, 1.01, 1.25) for s in STEPS)
     monkeypatch.setattr(bench, "measure_steps", lambda *_: costs)
     text = call("bench", native_fmu).stdout
     assert "resolved Coulomb, 1 ms" in text
     assert "1.01-1.25" in text
-    assert "1.20 times" in text
+    assert "100.00 times" in text
+    assert "cost 1 times less" in text
     printed = call("bench", native_fmu, "--json").stdout
     assert_public_keys("bench", printed)
     assert json.loads(printed)["c_host"][0] == vars(costs[0])

@@ -18,6 +18,7 @@ from studies.hosts.step_cost import (
     ONE_PERIOD,
     STEPS,
     StepCost,
+    leap_gains,
     measure_steps,
     short_step_ratio,
 )
@@ -182,6 +183,7 @@ def test_every_step_is_timed(native_fmu: Path) -> None:
     costs = measure_steps(native_fmu, 1, lambda name, share: None, 60.0)
     assert [cost.name for cost in costs] == [step.name for step in STEPS]
     assert all(0.0 < cost.fastest <= cost.microseconds <= cost.slowest for cost in costs)
+    assert min(leap_gains(costs)) > 5.0
 
 
 def test_short_steps_are_compared_with_long_ones_per_period() -> None:

@@ -5,6 +5,7 @@
  *     integer REFERENCE VALUE     sets an Integer
  *     real REFERENCE VALUE        sets a Real
  *     initialize                  ends initialisation; time starts at 0
+ *     reset                       goes back to before initialisation
  *     step SIZE COUNT             takes COUNT steps of SIZE seconds
  *     get REFERENCE...            prints Reals on one line
  *     time COUNT SIZE             prints the microseconds that a step takes, over COUNT steps of
@@ -57,6 +58,12 @@ static void check(fmi2Status status, const char *call) {
     if (status == fmi2OK) return;
     fprintf(stderr, "%s: status %d\n", call, (int)status);
     exit(REFUSED);
+}
+
+static void set_up(Host *host) {
+    check(host->fmu.SetupExperiment(host->instance, fmi2False, 0.0, 0.0, fmi2False, 0.0),
+          "fmi2SetupExperiment");
+    host->time = 0.0;
 }
 
 static void initialize(Host *host) {
@@ -135,6 +142,9 @@ static void obey(Host *host, const char *command) {
         check(host->fmu.SetReal(host->instance, &reference, 1, &value), "fmi2SetReal");
     } else if (!strcmp(command, "initialize")) {
         initialize(host);
+    } else if (!strcmp(command, "reset")) {
+        check(host->fmu.Reset(host->instance), "fmi2Reset");
+        set_up(host);
     } else if (!strcmp(command, "step")) {
         double size = read_number();
         long count = (long)read_number();
@@ -164,8 +174,7 @@ int main(int count, char **arguments) {
         fprintf(stderr, "fmi2Instantiate: no instance\n");
         return REFUSED;
     }
-    check(host.fmu.SetupExperiment(host.instance, fmi2False, 0.0, 0.0, fmi2False, 0.0),
-          "fmi2SetupExperiment");
+    set_up(&host);
     while (fgets(line, sizeof line, stdin)) {
         const char *command = strtok(line, " \r\n");
         if (command) obey(&host, command);
