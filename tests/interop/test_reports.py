@@ -23,7 +23,7 @@ from slider_resonator.output.html_page import write_page
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.stressing.report import write_stress_page
 from slider_resonator.sweeping.grid import grid_from
-from slider_resonator.sweeping.page import write_sweep_page
+from slider_resonator.sweeping.picture import write_sweep_page
 from slider_resonator.sweeping.sweeping import run_sweep
 from slider_resonator.trading.page import write_trades
 from tests.harness.known_provenance import PROVENANCE

@@ -9,6 +9,7 @@ from math import ceil, inf
 
 import numpy as np
 
+from slider_resonator.arrays import Array
 from slider_resonator.choosing.candidate import MAX_PERIODS, SIGNAL_NEEDS, Candidate, step_ladder
 from slider_resonator.choosing.errors import (
     ErrorEstimate,
@@ -18,15 +19,53 @@ from slider_resonator.choosing.errors import (
     lacking_beat,
     unseen_beat,
 )
-from slider_resonator.choosing.exact_inputs import exact_schedule, must_hold
 from slider_resonator.choosing.steady_need import timed_run
 from slider_resonator.device.model import Model
-from slider_resonator.device.schedule import communication_points
+from slider_resonator.device.schedule import Schedule, communication_points
+from slider_resonator.device.signal import Signal
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record
 from slider_resonator.scenes.scene import Scene
 from slider_resonator.scenes.schema import RUN_NEEDS, STEADY_NEEDS
+
+
+def must_hold(scene: Scene, *, interpolates: bool) -> bool:
+    """Whether an input or parameter varies other than by jumps, so that holding it is an error.
+
+    Straight lines of inputs are none for who `interpolates`.
+    """
+    signals = scene.tuning if interpolates else {**scene.signals, **scene.tuning}
+    return any(is_line(signal, scene.stop_time or 0.0) for signal in signals.values())
+
+
+def is_line(signal: Signal, duration: float) -> bool:
+    """Whether a signal varies other than by jumps before `duration` (s)."""
+    first = signal.at(0.0)
+    inside = (v for t, v in zip(signal.times, signal.values, strict=True) if 0.0 < t < duration)
+    return not signal.hold and any(value != first for value in (*inside, signal.at(duration)))
+
+
+def exact_schedule(scene: Scene, points: Array, step: float, *, interpolates: bool) -> Schedule:
+    """Return a schedule with at least the communication `points` (s), which begin at 0.
+
+    An FMU that `interpolates` gets the derivatives of straight lines of inputs. What varies
+    otherwise is held at its mean over each small step (s): the impulse of the load and the angle
+    psi are then exact at the points, and the error is of second order in the step.
+    """
+    signals, tuning = dict(scene.signals), dict(scene.tuning)
+    stop = float(points[-1])
+    corners = [t for s in (*signals.values(), *tuning.values()) for t in s.times if 0.0 < t < stop]
+    times = np.unique(np.concatenate([points, corners]))
+    if must_hold(scene, interpolates=interpolates):
+        times = np.union1d(times, communication_points(stop, step, corners))
+        middles = times + 0.5 * np.diff(times, append=times[-1])
+        for table in (tuning,) if interpolates else (signals, tuning):
+            lines = {name: signal for name, signal in table.items() if is_line(signal, stop)}
+            means = {name: tuple(s.over(middles).tolist()) for name, s in lines.items()}
+            table |= {name: Signal(tuple(times.tolist()), values) for name, values in means.items()}
+    return Schedule(times, signals, tuning=tuning, interpolates=interpolates)
+
 
 MAX_STEPS = 10_000
 """Steps of a candidate whose steps can be put together in the probe, or that holds inputs."""

@@ -128,15 +128,14 @@ def sweep_command(
     options.note(sweep.slips, str(grid or "--over"))
     if device and not sweep.title:
         sweep = replace(sweep, title=device.title)
-    # Imported here: drawing takes longer to load than many sweeps to run.
-    if plot is not None:
-        from slider_resonator.sweeping.picture import check_picture
+    if plot is not None or html is not None:
+        # Imported here: drawing takes longer to load than many sweeps to run.
+        from slider_resonator.sweeping.picture import check_page, check_picture, write_sweep_page
 
-        check_picture(sweep, "--plot")
-    if html is not None:
-        from slider_resonator.sweeping.page import check_page, write_sweep_page
-
-        check_page(sweep, "--html")
+        if plot is not None:
+            check_picture(sweep, "--plot")
+        if html is not None:
+            check_page(sweep, "--html")
     provenance = provenance_of(fmu)
     with progress_bar() as progress:
         result = run_sweep(

@@ -13,8 +13,7 @@ from slider_resonator.output.files import PICTURE_SUFFIXES, distinct, make_folde
 from slider_resonator.output.progress import part_of, progress_bar
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.trading.measure import BUDGET, REPEATS, TIME_LIMIT, measure_trade, opened
-from slider_resonator.trading.page import write_trades
-from slider_resonator.trading.plots import draw_picture
+from slider_resonator.trading.page import draw_picture, write_trades
 from slider_resonator.trading.problem import Problem, problem_of
 from slider_resonator.trading.result import Trade, write_tables
 from slider_resonator.trading.summary import SUFFIXES, comparisons, standings, title, write_choices

@@ -1,10 +1,13 @@
-"""The HTML page: ratios, work-precision plots, all rows and the omissions."""
+"""The HTML page: ratios, work-precision plots, all rows and omissions; and the README's picture."""
 
 from collections.abc import Sequence
 from functools import partial
 from math import inf, isfinite
 from pathlib import Path
 from typing import Any
+
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from slider_resonator.fmu.provenance import Provenance, provenance_html
 from slider_resonator.output.hover_plot import (
@@ -16,6 +19,8 @@ from slider_resonator.output.hover_plot import (
     write_plot_page,
 )
 from slider_resonator.output.html_page import escaped, folded, rendered
+from slider_resonator.output.plot_picture import draw_plot
+from slider_resonator.output.plot_style import save, style
 from slider_resonator.output.table import Table, numbers, texts
 from slider_resonator.trading.result import (
     QUANTITIES,
@@ -129,3 +134,34 @@ def _cells(row: Row) -> list[str]:
         *("" if n is None else str(n) for n in (row.steps, row.evaluations, row.events)),
         *(f"{row.errors[q]:.1e}" if q in row.errors else "" for q in QUANTITIES),
     ]
+
+
+PANELS = ("position", "mean_velocity")
+"""The quantities in the picture."""
+
+
+def draw_picture(trade: Trade, path: Path) -> None:
+    """Write errors of position and mean velocity over cost, side by side."""
+    rows = [row for row in trade.rows if row.friction_law == trade.friction_law]
+    entries: dict[str, Line2D] = {}
+    with style():
+        figure = Figure(figsize=(8.0, 5.4), layout="constrained")
+        for quantity, axes in zip(PANELS, figure.subplots(1, len(PANELS)), strict=True):
+            axes.set_title(f"error of the {quantity.replace('_', ' ')}")
+            plot = work_precision_plot(rows, quantity)
+            if not plot.series:
+                axes.text(0.5, 0.5, "no method has any", ha="center", transform=axes.transAxes)
+                continue
+            draw_plot(axes, plot)
+            lines = {one.label: line for one, line in zip(plot.series, axes.lines, strict=True)}
+            lines[FRONT].set(drawstyle="steps-post", zorder=1)
+            entries |= {name: lines[name] for name in (FRONT, *families(rows)) if name in lines}
+            for row in trade.candidates(quantity):  # the spread of the repeats
+                if line := lines.get(row.family):
+                    spread = drawn_error(row, quantity), min(row.cpu), max(row.cpu)
+                    axes.hlines(*spread, line.get_color(), linewidth=0.8)
+            axes.margins(y=0.14)
+            axes.set_ylabel("")
+        figure.axes[0].set_ylabel("share of the peak")
+        figure.legend(entries.values(), entries, loc="outside lower center", ncols=3, fontsize=8.5)
+    save(figure, path)

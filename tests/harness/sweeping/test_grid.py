@@ -17,8 +17,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.sweeping import table
 from slider_resonator.sweeping.grid import Sweep, grid_from, read_grid
 from slider_resonator.sweeping.measures import Row, Run, Task
-from slider_resonator.sweeping.page import MAX_POINTS, check_page, write_sweep_page
-from slider_resonator.sweeping.picture import sweep_figure
+from slider_resonator.sweeping.picture import MAX_POINTS, check_page, sweep_figure, write_sweep_page
 from slider_resonator.sweeping.table import Columns, check_writer, table_columns, write_table
 from tests.harness.golden import assert_mistakes_as_before
 from tests.harness.known_provenance import PROVENANCE

@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from slider_resonator.trading.page import write_trades
-from slider_resonator.trading.plots import draw_picture
+from slider_resonator.trading.page import draw_picture, write_trades
 from slider_resonator.trading.result import (
     AVERAGED,
     PEER,
