@@ -113,15 +113,11 @@ def read_measurements(path: Path) -> Measurements:
         if not 1 <= len(filled) <= MAX_ROWS:
             raise ValueError(f"{len(filled)} rows below the header; must be 1 to {MAX_ROWS}")
         rows = [f"line {line}" for line, _ in filled]
-        headings, columns, ignored = _Headings.among(header), [], []
-        for index, heading in enumerate(header):
-            cells = [row[index].strip() if index < len(row) else "" for _, row in filled]
-            is_known = headings.parts(heading)[0] in headings.names
-            if is_known or any(is_number(cell) for cell in cells):
-                columns.append((heading, _numbers(heading, rows, cells)))
-            elif heading:
-                ignored.append(heading)
-        return _measurements(str(path), rows, columns, ignored)
+        columns = [
+            (heading, [row[index] if index < len(row) else "" for _, row in filled])
+            for index, heading in enumerate(header)
+        ]
+        return _measurements(str(path), rows, columns)
     except ValueError as error:
         said = str(error)
         raise HarnessError(said if str(path) in said else f"{path}: {said}") from error
@@ -147,49 +143,40 @@ def measurements_of(data: Any, source: str = "data") -> Measurements:
 def measurements_from(table: Mapping[str, Any], source: str = "data") -> Measurements:
     """Return measurements from columns of numbers by heading, as `read_measurements` has them.
 
-    NaN is an empty cell. Columns of text with other headings are ignored, and noted.
-    Raises HarnessError with heading and requirement.
+    NaN and None are empty cells. Columns of text with other headings are ignored, and noted.
+    Raises HarnessError with row, heading and requirement.
     """
     try:
-        headings, columns, ignored = _Headings.among(table), dict[str, Array](), []
-        for heading, values in table.items():
-            is_known = headings.parts(heading)[0] in headings.names
-            try:
-                column = np.asarray(values, np.float64)
-            except (ValueError, TypeError) as error:
-                if is_known:
-                    raise ValueError(f"{heading}: {error}") from error
-                column = np.full(len(values), nan)
-            if is_known or np.isfinite(column).any():
-                columns[heading] = column
-            else:
-                ignored.append(heading)
-        shapes = {values.shape for values in columns.values()}
-        if len(shapes) != 1 or len(shape := shapes.pop()) != 1:
+        columns = [
+            (heading, ["" if cell is None else str(cell) for cell in values])
+            for heading, values in table.items()
+        ]
+        lengths = {len(cells) for _, cells in columns}
+        if len(lengths) != 1:
             raise ValueError("must be columns of one length")
-        rows = [f"row {number}" for number in range(1, shape[0] + 1)]
-        return _measurements(source, rows, [*columns.items()], ignored)
+        rows = [f"row {number}" for number in range(1, lengths.pop() + 1)]
+        return _measurements(source, rows, columns)
     except (ValueError, TypeError) as error:
         raise HarnessError(f"{source}: {error}") from error
 
 
 def _measurements(
-    source: str,
-    rows: Sequence[str],
-    columns: Sequence[tuple[str, Array]],
-    ignored: Sequence[str] = (),
+    source: str, rows: Sequence[str], columns: Sequence[tuple[str, Sequence[str]]]
 ) -> Measurements:
-    """Return measurements from columns by heading; ValueError for a wrong heading.
+    """Return measurements from cells by heading; ValueError for a wrong heading or cell.
 
-    Columns that number the rows are ignored, and noted beside others that are `ignored`.
+    Columns that number the rows or have no numbers are ignored, and noted.
     """
     headings = _Headings.among(heading for heading, _ in columns)
     values: dict[str, Array] = {}
     units: dict[str, tuple[str, float]] = {}
-    for heading, column in columns:
-        if heading.lower().rstrip(".") in _ROW_NUMBERS:
-            ignored = [*ignored, heading]
+    ignored = []
+    for heading, cells in columns:
+        counts = headings.parts(heading)[0] in headings.names or any(map(is_number, cells))
+        if not counts or heading.lower().rstrip(".") in _ROW_NUMBERS:
+            ignored += [heading] if counts or heading else []
             continue
+        column = _numbers(heading, rows, cells)
         name, unit, factor = headings.meaning(heading)
         if name in values:
             raise ValueError(f"two columns {name}; must be one")
@@ -218,7 +205,7 @@ def _numbers(heading: str, rows: Sequence[str], cells: Sequence[str]) -> Array:
     """Return the numbers of cells, NaN of empty ones; ValueError with row, heading and text."""
     found = np.full(len(cells), np.nan)
     for index, (row, cell) in enumerate(zip(rows, cells, strict=True)):
-        if cell.lower() not in ("", "nan"):
+        if cell.strip().lower() not in ("", "nan"):
             try:
                 found[index] = csv_number(heading, cells, index)
             except ValueError as error:

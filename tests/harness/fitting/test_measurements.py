@@ -104,7 +104,7 @@ def test_columns_of_a_script_are_read_as_a_file_is(tmp_path: Path) -> None:
     data = measurements_of([path, table, str(path)])
     assert data.measured.tolist() == pytest.approx([0.047, 0.050, 0.040, 0.047, 0.050])
     assert "data 2: ignored 'when', 'by': no numbers, or row numbers" in data.notes
-    with pytest.raises(HarnessError, match=r"data: velocity \[mm/s\]: could not convert string"):
+    with pytest.raises(HarnessError, match=r"data: row 1: velocity \[mm/s\] = 'fast': must be"):
         measurements_of(table | {"velocity [mm/s]": ["fast"]})
 
 
