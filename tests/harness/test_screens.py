@@ -29,7 +29,7 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.provenance import identity_of
 from slider_resonator.output.console import LOG_WIDTH
 from slider_resonator.output.table import Table
-from slider_resonator.output.terminal import rendered
+from slider_resonator.output.terminal import show_table
 from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES
 from tests.harness.golden import assert_as_before, assert_page_as_before
 from tests.harness.known_provenance import PROVENANCE
@@ -93,7 +93,7 @@ def screen(show: Callable[[Console], None], width: int) -> str:
 
 
 def shown(table: Table) -> Callable[[Console], None]:
-    return lambda console: console.print(rendered(table))
+    return lambda console: show_table(console, table)
 
 
 def validated(

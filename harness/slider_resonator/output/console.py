@@ -12,7 +12,7 @@ from rich.console import Console
 from slider_resonator.output.json_output import to_json
 from slider_resonator.output.readable import escaped
 from slider_resonator.output.table import Table
-from slider_resonator.output.terminal import fitting, rendered, terminal_width
+from slider_resonator.output.terminal import fitting, show_table, terminal_width
 
 LOG_WIDTH = 120
 """Columns of output that does not go to a terminal."""
@@ -93,4 +93,4 @@ def print_text(text: str, *, err: bool = False) -> None:
 
 def print_table(table: Table) -> None:
     """Print a table on the console for results."""
-    output().print(rendered(table))
+    show_table(output(), table)

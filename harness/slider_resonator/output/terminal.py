@@ -5,13 +5,13 @@ import re
 import sys
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal
 
 import rich.table
 from rich import box
 from rich.cells import cell_len
-from rich.console import Console, ConsoleOptions, RenderResult
+from rich.console import Console
 from rich.text import Text
 
 from slider_resonator.output.readable import escaped
@@ -65,25 +65,6 @@ _BEFORE_UNIT = re.compile(
 _NO_BREAK = "\N{NO-BREAK SPACE}"
 
 
-@dataclass(frozen=True)
-class FittingTable:
-    """A table whose cells hold no foreign control characters, shown in the width there is.
-
-    Text is wrapped between words. Where that is not enough, each row becomes a block: the first
-    cell and those without a heading on a line, all others with their headings below.
-    """
-
-    table: Table
-
-    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
-        """Yield what rich prints."""
-        widths = _fitted(self.table, options.max_width)
-        if widths is None:
-            yield from _blocks(self.table, options.max_width)
-        else:
-            yield _columns(self.table, widths)
-
-
 def words(text: str, width: int, indent: str = "") -> str:
     """Return the text wrapped between words; one that is too long stays whole.
 
@@ -105,6 +86,7 @@ def words(text: str, width: int, indent: str = "") -> str:
 
 def aligned(table: Table) -> Iterator[Text]:
     """Yield the rows of a small table without headings, indented, columns under each other."""
+    table = _escaped(table)
     columns = list(zip(*table.cells, strict=True))
     widths = [_width([cell.text for cell in cells]) for cells in columns]
     for row in table.cells:
@@ -191,7 +173,18 @@ def _text(cell: Cell) -> Text:
     return Text(cell.text, STYLES[cell.style])
 
 
-def rendered(table: Table) -> FittingTable:
-    """Return the table for rich to print, escaped; each row with a heading begins a section."""
-    rows = [[Cell(escaped(cell.text), cell.style) for cell in row] for row in table.cells]
-    return FittingTable(Table(table.columns, rows))
+def _escaped(table: Table) -> Table:
+    cells = [[Cell(escaped(cell.text), cell.style) for cell in row] for row in table.cells]
+    return Table(table.columns, cells)
+
+
+def show_table(console: Console, table: Table) -> None:
+    """Print a table in the width of the console, without foreign control characters.
+
+    Text is wrapped between words. Where that is not enough, each row becomes a block: the first
+    cell and those without a heading on a line, all others with their headings below.
+    """
+    safe = _escaped(table)
+    widths = _fitted(safe, console.width)
+    for part in _blocks(safe, console.width) if widths is None else [_columns(safe, widths)]:
+        console.print(part)

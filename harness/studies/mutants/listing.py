@@ -8,7 +8,7 @@ from rich.text import Text
 
 from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Row, Style, Table, numbers, texts
-from slider_resonator.output.terminal import STYLES, fitting, rendered, terminal_width
+from slider_resonator.output.terminal import STYLES, fitting, show_table, terminal_width
 from studies.mutants.changes import Change
 from studies.mutants.mutant import KINDS, Mutant
 from studies.mutants.verdict import STATUSES, MutationRun, Variant, Verdict
@@ -20,10 +20,10 @@ MAX_REJECTIONS = 12
 def print_run(console: Console, run: MutationRun[Variant]) -> None:
     """Print counts, the most frequent rejections, survivors, false alarms and the rate."""
     if any(isinstance(verdict.variant, Mutant) for verdict in run.verdicts):
-        console.print(rendered(tally("kind", run.tally("kind"))))
-    console.print(rendered(tally("file", run.tally("file"))))
+        show_table(console, tally("kind", run.tally("kind")))
+    show_table(console, tally("file", run.tally("file")))
     if run.rejections():
-        console.print(rendered(rejections(run, MAX_REJECTIONS)))
+        show_table(console, rejections(run, MAX_REJECTIONS))
     for verdict in run.survivors:
         _print_variant(console, "SURVIVED", verdict, verdict.reason)
     for verdict in run.false_alarms:

@@ -91,7 +91,7 @@ def test_rows_of_a_table_too_wide_for_a_phone_are_cards_with_headings() -> None:
 def test_a_table_in_every_form() -> None:
     """Numbers to the right, a row on its line, and foreign text that passes for nothing else."""
     console = Console(file=io.StringIO(), width=120, force_terminal=False)
-    console.print(terminal.rendered(TABLE))
+    terminal.show_table(console, TABLE)
     assert isinstance(console.file, io.StringIO)
     assert_as_before("table.txt", console.file.getvalue())
     assert_as_before("table.md", markdown.rendered(TABLE))

@@ -11,7 +11,7 @@ from slider_resonator.checks.validate import Validation, worst_of_sweeps
 from slider_resonator.checks.verdict import CALLED, near_zero, place, sentence, sizes, value_text
 from slider_resonator.output.readable import escaped, number_of
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts, verdict
-from slider_resonator.output.terminal import STYLES, aligned, rendered, words
+from slider_resonator.output.terminal import STYLES, aligned, show_table, words
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 MAX_DETAILED = 3
@@ -39,7 +39,7 @@ def print_validation(
     for heading, answers in () if only_failed else headline(validation.checks):
         console.print(Text(escaped(heading.text), STYLES[heading.style]))
         table = Table([*texts(""), *numbers("", ""), *texts("")], answers)
-        for line in aligned(rendered(table).table):
+        for line in aligned(table):
             console.print(line)
     scenes = validation.scenes
     if len(scenes) > MAX_DETAILED and not (details or only_failed):
@@ -52,7 +52,7 @@ def print_validation(
         worst = sorted(rows, key=lambda row: -row[0].severity)[:MAX_FAILED]
         rows = [row for row in rows if row in worst]
     if rows:
-        console.print(rendered(_table(rows, details)))
+        show_table(console, _table(rows, details))
     if any(_of_peak(check) for check, _ in rows):
         console.print(words(f"{SIGNAL} {PEAK}", console.width))
     for check, _ in rows:
@@ -114,7 +114,7 @@ def _print_overview(console: Console, scenes: Mapping[str, Sequence[Check]]) -> 
         *(*texts("scene"), *numbers("passed"), *texts("nearest to its bound")),
         *(*numbers("off by", "allowed"), *texts("in", "")),
     )
-    console.print(rendered(Table(columns, rows)))
+    show_table(console, Table(columns, rows))
     if more := len(scenes) - len(listed):
         nearer = f"{number_of(more, 'more scene')}, none nearer to a bound"
         _print_line(console, Text(f"{nearer} (--details lists all)"))
