@@ -23,15 +23,13 @@ from slider_resonator.steady.searches import SEARCHES
 Cell = float | str | None
 """An entry of the table; None where there is none."""
 
-SEARCHED: Mapping[str, str] = {"steady_velocity": "m/s", "blocking_force": "N"}
-"""Measures that are predicted and proved, or searched, with units; each has a status, too."""
 STATUS: Mapping[str, str] = {"steady_velocity": "steady", "blocking_force": "blocked"}
-"""The status of those that are proved."""
+"""The status of measures that are proved; those of `SEARCHES` have one in the table, too."""
 
 
 def _mean(values: Array) -> float:
     """Return the mean over time by the trapezoidal rule."""
-    return float((values.sum() - 0.5 * (values[0] + values[-1])) / (len(values) - 1))
+    return float(np.trapezoid(values) / (len(values) - 1))
 
 
 STATISTICS: Mapping[str, Callable[[Array], float]] = {
@@ -85,7 +83,7 @@ class Task:
         results: list[tuple[str, type]] = []
         for measure in self.measures:
             results.append((measure, float))
-            if measure in SEARCHED:
+            if measure in SEARCHES:
                 results.append((f"{measure}_status", str))
         varied = ((name, int if name in INTEGERS else float) for name in self.names)
         return (("point", int), *varied, *results, ("error", str))
@@ -100,18 +98,18 @@ def check_measure(name: object) -> None:
         raise ValueError(f"measure {name!r}: {unknown_name('output', output, ALL_OUTPUTS)}")
     if dot and statistic not in STATISTICS:
         raise ValueError(f"measure {name!r}: {unknown_name('statistic', statistic, STATISTICS)}")
-    if not dot and name not in SEARCHED:
-        raise ValueError(unknown_name("measure", name, [*SEARCHED, "OUTPUT.STATISTIC"]))
+    if not dot and name not in SEARCHES:
+        raise ValueError(unknown_name("measure", name, [*SEARCHES, "OUTPUT.STATISTIC"]))
 
 
 def unit(measure: str) -> str:
     """Return the unit of a measure."""
-    return SEARCHED.get(measure) or ALL_OUTPUTS[measure.partition(".")[0]]
+    return ALL_OUTPUTS[measure.partition(".")[0]]
 
 
 def _statistics(instance: Instance, task: Task, values: Mapping[str, float]) -> Mapping[str, float]:
     """Return the statistics among the measures, all from one run."""
-    chosen = [name for name in task.measures if name not in SEARCHED]
+    chosen = [name for name in task.measures if name not in SEARCHES]
     if not chosen:
         return {}
     outputs = list(dict.fromkeys(name.partition(".")[0] for name in chosen))
@@ -170,7 +168,7 @@ def measure_point(instance: Instance, task: Task, point: Point, proved: Proved) 
         for name in task.measures:
             if name in proved:
                 cells += [proved[name], STATUS[name]]
-            elif name in SEARCHED:
+            elif name in SEARCHES:
                 found = SEARCHES[name](instance, values, max_denominator=task.max_denominator)
                 cells += [getattr(found, name), found.status]
             else:

@@ -23,9 +23,9 @@ from slider_resonator.output.journal import Journal
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Drawable, Shown, Tabular
+from slider_resonator.steady.searches import SEARCHES
 from slider_resonator.sweeping.grid import Sweep
 from slider_resonator.sweeping.measures import (
-    SEARCHED,
     Point,
     Proved,
     Row,
@@ -96,7 +96,7 @@ class SweepResult(Shown, Tabular, Drawable):
             lines.append(f"found      {self.found} of them finished before")
         if self.unanswered:
             statuses: Counter[str] = Counter()
-            for name in SEARCHED.keys() & self.sweep.task.measures:
+            for name in SEARCHES.keys() & self.sweep.task.measures:
                 pairs = zip(self.columns[name], self.columns[f"{name}_status"], strict=True)
                 statuses.update(status for value, status in pairs if value is None and status)
             reasons = ", ".join(f"{one} ({count})" for one, count in statuses.most_common())
@@ -216,7 +216,7 @@ def run_points(processes: Processes, task: Task, points: Sequence[Point], keep: 
     when the FMU cannot be used.
     """
     left: list[tuple[Point, Proved]] = [(point, {}) for point in points]
-    if any(name in SEARCHED for name in task.measures):
+    if any(name in SEARCHES for name in task.measures):
         left = []
         batches = [tuple(points[first : first + BATCH]) for first in range(0, len(points), BATCH)]
         tasks = [(batch, partial(prove_points, task=task, points=batch)) for batch in batches]
