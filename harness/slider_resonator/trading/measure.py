@@ -9,6 +9,7 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from math import inf
 from operator import attrgetter
 from pathlib import Path
@@ -45,7 +46,7 @@ SHOOTING = 1e-10
 _FAILURES = (ValueError, RuntimeError, ArithmeticError, ModuleNotFoundError, FmuError)
 
 _Notes = dict[tuple[str, str], str]
-"""Method and quantity to the reason why there is no such row or error; the first reason stays."""
+"""Method and quantity to the reason why there is no such row or error."""
 
 
 @dataclass(frozen=True)
@@ -121,8 +122,8 @@ def measure_trade(
     that crashes or exceeds its time limit.
     """
 
-    def report(name: str, index: int, count: int, begin: float, share: float) -> None:
-        label = f"{problem.name}: {counted(name, index, count)}"
+    def report(row: Row, index: int, count: int, begin: float, share: float) -> None:
+        label = f"{problem.name}: {counted(row.method, index, count)}"
         progress(label, begin + share * index / count)
 
     notes: _Notes = {}
@@ -137,12 +138,17 @@ def measure_trade(
         methods: list[Method | Peer] = [method for fmu in fmus for method in fmu.methods()]
         methods += peer_methods(problem)
         answers = [answer for fmu in fmus for answer in fmu.answers()] + list(peer_answers(problem))
-        for index, method in enumerate(methods):
-            report(method.row.method, index, len(methods), 0.0, 0.4)
-            candidates += _follow(problem, reference, method, budget, notes)
-        for index, answer in enumerate(answers):
-            report(answer.row.method, index, len(answers), 0.4, 0.2)
-            candidates += _answer(problem, reference, answer, budget, notes)
+        tried = [(one.row, partial(_follow, method=one)) for one in methods]
+        tried += [(one.row, partial(_answer, answer=one)) for one in answers]
+        for index, (row, measured) in enumerate(tried):
+            report(row, index, len(tried), 0.0, 0.6)
+            quantity = "all" if row.answer == "run" else row.answer
+            try:
+                candidates.append(measured(problem, reference, budget=budget, notes=notes))
+            except FmuDied:
+                raise
+            except _FAILURES as error:
+                notes.setdefault((row.method, quantity), str(error))
         for method in methods:
             for quantity in STEADY:
                 if quantity in method.missing:
@@ -153,7 +159,7 @@ def measure_trade(
         taken: list[list[float]] = [[] for _ in candidates]
         for done, (_, index) in enumerate(turns):
             candidate = candidates[index]
-            report(candidate.row.method, done, len(turns), 0.6, 0.4)
+            report(candidate.row, done, len(turns), 0.6, 0.4)
             taken[index].append(candidate.seconds() / candidate.per)
     rows = (
         replace(one.row, cpu=tuple(cpu or [one.estimate / one.per]))
@@ -172,52 +178,40 @@ def measure_trade(
 
 def _follow(
     problem: Problem, reference: Reference, method: Method | Peer, budget: float, notes: _Notes
-) -> list[_Candidate]:
-    """Run a method as far as its budget (s of CPU time) takes it; empty where it has no run."""
+) -> _Candidate:
+    """Run a method as far as its budget (s of CPU time) takes it; ValueError where it has no run.
 
-    def note(quantity: str, reason: str) -> None:
-        notes.setdefault((method.row.method, quantity), reason)
-
+    Besides it raises one of `_FAILURES`.
+    """
     if method.min_periods > problem.periods:
-        note("all", f"a step is longer than the run of {problem.periods} drive periods")
-        return []
+        raise ValueError(f"a step is longer than the run of {problem.periods} drive periods")
     if method.cannot_stick and reference.sticks:
-        note("all", "the slider sticks, which it does not cover")
-        return []
+        raise ValueError("the slider sticks, which it does not cover")
     horizons = [periods for periods in problem.lengths if periods >= method.min_periods]
-    try:
-        method.run(method.min_periods + 1)  # compiles, fills caches
-        begun = method.run(method.min_periods)[0]
-        taken = method.run(method.min_periods + 1)[0]
-        first = taken + (horizons[0] - method.min_periods - 1) * max(0.0, taken - begun)
-        if first > 2.0 * budget:
-            note(
-                "all",
-                f"the shortest run, {horizons[0]} of {problem.periods} drive periods, would take "
-                f"{first:.1f} s of CPU time, more than its budget of {budget:g} s",
-            )
-            return []
-        for periods, further in zip(horizons, [*horizons[1:], 0], strict=True):
-            taken, solution = method.run(periods)
-            if further / periods * taken > budget:
-                break
-        found = errors(problem, solution, reference.windows, periods)
-    except FmuDied:
-        raise
-    except _FAILURES as error:
-        note("all", str(error))
-        return []
+    method.run(method.min_periods + 1)  # compiles, fills caches
+    begun = method.run(method.min_periods)[0]
+    taken = method.run(method.min_periods + 1)[0]
+    first = taken + (horizons[0] - method.min_periods - 1) * max(0.0, taken - begun)
+    if first > 2.0 * budget:
+        raise ValueError(
+            f"the shortest run, {horizons[0]} of {problem.periods} drive periods, would take "
+            f"{first:.1f} s of CPU time, more than its budget of {budget:g} s"
+        )
+    for periods, further in zip(horizons, [*horizons[1:], 0], strict=True):
+        taken, solution = method.run(periods)
+        if further / periods * taken > budget:
+            break
+    found = errors(problem, solution, reference.windows, periods)
     if periods < problem.periods:
-        note(
-            "length",
+        notes[method.row.method, "length"] = (
             f"followed over {periods} of {problem.periods} drive periods: the next longer run "
-            f"would exceed its budget of {budget:g} s of CPU time",
+            f"would exceed its budget of {budget:g} s of CPU time"
         )
     optional = {"beat_frequency": problem.beat, "event_times": reference.windows.get("last_event")}
     for quantity in QUANTITIES:
         if quantity not in (*STEADY, *found) and optional.get(quantity, ()) is not None:
             reason = "its own steps are too long or its run too short"
-            note(quantity, method.missing.get(quantity, reason))
+            notes[method.row.method, quantity] = method.missing.get(quantity, reason)
     row = replace(
         method.row,
         scene=problem.name,
@@ -228,29 +222,20 @@ def _follow(
         evaluations=solution.evaluations,
         events=solution.events,
     )
-    return [_Candidate(row, lambda: method.seconds(periods), problem.duration(periods), taken)]
+    return _Candidate(row, lambda: method.seconds(periods), problem.duration(periods), taken)
 
 
 def _answer(
     problem: Problem, reference: Reference, answer: SteadyMethod, budget: float, notes: _Notes
-) -> list[_Candidate]:
-    """Find an answer once; empty where there is none."""
+) -> _Candidate:
+    """Find an answer once; ValueError where there is none, besides one of `_FAILURES`."""
     quantity = answer.row.answer
-    key = answer.row.method, quantity
     expected: float | None = getattr(reference, quantity)
     if not expected:
-        notes.setdefault(key, "the device has none under these inputs, or it is zero")
-        return []
-    try:
-        found = answer.find(budget)
-    except FmuDied:
-        raise
-    except _FAILURES as error:
-        notes.setdefault(key, str(error))
-        return []
+        raise ValueError("the device has none under these inputs, or it is zero")
+    found = answer.find(budget)
     if found.value is None:
-        notes.setdefault(key, found.reason)
-        return []
+        raise ValueError(found.reason)
     off = {quantity: abs(found.value - expected) / abs(expected)}
     row = replace(answer.row, scene=problem.name, periods=found.periods, errors=off)
-    return [_Candidate(row, lambda: answer.find(inf).seconds, 1.0, found.seconds)]
+    return _Candidate(row, lambda: answer.find(inf).seconds, 1.0, found.seconds)
