@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq, least_squares
 
 from slider_resonator.arrays import Array
-from slider_resonator.errors import HarnessError
 from slider_resonator.fitting.free import Free
 from slider_resonator.fitting.measurements import Measurements, Point
 from slider_resonator.fmu.instance import Instance
@@ -341,8 +340,6 @@ def open_directions(best: Minimum, scale: float) -> list[OpenDirection]:
 
     `scale` is the standard deviation of a weighted residual, and 1 where deviations are known.
     """
-    if not np.all(np.isfinite(best.jacobian)):
-        raise HarnessError("the outputs of the FMU are not finite beside the solution")
     _, sizes, directions = np.linalg.svd(best.jacobian, full_matrices=False)
     found = []
     for size, direction in zip(sizes, directions, strict=True):

@@ -54,13 +54,12 @@ class Reference:
     """The reference solution of a problem.
 
     `windows` are its readings; `sticks` says whether the slider sticks after the first drive
-    period. The steady velocity (m/s) and the blocking force (N) are None where there is none.
+    period. `answers` are the steady velocity (m/s) and the blocking force (N), where there are any.
     """
 
     windows: Readings
     sticks: bool
-    steady_velocity: float | None
-    blocking_force: float | None
+    answers: Mapping[str, float | None]
 
 
 def find_reference(problem: Problem) -> Reference:
@@ -69,16 +68,15 @@ def find_reference(problem: Problem) -> Reference:
         held, periods = problem.lines(problem.periods), problem.periods
         run = simulate(problem.device, held, problem.readings(periods))
         found = windows(problem, solution_of(run, located=True), periods)
-        answers = dict.fromkeys(STEADY, None)
-        if problem.steady:
-            answers = {n: shoot(problem, n, simulate, SHOOTING, inf).value for n in STEADY}
+        sought = STEADY if problem.steady else ()
+        answers = {n: shoot(problem, n, simulate, SHOOTING, inf).value for n in sought}
     except (ValueError, RuntimeError) as error:
         raise HarnessError(
             f"scene {problem.name}: the reference cannot follow it: {error}"
         ) from error
     edges = np.concatenate([[0.0], run.event_times, [inf]])
     later = np.diff(np.maximum(edges, problem.period)) > 1e-9 * problem.period
-    return Reference(found, bool(np.any(later & (run.modes == STICK))), **answers)
+    return Reference(found, bool(np.any(later & (run.modes == STICK))), answers)
 
 
 @dataclass(frozen=True)
@@ -230,7 +228,7 @@ def _answer(
 ) -> _Candidate:
     """Find an answer once; ValueError where there is none, besides one of `_FAILURES`."""
     quantity = answer.row.answer
-    expected: float | None = getattr(reference, quantity)
+    expected = reference.answers.get(quantity)
     if not expected:
         raise ValueError("the device has none under these inputs, or it is zero")
     found = answer.find(budget)

@@ -68,16 +68,11 @@ def sentence(standing: Standing) -> str:
 def comparisons(trade: Trade) -> list[tuple[str, list[str]]]:
     """Return the standings in words: the target, and a sentence for each class."""
     by_target: dict[str, list[str]] = {}
-    for standing in standings(trade):
-        words = heading(standing.quantity, standing.error)
-        by_target.setdefault(words, []).append(sentence(standing))
+    for one in standings(trade):
+        size = f"{100.0 * one.error:g} %" if one.error >= 1e-3 else f"{one.error:.0e}"
+        target = f"at an error of {size} in {one.quantity.replace('_', ' ')}"
+        by_target.setdefault(target, []).append(sentence(one))
     return list(by_target.items())
-
-
-def heading(quantity: str, error: float) -> str:
-    """Return the target in words."""
-    size = f"{100.0 * error:g} %" if error >= 1e-3 else f"{error:.0e}"
-    return f"at an error of {size} in {quantity.replace('_', ' ')}"
 
 
 def duration(seconds: float) -> str:

@@ -198,8 +198,8 @@ def test_a_window_is_a_period_of_the_drive_as_it_is() -> None:
 
 def test_table_1_by_a_run_and_by_shooting() -> None:
     reference = find_reference(problem(TABLE_1, max_periods=2))
-    assert reference.steady_velocity == pytest.approx(0.12666700, rel=1e-7)
-    assert reference.blocking_force == pytest.approx(0.0851861, rel=1e-6)
+    assert reference.answers["steady_velocity"] == pytest.approx(0.12666700, rel=1e-7)
+    assert reference.answers["blocking_force"] == pytest.approx(0.0851861, rel=1e-6)
     assert not reference.sticks, "reversals follow each other without a stick"
 
 

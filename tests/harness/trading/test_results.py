@@ -26,8 +26,8 @@ from slider_resonator.trading.summary import (
     END,
     NEEDS,
     choices,
+    comparisons,
     duration,
-    heading,
     sentence,
     standings,
     write_choices,
@@ -80,8 +80,8 @@ def test_classes_are_compared_where_they_reach_the_error() -> None:
         row(3e-4, 1e-13, RESOLVED),
         row(6e-3, 1e-8, PEER),
     )
-    found = standings(Trade("s", "S", 0, 10, 1.0, rows, ()))
-    reported = {(s.quantity, s.kind): s for s in found}
+    trade = Trade("s", "S", 0, 10, 1.0, rows, ())
+    reported = {(s.quantity, s.kind): s for s in standings(trade)}
     assert reported["mean_velocity", AVERAGED].ratio == pytest.approx((1 / 30,) * 3)
     assert reported["mean_velocity", PEER].ratio == pytest.approx((20.0,) * 3)
     assert sentence(reported["position", AVERAGED]) == "averages and leaps: not reached"
@@ -89,8 +89,9 @@ def test_classes_are_compared_where_they_reach_the_error() -> None:
     assert sentence(reported["position", RESOLVED]).startswith("resolved: 300 us a simulated")
     assert "20 times the cost of resolved" in sentence(reported["mean_velocity", PEER])
     assert "30 times cheaper than resolved" in sentence(reported["mean_velocity", AVERAGED])
-    assert heading("mean_velocity", 1e-2) == "at an error of 1 % in mean velocity"
-    assert heading("position", 1e-9) == "at an error of 1e-09 in position"
+    mean, exact = (target for target, _ in comparisons(trade))
+    assert mean == "at an error of 1 % in mean velocity"
+    assert exact == "at an error of 1e-09 in position"
 
 
 def test_another_friction_law_is_no_candidate() -> None:
