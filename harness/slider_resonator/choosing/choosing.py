@@ -17,8 +17,7 @@ from slider_resonator.choosing.candidate import (
 )
 from slider_resonator.choosing.choice import SAME_COST, Choice, Evaluation, RuledOut, cheapest
 from slider_resonator.choosing.errors import Estimates
-from slider_resonator.choosing.probe import HEAD_PERIODS, Probe
-from slider_resonator.choosing.steady_need import find, steady_error
+from slider_resonator.choosing.probe import HEAD_PERIODS, Probe, find, steady_error
 from slider_resonator.device.model import COULOMB, LUGRE, Model
 from slider_resonator.errors import FmuError, SceneError
 from slider_resonator.fmu.instance import Instance

@@ -15,8 +15,15 @@ from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.trading.measure import BUDGET, REPEATS, TIME_LIMIT, measure_trade, opened
 from slider_resonator.trading.page import draw_picture, write_trades
 from slider_resonator.trading.problem import Problem, problem_of
-from slider_resonator.trading.result import Trade, write_tables
-from slider_resonator.trading.summary import SUFFIXES, comparisons, standings, title, write_choices
+from slider_resonator.trading.result import (
+    SUFFIXES,
+    Trade,
+    comparisons,
+    standings,
+    title,
+    write_choices,
+    write_tables,
+)
 
 TABLES = ("index.html", "trade.csv", "omissions.csv")
 

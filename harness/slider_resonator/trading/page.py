@@ -26,12 +26,14 @@ from slider_resonator.trading.result import (
     QUANTITIES,
     Row,
     Trade,
+    comparisons,
     cost_label,
     drawn_error,
+    duration,
     families,
     front,
+    title,
 )
-from slider_resonator.trading.summary import comparisons, duration, title
 
 FRONT = "Pareto front of all"
 

@@ -6,7 +6,7 @@ import pytest
 
 from slider_resonator.choosing import choosing, probe
 from slider_resonator.choosing.candidate import Candidate
-from slider_resonator.choosing.steady_need import find, timed_run
+from slider_resonator.choosing.probe import find, timed_run
 from slider_resonator.device.device import Device
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.fmu.instance import Instance

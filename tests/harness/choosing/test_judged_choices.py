@@ -15,8 +15,7 @@ from slider_resonator.choosing.candidate import Candidate, tolerances
 from slider_resonator.choosing.choice import Choice
 from slider_resonator.choosing.choosing import Choosing, choose_with
 from slider_resonator.choosing.errors import Estimates, Readings
-from slider_resonator.choosing.probe import exact_schedule
-from slider_resonator.choosing.steady_need import find, steady_error, timed_run
+from slider_resonator.choosing.probe import exact_schedule, find, steady_error, timed_run
 from slider_resonator.device.device import Device
 from slider_resonator.device.model import Model
 from slider_resonator.device.schedule import communication_points

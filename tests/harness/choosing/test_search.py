@@ -13,8 +13,7 @@ from slider_resonator.choosing import probe as probes
 from slider_resonator.choosing.candidate import Candidate, coarsest
 from slider_resonator.choosing.choosing import choose_with
 from slider_resonator.choosing.errors import ErrorEstimate, Readings, beat_frequency, unseen_beat
-from slider_resonator.choosing.probe import CAUTION, Probe, exact_schedule, must_hold
-from slider_resonator.choosing.steady_need import steady_error
+from slider_resonator.choosing.probe import CAUTION, Probe, exact_schedule, must_hold, steady_error
 from slider_resonator.device.model import Model
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record

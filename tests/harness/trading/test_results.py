@@ -12,22 +12,20 @@ from hypothesis import strategies as st
 from slider_resonator.trading.page import draw_picture, write_trades
 from slider_resonator.trading.result import (
     AVERAGED,
+    BEGIN,
+    CHOICE_COLUMNS,
+    END,
+    NEEDS,
     PEER,
     RESOLVED,
     Omission,
     Row,
     Trade,
     cheapest,
-    front,
-)
-from slider_resonator.trading.summary import (
-    BEGIN,
-    COLUMNS,
-    END,
-    NEEDS,
     choices,
     comparisons,
     duration,
+    front,
     sentence,
     standings,
     write_choices,
@@ -112,7 +110,7 @@ def test_durations_are_readable(seconds: float, words: str) -> None:
 
 REPOSITORY = Path(__file__).parents[3]
 PAGE = REPOSITORY / "docs" / "how-to-choose.md"
-HEAD = tuple(column.heading for column in COLUMNS)
+HEAD = tuple(column.heading for column in CHOICE_COLUMNS)
 DOCUMENTATION = REPOSITORY / "fmu_src" / "assets" / "choosing.html"
 
 
