@@ -31,8 +31,8 @@ from typing import TYPE_CHECKING, Any, SupportsFloat
 
 from slider_resonator.checks.validate import Validation
 from slider_resonator.checks.validate import validate as validate_scenes
-from slider_resonator.choosing import Choice
-from slider_resonator.choosing import choose as choose_model
+from slider_resonator.choosing.choice import Choice
+from slider_resonator.choosing.choosing import choose as choose_model
 from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.device.interface import settable_value

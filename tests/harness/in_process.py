@@ -16,7 +16,7 @@ from slider_resonator.output.progress import Progress
 
 
 @dataclass(frozen=True)
-class InProcess:
+class InProcess(IsolatedFmu):
     """Runs tasks as an isolated FMU does: what is sent there and back must be picklable."""
 
     instance: Instance | None

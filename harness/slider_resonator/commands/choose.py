@@ -4,9 +4,8 @@ from pathlib import Path
 
 import click
 
-from slider_resonator.choosing import choose
 from slider_resonator.choosing.choice import error_text
-from slider_resonator.choosing.choosing import TIME_LIMIT
+from slider_resonator.choosing.choosing import TIME_LIMIT, choose
 from slider_resonator.commands import options
 from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import print_result

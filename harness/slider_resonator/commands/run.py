@@ -21,7 +21,7 @@ from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.scenes.scene import Scene
 
 if TYPE_CHECKING:
-    from slider_resonator.choosing import Choice
+    from slider_resonator.choosing.choice import Choice
 
 
 HOW_INPUTS = {

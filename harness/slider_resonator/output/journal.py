@@ -3,7 +3,7 @@
 import json
 import sqlite3
 from collections.abc import Iterable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ from slider_resonator.errors import HarnessError
 _TABLES = ("work (kind TEXT, digest TEXT)", "entries (number INTEGER PRIMARY KEY, entry TEXT)")
 
 
-class Journal:
+class Journal(AbstractContextManager["Journal"]):
     """An SQLite file of entries, which JSON can write, and of the work that they belong to.
 
     `work` says what is kept, such as "sweep"; `digest` must be another for other work of this kind;
@@ -66,10 +66,6 @@ class Journal:
         """Remove the file: what is made from it has been written."""
         self._file.close()
         self.path.unlink(missing_ok=True)
-
-    def __enter__(self) -> "Journal":
-        """Return this."""
-        return self
 
     def __exit__(self, *error: object) -> None:
         """Close the file."""

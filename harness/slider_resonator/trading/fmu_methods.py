@@ -6,12 +6,13 @@ from functools import cached_property, partial
 from math import ceil
 from operator import attrgetter
 from time import process_time
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
 from slider_resonator.device.model import LUGRE, Model
 from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.isolation.process import IsolatedFmu
 from slider_resonator.fmu.run import Record, run
 from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
 from slider_resonator.trading.problem import Problem
@@ -36,17 +37,10 @@ SHORTEST = 2e-3
 MAX_RUNS = 20
 
 
-class TaskRunner(Protocol):
-    """An FMU that runs tasks, such as an isolated one."""
-
-    def run(self, task: Callable[[Instance], Any]) -> Any:
-        """Return the result of a picklable task."""
-
-
 class FmuMethods:
     """The methods of an FMU on a problem; `build` is its name, such as `native`."""
 
-    def __init__(self, problem: Problem, build: str, fmu: TaskRunner) -> None:
+    def __init__(self, problem: Problem, build: str, fmu: IsolatedFmu) -> None:
         self.problem = problem
         self.build = build
         self.fmu = fmu

@@ -21,7 +21,7 @@ from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.references.resolved.contact import STICK
 from slider_resonator.references.resolved.simulate import simulate
-from slider_resonator.trading.fmu_methods import FmuMethods, TaskRunner
+from slider_resonator.trading.fmu_methods import FmuMethods
 from slider_resonator.trading.peer_methods import Peer, peer_answers, peer_methods, shoot
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import QUANTITIES, Omission, Row, Trade
@@ -106,7 +106,7 @@ def opened(fmus: Sequence[Path], time_limit: float) -> Iterator[dict[str, Isolat
 
 def measure_trade(
     problem: Problem,
-    instances: Mapping[str, TaskRunner],
+    instances: Mapping[str, IsolatedFmu],
     progress: Progress = no_progress,
     *,
     repeats: int = REPEATS,
