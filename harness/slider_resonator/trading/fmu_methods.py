@@ -76,8 +76,9 @@ class FmuMethods:
         own = self.problem.device.friction_law
         return [Model(2, own), Model(1, own), *(Model(0, own, order) for order in self.orders)]
 
+    @property
     def answers(self) -> Iterator[SteadyMethod]:
-        """Yield the searches for steady motion and blocking force, and the outputs of theory."""
+        """The searches for steady motion and blocking force, and the outputs of theory."""
         for quantity in STEADY:
             for model in self._models():
                 yield self._search(quantity, model)

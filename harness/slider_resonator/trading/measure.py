@@ -22,7 +22,7 @@ from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.references.resolved.contact import STICK
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.trading.fmu_methods import FmuMethods
-from slider_resonator.trading.peer_methods import Peer, peer_answers, peer_methods, shoot
+from slider_resonator.trading.peer_methods import peer_methods, shoot
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import QUANTITIES, Omission, Row, Trade
 from slider_resonator.trading.solution import (
@@ -133,9 +133,9 @@ def measure_trade(
         fmus = [FmuMethods(problem, build, instance) for build, instance in instances.items()]
         for fmu in fmus:
             fmu.check_runs()
-        methods: list[Method | Peer] = [method for fmu in fmus for method in fmu.methods()]
-        methods += peer_methods(problem)
-        answers = [answer for fmu in fmus for answer in fmu.answers()] + list(peer_answers(problem))
+        methods = [method for fmu in fmus for method in fmu.methods()] + list(peer_methods(problem))
+        answers = [answer for fmu in fmus for answer in fmu.answers]
+        answers += [answer for method in methods for answer in method.answers]
         tried = [(one.row, partial(_follow, method=one)) for one in methods]
         tried += [(one.row, partial(_answer, answer=one)) for one in answers]
         for index, (row, measured) in enumerate(tried):
@@ -175,7 +175,7 @@ def measure_trade(
 
 
 def _follow(
-    problem: Problem, reference: Reference, method: Method | Peer, budget: float, notes: _Notes
+    problem: Problem, reference: Reference, method: Method, budget: float, notes: _Notes
 ) -> _Candidate:
     """Run a method as far as its budget (s of CPU time) takes it; ValueError where it has no run.
 

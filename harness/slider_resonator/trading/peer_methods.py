@@ -4,10 +4,10 @@ As methods on a problem they have runs, CPU times, and searches by shooting.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
 from time import process_time
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from scipy.integrate import DOP853
@@ -29,7 +29,7 @@ from slider_resonator.trading.peers import event_free, located_scipy, moreau_jea
 from slider_resonator.trading.peers.switching_taylor import heyoka_in_one_call
 from slider_resonator.trading.problem import Problem
 from slider_resonator.trading.result import PEER, Row
-from slider_resonator.trading.solution import STEADY, Solution, SteadyMethod, solution_of
+from slider_resonator.trading.solution import STEADY, Method, Solution, SteadyMethod, solution_of
 
 MAX_EVALUATIONS = 1_000_000
 """Maximum evaluations of a method on sgn: one that chatters is stopped early."""
@@ -41,53 +41,9 @@ NO_REVERSALS = {"event_times": "the times of reversals are not reported", **NOT_
 NO_MODES = {"event_times": "averaged motion has no events", **NOT_SHOT}
 
 
-@dataclass(frozen=True)
-class Peer:
-    """A method on a problem, by the setting that its error depends on; it is measured as a Method.
-
-    `simulate` returns a trajectory, with the times of its events unless these are `missing`, or a
-    solution. `shooting` is the accuracy of shooting in units of the state, None for a method that
-    cannot start in any state.
-    """
-
-    min_periods: ClassVar[int] = 1
-    problem: Problem
-    family: str
-    setting: str
-    tolerance: float | None
-    simulate: Callable[[Device, Sequence[HeldInputs], Array], Any]
-    shooting: float | None = SHOOTING
-    cannot_stick: bool = False
-    missing: Mapping[str, str] = field(default_factory=lambda: NO_EVENTS)
-
-    @property
-    def row(self) -> Row:
-        """The row that it fills."""
-        name = f"{self.family}, {self.setting}" if self.setting else self.family
-        law = self.problem.device.friction_law
-        return Row(PEER, self.family, name, law, tolerance=self.tolerance)
-
-    def run(self, periods: int) -> tuple[float, Solution]:
-        """Follow the motion over drive periods; return the CPU time (s), too."""
-        began, problem = process_time(), self.problem
-        ends = np.empty(0) if problem.beat is None else problem.ends(periods)
-        times = np.union1d(problem.readings(periods), ends)
-        found = self.simulate(problem.device, problem.lines(periods), times)
-        if not isinstance(found, Solution):
-            found = solution_of(found, located="event_times" not in self.missing)
-        position = found.position[np.searchsorted(times, ends)]
-        history = ends[1:], np.diff(position) / problem.period
-        return process_time() - began, replace(found, history=history)
-
-    def seconds(self, periods: int) -> float:
-        """Follow the motion; return the CPU time (s) without initialisation."""
-        taken, solution = self.run(periods)
-        return taken - (solution.start_cpu or 0.0)
-
-
-def peer_methods(problem: Problem) -> Iterator[Peer]:
+def peer_methods(problem: Problem) -> Iterator[Method]:
     """Yield the peers for the friction law of a problem."""
-    peer = partial(Peer, problem)
+    peer = partial(_peer, problem)
     located = partial(peer, missing={})
     yield located("Taylor series in Python", "", None, simulate_series, shooting=1e-9)
     is_lugre = problem.device.friction_law == 1
@@ -119,6 +75,49 @@ def peer_methods(problem: Problem) -> Iterator[Peer]:
             setting = f"width {share:g} of the fast velocity"
             yield peer("tanh, LSODA", setting, None, partial(_regularised, share=share))
     yield peer("averaged equation, scipy", "", None, _averaged, shooting=None, missing=NO_MODES)
+
+
+def _peer(
+    problem: Problem,
+    family: str,
+    setting: str,
+    tolerance: float | None,
+    simulate: Callable[[Device, Sequence[HeldInputs], Array], Any],
+    shooting: float | None = SHOOTING,
+    *,
+    cannot_stick: bool = False,
+    missing: Mapping[str, str] = NO_EVENTS,
+) -> Method:
+    """Return a method on a problem, by the setting that its error depends on.
+
+    `simulate` returns a trajectory, with the times of its events unless these are `missing`, or a
+    solution. `shooting` is the accuracy of shooting in units of the state, None for a method that
+    cannot start in any state.
+    """
+    name, law = f"{family}, {setting}" if setting else family, problem.device.friction_law
+    row = Row(PEER, family, name, law, tolerance=tolerance)
+
+    def run(periods: int) -> tuple[float, Solution]:
+        began = process_time()
+        ends = np.empty(0) if problem.beat is None else problem.ends(periods)
+        times = np.union1d(problem.readings(periods), ends)
+        found = simulate(problem.device, problem.lines(periods), times)
+        if not isinstance(found, Solution):
+            found = solution_of(found, located="event_times" not in missing)
+        position = found.position[np.searchsorted(times, ends)]
+        history = ends[1:], np.diff(position) / problem.period
+        return process_time() - began, replace(found, history=history)
+
+    def seconds(periods: int) -> float:
+        taken, solution = run(periods)
+        return taken - (solution.start_cpu or 0.0)
+
+    answers = []
+    if shooting is not None:
+        for quantity in STEADY:
+            find = partial(shoot, problem, quantity, simulate, shooting)
+            answers.append(SteadyMethod(replace(row, answer=quantity), find))
+    return Method(row, run, seconds, 1, cannot_stick, missing, answers)
 
 
 def _regularised(
@@ -162,12 +161,3 @@ def shoot(
     value = search(simulate=counted, tolerance=tolerance)
     seconds, none = process_time() - began, "the search by shooting found none"
     return SteadyAnswer(seconds, value, none, round(sum(simulated)))
-
-
-def peer_answers(problem: Problem) -> Iterator[SteadyMethod]:
-    """Yield the searches for steady velocity and blocking force, of peers that support shooting."""
-    for quantity in STEADY:
-        for peer in peer_methods(problem):
-            if peer.shooting is not None:
-                find = partial(shoot, problem, quantity, peer.simulate, peer.shooting)
-                yield SteadyMethod(replace(peer.row, answer=quantity), find)

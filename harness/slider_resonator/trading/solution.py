@@ -1,6 +1,6 @@
 """Methods, their solutions of a problem, sampled at its readings, and the errors of these."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -46,24 +46,6 @@ class Solution:
 
 
 @dataclass(frozen=True)
-class Method:
-    """A method to follow a motion, and the row that it fills.
-
-    `run` follows it over a number of drive periods and returns its CPU time (s), too; `seconds`
-    does so without the readings and returns the CPU time (s), without initialisation. A run has at
-    least `min_periods`; a method that `cannot_stick` does not cover sticking. `missing` gives the
-    reason for each quantity that the method does not compute.
-    """
-
-    row: Row
-    run: Callable[[int], tuple[float, Solution]]
-    seconds: Callable[[int], float]
-    min_periods: int = 1
-    cannot_stick: bool = False
-    missing: Mapping[str, str] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
 class SteadyMethod:
     """A method to find a steady velocity (m/s) or a blocking force (N), the answer of its `row`.
 
@@ -72,6 +54,25 @@ class SteadyMethod:
 
     row: Row
     find: Callable[[float], SteadyAnswer]
+
+
+@dataclass(frozen=True)
+class Method:
+    """A method to follow a motion, and the row that it fills.
+
+    `run` follows it over a number of drive periods and returns its CPU time (s), too; `seconds`
+    does so without the readings and returns the CPU time (s), without initialisation. A run has at
+    least `min_periods`; a method that `cannot_stick` does not cover sticking. `missing` gives the
+    reason for each quantity that the method does not compute, `answers` are its searches.
+    """
+
+    row: Row
+    run: Callable[[int], tuple[float, Solution]]
+    seconds: Callable[[int], float]
+    min_periods: int = 1
+    cannot_stick: bool = False
+    missing: Mapping[str, str] = field(default_factory=dict)
+    answers: Sequence[SteadyMethod] = ()
 
 
 Readings = Mapping[str, Array]

@@ -72,7 +72,7 @@ def test_a_drive_that_changes_costs_nothing(instance: Instance, law: int) -> Non
 
 
 def test_answers_are_those_of_the_commands(instance: Instance) -> None:
-    answers = list(FmuMethods(problem(TABLE_1), "native", InProcess(instance)).answers())
+    answers = list(FmuMethods(problem(TABLE_1), "native", InProcess(instance)).answers)
     found = {(a.row.method, a.row.answer): a.find(inf).value for a in answers}
     assert found["native FMU, fidelity 2", "steady_velocity"] == pytest.approx(0.126667, rel=1e-6)
     assert found["native FMU, fidelity 2", "blocking_force"] == pytest.approx(0.0851861, rel=1e-6)
@@ -99,7 +99,6 @@ def made_up(
 
 def only(monkeypatch: pytest.MonkeyPatch, *methods: Method) -> None:
     monkeypatch.setattr(measure, "peer_methods", lambda problem: list(methods))
-    monkeypatch.setattr(measure, "peer_answers", lambda problem: [])
 
 
 def still(problem: Problem) -> Callable[[int], Solution]:

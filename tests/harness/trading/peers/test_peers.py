@@ -10,9 +10,9 @@ from scipy.integrate import DOP853
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import HeldInputs
 from slider_resonator.references.resolved import simulate as resolved
-from slider_resonator.trading.peer_methods import Peer, peer_answers, peer_methods
+from slider_resonator.trading.peer_methods import peer_methods
 from slider_resonator.trading.peers.event_free import simulate
-from slider_resonator.trading.solution import errors
+from slider_resonator.trading.solution import Method, errors
 from tests.harness.references.comparing import deviation, until
 from tests.harness.trading.problems import LUGRE, RAMP, TABLE_1, problem, reference_of
 from tests.problems import SIGNALS
@@ -33,19 +33,19 @@ EXACT = {"heyoka", "Taylor", "DOP853 with", "LSODA, bristle"}
 def test_the_last_setting_of_each_family_is_near_the_reference(text: str) -> None:
     short = problem(text, max_periods=PERIODS)
     reference = reference_of(short)
-    names = [(peer.family, peer.setting) for peer in peer_methods(short)]
+    names = [peer.row.method for peer in peer_methods(short)]
     assert len(set(names)) == len(names), "every setting has a name of its own"
-    most_exact = {peer.family: peer for peer in peer_methods(short)}
-    for peer in most_exact.values():
-        if peer.family.startswith("DOP853 on sgn"):
+    most_exact = {peer.row.family: peer for peer in peer_methods(short)}
+    for family, peer in most_exact.items():
+        if family.startswith("DOP853 on sgn"):
             continue
         _, solution = peer.run(PERIODS)
         found = errors(short, solution, reference, PERIODS)
-        exact = any(peer.family.startswith(family) for family in EXACT)
-        allowed = 1e-6 if exact else 5e-2
-        compared = "slow_displacement" if peer.family.startswith("averaged") else "velocity"
-        assert found[compared] < allowed, f"{peer.family}: {found}"
-        assert ("event_times" in found) == ("event_times" not in peer.missing), peer.family
+        is_exact = any(family.startswith(exact) for exact in EXACT)
+        allowed = 1e-6 if is_exact else 5e-2
+        compared = "slow_displacement" if family.startswith("averaged") else "velocity"
+        assert found[compared] < allowed, f"{family}: {found}"
+        assert ("event_times" in found) == ("event_times" not in peer.missing), family
 
 
 def test_a_width_in_fast_velocities_needs_a_steady_vibration() -> None:
@@ -55,8 +55,8 @@ def test_a_width_in_fast_velocities_needs_a_steady_vibration() -> None:
         peers["tanh, LSODA"].run(PERIODS)
 
 
-def by_family(text: str) -> dict[str, Peer]:
-    return {peer.family: peer for peer in peer_methods(problem(text, max_periods=PERIODS))}
+def by_family(text: str) -> dict[str, Method]:
+    return {peer.row.family: peer for peer in peer_methods(problem(text, max_periods=PERIODS))}
 
 
 IN_ONE_CALL = "heyoka at its fastest"
@@ -77,7 +77,7 @@ def test_what_it_does_not_cover_is_refused(text: str, reason: str) -> None:
 
 
 def test_it_is_not_used_for_shooting_which_starts_at_rest_too() -> None:
-    answers = {answer.row.family for answer in peer_answers(problem(TABLE_1))}
+    answers = {one.row.family for one in peer_methods(problem(TABLE_1)) if one.answers}
     assert "Moreau-Jean" in answers
     assert not any("at its fastest" in family for family in answers)
 
