@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isfinite, nan
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +25,7 @@ TIME = "last_event_time"
 
 @dataclass(frozen=True)
 class Point:
-    """A steady `quantity` measured under `values`; both in SI units.
+    """A steady `quantity` measured under `values`, or one of a run; all in SI units.
 
     `deviation` is the standard deviation of the measurement, NaN where it is not known. `source`
     and `row` are those of the file.
@@ -54,19 +53,6 @@ class Run:
     rows: Sequence[str] = ()
 
 
-class Number(NamedTuple):
-    """A measured number in SI units with its standard deviation, NaN where that is not known.
-
-    It is a quantity of a source and row, such as velocity, data.csv, line 3.
-    """
-
-    quantity: str
-    source: str
-    row: str
-    value: float
-    deviation: float
-
-
 @dataclass(frozen=True)
 class Measurements:
     """All that is measured. Numbers come in the order of points, then runs, output by output.
@@ -85,22 +71,22 @@ class Measurements:
     notes: tuple[str, ...] = ()
 
     @cached_property
-    def numbers(self) -> list[Number]:
-        """The numbers, length n, without what a run leaves out."""
-        found = [Number(p.quantity, p.source, p.row, p.measured, p.deviation) for p in self.points]
+    def numbers(self) -> list[Point]:
+        """The numbers, length n, without what a run leaves out; those of runs have no values."""
+        found = [*self.points]
         for run in self.runs:
             for name, column in run.outputs.items():
                 rows = run.rows or [f"row {number}" for number in range(1, len(column) + 1)]
                 deviations = run.deviations.get(name, np.full(len(column), nan)).tolist()
                 for row, value, deviation in zip(rows, column.tolist(), deviations, strict=True):
                     if isfinite(value):
-                        found.append(Number(name, run.source, row, value, deviation))
+                        found.append(Point({}, name, value, deviation, run.source, row))
         return found
 
     @property
     def measured(self) -> Array:
         """What was measured, shape (n,)."""
-        return np.array([one.value for one in self.numbers])
+        return np.array([one.measured for one in self.numbers])
 
     @property
     def deviations(self) -> Array:
@@ -126,10 +112,11 @@ class Measurements:
         """Whether the numbers have their standard deviations; HarnessError if only some have."""
         known = np.isfinite(self.deviations)
         if known.any() and not known.all():
-            name, source, *_ = self.numbers[int(np.argmin(known))]
+            one = self.numbers[int(np.argmin(known))]
             raise HarnessError(
                 f"{np.count_nonzero(known)} of {len(known)} numbers have a standard deviation; "
-                f"must be all or none: give {source} a column {name}_std, or take all such out"
+                f"must be all or none: give {one.source} a column {one.quantity}_std, or take all "
+                "such out"
             )
         return bool(known.all())
 

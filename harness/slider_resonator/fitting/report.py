@@ -1,6 +1,5 @@
 """What a fit says: text, table, picture, page, and the device file to go on with."""
 
-from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 
@@ -49,17 +48,16 @@ def write_report(fit: Fit, folder: Path, title: str, provenance: Provenance) -> 
     write_text(device, note + to_toml(fit.device, title))
     figure = fit.figure()
     save(figure, picture)
-    # A row for each number; what a steady measurement set is in columns of its own.
-    points = fit.measurements.points
+    points = fit.measurements.numbers
     settings = list(dict.fromkeys(name for point in points for name in point.values))
-    quantities, *where = zip(*(one[:3] for one in fit.measurements.numbers), strict=True)
-    found = (column.tolist() for column in (fit.measured, fit.predicted, fit.residuals))
-    columns: list[Sequence[object]] = [quantities, *found, *where]
-    of_runs = [""] * (len(quantities) - len(points))
-    for name in settings:
-        columns.append([*(point.values.get(name, "") for point in points), *of_runs])
+    found = np.column_stack([fit.measured, fit.predicted, fit.residuals]).tolist()
+    # A row for each number; what a steady measurement set is in columns of its own.
+    rows = [
+        (one.quantity, *three, one.source, one.row, *(one.values.get(s, "") for s in settings))
+        for one, three in zip(points, found, strict=True)
+    ]
     header = ("quantity", "measured", "predicted", "residual_over_deviation", "source", "row")
-    write_csv(table, (*header, *settings), zip(*columns, strict=True))
+    write_csv(table, (*header, *settings), rows)
     said = "".join(f"<li>{escape(line)}</li>" for line in fit.sentences())
     parts = [
         rendered(parameter_table(fit)),

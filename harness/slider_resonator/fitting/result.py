@@ -131,11 +131,12 @@ class Fit(Shown, Tabular, Drawable):
             )
         shown = self.measurements.shown
         for index in self.unmet:
-            name, source, row, *_ = self.measurements.numbers[index]
-            asked, reached = shown(name, self.measured[index]), self.predicted[index]
+            one = self.measurements.numbers[index]
+            name, reached = one.quantity, self.predicted[index]
+            asked = f"{name} ({one.source}, {one.row}) must be {shown(name, one.measured)}"
             found = f"the nearest found is {shown(name, reached)}"
             nearest = found if isfinite(reached) else "but no steady motion was found"
-            lines.append(f"not met: {name} ({source}, {row}) must be {asked}, {nearest}")
+            lines.append(f"not met: {asked}, {nearest}")
         quantities = self.measurements.quantities
         for quantity in dict.fromkeys(quantities.tolist()):
             seen = np.isfinite(self.predicted) & (quantities == quantity)
@@ -145,10 +146,10 @@ class Fit(Shown, Tabular, Drawable):
         missing = int(np.count_nonzero(~np.isfinite(self.predicted)))
         if missing:
             lines.append(f"at {missing} of the points the fitted device has no steady motion")
-        for one in self.open_directions:
-            names = one.factors
+        for direction in self.open_directions:
+            names = direction.factors
             parts = ", ".join(f"{name} x {exp(0.1 * part):.3g}" for name, part in names.items())
-            reach = "hardly" if isfinite(one.spread) else "do not"
+            reach = "hardly" if isfinite(direction.spread) else "do not"
             told = "determine" if len(names) == 1 else "tell apart"
             alone = "is" if len(names) == 1 else "together are"
             lines.append(
