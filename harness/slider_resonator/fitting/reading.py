@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.interface import ALL_OUTPUTS, HELD, INPUTS, PARAMETERS, VARIABLES
@@ -32,22 +31,6 @@ _HEADING = re.compile(r"\s*(\w[\w ]*?)([_ ]std)?\s*(?:[\[(]([^\])]*)[\])])?\s*",
 _ROW_NUMBERS = ("", "#", "index", "no", "nr", "point")
 """Headings of columns that only number the rows, without a dot and in small letters."""
 MAX_ROWS = 100_000
-
-
-@dataclass(frozen=True)
-class _Columns:
-    """Columns by name in SI units, (n,) each, with the names of their n rows."""
-
-    source: str
-    rows: Sequence[str]
-    values: Mapping[str, Array]
-
-    def check_filled(self, name: str, needed: NDArray[np.bool_]) -> None:
-        """Raise HarnessError for an empty cell of a column in a row that is `needed`, (n,)."""
-        for index in np.flatnonzero(needed & ~np.isfinite(self.values[name])).tolist():
-            raise HarnessError(
-                f"{self.source} {self.rows[index]}: {name} is empty; must be a number"
-            )
 
 
 @dataclass(frozen=True)
@@ -188,8 +171,7 @@ def _measurements(
         for index in np.flatnonzero(np.isfinite(values[name]) & ~(deviations > 0.0)).tolist():
             said = f"{name}_std = {deviations[index]:g}: must be above 0"
             raise HarnessError(f"{source} {rows[index]}: {said}")
-    read = _Columns(source, rows, values)
-    found = _run(read) if "time" in values else _table(read)
+    found = (_run if "time" in values else _table)(source, rows, values)
     plain = [
         (source, name, value)
         for name in IN_ANOTHER_UNIT
@@ -213,8 +195,14 @@ def _numbers(heading: str, rows: Sequence[str], cells: Sequence[str]) -> Array:
     return found
 
 
-def _table(columns: _Columns) -> Measurements:
-    source, values = columns.source, columns.values
+def _check_filled(source: str, rows: Sequence[str], name: str, column: Array) -> None:
+    """Raise HarnessError for an empty cell of a column, in the row of that name."""
+    for index in np.flatnonzero(~np.isfinite(column)).tolist():
+        raise HarnessError(f"{source} {rows[index]}: {name} is empty; must be a number")
+
+
+def _table(source: str, rows: Sequence[str], values: Mapping[str, Array]) -> Measurements:
+    """Return steady measurements from columns by name in SI units, (n,) each, with n rows."""
     measured = [name for name in STEADY if name in values]
     if not measured:
         raise HarnessError(f"{source}: measures nothing; must have a column {' or '.join(STEADY)}")
@@ -222,24 +210,24 @@ def _table(columns: _Columns) -> Measurements:
     there = np.isfinite([values[name] for name in measured])
     is_needed = np.array(there.any(axis=0))
     for name in given:
-        columns.check_filled(name, is_needed)
+        _check_filled(source, rows, name, np.where(is_needed, values[name], 0.0))
     points = []
-    for index, row in enumerate(columns.rows):
+    for index, row in enumerate(rows):
         own = {name: float(values[name][index]) for name in given}
         for name in [name for name, known in zip(measured, there[:, index], strict=True) if known]:
             deviation = float(values[f"{name}_std"][index]) if f"{name}_std" in values else nan
             points.append(Point(own, name, float(values[name][index]), deviation, source, row))
     skipped = np.count_nonzero(~is_needed)
-    note = f"{source}: {skipped} of {len(columns.rows)} rows skipped: nothing measured"
+    note = f"{source}: {skipped} of {len(rows)} rows skipped: nothing measured"
     return Measurements(tuple(points), notes=(note,) if skipped else ())
 
 
-def _run(columns: _Columns) -> Measurements:
-    source, values, rows = columns.source, columns.values, columns.rows
+def _run(source: str, rows: Sequence[str], values: Mapping[str, Array]) -> Measurements:
+    """Return a run from such columns."""
     times = values["time"]
     settable = [name for name in (*INPUTS, *HELD) if name in values]
     for name in ("time", *settable):
-        columns.check_filled(name, np.ones(len(rows), np.bool_))
+        _check_filled(source, rows, name, values[name])
     for index in (np.flatnonzero(np.diff(times) <= 0.0) + 1).tolist():
         raise HarnessError(
             f"{source} {rows[index]}: time = {times[index]:.9g} s: must be above the "
