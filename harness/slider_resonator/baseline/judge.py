@@ -5,10 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from slider_resonator.checks.compare import Check, Comparison, Curves, compare, curves_of
+from slider_resonator.checks.compare import Comparison
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.checks.measuring import Measurement, measure
-from slider_resonator.errors import NotApplicable, SceneError
+from slider_resonator.checks.validate import Judged
+from slider_resonator.errors import SceneError
 from slider_resonator.scenes.scene import ScenePoint
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
@@ -32,6 +33,9 @@ OF_CONSTANT_INPUTS = (
 NUMBERS_AND_WORDS = (*OF_CONSTANT_INPUTS, *OF_A_RUN)
 """All recorded quantities besides the signals, in the order of the files."""
 
+THE_RUN = "the run"
+"""In place of all of them where they do not apply to an FMU."""
+
 Golden = Mapping[str, Measurement]
 """Quantity to its measurement; signals at few points."""
 
@@ -39,7 +43,8 @@ Golden = Mapping[str, Measurement]
 def measure_golden(fmu: FmuSide) -> Golden:
     """Measure all quantities that the scene allows: a ripple needs enough points per period.
 
-    Raises FmuError and Refusal as the FMU does, NotApplicable where it cannot run the scene.
+    There is `THE_RUN` alone where the FMU cannot run the scene. Raises FmuError and Refusal as it
+    does.
     """
     found = {}
     names = [*SIGNALS, *OF_A_RUN] if fmu.scene.stop_time is not None else []
@@ -51,7 +56,7 @@ def measure_golden(fmu: FmuSide) -> Golden:
         except SceneError:
             continue
         if not measured.applicable:
-            raise NotApplicable(measured.note)
+            return {THE_RUN: measured}
         if name in SIGNALS:
             assert measured.times is not None
             last = len(measured.times) - 1
@@ -70,12 +75,12 @@ AGAINST = "baseline"
 
 def compare_golden(
     point: ScenePoint, golden: Golden, now: Golden, tolerance: float
-) -> Iterator[tuple[Check, Curves | None]]:
-    """Compare every quantity that was recorded or exists now.
+) -> Iterator[Judged]:
+    """Yield every quantity that was recorded or exists now, and how it is compared.
 
-    Yield checks, and the curves of failed ones. Numbers may change by `tolerance` times their size,
-    signals by that share of their peak, times of events by that share of a drive period; counts,
-    words and contact modes must be equal. Raises SceneError where the run has other points.
+    Numbers may change by `tolerance` times their size, signals by that share of their peak, times
+    of events by that share of a drive period; counts, words and contact modes must be equal. Raises
+    SceneError where the run has other points.
     """
     for name in [one for one in (*NUMBERS_AND_WORDS, *SIGNALS) if one in {*golden, *now}]:
         recorded = golden.get(name, Measurement(None, "it was not recorded"))
@@ -85,15 +90,13 @@ def compare_golden(
                 f"{point.scene.source}: the run of {point.scene.name} has other points than when "
                 "it was recorded; record it again with --replace"
             )
-        quantity, comparison = QUANTITIES[name], Comparison(name, AGAINST, "the recorded result")
+        quantity = QUANTITIES[name]
+        comparison = Comparison(name, AGAINST, "the recorded result", may_lack=True)
         if quantity.in_periods:
             comparison = replace(comparison, tube=tolerance)
         elif not quantity.exact:
             comparison = replace(comparison, relative=tolerance)
-        check = compare(comparison, measured, recorded.value, point)
-        if measured.value is None and recorded.value is None:
-            check = replace(check, passed=True)
-        yield check, None if check.passed else curves_of(check, measured, recorded.value)
+        yield comparison, measured, recorded.value
 
 
 def _same_points(one: Measurement, other: Measurement) -> bool:

@@ -1,12 +1,18 @@
 """The three commands of a baseline: record golden results, check an FMU, accept changes."""
 
 import shutil
-from collections.abc import Sequence
-from contextlib import closing
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
-from time import perf_counter
 
-from slider_resonator.baseline.judge import TOLERANCE, Golden, compare_golden, measure_golden
+from slider_resonator.baseline.judge import (
+    AGAINST,
+    THE_RUN,
+    TOLERANCE,
+    Golden,
+    compare_golden,
+    measure_golden,
+)
 from slider_resonator.baseline.store import (
     BUILT_IN,
     FMU_DIGEST,
@@ -22,16 +28,15 @@ from slider_resonator.baseline.store import (
     scene_digest,
     write_recorded,
 )
-from slider_resonator.checks.compare import Check, Curves
-from slider_resonator.checks.fmu_side import measure_points
-from slider_resonator.checks.validate import NotApplied, RunFailure, Validation
-from slider_resonator.errors import HarnessError, NotApplicable, SceneError, explained, unknown_name
+from slider_resonator.checks.compare import Comparison
+from slider_resonator.checks.validate import Judged, RunFailure, Validation, judge_points
+from slider_resonator.errors import HarnessError, SceneError, explained, unknown_name
 from slider_resonator.fmu.isolation.process import TIME_LIMIT
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import digest_of, identity_of
 from slider_resonator.output.files import make_folder, write_text
-from slider_resonator.output.progress import Progress, counted, no_progress
-from slider_resonator.scenes.scene import Scene
+from slider_resonator.output.progress import Progress, no_progress
+from slider_resonator.scenes.scene import Scene, ScenePoint
 from slider_resonator.scenes.scene_files import built_in_scenes, find_scene
 
 CHANGED = ".changed"
@@ -64,14 +69,14 @@ def record(
             f"{folder}: recorded already: {', '.join(there)}; must be "
             "new scenes, or --replace to record them again"
         )
-    measured, run_failures, not_applied = _measure(fmu, scenes, folder, progress, time_limit)
+    ran, measured = _run(fmu, scenes, folder, lambda *_: (), progress, time_limit)
+    run_failures = ran.run_failures
     if must_apply:
-        run_failures += [RunFailure(one.scene, one.reason, one.at) for one in not_applied]
-    whole = [scene for scene in scenes if scene.source in measured]
-    for scene in whole:
-        write_recorded(folder / scene.name, measured[scene.source])
-        shutil.rmtree(folder / CHANGED / scene.name, ignore_errors=True)
-    return tuple(scene.name for scene in whole), tuple(run_failures)
+        run_failures += tuple(RunFailure(one.scene, one.reason, one.at) for one in ran.not_applied)
+    for name, recorded in measured.items():
+        write_recorded(folder / name, recorded)
+        shutil.rmtree(folder / CHANGED / name, ignore_errors=True)
+    return tuple(measured), run_failures
 
 
 def check(
@@ -89,56 +94,36 @@ def check(
     HarnessError where nothing is recorded or a record cannot be read, FmuError for a file that is
     no FMU.
     """
-    began = perf_counter()
-    identity = identity_of(fmu)
     scenes = list({one.source: one for one in scenes or scenes_recorded(folder)}.values())
     for scene in scenes:
         if not (folder / scene.name).is_dir():
             known = [one.name for one in recorded_scenes(folder)]
             raise HarnessError(f"{folder}: {unknown_name('recorded scene', scene.name, known)}")
-    golden = [read_recorded(folder / scene.name) for scene in scenes]
-    measured, run_failures, not_applied = _measure(fmu, scenes, folder, progress, time_limit)
-    compared: list[tuple[Check, Curves | None]] = []
-    for scene, before in zip(scenes, golden, strict=True):
+    golden = {scene.name: read_recorded(folder / scene.name) for scene in scenes}
+    digests = {scene.name: scene_digest(scene) for scene in scenes}
+
+    def judge(point: ScenePoint, now: Golden) -> Iterator[Judged]:
+        name = point.scene.name
+        if golden[name].provenance.get(SCENE_DIGEST) != digests[name]:
+            raise SceneError(
+                f"{point.scene.source}: no longer runs the recorded content of {name}; record it "
+                "again with --replace"
+            )
+        before = golden[name].points.get(key(point.at), {})
+        return compare_golden(point, before, now, tolerance)
+
+    ran, measured = _run(fmu, scenes, folder, judge, progress, time_limit)
+    run_failures = [*ran.run_failures]
+    for scene in scenes:
         shutil.rmtree(folder / CHANGED / scene.name, ignore_errors=True)
-        now = measured.get(scene.source)
-        if now is None:
-            continue
+    for name in dict.fromkeys(one.scene for one in ran.failed if one.scene in measured):
         try:
-            if before.provenance.get(SCENE_DIGEST) != scene_digest(scene):
-                raise SceneError(
-                    f"{scene.source}: no longer runs the recorded content of {scene.name}; record "
-                    "it again with --replace"
-                )
-            found: list[tuple[Check, Curves | None]] = []
-            for point in scene.points():
-                at = key(point.at)
-                golden_there = before.points.get(at, {})
-                found += compare_golden(point, golden_there, now.points[at], tolerance)
-            compared += found
-            if not all(verdict.passed for verdict, _ in found):
-                _keep_changed(folder / CHANGED, scene.name, now)
+            write_recorded(folder / CHANGED / name, measured[name])
+            write_text(folder / CHANGED / ".gitignore", "*\n")
         except HarnessError as error:
-            run_failures.append(RunFailure(scene.name, str(error), {}))
-    return Validation(
-        str(fmu),
-        tuple(verdict for verdict, _ in compared),
-        perf_counter() - began,
-        tuple(run_failures),
-        tuple(curves for _, curves in compared if curves is not None),
-        not_applied=tuple(not_applied),
-        identity=identity,
-    )
-
-
-def _keep_changed(folder: Path, name: str, now: Recorded) -> None:
-    """Keep changed results for accept; HarnessError where that fails."""
-    try:
-        write_recorded(folder / name, now)
-        if not (folder / ".gitignore").exists():
-            write_text(folder / ".gitignore", "*\n")
-    except HarnessError as error:
-        raise HarnessError(f"the changes could not be kept for accept: {error}") from error
+            reason = f"the changes could not be kept for accept: {error}"
+            run_failures.append(RunFailure(name, reason, {}))
+    return replace(ran, run_failures=tuple(run_failures))
 
 
 def accept(fmu: Path, folder: Path, names: Sequence[str]) -> tuple[str, ...]:
@@ -196,38 +181,32 @@ def scenes_recorded(folder: Path) -> list[Scene]:
     return found
 
 
-def _measure(
-    fmu: Path, scenes: Sequence[Scene], folder: Path, progress: Progress, time_limit: float
-) -> tuple[dict[str, Recorded], list[RunFailure], list[NotApplied]]:
-    """Return the results by the source of the scene, what could not be run and what did not apply.
+def _run(
+    fmu: Path,
+    scenes: Sequence[Scene],
+    folder: Path,
+    judge: Callable[[ScenePoint, Golden], Iterable[Judged]],
+    progress: Progress,
+    time_limit: float,
+) -> tuple[Validation, dict[str, Recorded]]:
+    """Run scenes and judge the results at each point; return these, too, by the name of the scene.
 
-    A scene that fails at a point is left out. `folder` is where the results are to be kept.
+    A scene that fails at a point has none. `folder` is where the results are to be kept.
     """
     with open_fmu(fmu):
         pass  # one that cannot be opened is no run failure, and nothing is made in `folder` for it
     make_folder(folder)
-    points = {scene.source: scene.points() for scene in scenes}
-    all_points = [point for some in points.values() for point in some]
-    found: dict[str, dict[At, Golden]] = {source: {} for source in points}
-    run_failures: list[RunFailure] = []
-    not_applied: list[NotApplied] = []
+    found: dict[str, dict[At, Golden]] = {scene.name: {} for scene in scenes}
     identity = identity_of(fmu)
-    origins = {scene.source: provenance(identity, scene, folder) for scene in scenes}
-    with closing(measure_points(fmu, all_points, measure_golden, time_limit)) as outcomes:
-        for done, (point, outcome) in enumerate(outcomes):
-            error = outcome.error
-            if point is None:
-                run_failures.append(RunFailure.of(fmu, None, error))
-                continue
-            name, at = point.scene.name, point.at
-            progress(counted(name, done, len(all_points)), done / len(all_points))
-            if isinstance(error, NotApplicable):
-                not_applied.append(NotApplied(name, "the run", str(error), at))
-            elif error is not None:
-                run_failures.append(RunFailure.of(fmu, point, error))
-            else:
-                found[point.scene.source][key(at)] = outcome.value
-    progress("", 1.0)
-    whole = [source for source in points if len(found[source]) == len(points[source])]
-    recorded = {source: Recorded(found[source], origins[source]) for source in whole}
-    return recorded, run_failures, not_applied
+    origins = {scene.name: provenance(identity, scene, folder) for scene in scenes}
+
+    def keep(point: ScenePoint, golden: Golden) -> Iterable[Judged]:
+        if THE_RUN in golden:
+            return [(Comparison(THE_RUN, AGAINST, ""), golden[THE_RUN], None)]
+        found[point.scene.name][key(point.at)] = golden
+        return judge(point, golden)
+
+    points = [point for scene in scenes for point in scene.points()]
+    ran = judge_points(fmu, points, measure_golden, keep, progress, time_limit)
+    whole = [scene.name for scene in scenes if len(found[scene.name]) == len(scene.points())]
+    return ran, {name: Recorded(found[name], origins[name]) for name in whole}

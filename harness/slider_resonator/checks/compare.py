@@ -72,7 +72,8 @@ class Comparison:
     Without an `absolute`, be it 0, a reference counts as no smaller than a share of its natural
     scale. For a signal `relative` is a share of the reference's peak, and `absolute` beside it is
     for a reference near zero. `tube` is the half width of a tube in drive periods; of a quantity
-    measured in drive periods it is the tolerance.
+    measured in drive periods it is the tolerance. A value that is on neither side fails unless it
+    `may_lack`.
     """
 
     quantity: str
@@ -81,6 +82,7 @@ class Comparison:
     absolute: float | None = None
     relative: float = 0.0
     tube: float | None = None
+    may_lack: bool = False
 
     @classmethod
     def of(cls, expect: ExpectTable) -> "Comparison":
@@ -107,7 +109,7 @@ def compare(
     if quantity.kind == "signal":
         difference = _difference_of_signals(comparison, measured, expected, floor, point.scene)
     elif isinstance(got, str | None) or isinstance(expected, str | None):
-        passed = got is not None and got == expected
+        passed = got == expected and (got is not None or comparison.may_lack)
         difference = {"deviation": None, "allowed": None, "passed": passed}
     else:
         off = got - expected  # a bound counts by how much it is exceeded; NaN stays NaN

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from slider_resonator.baseline.judge import SIGNALS, compare_golden
+from slider_resonator.baseline.judge import SIGNALS, Golden, compare_golden
 from slider_resonator.baseline.store import (
     DIGITS,
     Recorded,
@@ -20,7 +20,7 @@ from slider_resonator.baseline.store import (
     scene_digest,
     write_recorded,
 )
-from slider_resonator.checks.compare import Check
+from slider_resonator.checks.compare import Check, compare
 from slider_resonator.checks.measuring import Measurement
 from slider_resonator.checks.verdict import sentence
 from slider_resonator.errors import HarnessError, SceneError
@@ -44,8 +44,12 @@ def judged(point: ScenePoint, name: str, *values: Any) -> Check:
         {name: Measurement(value, times=TIMES[: len(value)] if np.ndim(value) else None)}
         for value in values
     )
-    ((check, _),) = compare_golden(point, golden, now, 1e-8)
-    return check
+    return compared(point, golden, now)
+
+
+def compared(point: ScenePoint, golden: Golden, now: Golden) -> Check:
+    ((comparison, measured, expected),) = compare_golden(point, golden, now, 1e-8)
+    return compare(comparison, measured, expected, point)
 
 
 @pytest.mark.parametrize(
@@ -75,8 +79,7 @@ def test_judged_changes(point: ScenePoint, name: str, golden: Any, now: Any, pas
 
 def test_missing_quantities_are_changes(point: ScenePoint) -> None:
     golden = {"reversals": Measurement(199.0)}
-    ((new, _),) = compare_golden(point, {}, golden, 1e-8)
-    ((gone, _),) = compare_golden(point, golden, {}, 1e-8)
+    new, gone = compared(point, {}, golden), compared(point, golden, {})
     assert (new.passed, gone.passed) == (False, False)
     assert "no longer allows it" in sentence(gone)
     with pytest.raises(SceneError, match="has other points"):
