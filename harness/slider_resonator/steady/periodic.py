@@ -1,8 +1,7 @@
 """The map of an FMU over one common period, and the conditions for a periodic motion."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from math import isclose, isfinite, pi
+from math import isclose, isfinite
 
 import numpy as np
 
@@ -12,7 +11,6 @@ from slider_resonator.device.interface import INPUTS, VARIABLES
 from slider_resonator.device.schedule import nearest
 from slider_resonator.errors import FmuError, explained
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.references.averaged.device_average import full_friction
 from slider_resonator.steady.shooting import PeriodicRun
 from slider_resonator.steady.solvers import Matrix, NoPeriodicMotion, Vector
 
@@ -35,71 +33,19 @@ DEVICE = (
 )
 
 
-@dataclass(frozen=True)
-class Facts:
-    """What is in force, read back from the FMU: `DEVICE`, inputs and its own predictions."""
+def repeating_periods(ratio: float, drive_period: float, max_denominator: int) -> int:
+    """Return the number q of drive periods (s) of a common period, for a frequency_ratio p/q.
 
-    device: Device
-    values: Mapping[str, float]
-
-    def __getitem__(self, name: str) -> float:
-        """Return an input or prediction by name."""
-        return self.values[name]
-
-    @property
-    def prediction_valid(self) -> bool | None:
-        """What the FMU says of its predictions, None where it has no such output."""
-        flag = self.values.get("prediction_valid")
-        return None if flag is None else flag == 1.0
-
-    @property
-    def drive_period(self) -> float:
-        """Seconds that theta takes for one turn."""
-        return 2.0 * pi / self.device.drive_frequency
-
-    @property
-    def friction_limit(self) -> float:
-        """Mean friction force (N) of a slider that slides one way all the time."""
-        return full_friction(self.device, self["phase"], self["frequency_ratio"])
-
-    @property
-    def bends(self) -> bool:
-        """Whether there is a bristle that matters: averaged motion keeps none."""
-        is_lugre = self.device.friction_law == 1 and self.device.fidelity != 0
-        return is_lugre and self.friction_limit > 0.0 and self.device.bristle_stiffness > 0.0
-
-
-def read_facts(instance: Instance, values: Mapping[str, float]) -> Facts:
-    """Initialise the FMU with `values` and read back what is in force.
-
-    Raises FmuError for a drive frequency without drive periods, and as `Instance.start` does.
+    Where it is no p/q with a small q there is none, and NoPeriodicMotion is raised: slow_beat next
+    to an integer, where the phase runs slowly through all its values, no_common_period elsewhere.
     """
-    instance.start(values)
-    names = [*INPUTS, "steady_velocity", "blocking_force"]
-    names += (name for name in ("prediction_valid",) if name in instance.fmu.variables)
-    with instance.explained():
-        device, read = instance.read(DEVICE), instance.read(names)
-    device["drive_frequency"] *= 1.0 + values.get("frequency_deviation", 0.0)
-    with explained(f"{instance.fmu.path.name} reports ", FmuError):
-        VARIABLES["drive_frequency"].checked(device["drive_frequency"])
-    return Facts(Device().tuned(device.items()), read)
-
-
-def repeating_periods(facts: Facts, max_denominator: int) -> int:
-    """Return the number q of drive periods of a common period.
-
-    Where frequency_ratio is no p/q with a small q there is none, and NoPeriodicMotion is raised:
-    slow_beat next to an integer, where the phase runs slowly through all its values,
-    no_common_period elsewhere.
-    """
-    ratio = facts["frequency_ratio"]
     count = common_period(ratio, max_denominator)
     if count is not None:
         return count
     why = f"no common period: frequency_ratio = {ratio!r} is no p/q with q <= {max_denominator}"
     distance = abs(ratio - round(ratio))
     if distance < SLOW:
-        beat = distance / facts.drive_period
+        beat = distance / drive_period
         raise NoPeriodicMotion("slow_beat", f"{why}; slow beat at {beat:.6g} Hz")
     raise NoPeriodicMotion(
         "no_common_period",
@@ -111,34 +57,39 @@ def repeating_periods(facts: Facts, max_denominator: int) -> int:
 class FmuPeriodMap(PeriodicRun):
     """State and load (N) at theta = psi = 0 -> state and displacement (m) after q drive periods.
 
-    The state has the entries `names`: those of `STATE` and, where there is a LuGre bristle that
-    matters, its deflection. `periods` counts every drive period that has been simulated,
-    `stick_fraction` is that of the last one.
+    An FMU is run with parameters and inputs as `given`. What is in force is read back from it:
+    `device`, and by name inputs and its own predictions, `values`. The state has the entries
+    `names`: those of `STATE` and, where there is a LuGre bristle that matters, its deflection.
+    `periods` counts every drive period that has been simulated, `stick_fraction` is that of the
+    last one. Raises FmuError for a drive frequency without drive periods, and as `Instance.start`
+    does.
     """
 
-    def __init__(
-        self,
-        instance: Instance,
-        values: Mapping[str, float],
-        facts: Facts,
-        drive_periods: int,
-    ) -> None:
+    def __init__(self, instance: Instance, given: Mapping[str, float]) -> None:
         self.instance = instance
-        self.values = values
-        self.device = facts.device
-        self.friction = facts.friction_limit
-        self.drive_periods = drive_periods
-        self.drive_period = facts.drive_period
+        self.given = given
+        instance.start(given)
+        names = [*INPUTS, "steady_velocity", "blocking_force"]
+        names += (name for name in ("prediction_valid",) if name in instance.fmu.variables)
+        with instance.explained():
+            device, self.values = instance.read(DEVICE), instance.read(names)
+        device["drive_frequency"] *= 1.0 + given.get("frequency_deviation", 0.0)
+        with explained(f"{instance.fmu.path.name} reports ", FmuError):
+            VARIABLES["drive_frequency"].checked(device["drive_frequency"])
+        self.device = Device().tuned(device.items())
+        self.phase, self.ratio = self.values["phase"], self.values["frequency_ratio"]
         self.periods = 0
         self.stick_fraction = 0.0
-        self.bends = facts.bends
+        is_lugre = self.device.friction_law == 1 and self.device.fidelity != 0
+        # Averaged motion keeps no bristle.
+        self.bends = is_lugre and self.friction > 0.0 and self.device.bristle_stiffness > 0.0
         self.names = (*STATE, "bristle_deflection") if self.bends else STATE
         self._read = instance.block(["position", *STATE, "stick_fraction"])
 
     def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
         """Return states and travel; the deflection of a bristle is that at the end throughout."""
         initial = zip((f"initial_{name}" for name in self.names), state.tolist(), strict=True)
-        self.instance.start({**self.values, **dict(initial), "load": load})
+        self.instance.start({**self.given, **dict(initial), "load": load})
         read, end = [self._read.read()], float(times[-1])
         grid = times
         if self.instance.fmu.takes_equal_steps_only and len(times) > 1:

@@ -1,14 +1,12 @@
 """Steady velocity and blocking force of the references, by the same shooting."""
 
 from collections.abc import Callable, Sequence
-from math import pi
 
 import numpy as np
 
 from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import common_period
 from slider_resonator.device.held_inputs import HeldInputs
-from slider_resonator.references.averaged.device_average import full_friction
 from slider_resonator.references.resolved.equations import initial_state
 from slider_resonator.references.resolved.simulate import simulate as simulate_resolved
 from slider_resonator.references.resolved.trajectory import Trajectory
@@ -84,11 +82,9 @@ class _ReferencePeriodMap(PeriodicRun):
         self.phase = phase
         self.ratio = ratio
         self.drive_periods = count
-        self.drive_period = 2.0 * pi / device.drive_frequency
         resonator = STATE[1:3] if device.fidelity == 2 else ()
         bristle = STATE[3:] if device.friction_law == 1 else ()
         self.names = (STATE[0], *resonator, *bristle)
-        self.friction = full_friction(device, phase, ratio)
         at_rest = device.tuned((name, 0.0) for name in _INITIAL)
         self._velocity_from_rest = initial_state(at_rest)[1]
 

@@ -10,7 +10,7 @@ from slider_resonator.device.interface import INPUTS, VARIABLES
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.output.shown import Shown
-from slider_resonator.steady.periodic import Facts, FmuPeriodMap, read_facts, repeating_periods
+from slider_resonator.steady.periodic import FmuPeriodMap, repeating_periods
 from slider_resonator.steady.shooting import FixedPoint, blocked_point, steady_point
 from slider_resonator.steady.solvers import NoPeriodicMotion
 
@@ -110,21 +110,19 @@ def find_steady(
     An `initial_velocity` among the values is where the search begins, otherwise that is the FMU's
     own prediction. Raises FmuError and Refusal as `Instance.start` does.
     """
-    facts = read_facts(instance, values)
-    runaway = _runaway(facts)
-    period_map = None
+    run = FmuPeriodMap(instance, values)
+    runaway = _runaway(run)
     try:
         # Damped bristles can give more friction than full sliding: only the search can decide.
-        if runaway is not None and facts.device.friction_law == 0:
+        if runaway is not None and run.device.friction_law == 0:
             raise runaway
-        count = repeating_periods(facts, max_denominator)
-        period_map = FmuPeriodMap(instance, values, facts, count)
-        guess = values.get("initial_velocity", facts["steady_velocity"])
-        found = steady_point(period_map, guess if isfinite(guess) else 0.0, facts["load"])
+        run.drive_periods = repeating_periods(run.ratio, run.drive_period, max_denominator)
+        guess = values.get("initial_velocity", run.values["steady_velocity"])
+        found = steady_point(run, guess if isfinite(guess) else 0.0, run.values["load"])
     except NoPeriodicMotion as none:
-        if period_map is not None and runaway is not None:
+        if run.drive_periods and runaway is not None:
             none.status, none.reason = runaway.status, runaway.reason
-        return _result(SteadyMotion, none.status, none.reason, facts, period_map, none)
+        return _result(SteadyMotion, none.status, none.reason, run, none)
     largest = f"{abs(found.multipliers[0]):.9g}"
     repeats = "this motion repeats but departures from it"
     status, reason = {
@@ -135,21 +133,21 @@ def find_steady(
         ),
         "neutral": ("neutral", f"{repeats} neither grow nor decay ({largest})"),
     }[found.stability]
-    if period_map.sticks_throughout:
+    if run.sticks_throughout:
         status = "stuck"
         reason = "the slider sticks throughout: the drive does not overcome friction"
-    velocity = found.displacement / period_map.period
-    state = dict(zip(period_map.names, found.state.tolist(), strict=True))
+    velocity = found.displacement / run.period
+    state = dict(zip(run.names, found.state.tolist(), strict=True))
     answer = {"steady_velocity": velocity, "state": state}
-    return _result(SteadyMotion, status, reason, facts, period_map, found, **answer)
+    return _result(SteadyMotion, status, reason, run, found, **answer)
 
 
-def _runaway(facts: Facts) -> NoPeriodicMotion | None:
+def _runaway(run: FmuPeriodMap) -> NoPeriodicMotion | None:
     """Return the refusal of a load that even full sliding friction cannot hold."""
-    load, limit = facts["load"], facts.friction_limit
+    load, limit = run.values["load"], run.friction
     if abs(load) < limit or (load == 0.0 and limit == 0.0):
         return None
-    rate = (abs(load) - limit) / facts.device.total_mass
+    rate = (abs(load) - limit) / run.device.total_mass
     return NoPeriodicMotion(
         "load_above_friction",
         f"no steady motion: load = {load:.6g} N is not below the {limit:.6g} N that friction "
@@ -178,56 +176,50 @@ def find_blocking(
 
     A `load` among the values is where the search begins. Errors are those of `find_steady`.
     """
-    facts = read_facts(instance, values)
-    predicted = facts["blocking_force"]
+    run = FmuPeriodMap(instance, values)
+    predicted = run.values["blocking_force"]
     load = values.get("load", predicted if isfinite(predicted) else 0.0)
-    period_map = None
     try:
-        count = repeating_periods(facts, max_denominator)
-        period_map = FmuPeriodMap(instance, values, facts, count)
-        warm = period_map.warm_up(0.0, load)
-        if period_map.sticks_throughout:
+        run.drive_periods = repeating_periods(run.ratio, run.drive_period, max_denominator)
+        warm = run.warm_up(0.0, load)
+        if run.sticks_throughout:
             raise NoPeriodicMotion(
                 "stuck",
                 f"the slider sticks throughout at load = {load:.6g} N: every load that friction "
                 "holds stops it, so that no single one is the blocking force",
             )
-        found = blocked_point(period_map, warm, load, max(facts.friction_limit, 1e-12))
+        found = blocked_point(run, warm, load, max(run.friction, 1e-12))
     except NoPeriodicMotion as none:
-        return _result(Blocking, none.status, none.reason, facts, period_map, none)
+        return _result(Blocking, none.status, none.reason, run, none)
     status = "blocked" if found.stability == "stable" else found.stability
     largest = f"{abs(found.multipliers[0]):.9g}"
     reason = f"at this load the mean velocity is zero; the largest multiplier is {largest}"
-    answer = {"blocking_force": found.load}
-    return _result(Blocking, status, reason, facts, period_map, found, **answer)
+    return _result(Blocking, status, reason, run, found, blocking_force=found.load)
 
 
 def _result(
     kind: type[Result],
     status: str,
     reason: str,
-    facts: Facts,
-    period_map: FmuPeriodMap | None,
+    run: FmuPeriodMap,
     found: FixedPoint | NoPeriodicMotion,
     **answer: Any,
 ) -> Result:
-    """Return the result of a search, with the answer by name where something was `found`.
-
-    `period_map` is None where none could be tried.
-    """
-    if status in UNDECIDED and facts.device.damping_ratio == 0.0:
+    """Return the result of a search, with the answer by name where something was `found`."""
+    if status in UNDECIDED and run.device.damping_ratio == 0.0:
         reason += " (damping_ratio = 0: the transient of the resonator never decays)"
     if isinstance(found, FixedPoint):
         answer |= {
             "multipliers": tuple(found.multipliers.tolist()),
             "stable": found.stability == "stable",
         }
-    if period_map is not None:
-        answer |= {"common_period": period_map.drive_periods, "periods": period_map.periods}
+    valid = run.values.get("prediction_valid")
     return kind(
-        *(status, reason, facts[kind.searched], facts.prediction_valid),
-        {name: facts[name] for name in kind.held},
-        int(facts.device.friction_faces),
+        *(status, reason, run.values[kind.searched], None if valid is None else valid == 1.0),
+        {name: run.values[name] for name in kind.held},
+        int(run.device.friction_faces),
+        common_period=run.drive_periods or None,
+        periods=run.periods,
         iterations=found.iterations,
         residual=found.residual,
         **answer,

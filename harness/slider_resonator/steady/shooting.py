@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slider_resonator.device.device import Device
+from slider_resonator.references.averaged.device_average import full_friction
 from slider_resonator.steady.solvers import (
     A_FAMILY,
     DIFFERENCE,
@@ -166,22 +167,32 @@ class WarmedUp:
 
 
 class PeriodicRun(ABC):
-    """A device that is run over a common period of `drive_periods`, each of `drive_period` s.
+    """A device under held inputs, run over a common period of `drive_periods`.
 
-    Its state has the entries `names`, the velocity (m/s) first. `friction` (N) is that of sliding
-    one way all the time.
+    Its state has the entries `names`, the velocity (m/s) first. There are no `drive_periods` as
+    long as no common period is known.
     """
 
     device: Device
+    phase: float
+    ratio: float
     names: tuple[str, ...]
-    drive_periods: int
-    drive_period: float
-    friction: float
+    drive_periods: int = 0
+
+    @property
+    def drive_period(self) -> float:
+        """Seconds that theta takes for one turn."""
+        return tau / self.device.drive_frequency
 
     @property
     def period(self) -> float:
         """Length of the common period in seconds."""
         return self.drive_periods * self.drive_period
+
+    @property
+    def friction(self) -> float:
+        """Mean friction force (N) of a slider that slides one way all the time."""
+        return full_friction(self.device, self.phase, self.ratio)
 
     @abstractmethod
     def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:

@@ -1,10 +1,12 @@
 """Newton, bracketing and shooting on functions and maps whose solutions are known."""
 
 from collections.abc import Callable
+from math import pi
 
 import numpy as np
 import pytest
 
+from slider_resonator.device.device import Device
 from slider_resonator.steady.shooting import (
     PeriodicRun,
     WarmedUp,
@@ -169,8 +171,8 @@ def test_stability_follows_the_largest_multiplier(multiplier: float, stability: 
 class _Slider(PeriodicRun):
     """A slow velocity that (0.1 - load) pushes, saturated as Coulomb friction is, and a swing."""
 
+    device = Device(drive_frequency=pi)
     drive_periods = 1
-    drive_period = 2.0
 
     def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
         drift = 0.01 * (0.1 - load - np.clip(state[0], -0.5, 0.5))

@@ -6,15 +6,13 @@ import numpy as np
 import pytest
 
 from slider_resonator.device.device import Device
-from slider_resonator.device.interface import INPUT_STARTS
+from slider_resonator.device.interface import INPUTS
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import device_average
 from slider_resonator.steady.periodic import (
     FIRM,
-    Facts,
     FmuPeriodMap,
-    read_facts,
     repeating_periods,
 )
 from slider_resonator.steady.reference_steady import (
@@ -92,7 +90,8 @@ def test_no_blocking_force(instance: Instance) -> None:
 )
 def test_searches_find_what_the_reference_has(instance: Instance, values: Values) -> None:
     values = {**values, "tolerance": 1e-11}
-    device, phase = facts(**values).device, values.get("phase", 0.0)
+    device = Device.from_mapping({n: v for n, v in values.items() if n not in INPUTS})
+    phase = values.get("phase", 0.0)
     motion, blocking = find_steady(instance, values), find_blocking(instance, values)
     assert (motion.status, blocking.status) == ("steady", "blocked")
     assert max(motion.periods, blocking.periods) <= 100, "with bristles, too"
@@ -138,19 +137,15 @@ def test_damped_bristles_hold_loads_above_sliding_friction(instance: Instance) -
     assert motion.steady_velocity > 0.1
 
 
-def facts(**values: float) -> Facts:
-    inputs = {name: values.pop(name, start) for name, start in INPUT_STARTS.items()}
-    return Facts(Device.from_mapping(values), inputs)
-
-
 @pytest.mark.parametrize("amplitude", [0.0, 0.5, 1.0, 1.5, 4.0])
 def test_friction_limit_is_that_of_the_clipped_sine(amplitude: float) -> None:
     angle = (np.arange(200_000) + 0.5) / 200_000 * 2.0 * pi
     mean = np.maximum(0.0, 1.0 + amplitude * np.sin(angle)).mean()
-    limit = facts(normal_amplitude=amplitude).friction_limit
+    device = Device(normal_amplitude=amplitude)
+    limit = device_average.full_friction(device, 0.0, 1.0)
     assert limit == pytest.approx(2.0 * 0.1 * mean, rel=1e-9), "faces mu N"
-    still = facts(frequency_ratio=0.0, phase=-pi / 6.0, normal_amplitude=amplitude)
-    assert still.friction_limit == pytest.approx(0.2 * max(0.0, 1.0 - 0.5 * amplitude))
+    still = device_average.full_friction(device, -pi / 6.0, 0.0)
+    assert still == pytest.approx(0.2 * max(0.0, 1.0 - 0.5 * amplitude))
 
 
 @pytest.mark.parametrize(
@@ -158,15 +153,14 @@ def test_friction_limit_is_that_of_the_clipped_sine(amplitude: float) -> None:
     [
         {"friction_law": 0.0},
         {"fidelity": 0.0},
-        {"friction_coefficient": 0.0},
         {"bristle_stiffness": 0.0},
         {"normal_preload": 0.0, "normal_amplitude": 0.0},
         {"frequency_ratio": 0.0, "phase": -pi / 2.0, "normal_amplitude": 2.0},
     ],
 )
-def test_a_bristle_without_friction_does_not_matter(changed: Values) -> None:
-    assert facts(**LUGRE).bends
-    assert not facts(**{**LUGRE, **changed}).bends
+def test_a_bristle_without_friction_does_not_matter(instance: Instance, changed: Values) -> None:
+    assert FmuPeriodMap(instance, LUGRE).bends
+    assert not FmuPeriodMap(instance, {**LUGRE, **changed}).bends
 
 
 def test_outputs_must_follow_inputs(instance: Instance, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -185,7 +179,7 @@ def test_outputs_must_follow_inputs(instance: Instance, monkeypatch: pytest.Monk
 )
 def test_slow_beat_needs_a_ratio_near_an_integer(ratio: float, status: str) -> None:
     with pytest.raises(NoPeriodicMotion) as none:
-        repeating_periods(facts(frequency_ratio=ratio), 20)
+        repeating_periods(ratio, PERIOD, 20)
     assert none.value.status == status
     assert f"frequency_ratio = {ratio!r} is no p/q with q <= 20" in none.value.reason
     assert ("Hz" in none.value.reason) == (status == "slow_beat"), "a fast beat is none"
@@ -198,13 +192,14 @@ def test_maps_can_be_chained(instance: Instance, stiffness: float | None) -> Non
     if stiffness:
         values |= {"friction_law": 1.0, "bristle_stiffness": stiffness}
         start = np.append(start, 0.3 / stiffness * 0.1)
-    facts = read_facts(instance, values)
-    period_map = FmuPeriodMap(instance, values, facts, 2)
+    period_map = FmuPeriodMap(instance, values)
+    period_map.drive_periods = 2
     assert ("bristle_deflection" in period_map.names) == bool(stiffness)
     first, moved = period_map(start, 0.01)
     second, further = period_map(first, 0.01)
     assert period_map.periods == 4
-    end, displacement = FmuPeriodMap(instance, values, facts, 4)(start, 0.01)
+    period_map.drive_periods = 4
+    end, displacement = period_map(start, 0.01)
     allowed = 1e-9 if stiffness else 1e-11
     assert end == pytest.approx(second, rel=allowed)
     assert displacement == pytest.approx(moved + further, rel=allowed)
