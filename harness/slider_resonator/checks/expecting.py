@@ -1,6 +1,7 @@
 """The expected value of each quantity by each reference, and those of scenes, computed ahead."""
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from functools import partial
 from operator import attrgetter, methodcaller
 from typing import Any
@@ -116,7 +117,7 @@ TIME_LIMIT = 1e6
 """Time limit (s) of a reference: none."""
 
 
-class ExpectedValues:
+class ExpectedValues(AbstractContextManager["ExpectedValues"]):
     """The expected values of scenes at some points, each computed once.
 
     Up to `jobs` processes compute them from the beginning on, in this order, with enough points for
@@ -129,10 +130,6 @@ class ExpectedValues:
         self._values = {
             point: self._processes.submit(partial(values_in, point.scene)) for point in points
         }
-
-    def __enter__(self) -> "ExpectedValues":
-        """Return this."""
-        return self
 
     def __exit__(self, *_: object) -> None:
         """End the processes, also in the middle of a reference."""
@@ -150,9 +147,7 @@ class ExpectedValues:
                 f"scene {point.scene.name}: the process that computes its references has ended: "
                 f"{reason}"
             )
-        if outcome.error is not None:
-            raise outcome.error
-        values: list[Any] = outcome.value
+        values: list[Any] = outcome.result()
         return values
 
 

@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.isolation.tasks import Outcome, run_tasks
+from slider_resonator.fmu.isolation.messages import Outcome
+from slider_resonator.fmu.isolation.tasks import run_tasks
 from slider_resonator.fmu.run import Record, run
 from slider_resonator.scenes.scene import Scene, ScenePoint
 from slider_resonator.steady.searches import Blocking, SteadyMotion, find_blocking, find_steady

@@ -3,7 +3,7 @@
 import errno
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import chdir, contextmanager, suppress
+from contextlib import AbstractContextManager, chdir, contextmanager, suppress
 from dataclasses import dataclass
 from functools import cache, partial
 from itertools import count
@@ -282,7 +282,7 @@ def instantiate(fmu: Fmu) -> Iterator[Instance]:
 
 
 @dataclass(frozen=True)
-class SavedState:
+class SavedState(AbstractContextManager["SavedState"]):
     """A state of an instance at a time (s).
 
     It must be freed before the instance is: with `free`, or by the end of a `with` block.
@@ -311,10 +311,6 @@ class SavedState:
     def transfer(self, other: Instance) -> None:
         """Bring another instance into this state, in serialised form; raises as `serialised`."""
         other.resume(self.serialised(), self.time)
-
-    def __enter__(self) -> "SavedState":
-        """Return this."""
-        return self
 
     def __exit__(self, *_: object) -> None:
         """Free the state."""

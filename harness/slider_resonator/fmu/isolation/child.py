@@ -59,7 +59,7 @@ def main() -> None:
             begin()
             instance = stack.enter_context(instantiate(fmu)) if fmu is not None else None
             faulthandler.cancel_dump_traceback_later()
-            _send(answers, messages.Result())
+            _send(answers, messages.Outcome())
             with suppress(EOFError):  # there are no more requests
                 while True:
                     request: messages.Request = pickle.load(requests)
@@ -69,7 +69,7 @@ def main() -> None:
                     _send(answers, message)
             begin()
     except HarnessError as error:
-        _send(answers, messages.Failure(error))
+        _send(answers, messages.Outcome(error=error))
 
 
 def _run(
@@ -79,9 +79,9 @@ def _run(
     if reports_progress:
         task = partial(task, progress=lambda *done: _send(answers, messages.Progress(*done)))
     try:
-        return messages.Result(task(instance))
+        return messages.Outcome(task(instance))
     except HarnessError as error:
-        return messages.Failure(error)
+        return messages.Outcome(error=error)
     except Exception:
         return _internal()
 
@@ -95,10 +95,11 @@ def _send(answers: BinaryIO, message: messages.Message) -> None:
     answers.flush()
 
 
-def _internal() -> messages.Failure:
-    """Return the failure of a task that raised an unexpected exception, a programming error."""
+def _internal() -> messages.Outcome:
+    """Return the outcome of a task that raised an unexpected exception, a programming error."""
     trace = traceback.format_exc()
-    return messages.Failure(RuntimeError(f"a task failed in the process of the FMU:\n{trace}"))
+    error = RuntimeError(f"a task failed in the process of the FMU:\n{trace}")
+    return messages.Outcome(error=error)
 
 
 if __name__ == "__main__":

@@ -23,21 +23,25 @@ class Progress:
 
 
 @dataclass(frozen=True)
-class Result:
-    """The return value of a task; None once the FMU is open."""
+class Outcome:
+    """The `value` of a task or the `error` in its place; neither once the FMU is open.
+
+    `is_open` is False where the FMU could not be opened for the task.
+    """
 
     value: Any = None
+    error: Exception | None = None
+    is_open: bool = True
 
-
-@dataclass(frozen=True)
-class Failure:
-    """The exception that a task raised."""
-
-    error: Exception
+    def result(self) -> Any:
+        """Return the value, or raise the error."""
+        if self.error is not None:
+            raise self.error
+        return self.value
 
 
 TRACEBACK = "traceback.txt"
 """File in the folder of the process with the calls that the FMU was in at its end."""
 Request = tuple[Callable[..., Any], bool]
-Message = Started | Progress | Result | Failure
+Message = Started | Progress | Outcome
 """A message from the process of the FMU."""

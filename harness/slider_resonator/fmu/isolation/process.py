@@ -7,7 +7,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable
-from contextlib import ExitStack, suppress
+from contextlib import AbstractContextManager, ExitStack, suppress
 from pathlib import Path
 from time import monotonic
 from typing import IO, Any
@@ -50,7 +50,7 @@ class FmuDied(FmuError):
         self.over_limit = over_limit
 
 
-class IsolatedFmu:
+class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
     """A process that has instantiated an FMU and runs tasks on the instance, without one on None.
 
     Opening the FMU and each task may take `time_limit` (s). Raises FmuError when the FMU cannot be
@@ -88,14 +88,10 @@ class IsolatedFmu:
             self._resources.callback(self._process.end)
             self._messages: queue.SimpleQueue[messages.Message | None] = queue.SimpleQueue()
             threading.Thread(target=_collect, args=(answers, self._messages), daemon=True).start()
-            _value(self._answer())
+            self._answer().result()
         except BaseException:
             self.kill()
             raise
-
-    def __enter__(self) -> "IsolatedFmu":
-        """Return the isolated FMU."""
-        return self
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         """Free the FMU and end its process, at once after an error."""
@@ -121,9 +117,9 @@ class IsolatedFmu:
         except BaseException:  # else the next task would get the answer to this one
             self.kill()
             raise
-        return _value(answer)
+        return answer.result()
 
-    def _answer(self, progress: Progress | None = None) -> messages.Result | messages.Failure:
+    def _answer(self, progress: Progress | None = None) -> messages.Outcome:
         """Wait for the answer to a request; FmuDied as `run`."""
         deadline = monotonic() + LOADING
         while True:
@@ -182,13 +178,6 @@ class IsolatedFmu:
         over = missed_limit(trace, ending) or ending.over_limit
         self.kill()
         return FmuDied(report, over_limit=over)
-
-
-def _value(answer: messages.Result | messages.Failure) -> Any:
-    """Return the value of a result, or raise the error of a failure."""
-    if isinstance(answer, messages.Failure):
-        raise answer.error
-    return answer.value
 
 
 def _send(requests: IO[bytes], content: bytes) -> None:

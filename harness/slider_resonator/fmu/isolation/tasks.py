@@ -4,12 +4,13 @@ import os
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
-from dataclasses import dataclass
+from contextlib import AbstractContextManager
 from pathlib import Path
 from threading import Event
-from typing import Any, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 from slider_resonator.errors import FmuError, HarnessError
+from slider_resonator.fmu.isolation.messages import Outcome
 from slider_resonator.fmu.isolation.process import FmuDied, IsolatedFmu, Task
 
 
@@ -18,18 +19,6 @@ def available_cores() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """The `value` of a task or the `error` in its place.
-
-    `is_open` is False where the FMU could not be opened for the task.
-    """
-
-    value: Any = None
-    error: HarnessError | None = None
-    is_open: bool = True
 
 
 class Processes(Protocol):
@@ -44,7 +33,7 @@ class Processes(Protocol):
         """Wait for the outcome of a task; HarnessError where no more can be run."""
 
 
-class LocalProcesses:
+class LocalProcesses(AbstractContextManager["LocalProcesses"]):
     """Up to `count` processes on this machine, one for each thread that runs tasks.
 
     Use it in a `with` block, at whose end the FMU is freed in each process, with FmuDied where that
@@ -58,10 +47,6 @@ class LocalProcesses:
         self._idle: list[IsolatedFmu] = []
         self._stop = Event()
         self._threads = ThreadPoolExecutor(count)
-
-    def __enter__(self) -> "LocalProcesses":
-        """Return this."""
-        return self
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         """End all processes, at once after an error."""
