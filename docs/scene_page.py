@@ -14,12 +14,7 @@ from pydantic.fields import FieldInfo
 
 from slider_resonator.device.interface import PARAMETERS, TUNABLES, VARIABLES
 from slider_resonator.scenes.expansion import bundles
-from slider_resonator.scenes.input_tables import (
-    AllInputsTable,
-    BesideTable,
-    InputTable,
-    TuningTable,
-)
+from slider_resonator.scenes.input_tables import InputsTable, InputTable, TuningTable
 from slider_resonator.scenes.key_table import PARAMETER_MEANINGS, KeyTable
 from slider_resonator.scenes.schema import (
     AllowedTable,
@@ -34,10 +29,9 @@ from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES, Quantity
 
 TABLES: dict[str, type[KeyTable]] = {
     "The top of the file": SceneTable,
-    "[inputs]": AllInputsTable,
+    "[inputs]": InputsTable,
     "Values over time": InputTable,
     "[tuning]": TuningTable,
-    "[beside]": BesideTable,
     "[run]": RunTable,
     "[[expect]]": ExpectTable,
     "[sweep]": SweepTable,
@@ -191,7 +185,6 @@ def _needs(quantity: Quantity) -> str:
     needs = {
         "constants": quantity.needs_constants,
         "[run]": quantity.needs_run,
-        "[beside]": quantity.needs_beside,
     }
     return ", ".join(name for name, needed in needs.items() if needed)
 

@@ -44,7 +44,6 @@ def scenes_command(as_json: bool, **chosen: Any) -> None:
       [device]    parameters that differ from table 1
       [inputs]    phase, load, frequency_ratio: a number, steps, ramp or csv
       [tuning]    tunable parameters that change in the run, as inputs do
-      [beside]    device and inputs of a second instance
       [run]       stop_time or drive_periods; step_size,
                   steps_per_period or step_sizes; start_time, read_twice
       [[expect]]  quantity; reference, value, at_most or at_least;

@@ -17,7 +17,7 @@ from slider_resonator.scenes.toml_file import read_toml, toml_value
 
 _MARKS: Mapping[str, tuple[str, ...]] = {
     "grid": ("grid", "list", "random", "measures"),
-    "scene": ("run", "expect", "inputs", "tuning", "beside", "need", "sweep"),
+    "scene": ("run", "expect", "inputs", "tuning", "need", "sweep"),
     "device": ("device",),
 }
 """Keys by which a file is known as what it is, in the order in which they decide."""

@@ -1,16 +1,10 @@
-"""The tables of a scene file with values over time: inputs, tuning, a second instance."""
+"""The tables of a scene file with values over time: inputs and tuning."""
 
 from typing import ClassVar, Literal
 
 from pydantic import model_validator
 
-from slider_resonator.scenes.key_table import (
-    KeyTable,
-    Number,
-    ParametersTable,
-    Point,
-    key,
-)
+from slider_resonator.scenes.key_table import KeyTable, Number, Point, key
 
 
 class InputTable(KeyTable):
@@ -61,6 +55,10 @@ class InputTable(KeyTable):
 class InputsTable(KeyTable):
     """The inputs of the FMU; those left out keep their start value."""
 
+    rules: ClassVar[tuple[str, ...]] = (
+        "Deviations of the drive are held over a step, in a run that says `interpolate`, too.",
+    )
+
     phase: InputTable = key(
         "phase of the normal force against the drive",
         0.4,
@@ -79,15 +77,6 @@ class InputsTable(KeyTable):
         unit="1",
         default=InputTable(constant=1.0),
     )
-
-
-class AllInputsTable(InputsTable):
-    """The inputs of the FMU; those left out keep their start value."""
-
-    rules: ClassVar[tuple[str, ...]] = (
-        "Deviations of the drive are held over a step, in a run that says `interpolate`, too.",
-    )
-
     amplitude_deviation: InputTable | None = key(
         "deviation of base_amplitude and tangential_force, relative to these; -1 is no drive",
         {"steps": [[0.0, 0.0], [0.05, -1.0]]},
@@ -121,21 +110,4 @@ class TuningTable(KeyTable):
     tangential_force: InputTable | None = key("amplitude of the direct drive", 0.5, unit="N")
     friction_coefficient: InputTable | None = key(
         "friction coefficient", {"csv": "friction.csv", "column": "mu"}, unit="1"
-    )
-
-
-class BesideTable(KeyTable):
-    """A second instance of the FMU, with a device and inputs of its own, beside the first."""
-
-    rules: ClassVar[tuple[str, ...]] = (
-        "Needed by the quantity `beside_differences` alone: the two instances step in turn.",
-    )
-
-    device: ParametersTable = key(
-        "parameters of the second instance that differ from table 1",
-        {"damping_ratio": 0.02},
-        default=ParametersTable(),
-    )
-    inputs: InputsTable = key(
-        "inputs of the second instance", {"phase": 1.0}, default=InputsTable()
     )

@@ -34,14 +34,6 @@ from slider_resonator.scenes.toml_file import read_toml
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 
-@dataclass(frozen=True)
-class Beside:
-    """The device parameters that differ from their start, and inputs, of a second instance."""
-
-    parameters: Mapping[str, float]
-    signals: Mapping[str, Signal]
-
-
 @dataclass(frozen=True, repr=False)
 class Scene(Shown):
     """A valid scene; it can be pickled.
@@ -50,9 +42,9 @@ class Scene(Shown):
 
     `parameters` are the device parameters that differ from their start, `signals` the inputs by
     name, `tuning` what changes in the run and is held over a step: tunable parameters, deviations
-    of the drive. Deviations that are constant are among the parameters. `beside` is what a second
-    instance runs. `source` names the scene in messages; `files` are all that it was read from.
-    `slips` is a sentence for each value of its device that may be meant in another unit.
+    of the drive. Deviations that are constant are among the parameters. `source` names the scene in
+    messages; `files` are all that it was read from. `slips` is a sentence for each value of its
+    device that may be meant in another unit.
     """
 
     name: str
@@ -67,7 +59,6 @@ class Scene(Shown):
     need: NeedTable | None
     files: tuple[Path, ...]
     tuning: Mapping[str, Signal] = field(default_factory=dict)
-    beside: Beside | None = None
     slips: Sequence[str] = ()
 
     def __post_init__(self) -> None:
@@ -81,7 +72,7 @@ class Scene(Shown):
             raise SceneError(f"{self.source}: {mistake}")
 
     def _mistakes(self) -> Iterator[str]:
-        """Yield what asks for a run, for constant values or for a second instance in vain."""
+        """Yield what asks for a run or for constant values in vain."""
         # Deviations of a drive that is tuned change with it.
         signals = {**self.signals, **self.tuning}
         changing = [n for n, s in signals.items() if len(s.times) > 1]
@@ -95,9 +86,6 @@ class Scene(Shown):
                 "value is constant"
             )
         asked = [(f"expect: {one.quantity}", QUANTITIES[one.quantity]) for one in self.expect]
-        for key, quantity in asked:
-            if quantity.needs_beside and self.beside is None:
-                yield f"{key} needs a second instance: [beside] is missing"
         in_run = [key for key, quantity in asked if quantity.needs_run]
         constant = [key for key, quantity in asked if quantity.needs_constants]
         needs = self.need.needs if self.need else ()
@@ -111,12 +99,9 @@ class Scene(Shown):
     @property
     def _all_signals(self) -> dict[str, Signal]:
         """All values over time, by the key of the scene file."""
-        beside = self.beside.signals if self.beside else {}
-        tables = (("inputs", self.signals), ("tuning", self.tuning), ("beside.inputs", beside))
         return {
-            f"{'inputs' if name in DEVIATIONS else table}.{name}": signal
-            for table, signals in tables
-            for name, signal in signals.items()
+            f"{'tuning' if name in TUNABLES else 'inputs'}.{name}": signal
+            for name, signal in {**self.signals, **self.tuning}.items()
         }
 
     @property
@@ -351,10 +336,6 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
     else:
         starts |= {name: signal.at(0.0) for name, signal in deviating.items()}
     plain = {**stated.get("device", {}), "phase": stated.get("inputs", {}).get("phase")}
-    beside = None
-    if table.beside:
-        given = signals(table.beside.inputs.given(INPUTS), "beside.inputs")
-        beside = Beside(table.beside.device.stated, given)
     return Scene(
         name=table.name,
         title=table.title,
@@ -368,7 +349,6 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
         need=table.need,
         files=tuple(files),
         tuning=tuning,
-        beside=beside,
         slips=read.slips if isinstance(name, str) else possible_slips(plain),
     )
 

@@ -10,7 +10,7 @@ from slider_resonator.device.interface import SETTABLE, TUNABLES, settable_value
 from slider_resonator.device.units import si_number
 from slider_resonator.errors import unknown_name
 from slider_resonator.scenes.expansion import with_bundles
-from slider_resonator.scenes.input_tables import AllInputsTable, BesideTable, TuningTable
+from slider_resonator.scenes.input_tables import InputsTable, TuningTable
 from slider_resonator.scenes.key_table import (
     KeyTable,
     Line,
@@ -325,13 +325,12 @@ class SceneTable(KeyTable):
         {"friction_coefficient": 0.12},
         default=ParametersTable(),
     )
-    inputs: AllInputsTable = key("inputs over time", {"phase": 0.4}, default=AllInputsTable())
+    inputs: InputsTable = key("inputs over time", {"phase": 0.4}, default=InputsTable())
     tuning: TuningTable = key(
         "tunable parameters that change in the run",
         {"normal_preload": {"steps": [[0.0, 1.0], [0.02, 1.4]]}},
         default=TuningTable(),
     )
-    beside: BesideTable | None = key("a second instance", {"device": {"damping_ratio": 0.02}})
     run: RunTable | None = key("length and steps", {"stop_time": 0.1, "step_size": 1e-3})
     expect_bundles: tuple[str, ...] = key(
         "bundles of expectations; they are listed below", ["motion"], default=()

@@ -37,8 +37,7 @@ class Quantity:
     `references` are the names of those that it can be compared with, `tube_references` those that
     can have a tube. An `exact` quantity, a count or a word, needs no tolerance. A signal
     `in_periods` is compared by its deviation in drive periods, any other as a share of its peak.
-    One that `needs_constants` is for constant inputs and parameters, one that `needs_beside` for a
-    scene with a second instance.
+    One that `needs_constants` is for constant inputs and parameters.
     """
 
     kind: Kind
@@ -50,7 +49,6 @@ class Quantity:
     tube_references: tuple[str, ...] = ()
     in_periods: bool = False
     needs_constants: bool = False
-    needs_beside: bool = False
 
 
 _steady = partial(Quantity, "number", needs_constants=True)
@@ -69,8 +67,8 @@ _FAULTS_OF_RUN: Mapping[str, str] = {
     "was done meanwhile, and derivatives of outputs that differ from short steps",
     "transferred_differences": "outputs of the run that differ in another instance that takes over "
     "a serialised state",
-    "beside_differences": "outputs that differ while two instances step in turn, from those of "
-    "each alone",
+    "beside_differences": "outputs that differ while an instance of another device steps in turn, "
+    "from those of each alone",
     "overwritten_differences": "outputs of the run that differ where other values are set before "
     "each value",
     "separate_differences": "outputs of the run that differ where each value that changes is set "
@@ -189,10 +187,7 @@ QUANTITIES: Mapping[str, Quantity] = {
         "dominant frequency of the mean velocity in the later half of the run",
         ("closed_form",),
     ),
-    **{
-        name: _of_run("1", meaning, exact=True, needs_beside=name == "beside_differences")
-        for name, meaning in _FAULTS_OF_RUN.items()
-    },
+    **{name: _of_run("1", meaning, exact=True) for name, meaning in _FAULTS_OF_RUN.items()},
     **{name: Quantity("number", "1", meaning, exact=True) for name, meaning in _FAULTS.items()},
 }
 """Every quantity by the name that scene files use."""

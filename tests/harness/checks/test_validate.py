@@ -51,8 +51,6 @@ def stranger(native_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path
 
 
 LIFE = """
-[beside.inputs]
-phase = 1.0
 [run]
 drive_periods = 2
 steps_per_period = 8

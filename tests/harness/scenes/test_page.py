@@ -89,7 +89,7 @@ def test_a_scene_with_every_key_validates(tmp_path: Path) -> None:
         seen |= set(keys(tomllib.loads(text)))
     tunable = TABLES["[tuning]"].model_fields
     assert seen >= {f"{'tuning' if one in tunable else 'device'}.{one}" for one in PARAMETERS}
-    tables = ("[inputs]", "[tuning]", "[beside]", "[run]", "[[expect]]", "[sweep]", "[need]")
+    tables = ("[inputs]", "[tuning]", "[run]", "[[expect]]", "[sweep]", "[need]")
     for table in ("The top of the file", *tables):
         place = f"{table.strip('[]')}." if table in tables else ""
         missing = {f"{place}{name}" for name in TABLES[table].model_fields} - seen

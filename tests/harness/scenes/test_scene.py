@@ -23,8 +23,8 @@ def test_inputs_of_every_kind(tmp_path: Path) -> None:
     phase = { steps = [[0, 0], [0.017, 0.4]] }
     load = { csv = "load.csv" }
     frequency_ratio = { ramp = [[0, 1], [1, 2]] }
-    [beside.inputs]
-    load = { csv = "held.csv", between = "hold" }
+    [tuning]
+    normal_preload = { csv = "held.csv", between = "hold" }
     """
     scene = scene_of(text + RUN, tmp_path)
     signals = scene.signals
@@ -32,8 +32,7 @@ def test_inputs_of_every_kind(tmp_path: Path) -> None:
     assert signals["load"].at(0.05) == pytest.approx(0.025)
     assert signals["frequency_ratio"].at(0.5) == pytest.approx(1.5)
     assert 0.017 in scene.schedule().times, "a step of an input is a communication point"
-    assert scene.beside is not None
-    held = scene.beside.signals["load"]
+    held = scene.tuning["normal_preload"]
     assert (held.at(0.049), held.jumps) == (1.0, (0.05, 0.1))
     assert scene.files == (tmp_path / "load.csv", tmp_path / "held.csv")
 
@@ -45,9 +44,8 @@ def test_values_may_have_a_unit() -> None:
     load = { steps = [[0.0, "0 N"], ["1 ms", "50 mN"]] }
     [tuning]
     drive_frequency = { ramp = [[0.0, "20 kHz"], ["2 ms", 130e3]] }
-    [beside]
-    device = { slider_mass = "5 g" }
-    inputs = { load = "2 mN" }
+    [device]
+    slider_mass = "5 g"
     [run]
     stop_time = "2 ms"
     step_sizes = ["10 us", 2e-5]
@@ -66,9 +64,7 @@ def test_values_may_have_a_unit() -> None:
     assert scene.signals["phase"].at(0.0) == pytest.approx(math.pi / 6.0)
     assert (scene.signals["load"].times, scene.signals["load"].values) == ((0.0, 1e-3), (0.0, 0.05))
     assert scene.tuning["drive_frequency"].values == pytest.approx((40e3 * math.pi, 130e3))
-    assert scene.beside is not None
-    assert scene.beside.parameters == {"slider_mass": 0.005}
-    assert scene.beside.signals["load"].at(0.0) == 0.002
+    assert scene.parameters["slider_mass"] == 0.005
     assert scene.run is not None
     assert (scene.stop_time, scene.run.step_sizes) == (2e-3, (1e-5, 2e-5))
     assert scene.expect[0].at_most == 1e-3

@@ -41,6 +41,8 @@ def differences(
     ]
 
 
+CHOSEN = ("fidelity", "friction_law", "averaging_order")
+"""Variables that choose a model."""
 SHARE = 0.37
 """Change of a value in units of its nominal one."""
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
-from slider_resonator.checks.conduct.findings import differences, other_value, unequal
+from slider_resonator.checks.conduct.findings import CHOSEN, differences, other_value, unequal
 from slider_resonator.checks.conduct.output_derivatives import (
     derivative_faults,
     read_derivatives,
@@ -157,13 +157,23 @@ def transferred_differences(fmu: FmuSide) -> list[str]:
 
 
 def beside_differences(fmu: FmuSide) -> list[str]:
-    """Step two instances in turn, the second started later, and compare each with itself alone."""
-    beside = fmu.scene.beside
-    assert beside is not None
+    """Step two instances in turn, the second started later, and compare each with itself alone.
+
+    The second one is the same model of another device, under other inputs.
+    """
     plain = Replay.of(fmu)
-    own = replace(plain.schedule, signals=beside.signals, tuning={})
+    others = {
+        name: other_value(name, plain.parameters.get(name, VARIABLES[name].start or 0.0))
+        for name in PARAMETERS
+        if name in fmu.instance.fmu.variables and name not in CHOSEN
+    }
+    signals = {
+        name: replace(signal, values=tuple(other_value(name, value) for value in signal.values))
+        for name, signal in plain.schedule.signals.items()
+    }
+    own = replace(plain.schedule, signals=signals, tuning={})
     with _another(fmu.instance) as other, fmu.instance.explained(), other.explained():
-        alone = Replay(other, beside.parameters, own)
+        alone = Replay(other, {**plain.parameters, **others}, own)
         first = plain.started()
         late = min(1, first.steps)
         first.finish(end=late)

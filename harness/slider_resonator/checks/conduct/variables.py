@@ -6,6 +6,7 @@ from itertools import product
 from fmpy.model_description import Unknown
 
 from slider_resonator.checks.conduct.findings import (
+    CHOSEN,
     is_refused,
     other_value,
     outputs_after,
@@ -137,9 +138,7 @@ SITUATIONS: Sequence[Mapping[str, float]] = (
     {"base_amplitude": 1e-8, "load": 0.02},  # at rest
     {"normal_preload": 0.5, "initial_velocity": 0.1, "phase": 2.0},  # with flight
 )
-"""Devices and inputs in which variables are changed, one by one."""
-CHOSEN = ("fidelity", "friction_law", "averaging_order")
-"""Variables with a situation for each of their values."""
+"""Devices and inputs in which variables are changed, one by one; there is one for each model."""
 STEPS = 4
 SHORT = 1.37e-4
 """Steps (s) of a run after each of which an input is changed."""
