@@ -4,6 +4,7 @@ import errno
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, chdir, contextmanager, suppress
+from ctypes import c_double
 from dataclasses import dataclass
 from functools import cache, partial
 from itertools import count
@@ -12,7 +13,7 @@ from typing import Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi2 import FMU2Slave, fmi2Integer, fmi2ValueReference, fmi2Warning
 from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import ModelVariable
 
@@ -21,7 +22,6 @@ from slider_resonator.device.interface import INPUTS
 from slider_resonator.device.variable import check_integer
 from slider_resonator.errors import FmuError, Refusal, explained
 from slider_resonator.fmu import fmu_log
-from slider_resonator.fmu.blocks import Block, call
 from slider_resonator.fmu.fmi3_slave import Fmi3Slave
 from slider_resonator.fmu.limits import MAX_WRITTEN
 from slider_resonator.fmu.opening import Fmu
@@ -32,10 +32,6 @@ EQUAL = 1e-6
 _numbers = count(1)
 _loading = Lock()
 """Held while fmpy loads a library: in its folder, where the process stays if that fails."""
-
-
-_Plan = tuple[Mapping[str, int], Sequence[str], Block]
-"""How variables are read and written: Integers one by one by reference, the Reals in one call."""
 
 
 def load(fmu: Fmu, name: str) -> FMU2Slave | FMU3Slave:
@@ -50,16 +46,50 @@ def load(fmu: Fmu, name: str) -> FMU2Slave | FMU3Slave:
         )
 
 
+class Block:
+    """A fixed set of Real variables, read and written many times without allocation."""
+
+    def __init__(self, instance: "Instance", names: Sequence[str]) -> None:
+        size, references = len(names), map(instance.fmu.reference, names)
+        self._values = (c_double * size)()
+        variables = (fmi2ValueReference * size)(*references), size
+        self._get = partial(instance.call, "fmi2GetReal", *variables, self._values)
+        self._set = partial(instance.call, "fmi2SetReal", *variables, self._values)
+        first = (fmi2Integer * size)(*[1] * size), self._values
+        self._set_rates = partial(instance.call, "fmi2SetRealInputDerivatives", *variables, *first)
+
+    def read(self) -> list[float]:
+        """Return the current values."""
+        self._get()
+        return self._values[:]
+
+    def write(self, values: Sequence[float]) -> None:
+        """Set the variables."""
+        self._values[:] = list(values)
+        self._set()
+
+    def write_rates(self, rates: Sequence[float]) -> None:
+        """Set the first derivatives of the variables, which are inputs."""
+        self._values[:] = list(rates)
+        self._set_rates()
+
+
+_Plan = tuple[Mapping[str, int], Sequence[str], Block]
+"""How variables are read and written: Integers one by one by reference, the Reals in one call."""
+
+
 class Instance:
     """One instance of an FMU, reused through fmi2Reset by every `start`.
 
     Raises FmuError when the FMU cannot be instantiated. `start` raises Refusal with the message of
     the FMU when a call fails; the other methods, which are called millions of times, do so inside
-    an `explained` block. Must be freed with `end`.
+    an `explained` block. Must be freed with `end`. `warned` is the name of the last call that was
+    answered with a warning.
     """
 
     slave: FMU2Slave | Fmi3Slave
     messages: list[str]
+    warned: str
 
     def __init__(self, fmu: Fmu) -> None:
         self.fmu = fmu
@@ -93,51 +123,48 @@ class Instance:
             fmu_log.forget(self._name)
             raise FmuError(f"{self.fmu.path}: cannot be instantiated: {reason}") from error
         self._exists = True
+        self.warned = ""
         self.time = 0.0
         self._used = False
         self._initialised = False
-        self._block = cache(lambda names: Block(self.slave, [*map(self.fmu.reference, names)]))
+        self._block = cache(partial(Block, self))
         self._settable = cache(partial(self._plan, self.fmu.settable))
         self._readable = cache(partial(self._plan, self.fmu.variable))
         self._inputs = self.block(list(INPUTS))
 
     def call(self, name: str, *arguments: Any) -> None:
-        """Call a function of FMI 2.0 by its name; raises FMICallException."""
-        call(self.slave, name, *arguments)
+        """Call a function of FMI 2.0 by its name, without fmpy's overhead; raises FMICallException.
+
+        Arguments are converted to the types that fmpy has declared for the function.
+        """
+        status = getattr(self.slave.dll, name)(self.slave.component, *arguments)
+        if status > fmi2Warning:
+            raise FMICallException(function=name, status=status)
+        if status == fmi2Warning:
+            self.warned = name
 
     def block(self, names: Sequence[str]) -> Block:
         """Return a block of Real variables of the FMU; FmuError for an unknown name."""
         return self._block(tuple(names))
 
-    def start(
-        self,
-        values: Mapping[str, float],
-        stop_time: float | None = None,
-        *,
-        start_time: float = 0.0,
-    ) -> None:
+    def start(self, values: Mapping[str, float], **span: float) -> None:
         """Initialise with the given parameters and inputs, all others at their start.
 
+        `span` is that of `set_up`.
         Raises FmuError for an unknown name, NotApplicable for a variable that the FMU may lack and
         Refusal for a value that it does not take.
         """
         with self.explained():
-            self.initialise(values, stop_time, start_time=start_time)
+            self.initialise(values, **span)
             self.begin()
 
-    def initialise(
-        self,
-        values: Mapping[str, float],
-        stop_time: float | None = None,
-        *,
-        start_time: float = 0.0,
-    ) -> None:
-        """Set up an experiment (s), set values and enter initialisation mode."""
-        self.set_up(stop_time, start_time=start_time)
+    def initialise(self, values: Mapping[str, float], **span: float) -> None:
+        """Set up an experiment, set values and enter initialisation mode."""
+        self.set_up(**span)
         self.set(values)
         self.call("fmi2EnterInitializationMode")
 
-    def set_up(self, stop_time: float | None = None, *, start_time: float = 0.0) -> None:
+    def set_up(self, *, start_time: float = 0.0, stop_time: float | None = None) -> None:
         """Reset the instance, where it was used before, and set up an experiment (s).
 
         One that could not be created again after a failure is created now; FmuError as at first.

@@ -10,8 +10,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import INPUTS, VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import HarnessError, unknown_name
-from slider_resonator.fmu.blocks import Block
-from slider_resonator.fmu.instance import Instance
+from slider_resonator.fmu.instance import Block, Instance
 from slider_resonator.output.progress import Progress, no_progress
 from slider_resonator.output.readable import number_of, readable
 from slider_resonator.output.shown import Shown, Tabular

@@ -110,7 +110,7 @@ def event_mode_faults(instance: Instance) -> list[str]:
     fmu = instance.fmu
     rows, times = [], [0.0]
     try:
-        instance.initialise(DEVICE, STEPS * STEP)
+        instance.initialise(DEVICE, stop_time=STEPS * STEP)
         instance.begin()
         for part in range(STEPS * FINE):
             instance.step_to((part + 1) * STEP / FINE)

@@ -11,7 +11,6 @@ from math import isclose, sqrt
 from slider_resonator.checks.conduct.findings import is_refused, outputs_after
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import Refusal
-from slider_resonator.fmu.blocks import WARNED
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.rounding import is_same
 
@@ -77,7 +76,7 @@ def experiment_faults(fmu: FmuSide) -> list[str]:
             faults += _run_faults(instance, what, experiment)
     for start, stop in ((EARLY, EARLY), (0.0, sys.float_info.max)):
         with _accepting(instance, faults, f"an experiment from {start:g} s to {stop:g} s"):
-            instance.start({}, stop, start_time=start)
+            instance.start({}, start_time=start, stop_time=stop)
             instance.outputs()
             if stop == start and not is_refused(instance.step_by, STEP):
                 faults.append(f"a step beyond the stop time {stop:g} s is accepted")
@@ -94,8 +93,8 @@ def experiment_faults(fmu: FmuSide) -> list[str]:
                 faults.append("last_event_time does not begin at the start time")
             instance.step_by(size)
             instance.step_by(size)
-    if warned := getattr(instance.slave, WARNED, ""):
-        faults.append(f"{warned} is answered with a warning")
+    if instance.warned:
+        faults.append(f"{instance.warned} is answered with a warning")
     return faults
 
 

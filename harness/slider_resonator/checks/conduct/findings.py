@@ -1,13 +1,11 @@
 """What is found wrong with the conduct of an FMU, and other values to try it with."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TypeVar
 
-import numpy as np
 from fmpy.fmi1 import FMICallException
 
-from slider_resonator.arrays import Array
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
@@ -21,24 +19,6 @@ SMOOTH = (
 Answer = TypeVar("Answer")
 UNKNOWN = 0x7FFFFFFF
 """The value reference of no variable."""
-
-
-def differences(
-    what: str,
-    outputs: Sequence[str],
-    times: Array,
-    rows: Sequence[Sequence[float]],
-    expected: Sequence[Sequence[float]],
-) -> list[str]:
-    """Return where rows of outputs, at times (s) of shape (n,), are not equal to the last bit.
-
-    `what` begins each finding.
-    """
-    return [
-        f"{what}: {outputs[column]} at {times[row]:.9g} s is {rows[row][column]!r}, was "
-        f"{expected[row][column]!r}"
-        for row, column in np.argwhere(np.array(rows) != np.array(expected)).tolist()
-    ]
 
 
 CHOSEN = ("fidelity", "friction_law", "averaging_order")

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
-from slider_resonator.checks.conduct.findings import CHOSEN, differences, other_value, unequal
+from slider_resonator.checks.conduct.findings import CHOSEN, other_value, unequal
 from slider_resonator.checks.conduct.output_derivatives import (
     derivative_faults,
     read_derivatives,
@@ -17,7 +17,6 @@ from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import PARAMETERS, TUNABLES, VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.errors import Refusal
-from slider_resonator.fmu.blocks import WARNED
 from slider_resonator.fmu.instance import Instance, SavedState, instantiate
 from slider_resonator.fmu.run import Running
 
@@ -64,9 +63,17 @@ class Replay:
         return running
 
     def differences(self, what: str, rows: Rows, *, begin: int = 0) -> list[str]:
-        """Return how rows from the reading `begin` on differ from those of the run."""
-        outputs, times = self.instance.fmu.outputs, self.schedule.readings()
-        return differences(what, outputs, times[begin:], rows, self.rows[begin:])
+        """Return where rows from the reading `begin` on are not those of the run to the last bit.
+
+        `what` begins each finding.
+        """
+        outputs, times = self.instance.fmu.outputs, self.schedule.readings()[begin:]
+        expected = self.rows[begin:]
+        return [
+            f"{what}: {outputs[column]} at {times[row]:.9g} s is {rows[row][column]!r}, was "
+            f"{expected[row][column]!r}"
+            for row, column in np.argwhere(np.array(rows) != np.array(expected)).tolist()
+        ]
 
 
 @contextmanager
@@ -270,8 +277,8 @@ def reading_differences(fmu: FmuSide) -> list[str]:
             running.advance(step, read_all)
             read_all()
             changed += status_faults(instance)
-    if warned := getattr(instance.slave, WARNED, ""):
-        changed.append(f"{warned} of a run is answered with a warning")
+    if instance.warned:
+        changed.append(f"{instance.warned} of a run is answered with a warning")
     return plain.differences("with more readings", running.rows) + changed
 
 

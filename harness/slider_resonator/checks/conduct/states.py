@@ -20,7 +20,6 @@ from slider_resonator.checks.conduct.process import state_leaks
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import FmuError
-from slider_resonator.fmu.blocks import WARNED
 from slider_resonator.fmu.instance import Instance, SavedState
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
 
@@ -56,8 +55,8 @@ def state_faults(fmu: FmuSide) -> list[str]:
         faults.extend(state_leaks(instance))
         faults.extend(_early_faults(instance, fmu.scene.parameters))
         instance.terminate()
-    if warned := getattr(instance.slave, WARNED, ""):
-        faults.append(f"{warned} is answered with a warning")
+    if instance.warned:
+        faults.append(f"{instance.warned} is answered with a warning")
     return faults
 
 

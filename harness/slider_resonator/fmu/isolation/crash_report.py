@@ -24,9 +24,9 @@ _CALLS: Mapping[str, str] = {
     "instantiate": "fmi2Instantiate",
     "end": "fmi2Terminate or fmi2FreeInstance",
 }
-"""Function of `fmu.instance` and `fmu.blocks` to the FMI functions that it calls."""
+"""Function of `fmu.instance` to the FMI functions that it calls."""
 
-_FRAME = re.compile(r'File ".*[\\/]fmu[\\/](?:instance|blocks)\.py", line \d+ in (\w+)')
+_FRAME = re.compile(r'File ".*[\\/]fmu[\\/]instance\.py", line \d+ in (\w+)')
 _FRAME_3 = re.compile(r'File ".*[\\/](?:fmu[\\/]fmi3_slave|fmpy[\\/]fmi3)\.py", line')
 _LIMIT_MISSED = "Timeout ("
 

@@ -1,20 +1,21 @@
 """Faults of conduct are found and named; those of an FMU of FMI 3.0 are rejected."""
 
+import math
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
 
-import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from slider_resonator.checks.conduct.findings import differences
 from slider_resonator.checks.conduct.host_calls import derivative_offer_faults
 from slider_resonator.checks.conduct.refusals import Trial
+from slider_resonator.checks.conduct.replays import Replay
 from slider_resonator.checks.conduct.variables import dependency_faults
 from slider_resonator.checks.fmu_side import FmuSide
+from slider_resonator.device.schedule import schedule
 from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.scenes.scene_files import find_scene
@@ -48,13 +49,15 @@ def test_missing_dependency(own: Instance, place: str, output: str, name: str, w
     assert found == [f"{name} acts on {output} {when} without being declared"]
 
 
-@pytest.mark.parametrize(
-    ("other", "said"), [(float(np.nextafter(5.0, 6.0)), "5.000000000000001"), (float("nan"), "nan")]
-)
-def test_the_last_bit_and_nan_are_differences(other: float, said: str) -> None:
-    rows, others = [[1.0, 2.0], [5.0, 6.0]], [[1.0, 2.0], [other, 6.0]]
-    found = differences("replayed", ("a", "b"), np.array([0.0, 1.0]), others, rows)
-    assert found == [f"replayed: a at 1 s is {said}, was 5.0"]
+@pytest.mark.parametrize("change", [lambda x: math.nextafter(x, 6.0), lambda _: math.nan])
+def test_the_last_bit_and_nan_are_differences(
+    own: Instance, change: Callable[[float], float]
+) -> None:
+    run = Replay(own, {}, schedule(1e-3, 1e-3))
+    before, (value, *others) = run.rows
+    other = change(value)
+    found = run.differences("replayed", [before, [other, *others]])
+    assert found == [f"replayed: {own.fmu.outputs[0]} at 0.001 s is {other!r}, was {value!r}"]
 
 
 @pytest.mark.parametrize(
