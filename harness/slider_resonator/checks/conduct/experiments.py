@@ -81,10 +81,9 @@ def experiment_faults(fmu: FmuSide) -> list[str]:
             if stop == start and not is_refused(instance.step_by, STEP):
                 faults.append(f"a step beyond the stop time {stop:g} s is accepted")
             instance.terminate()
-    with instance.explained():
-        faults += _early_faults(instance)
-        if instance.fmu.runs_without_python:
-            faults += _many_steps_faults(instance)
+    faults += _early_faults(instance)
+    if instance.fmu.runs_without_python:
+        faults += _many_steps_faults(instance)
     for size, device in STEPS_ACCEPTED:
         with _accepting(instance, faults, f"a step of {size:g} s"):
             known = {n: v for n, v in device.items() if n in instance.fmu.variables}

@@ -76,9 +76,8 @@ def host_faults(fmu: FmuSide) -> list[str]:
     ]
     if is_native:
         faults += _instance_faults(instance, slave)
-    with instance.explained():
-        instance.start({})
-        instance.step_by(STEP)
+    instance.start({})
+    instance.step_by(STEP)
     try:
         faults += _switching_faults(instance)
     except FMICallException as error:  # no FMU may refuse to switch logging off or on

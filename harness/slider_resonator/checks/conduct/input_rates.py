@@ -72,12 +72,11 @@ def rate_differences(fmu: FmuSide) -> list[str]:
 
 def _rows(plain: Replay, set_inputs: Callable[[int], None]) -> Rows:
     """Return the rows of a run whose values and derivatives are set before each step."""
-    with plain.instance.explained():
-        running = plain.started()
-        for step in range(running.steps):
-            set_inputs(step)
-            plain.instance.step_by(running.step_size(step))
-            running.read()
+    running = plain.started()
+    for step in range(running.steps):
+        set_inputs(step)
+        plain.instance.step_by(running.step_size(step))
+        running.read()
     return running.rows
 
 
@@ -85,26 +84,25 @@ def _begun(instance: Instance, parameters: Mapping[str, float]) -> list[str]:
     """Set derivatives before a reset, where they must end, and before initialization ends."""
     after_a_step = partial(outputs_after, instance, AWAY)
     faults: list[str] = []
-    with instance.explained():
-        instance.start(parameters)
-        held = after_a_step()
-        instance.start(parameters)
-        instance.set_input_rates(RATES)
-        growing = after_a_step()
-        instance.set_input_rates(RATES)
-        instance.start(parameters)
-        if after_a_step() != held:
-            faults.append("derivatives of inputs outlive a reset")
-        instance.initialise(parameters)
-        instance.set_input_rates(RATES)
-        instance.begin()
-        if after_a_step() != growing:
-            faults.append("derivatives set before initialization ends are forgotten")
-        instance.start(parameters)
-        instance.set_input_rates(RATES)
-        instance.set(instance.read(TUNABLES))
-        if after_a_step() != growing:
-            faults.append("derivatives of inputs are forgotten where parameters are set")
+    instance.start(parameters)
+    held = after_a_step()
+    instance.start(parameters)
+    instance.set_input_rates(RATES)
+    growing = after_a_step()
+    instance.set_input_rates(RATES)
+    instance.start(parameters)
+    if after_a_step() != held:
+        faults.append("derivatives of inputs outlive a reset")
+    instance.initialise(parameters)
+    instance.set_input_rates(RATES)
+    instance.begin()
+    if after_a_step() != growing:
+        faults.append("derivatives set before initialization ends are forgotten")
+    instance.start(parameters)
+    instance.set_input_rates(RATES)
+    instance.set(instance.read(TUNABLES))
+    if after_a_step() != growing:
+        faults.append("derivatives of inputs are forgotten where parameters are set")
     return faults
 
 

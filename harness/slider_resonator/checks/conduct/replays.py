@@ -89,10 +89,9 @@ def reset_differences(fmu: FmuSide) -> list[str]:
     fmu.instance.renew()
     first = Replay.of(fmu)
     found = first.differences("after a reset", first.again())
-    with fmu.instance.explained():
-        running = first.started()
-        running.finish(end=running.steps // 2)
-        fmu.instance.terminate()
+    running = first.started()
+    running.finish(end=running.steps // 2)
+    fmu.instance.terminate()
     return found + first.differences("after a run that was terminated and reset", first.again())
 
 
@@ -108,7 +107,7 @@ def restored_differences(fmu: FmuSide) -> list[str]:
     begins_resolved = device.fidelity > 0 or device.averaging_order == 2
     largest = np.abs(np.array(plain.rows)).max(axis=0).tolist()
     peaks = dict(zip(instance.fmu.outputs, largest, strict=True))
-    with instance.explained(), ExitStack() as states:
+    with ExitStack() as states:
         running = plain.started()
         steps = {int(share * running.steps) for share in SAVED_AT}
         saved: list[tuple[int, int, SavedState]] = []
@@ -145,7 +144,7 @@ def transferred_differences(fmu: FmuSide) -> list[str]:
     fmu.instance.fmu.require("canSerializeFMUstate")
     plain, instance = Replay.of(fmu), fmu.instance
     found: list[str] = []
-    with _another(instance) as other, instance.explained():
+    with _another(instance) as other:
         running, taken = plain.started(), Running(other, plain.schedule)
         steps = {int(share * running.steps) for share in TRANSFERRED_AT}
 
@@ -179,7 +178,7 @@ def beside_differences(fmu: FmuSide) -> list[str]:
         for name, signal in plain.schedule.signals.items()
     }
     own = replace(plain.schedule, signals=signals, tuning={})
-    with _another(fmu.instance) as other, fmu.instance.explained(), other.explained():
+    with _another(fmu.instance) as other, other.explained():
         alone = Replay(other, {**plain.parameters, **others}, own)
         first = plain.started()
         late = min(1, first.steps)
@@ -210,18 +209,17 @@ def overwritten_differences(fmu: FmuSide) -> list[str]:
             instance.set({name: other_value(name, value)})
         instance.set(values)
 
-    with instance.explained():
-        instance.set_up(**running.span)
-        set_twice(values)
-        instance.call("fmi2EnterInitializationMode")
-        for name, value in reversed(values.items()):
-            instance.set({name: other_value(name, value)})
-            with suppress(FMICallException):  # some values have no meaning together
-                instance.outputs()
-            instance.set({name: value})
-        instance.begin()
-        running.read()
-        running.finish(before=lambda step: set_twice(running.values_at(step)))
+    instance.set_up(**running.span)
+    set_twice(values)
+    instance.call("fmi2EnterInitializationMode")
+    for name, value in reversed(values.items()):
+        instance.set({name: other_value(name, value)})
+        with suppress(FMICallException):  # some values have no meaning together
+            instance.outputs()
+        instance.set({name: value})
+    instance.begin()
+    running.read()
+    running.finish(before=lambda step: set_twice(running.values_at(step)))
     return plain.differences("with values set again", running.rows)
 
 
@@ -243,10 +241,9 @@ def separate_differences(fmu: FmuSide) -> list[str]:
 
     broken = {"load": present["load"] + BREAKING_LOAD}
     instance.start({**plain.parameters, **present, **broken}, **running.span)
-    with instance.explained():
-        instance.set({"load": present["load"]})
-        running.read()
-        running.finish(before=set_changes)
+    instance.set({"load": present["load"]})
+    running.read()
+    running.finish(before=set_changes)
     return plain.differences("with values set one by one", running.rows)
 
 
@@ -267,16 +264,15 @@ def reading_differences(fmu: FmuSide) -> list[str]:
                 changed.append(f"{name} read twice is {first!r} and {second!r}")
         read_derivatives(instance)
 
-    with instance.explained():
-        instance.initialise({**plain.parameters, **running.first}, **running.span)
+    instance.initialise({**plain.parameters, **running.first}, **running.span)
+    read_all()
+    instance.begin()
+    read_all()
+    running.read()
+    for step in range(running.steps):
+        running.advance(step, read_all)
         read_all()
-        instance.begin()
-        read_all()
-        running.read()
-        for step in range(running.steps):
-            running.advance(step, read_all)
-            read_all()
-            changed += status_faults(instance)
+        changed += status_faults(instance)
     if instance.warned:
         changed.append(f"{instance.warned} of a run is answered with a warning")
     return plain.differences("with more readings", running.rows) + changed

@@ -158,22 +158,20 @@ def dependency_faults(fmu: FmuSide) -> list[str]:
         situation = {n: value for n, value in values.items() if n in instance.fmu.variables}
         present = {name: situation.get(name, VARIABLES[name].start or 0.0) for name in names}
         instance.start(situation)
-        with instance.explained():
-            before = instance.outputs()
+        before = instance.outputs()
         for name in names:
             if name not in CHOSEN:
                 instance.start({**situation, name: other_value(name, present[name])})
                 faults += _undeclared(instance, name, before, at_start, "at the start")
         instance.start(situation)
-        with instance.explained():
-            instance.outputs()
-            for _ in range(STEPS):
-                before = outputs_after(instance, SHORT)
-                for name in (*INPUTS, *DEVIATIONS):
-                    if name in names:
-                        instance.set({name: other_value(name, present[name])})
-                        faults += _undeclared(instance, name, before, in_run, "in a run")
-                        instance.set({name: present[name]})
+        instance.outputs()
+        for _ in range(STEPS):
+            before = outputs_after(instance, SHORT)
+            for name in (*INPUTS, *DEVIATIONS):
+                if name in names:
+                    instance.set({name: other_value(name, present[name])})
+                    faults += _undeclared(instance, name, before, in_run, "in a run")
+                    instance.set({name: present[name]})
     return list(dict.fromkeys(faults))
 
 
@@ -201,8 +199,7 @@ def _undeclared(
         for output in before
         if (found := declared.get(output, set())) is not None and name not in found
     ]
-    with instance.explained():
-        after = instance.read(independent)
+    after = instance.read(independent)
     return [
         f"{name} acts on {output} {when} without being declared"
         for output in independent
