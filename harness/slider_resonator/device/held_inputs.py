@@ -4,9 +4,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Self
 
-import numpy as np
-
-from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 
 
@@ -63,21 +60,6 @@ def with_steady_phase(held: Sequence[HeldInputs], device: Device) -> list[HeldIn
         steady.append(replace(inputs, frequency_ratio=ratio, phase_rate=0.0, phase=phase))
         gained += inputs.phase_rate * (inputs.stop - inputs.start)
     return steady
-
-
-def check_times(times: Array, held: Sequence[HeldInputs]) -> None:
-    """Raise ValueError unless ``times`` (s) are one ascending row within the held inputs.
-
-    These are a gapless sequence of at least one interval of positive length.
-    """
-    start, stop = held[0].start, held[-1].stop
-    if times.ndim != 1 or not (np.diff(times) >= 0.0).all():
-        raise ValueError(f"times of shape {times.shape!r} must be one ascending row")
-    if times.size and not (start <= times[0] and times[-1] <= stop):
-        raise ValueError(
-            f"times from {float(times[0])!r} to {float(times[-1])!r} s must lie within the held "
-            f"inputs, {start!r} to {stop!r} s"
-        )
 
 
 def turning_apart(held: Sequence[HeldInputs]) -> list[HeldInputs]:

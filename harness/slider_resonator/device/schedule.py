@@ -78,8 +78,7 @@ class Schedule:
     Signals are of the first three inputs; those left out keep their start. Inputs are sampled at
     each communication point and held until the next, and so is the `tuning` of tunable parameters
     and deviations of the drive, by name. `start_time` (s) is what the FMU gets as time 0. With
-    `reads_twice` outputs are read where values change, both before and after they are set. Raises
-    ValueError for a signal of another name.
+    `reads_twice` outputs are read where values change, both before and after they are set.
 
     With `interpolates` inputs are straight lines between the communication points, and the FMU gets
     their derivatives; tuning is held all the same.
@@ -95,12 +94,6 @@ class Schedule:
     start_time: float = 0.0
     reads_twice: bool = False
     interpolates: bool = False
-
-    def __post_init__(self) -> None:
-        unknown = self.signals.keys() - INPUT_STARTS.keys()
-        if unknown:
-            names = ", ".join(sorted(unknown))
-            raise ValueError(f"inputs {names}: must be {', '.join(INPUT_STARTS)}")
 
     @property
     def _inputs(self) -> list[Signal]:

@@ -19,7 +19,7 @@ import scipy
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs, check_times, with_steady_phase
+from slider_resonator.device.held_inputs import HeldInputs, with_steady_phase
 from slider_resonator.references.averaged.device_average import (
     fast_motion,
     full_friction,
@@ -78,10 +78,8 @@ def simulate_averaged(device: Device, held: Sequence[HeldInputs], times: Array) 
     momentum and centre are continuous, so the slow velocity jumps by the change of the drive's
     part.
 
-    Raises ValueError for times outside the inputs and as `fast_motion` does;
-    RuntimeError when the slow motion cannot be integrated.
+    Raises ValueError as `fast_motion` does, RuntimeError when the slow motion cannot be integrated.
     """
-    check_times(times, held)
     share = device.mass_ratio
     tuned = device.tuned(held[0].tuned)
     slow = device.initial_velocity + share * device.initial_resonator_velocity + slow_start(tuned)

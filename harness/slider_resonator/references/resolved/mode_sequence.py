@@ -13,7 +13,6 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
 from slider_resonator.device.held_inputs import (
     HeldInputs,
-    check_times,
     turning_apart,
     with_steady_phase,
 )
@@ -105,11 +104,9 @@ class ModeSequence:
         """Return the motion through the held inputs, or ones with rates.
 
         A sample on a boundary between held inputs belongs to the inputs before it. Counts and
-        event times cover the whole span of the inputs, whatever the times. Raises ValueError for
-        times outside the inputs, RuntimeError for a contact that cannot be resolved in floating
-        point numbers.
+        event times cover the whole span of the inputs, whatever the times. Raises RuntimeError for
+        a contact that cannot be resolved in floating point numbers.
         """
-        check_times(self._recorder.times, held)
         for inputs in turning_apart(with_steady_phase(held, self._device)):
             self._equations = equations_of(self._device.tuned(inputs.tuned))
             self._run_held(inputs)

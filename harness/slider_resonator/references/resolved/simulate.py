@@ -34,8 +34,8 @@ def simulate(device: Device, held: Sequence[HeldInputs], times: Array) -> Trajec
     ``times`` ascend within ``[held[0].start, held[-1].stop]``; theta and psi are 0 at the first
     start. A sample on a boundary between inputs belongs to the inputs before it. Counts cover the
     whole span of the inputs; ``evaluations`` counts Taylor series. Raises ValueError for a device
-    that the equations do not cover and times outside the inputs; RuntimeError for a contact that
-    cannot be resolved in floating point numbers, and for a motion that leaves these.
+    that the equations do not cover; RuntimeError for a contact that cannot be resolved in floating
+    point numbers, and for a motion that leaves these.
     """
     return ModeSequence(device, follow_series, times).run(held)
 

@@ -15,7 +15,7 @@ from scipy.integrate import LSODA
 
 from slider_resonator.arrays import Array
 from slider_resonator.device.device import Device
-from slider_resonator.device.held_inputs import HeldInputs, check_times, with_steady_phase
+from slider_resonator.device.held_inputs import HeldInputs, with_steady_phase
 from slider_resonator.references.phase import Number
 from slider_resonator.references.resolved.contact import LIFTED, SLIP_FORWARD
 from slider_resonator.references.resolved.equations import equations_of, initial_state
@@ -112,7 +112,6 @@ class RunWithoutEvents:
 
         `follow` advances `state` through some, keeping samples and counts.
         """
-        check_times(self.recorder.times, held)
         for inputs in with_steady_phase(held, self.device):
             self.equations = equations_of(self.device.tuned(inputs.tuned))
             rate, span = self.equations.drive_frequency, inputs.stop - inputs.start
