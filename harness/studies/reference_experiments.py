@@ -146,7 +146,7 @@ def _stimuli(scene: Scene, names: Sequence[str]) -> bytes:
 
 def _results(scene: Scene, reference: str) -> bytes:
     side = ReferenceSide(scene)
-    columns = np.array([side.signal(reference, name) for name in COLUMNS])
+    columns = np.array([side.signal(name) for name in COLUMNS])
     return _csv(["time", *COLUMNS], side.times, columns.T)
 
 

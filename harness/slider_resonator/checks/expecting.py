@@ -32,16 +32,21 @@ def expected_value(expect: ExpectTable, references: ReferenceSide) -> Any:
         return next(v for v in (expect.value, expect.at_most, expect.at_least) if v is not None)
     try:
         if expect.tube is not None and not QUANTITIES[expect.quantity].in_periods:
-            return references.tube(expect.reference, expect.quantity, expect.tube)
+            return references.by(expect.reference).tube(expect.quantity, expect.tube)
         return EXPECTED[expect.quantity][expect.reference](references)
     except (ValueError, RuntimeError, ModuleNotFoundError) as error:
         where = f"{references.scene.source}: {expect.quantity}"
         raise SceneError(f"{where} cannot be compared: {error}") from error
 
 
-def _resolved(method: str, *arguments: Any) -> Mapping[str, Expected]:
-    """Return what a method of `ReferenceSide` gives of each reference with the fast motion."""
-    return {name: methodcaller(method, name, *arguments) for name in RESOLVED}
+def _resolved(value: Expected, averaged: Expected | None = None) -> Mapping[str, Expected]:
+    """Return a value by each reference with the fast motion, and that of averages if any."""
+
+    def by(name: str) -> Expected:
+        return lambda references: value(references.by(name))
+
+    found = {name: by(name) for name in RESOLVED}
+    return found if averaged is None else {**found, "averaged": averaged}
 
 
 def _steady(located: str, predicted: str) -> Mapping[str, Expected]:
@@ -65,6 +70,7 @@ _VELOCITY, _FORCE = "predicted_velocity", "predicted_blocking_force"
 _SIGNALS = (
     *("position", "velocity", "resonator_displacement", "resonator_velocity", "normal_force"),
 )
+_NOTHING = attrgetter("nothing")
 EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     "steady_velocity": _steady("steady_velocity", _VELOCITY),
     "blocking_force": _steady("blocking_force", _FORCE),
@@ -76,34 +82,31 @@ EXPECTED: Mapping[str, Mapping[str, Expected]] = {
     "final_predicted_blocking_force": _at_end("blocking_force", _FORCE),
     "prediction_valid": {"averaged": attrgetter("steady_at_end.prediction_valid")},
     **{
-        output: {**_resolved(method, output), "averaged": attrgetter(f"averaged_motion.{output}")}
-        for outputs, method in (
-            (_SIGNALS, "signal"),
-            (("friction_force", "contact_mode"), "beside_events"),
-        )
-        for output in outputs
+        name: _resolved(methodcaller("signal", name), attrgetter(f"averaged_motion.{name}"))
+        for name in _SIGNALS
+    },
+    **{
+        name: _resolved(methodcaller("beside_events", name), attrgetter(f"averaged_motion.{name}"))
+        for name in ("friction_force", "contact_mode")
     },
     "slow_displacement": {
-        name: methodcaller("slow_displacement", name) for name in ("located_events", "averaged")
+        "located_events": lambda references: references.by("located_events").slow_displacement(),
+        "averaged": methodcaller("slow_displacement", averaged=True),
     },
-    "mean_velocity": {
-        **_resolved("at_end", mean_velocities),
-        "averaged": lambda references: float(references.averaged_motion.mean_velocity[-1]),
-    },
-    "mean_velocity_in_run": {
-        **_resolved("in_run", mean_velocities),
-        "averaged": attrgetter("averaged_motion.mean_velocity"),
-    },
-    "stick_fraction": _resolved("at_end", stick_fractions),
-    "stick_fraction_in_run": {
-        **_resolved("in_run", stick_fractions),
-        "averaged": attrgetter("nothing"),
-    },
-    "friction_power": _resolved("friction_power"),
-    "reversals": _resolved("at_end", reversal_counts),
-    "reversals_in_run": {**_resolved("in_run", reversal_counts), "averaged": attrgetter("nothing")},
-    "event_times": {**_resolved("in_run", last_events), "averaged": attrgetter("nothing")},
-    "last_event_time": _resolved("last_event_time"),
+    "mean_velocity": _resolved(
+        methodcaller("at_end", mean_velocities),
+        lambda references: float(references.averaged_motion.mean_velocity[-1]),
+    ),
+    "mean_velocity_in_run": _resolved(
+        methodcaller("in_run", mean_velocities), attrgetter("averaged_motion.mean_velocity")
+    ),
+    "stick_fraction": _resolved(methodcaller("at_end", stick_fractions)),
+    "stick_fraction_in_run": _resolved(methodcaller("in_run", stick_fractions), _NOTHING),
+    "friction_power": _resolved(attrgetter("friction_power")),
+    "reversals": _resolved(methodcaller("at_end", reversal_counts)),
+    "reversals_in_run": _resolved(methodcaller("in_run", reversal_counts), _NOTHING),
+    "event_times": _resolved(methodcaller("in_run", last_events), _NOTHING),
+    "last_event_time": _resolved(attrgetter("last_event_time")),
     "ripple_amplitude": {"closed_form": attrgetter("steady.ripple_amplitude")},
     "ripple_frequency": {"closed_form": lambda references: 1.0 / references.scene.drive_period},
     "beat_frequency": {"closed_form": attrgetter("steady.difference_frequency")},

@@ -125,65 +125,68 @@ class ReferenceSide:
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self.device = scene.device
-        self._trajectories: dict[str, Trajectory] = {}
-        self._around: dict[tuple[str, float], Trajectory] = {}
+        self._around: dict[float, Trajectory] = {}
+
+    def by(self, reference: str) -> "ReferenceSide":
+        """Return this for a reference with the fast motion, `located_events` or `bristle_state`.
+
+        Raises ValueError where the scene has the other friction law.
+        """
+        law, own = _FRICTION_LAWS[reference], self.device.friction_law
+        if own != law:
+            raise ValueError(f"friction_law = {own!r}: {reference} is for {law}")
+        return self
 
     @cached_property
     def times(self) -> Array:
         """Times of the scene (s) at which outputs are read, shape (n,)."""
         return self.scene.schedule().readings()
 
-    def trajectory(self, reference: str) -> Trajectory:
-        """Return the trajectory of `located_events` or, for LuGre, `bristle_state`.
+    @cached_property
+    def trajectory(self) -> Trajectory:
+        """The trajectory at the communication points and the ends of periods that means need."""
+        every = any(expect.quantity == "mean_velocity_in_run" for expect in self.scene.expect)
+        means = self.times if every else self.times[-1:]
+        return self._simulate(np.union1d(self.times, self.scene.drive_periods.ends(means)))
 
-        Its times are the communication points and the ends of drive periods that means need.
-        """
-        if reference not in self._trajectories:
-            every = any(expect.quantity == "mean_velocity_in_run" for expect in self.scene.expect)
-            means = self.times if every else self.times[-1:]
-            times = np.union1d(self.times, self.scene.drive_periods.ends(means))
-            self._trajectories[reference] = self._simulate(reference, times)
-        return self._trajectories[reference]
-
-    def signal(self, reference: str, name: str) -> Array:
-        """Return one output of a trajectory at the communication points, shape (n,)."""
-        run = self.trajectory(reference)
+    def signal(self, name: str) -> Array:
+        """Return one output of the trajectory at the communication points, shape (n,)."""
+        run = self.trajectory
         values = np.asarray(getattr(run, name), dtype=np.float64)
         return values[np.searchsorted(run.time, self.times)]
 
-    def tube(self, reference: str, name: str, share: float) -> Tube:
+    def tube(self, name: str, share: float) -> Tube:
         """Return one output with its range within a share of a drive period to each side."""
         offsets = share * self.scene.drive_period * np.linspace(-1.0, 1.0, 2 * TUBE_POINTS + 1)
         around = np.clip(self.times[:, None] + offsets, 0.0, self._simulated_until)
-        if (reference, share) not in self._around:
-            self._around[reference, share] = self._simulate(reference, np.unique(around))
-        run = self._around[reference, share]
+        if share not in self._around:
+            self._around[share] = self._simulate(np.unique(around))
+        run = self._around[share]
         values = np.asarray(getattr(run, name), dtype=np.float64)
         window = values[np.searchsorted(run.time, around)]
         return Tube(window[:, TUBE_POINTS], window.min(axis=1), window.max(axis=1))
 
-    def beside_events(self, reference: str, name: str) -> Tube:
+    def beside_events(self, name: str) -> Tube:
         """Return one output, with both of its values where an event coincides with a time.
 
         An event at the start or at a change of inputs has one right side, and is not meant.
         """
-        signal = self.signal(reference, name)
-        events = self.trajectory(reference).event_times
+        signal = self.signal(name)
+        events = self.trajectory.event_times
         changes = np.array([held.start for held in self.scene.schedule().held()])
         margin = COINCIDENCE * self.scene.drive_period
         times = self.times
         coincide = _near(times, events, margin) & ~_near(times, changes, margin)
         if not coincide.any():
             return no_tube(signal)
-        around = self.tube(reference, name, COINCIDENCE)
+        around = self.tube(name, COINCIDENCE)
         lower = np.where(coincide, around.lower, signal)
         upper = np.where(coincide, around.upper, signal)
         return Tube(signal, lower, upper)
 
-    def slow_displacement(self, reference: str) -> Array:
+    def slow_displacement(self, *, averaged: bool = False) -> Array:
         """Return the position averaged over a drive period, by a trajectory or by averages."""
-        averaged = reference == "averaged"
-        position = self.averaged_motion.position if averaged else self.signal(reference, "position")
+        position = self.averaged_motion.position if averaged else self.signal("position")
         return slow_displacement(self.times, position, self.scene.drive_period)
 
     @property
@@ -191,22 +194,19 @@ class ReferenceSide:
         """What averaged motion has of events: 0 at each communication point, shape (n,)."""
         return np.zeros_like(self.times)
 
-    def in_run(
-        self, reference: str, measure: Callable[[Trajectory, Array, DrivePeriods], Any]
-    ) -> Any:
+    def in_run(self, measure: Callable[[Trajectory, Array, DrivePeriods], Any]) -> Any:
         """Return a measure of `period_means` at the communication points."""
-        return measure(self.trajectory(reference), self.times, self.scene.drive_periods)
+        return measure(self.trajectory, self.times, self.scene.drive_periods)
 
-    def at_end(
-        self, reference: str, measure: Callable[[Trajectory, Array, DrivePeriods], Array | Tube]
-    ) -> float:
+    def at_end(self, measure: Callable[[Trajectory, Array, DrivePeriods], Array | Tube]) -> float:
         """Return a measure of `period_means` at the end of the run."""
-        found = measure(self.trajectory(reference), self.times[-1:], self.scene.drive_periods)
+        found = measure(self.trajectory, self.times[-1:], self.scene.drive_periods)
         return float((found.middle if isinstance(found, Tube) else found)[0])
 
-    def last_event_time(self, reference: str) -> float:
-        """Return the time (s) of the last event, that of the start without any."""
-        last = self.at_end(reference, last_events)
+    @property
+    def last_event_time(self) -> float:
+        """The time (s) of the last event, that of the start without any."""
+        last = self.at_end(last_events)
         return self.scene.start_time + last * self.scene.drive_period
 
     @property
@@ -214,13 +214,10 @@ class ReferenceSide:
         """The time (s) up to which a reference finds events that coincide with the end."""
         return float(self.times[-1]) + COINCIDENCE * self.scene.drive_period
 
-    def _simulate(self, reference: str, times: Array) -> Trajectory:
+    def _simulate(self, times: Array) -> Trajectory:
         # What averaged motion comes close to is the full device.
         fidelity = self.device.fidelity or FULL
         device = self.device.tuned([("fidelity", fidelity)])
-        law = _FRICTION_LAWS[reference]
-        if device.friction_law != law:
-            raise ValueError(f"friction_law = {device.friction_law!r}: {reference} is for {law}")
         *held, last = self.scene.schedule().held()
         return simulate(device, [*held, replace(last, stop=self._simulated_until)], times)
 
@@ -229,14 +226,15 @@ class ReferenceSide:
         """The averaged motion of the scene, whatever its fidelity, at the communication points."""
         return simulate_averaged(self.device, self.scene.schedule().held(), self.times)
 
-    def friction_power(self, reference: str) -> float:
-        """Return the mean power (W) of friction over the last whole drive period of the run."""
+    @property
+    def friction_power(self) -> float:
+        """The mean power (W) of friction over the last whole drive period of the run."""
         begin, end = self.scene.drive_periods.ends(self.times[-1:])[0].tolist()
         changes = [held.start for held in self.scene.schedule().held()]
-        events = np.append(self.trajectory(reference).event_times, changes)
+        events = np.append(self.trajectory.event_times, changes)
         swings = np.arange(begin, end, tau / self.device.resonator_frequency)
         times, weights = quadrature(np.append(events, swings), begin, end)
-        run = self._simulate(reference, times)
+        run = self._simulate(times)
         return float(np.sum(weights * run.friction_force * run.velocity) / (end - begin))
 
     @cached_property

@@ -42,7 +42,9 @@ def steady(velocity: float | None) -> FmuSide:
 
 
 def reference(**parts: Any) -> ReferenceSide:
-    return cast(ReferenceSide, SimpleNamespace(scene=fmu().scene, **parts))
+    side = SimpleNamespace(scene=fmu().scene, **parts)
+    side.by = lambda _: side
+    return cast(ReferenceSide, side)
 
 
 def judge(
@@ -65,7 +67,7 @@ class RecordOf(dict[str, np.ndarray]):
 def judge_signal(signal: np.ndarray, expected: np.ndarray, **expect: Any) -> Check:
     table = {"quantity": "position", "reference": "located_events", "relative": 1e-8, **expect}
     record = RecordOf({table["quantity"]: signal})
-    return judge(fmu(record=record), reference(signal=lambda name, output: expected), **table)
+    return judge(fmu(record=record), reference(signal=lambda output: expected), **table)
 
 
 @pytest.mark.parametrize(
@@ -175,8 +177,8 @@ def test_inside_a_tube_a_signal_may_be_late_but_no_larger() -> None:
     tube = Tube(WAVE, np.minimum(np.roll(WAVE, 1), WAVE), np.maximum(np.roll(WAVE, 1), WAVE))
     requested = []
 
-    def around(name: str, output: str, share: float) -> Tube:
-        requested.append((name, output, share))
+    def around(output: str, share: float) -> Tube:
+        requested.append((output, share))
         return tube
 
     def judged(signal: np.ndarray) -> Check:
@@ -190,7 +192,7 @@ def test_inside_a_tube_a_signal_may_be_late_but_no_larger() -> None:
         )
 
     assert judged(np.roll(WAVE, 1)).passed
-    assert requested == [("located_events", "position", 0.01)]
+    assert requested == [("position", 0.01)]
     late = judged(np.roll(WAVE, 2))
     assert not late.passed
     assert "outside a tube of 0.01 drive periods to each side by" in sentence(late)
@@ -205,7 +207,7 @@ def test_events_may_be_off_by_a_share_of_the_period(shift: float, passed: bool) 
     side = fmu(record=RecordOf(last_event_time=0.5 * found))
     verdict = judge(
         side,
-        reference(in_run=lambda name, measure: no_tube(events)),
+        reference(in_run=lambda measure: no_tube(events)),
         quantity="event_times",
         reference="located_events",
         tube=1e-3,

@@ -24,8 +24,8 @@ RUN = "[run]\ndrive_periods = 12.3\nsteps_per_period = 8\n"
 
 def test_a_tube_contains_signals_shifted_by_less_than_its_width() -> None:
     reference = ReferenceSide(scene_of(RUN))
-    tube = reference.tube("located_events", "velocity", 0.02)
-    velocity = reference.signal("located_events", "velocity")
+    tube = reference.tube("velocity", 0.02)
+    velocity = reference.signal("velocity")
     assert np.abs(tube.middle - velocity).max() < 1e-12 * np.abs(velocity).max()
     held = reference.scene.schedule().held()
     for late, inside in ((0.015, True), (-0.015, True), (0.03, False)):
@@ -59,7 +59,7 @@ def test_at_the_end_of_a_run_the_inputs_are_the_last_and_the_phase_has_its_lead(
 
 def test_a_device_that_never_moves_has_no_event_after_its_start() -> None:
     weak = "[device]\nbase_amplitude = 5e-9\nnormal_amplitude = 0.5\n"
-    assert ReferenceSide(scene_of(weak + RUN)).last_event_time("located_events") == 0.0
+    assert ReferenceSide(scene_of(weak + RUN)).last_event_time == 0.0
 
 
 PERIODS = "[run]\ndrive_periods = {end}\nsteps_per_period = 2\n"
@@ -74,15 +74,15 @@ def side_until(text: str, end: float) -> ReferenceSide:
 def test_at_an_event_both_of_its_sides_are_right(early: float) -> None:
     """The contact of a pure sine load closes at each whole period, where this run ends."""
     references = side_until(PURE_SINE, 3.0 - early)
-    modes = references.beside_events("located_events", "contact_mode")
+    modes = references.beside_events("contact_mode")
     assert modes.upper[-1] == LIFTED
     assert modes.lower[-1] != LIFTED, "the contact closes at the end, to rounding"
-    last = references.in_run("located_events", last_events)
+    last = references.in_run(last_events)
     assert last.upper[-1] == pytest.approx(3.0, abs=1e-9)
     assert last.lower[-1] == pytest.approx(2.5, abs=1e-9)
     references = side_until(PURE_SINE, 3.3)
     for name in ("contact_mode", "friction_force"):
-        tube = references.beside_events("located_events", name)
+        tube = references.beside_events(name)
         assert tube.upper[-1] == tube.lower[-1] == tube.middle[-1], "away from events"
 
 
@@ -92,21 +92,21 @@ def test_an_event_that_a_change_of_inputs_causes_has_one_right_side() -> None:
     push = "[inputs]\nload = { steps = [[0.0, 0.0], [0.002, 1.0]] }\n"
     run = "[run]\nstop_time = 0.004\nstep_size = 0.001\n"
     references = ReferenceSide(scene_of(rest + push + run))
-    modes = references.beside_events("located_events", "contact_mode")
+    modes = references.beside_events("contact_mode")
     assert (modes.lower == modes.upper).all()
     assert sorted(set(modes.middle.tolist())) == [-1.0, 0.0]
 
 
 def test_an_event_beyond_the_end_is_not_counted() -> None:
     whole = side_until("", 3.3)
-    reversal = float(whole.trajectory("located_events").reversal_times[-1])
+    reversal = float(whole.trajectory.reversal_times[-1])
     late = 1e-7 * whole.scene.drive_period
     references = side_until("", (reversal - late) / whole.scene.drive_period)
-    counts = references.in_run("located_events", reversal_counts)
-    at_end = references.at_end("located_events", reversal_counts)
+    counts = references.in_run(reversal_counts)
+    at_end = references.at_end(reversal_counts)
     assert at_end == counts.middle[-1] == counts.lower[-1]
     assert counts.upper[-1] == counts.middle[-1] + 1.0, "the next coincides with the end"
-    force = references.beside_events("located_events", "friction_force")
+    force = references.beside_events("friction_force")
     assert force.lower[-1] < 0.0 < force.upper[-1], "friction changes its sign there"
 
 
