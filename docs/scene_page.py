@@ -14,15 +14,17 @@ from pydantic.fields import FieldInfo
 
 from slider_resonator.device.interface import PARAMETERS, TUNABLES, VARIABLES
 from slider_resonator.scenes.expansion import bundles
-from slider_resonator.scenes.input_tables import InputsTable, InputTable, TuningTable
 from slider_resonator.scenes.key_table import PARAMETER_MEANINGS, KeyTable
 from slider_resonator.scenes.schema import (
     AllowedTable,
     ExpectTable,
+    InputsTable,
+    InputTable,
     NeedTable,
     RunTable,
     SceneTable,
     SweepTable,
+    TuningTable,
 )
 from slider_resonator.scenes.toml_file import toml_value
 from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES, Quantity

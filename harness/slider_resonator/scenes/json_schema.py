@@ -8,9 +8,8 @@ from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 from pydantic_core import core_schema
 
 from slider_resonator.scenes.expansion import bundles
-from slider_resonator.scenes.input_tables import InputTable
 from slider_resonator.scenes.key_table import NUMBER_OR_TEXT
-from slider_resonator.scenes.schema import ExpectTable, RunTable, SceneTable
+from slider_resonator.scenes.schema import ExpectTable, InputTable, RunTable, SceneTable
 from slider_resonator.scenes.vocabulary import QUANTITIES
 
 _WITHOUT_UNIT = ("drive_periods", "steps_per_period")

@@ -90,9 +90,8 @@ def key(meaning: str, example: Any, *, default: Any = None, **schema: Any) -> An
     return Field(default=default, description=meaning, examples=[example], json_schema_extra=schema)
 
 
-def required(meaning: str, example: Any, **schema: Any) -> Any:
-    """Return the field of a key that must be given, as `key` does."""
-    return Field(description=meaning, examples=[example], json_schema_extra=schema)
+required = partial(key, default=...)
+"""The same of a key that must be given."""
 
 
 def units_of(table: type[KeyTable]) -> dict[str, str]:

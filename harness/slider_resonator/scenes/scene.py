@@ -18,12 +18,12 @@ from slider_resonator.output.shown import Shown
 from slider_resonator.scenes.csv_signal import csv_signal
 from slider_resonator.scenes.device_file import possible_slips, read_device_file, refuse_other_kinds
 from slider_resonator.scenes.expansion import variants
-from slider_resonator.scenes.input_tables import InputTable
 from slider_resonator.scenes.schema import (
     RUN_NEEDS,
     STEADY_NEEDS,
     AllowedTable,
     ExpectTable,
+    InputTable,
     NeedTable,
     RunTable,
     SceneTable,
