@@ -124,11 +124,6 @@ class Fmu:
         found = (v.name for v in VARIABLES.values() if v.causality == "output")
         return tuple(name for name in found if name in self.variables)
 
-    @property
-    def lacks(self) -> tuple[str, ...]:
-        """The variables of the interface after its version `FIRST` that it does not have."""
-        return tuple(name for name in VARIABLES if name not in self.variables)
-
 
 @contextmanager
 def open_fmu(path: str | Path) -> Iterator[Fmu]:

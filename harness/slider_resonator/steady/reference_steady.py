@@ -61,7 +61,7 @@ def reference_blocking_force(
         period_map = _ReferencePeriodMap(device, phase, ratio, simulate)
         # Without preload the load varies alone and friction is of the order of its amplitude.
         warm = period_map.warm_up(0.0, 0.0)
-        return blocked_point(period_map, warm, 0.0, device.max_friction, tolerance).load
+        return blocked_point(period_map, warm, 0.0, device.max_friction, tolerance)[0]
     except NoPeriodicMotion:
         return None
 

@@ -188,13 +188,13 @@ def find_blocking(
                 f"the slider sticks throughout at load = {load:.6g} N: every load that friction "
                 "holds stops it, so that no single one is the blocking force",
             )
-        found = blocked_point(run, warm, load, max(run.friction, 1e-12))
+        load, found = blocked_point(run, warm, load, max(run.friction, 1e-12))
     except NoPeriodicMotion as none:
         return _result(Blocking, none.status, none.reason, run, none)
     status = "blocked" if found.stability == "stable" else found.stability
     largest = f"{abs(found.multipliers[0]):.9g}"
     reason = f"at this load the mean velocity is zero; the largest multiplier is {largest}"
-    return _result(Blocking, status, reason, run, found, blocking_force=found.load)
+    return _result(Blocking, status, reason, run, found, blocking_force=load)
 
 
 def _result(

@@ -55,14 +55,13 @@ Stability = Literal["stable", "unstable", "neutral"]
 class FixedPoint:
     """A motion that repeats.
 
-    `state` (n,) at the start of the period, `displacement` over it and the `load` that acts.
+    `state` (n,) at the start of the period and `displacement` over it.
     `multipliers` (n,), complex, are the Floquet multipliers, largest first; `residual` is the
     largest change of the state over the period in units of the scale.
     """
 
     state: Vector
     displacement: float
-    load: float
     iterations: int
     residual: float
     multipliers: NDArray[np.complex128]
@@ -77,17 +76,12 @@ class FixedPoint:
 
 
 def fixed_point(
-    period_map: PeriodMap,
-    guess: Vector,
-    scale: Vector,
-    *,
-    load: float = 0.0,
-    tolerance: float = TOLERANCE,
+    period_map: PeriodMap, guess: Vector, scale: Vector, tolerance: float = TOLERANCE
 ) -> FixedPoint:
     """Find a state that the map returns to, starting from `guess` (n,).
 
     `scale` (n,) is the typical size of each entry of the state and `tolerance` is in units
-    of it. `load` is only recorded. Raises NoPeriodicMotion where there is none.
+    of it. Raises NoPeriodicMotion where there is none.
     """
 
     def change(state: Vector) -> Vector:
@@ -104,7 +98,7 @@ def fixed_point(
         if abs(sides[0] - sides[1]) > KINK * abs(1.0 - multipliers[0]):
             multipliers[0] = max(sides, key=abs)
     _, displacement = period_map(root.x)
-    return FixedPoint(root.x, displacement, load, root.iterations, root.residual, multipliers)
+    return FixedPoint(root.x, displacement, root.iterations, root.residual, multipliers)
 
 
 def _multipliers(change_jacobian: Matrix) -> NDArray[np.complex128]:
@@ -238,21 +232,20 @@ def steady_point(
     Raises NoPeriodicMotion.
     """
     loaded = partial(run, load=load)
-    find = partial(fixed_point, loaded, load=load, tolerance=tolerance)
     warm = run.warm_up(velocity, load)
     guess, scale = warm.shifted(velocity), warm.scale
     try:
-        return find(guess, scale)
+        return fixed_point(loaded, guess, scale, tolerance)
     except NoPeriodicMotion:
         between = bracketed_state(loaded, guess, scale)
         if between is None:
             raise
-    return find(between, scale)
+    return fixed_point(loaded, between, scale, tolerance)
 
 
 def blocked_point(
     run: PeriodicRun, warm: WarmedUp, load: float, load_scale: float, tolerance: float = TOLERANCE
-) -> FixedPoint:
+) -> tuple[float, FixedPoint]:
     """Find the load of the repeating motion without displacement over a period, near `load` (N).
 
     `warm` comes from a warm-up under that load, `load_scale` (N) is a typical load. One more
@@ -273,4 +266,4 @@ def blocked_point(
     multipliers = _multipliers(jacobian[:-1, :-1])
     state, load = root.x[:-1], float(root.x[-1])
     _, displacement = run(state, load)
-    return FixedPoint(state, displacement, load, root.iterations, root.residual, multipliers)
+    return load, FixedPoint(state, displacement, root.iterations, root.residual, multipliers)

@@ -123,11 +123,12 @@ def solve(
     value = scaled(y)
     is_kept = inverse is not None
     while True:
-        if not is_kept:
+        if inverse is None or not is_kept:
             jacobian = central_jacobian(scaled, y, steps)
-            inverse = _inverse(jacobian)
-        if inverse is None:
-            break
+            sizes = np.linalg.svd(jacobian, compute_uv=False)
+            if sizes[-1] <= SINGULAR * sizes[0]:
+                break
+            inverse = np.asarray(np.linalg.inv(jacobian), dtype=np.float64)
         correction = -inverse @ value
         size = float(np.linalg.norm(correction))
         if size <= tolerance:
@@ -166,14 +167,6 @@ def solve(
         iterations,
         residual(),
     )
-
-
-def _inverse(jacobian: Matrix) -> Matrix | None:
-    """Return the inverse, None for a singular matrix."""
-    singular_values = np.linalg.svd(jacobian, compute_uv=False)
-    if singular_values[-1] <= SINGULAR * singular_values[0]:
-        return None
-    return np.asarray(np.linalg.inv(jacobian), dtype=np.float64)
 
 
 DOUBLINGS = 6

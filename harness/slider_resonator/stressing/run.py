@@ -11,7 +11,7 @@ from typing import Any
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.isolation.process import FmuDied
 from slider_resonator.fmu.isolation.tasks import LocalProcesses, run_all_tasks
-from slider_resonator.fmu.opening import open_fmu
+from slider_resonator.fmu.opening import lacking, open_fmu
 from slider_resonator.output.progress import Progress, counted, no_progress
 from slider_resonator.output.readable import number_of, one_line
 from slider_resonator.output.shown import Shown, Tabular
@@ -178,8 +178,7 @@ def applicable(fmu: Path, cases: Sequence[Case]) -> list[Case]:
     Averages of second order need `averaging_order`, unequal steps an FMU that takes them.
     """
     with open_fmu(fmu) as opened:
-        lacks, has_orders = opened.lacks, opened.has_orders
-        equal_only = opened.takes_equal_steps_only
+        has_orders, equal_only = opened.has_orders, opened.takes_equal_steps_only
     chosen = [
         case
         for case in cases
@@ -188,8 +187,9 @@ def applicable(fmu: Path, cases: Sequence[Case]) -> list[Case]:
     ]
     if not chosen:
         one = cases[0].name if len(cases) == 1 else f"none of {number_of(len(cases), 'case')}"
-        lacking = f"it lacks {', '.join(lacks)}" if lacks else "it takes equal steps only"
-        raise FmuError(f"{fmu}: no case applies to this FMU: {one} needs more; {lacking}")
+        lacks = ", ".join(lacking(fmu))
+        why = f"it lacks {lacks}" if lacks else "it takes equal steps only"
+        raise FmuError(f"{fmu}: no case applies to this FMU: {one} needs more; {why}")
     return chosen
 
 
