@@ -25,10 +25,7 @@ from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate
 from slider_resonator.references.resolved.trajectory import Trajectory
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.steady.reference_steady import (
-    reference_blocking_force,
-    reference_steady_velocity,
-)
+from slider_resonator.steady.reference_steady import ReferenceMotion
 
 
 @dataclass(frozen=True)
@@ -50,13 +47,16 @@ class SteadyReferences:
             guess = self.predicted_velocity
         except ValueError:
             guess = 0.0
-        inputs = (self.phase, self.load, self.frequency_ratio)
-        return reference_steady_velocity(self.device, *inputs, guess)
+        return self._motion.steady_velocity(self.load, guess)
 
     @cached_property
     def blocking_force(self) -> float | None:
         """Load that makes the mean velocity zero, by shooting with located events."""
-        return reference_blocking_force(self.device, self.phase, self.frequency_ratio)
+        return self._motion.blocking_force()
+
+    @property
+    def _motion(self) -> ReferenceMotion:
+        return ReferenceMotion(self.device, self.phase, self.frequency_ratio)
 
     @cached_property
     def full_device(self) -> "SteadyReferences":

@@ -1,6 +1,7 @@
 """Steady velocity and blocking force of the references, by the same shooting."""
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 
 import numpy as np
 
@@ -23,70 +24,53 @@ Simulate = Callable[[Device, Sequence[HeldInputs], Vector], Trajectory]
 """A reference: device, held inputs and times (n,) to its motion."""
 
 
-def reference_steady_velocity(
-    device: Device,
-    phase: float,
-    load: float,
-    ratio: float,
-    guess: float = 0.0,
-    *,
-    simulate: Simulate = simulate_resolved,
-    tolerance: float = TOLERANCE,
-) -> float | None:
-    """Return the mean velocity (m/s) of the steady motion, None where none is found.
+class ReferenceMotion(PeriodicRun):
+    """A reference under held inputs, whose steady motion is found by shooting.
 
-    `phase` in rad, `load` in N; `guess` (m/s) is where the search begins. `simulate` is any
-    integrator, `tolerance` that of the state in units of its scale.
-    """
-    try:
-        period_map = _ReferencePeriodMap(device, phase, ratio, simulate)
-        return steady_point(period_map, guess, load, tolerance).displacement / period_map.period
-    except NoPeriodicMotion:
-        return None
-
-
-def reference_blocking_force(
-    device: Device,
-    phase: float,
-    ratio: float,
-    *,
-    simulate: Simulate = simulate_resolved,
-    tolerance: float = TOLERANCE,
-) -> float | None:
-    """Return the load (N) that makes the mean velocity zero, None where none is found.
-
-    The arguments are those of `reference_steady_velocity`.
-    """
-    try:
-        period_map = _ReferencePeriodMap(device, phase, ratio, simulate)
-        # Without preload the load varies alone and friction is of the order of its amplitude.
-        warm = period_map.warm_up(0.0, 0.0)
-        return blocked_point(period_map, warm, 0.0, device.max_friction, tolerance)[0]
-    except NoPeriodicMotion:
-        return None
-
-
-class _ReferencePeriodMap(PeriodicRun):
-    """The period map of a reference.
-
-    The state has the entries of `STATE` that there are: no resonator at fidelity 1, where its
-    force is given, and no bristle with Coulomb friction. Raises NoPeriodicMotion without a period.
+    `phase` is in rad. `simulate` is any integrator, `tolerance` that of the state in units of its
+    scale. The state has the entries of `STATE` that there are: no resonator at fidelity 1, where
+    its force is given, and no bristle with Coulomb friction.
     """
 
-    def __init__(self, device: Device, phase: float, ratio: float, simulate: Simulate) -> None:
-        count = common_period(ratio)
-        if count is None:
-            raise NoPeriodicMotion("no_common_period", f"frequency_ratio = {ratio!r} is no p/q")
+    def __init__(
+        self,
+        device: Device,
+        phase: float,
+        ratio: float,
+        *,
+        simulate: Simulate = simulate_resolved,
+        tolerance: float = TOLERANCE,
+    ) -> None:
         self.simulate = simulate
+        self.tolerance = tolerance
         self.device = device
         self.phase = phase
         self.ratio = ratio
-        self.drive_periods = count
+        self.drive_periods = common_period(ratio) or 0
         resonator = STATE[1:3] if device.fidelity == 2 else ()
         bristle = STATE[3:] if device.friction_law == 1 else ()
         self.names = (STATE[0], *resonator, *bristle)
         at_rest = device.tuned((name, 0.0) for name in _INITIAL)
         self._velocity_from_rest = initial_state(at_rest)[1]
+
+    def steady_velocity(self, load: float, guess: float = 0.0) -> float | None:
+        """Return the mean velocity (m/s) of the motion under a load (N), None where none is found.
+
+        `guess` (m/s) is where the search begins.
+        """
+        with suppress(NoPeriodicMotion):
+            if self.drive_periods:
+                return steady_point(self, guess, load, self.tolerance).displacement / self.period
+        return None
+
+    def blocking_force(self) -> float | None:
+        """Return the load (N) that makes the mean velocity zero, None where none is found."""
+        # Without preload the load varies alone and friction is of the order of its amplitude.
+        size = self.device.max_friction
+        with suppress(NoPeriodicMotion):
+            if self.drive_periods:
+                return blocked_point(self, *self.warm_up(0.0, 0.0), 0.0, size, self.tolerance)[0]
+        return None
 
     def run(self, state: Vector, load: float, times: Vector) -> tuple[Matrix, Vector]:
         """Return states and travel at the times."""

@@ -181,14 +181,14 @@ def find_blocking(
     load = values.get("load", predicted if isfinite(predicted) else 0.0)
     try:
         run.drive_periods = repeating_periods(run.ratio, run.drive_period, max_denominator)
-        warm = run.warm_up(0.0, load)
+        guess, scale = run.warm_up(0.0, load)
         if run.sticks_throughout:
             raise NoPeriodicMotion(
                 "stuck",
                 f"the slider sticks throughout at load = {load:.6g} N: every load that friction "
                 "holds stops it, so that no single one is the blocking force",
             )
-        load, found = blocked_point(run, warm, load, max(run.friction, 1e-12))
+        load, found = blocked_point(run, guess, scale, load, max(run.friction, 1e-12))
     except NoPeriodicMotion as none:
         return _result(Blocking, none.status, none.reason, run, none)
     status = "blocked" if found.stability == "stable" else found.stability

@@ -142,24 +142,6 @@ def _one_sided_multipliers(
     return found[0], found[1]
 
 
-@dataclass(frozen=True)
-class WarmedUp:
-    """A state (n,) after some periods, the typical size of each entry, and the mean velocity.
-
-    Entry 0 is the velocity (m/s), and so is the mean, over the last drive period.
-    """
-
-    state: Vector
-    scale: Vector
-    mean_velocity: float
-
-    def shifted(self, velocity: float) -> Vector:
-        """Return the state shifted to a mean velocity (m/s)."""
-        state = self.state.copy()
-        state[0] += velocity - self.mean_velocity
-        return state
-
-
 class PeriodicRun(ABC):
     """A device under held inputs, run over a common period of `drive_periods`.
 
@@ -213,15 +195,20 @@ class PeriodicRun(ABC):
         states, travel = self.run(state, load, np.array([self.period]))
         return states[-1], float(travel[-1])
 
-    def warm_up(self, velocity: float, load: float) -> WarmedUp:
-        """Run some periods with the resonator at rest and the slider at `velocity` (m/s)."""
+    def warm_up(self, velocity: float, load: float) -> tuple[Vector, Vector]:
+        """Run some periods with the resonator at rest and the slider at `velocity` (m/s).
+
+        Return the state (n,) after them, shifted to that mean velocity over a drive period, and the
+        typical size of each entry (n,).
+        """
         count = ceil(WARM_UP / self.drive_periods) * self.drive_periods
         start = np.zeros(len(self.names))
         start[0] = velocity
         times = np.linspace(count - 1, count, SAMPLES + 1) * self.drive_period
         states, travel = self.run(start, load, times)
-        mean = float(travel[-1] - travel[0]) / self.drive_period
-        return WarmedUp(states[-1], self.scale(np.abs(states[1:]).max(axis=0)), mean)
+        state = states[-1].copy()
+        state[0] += velocity - float(travel[-1] - travel[0]) / self.drive_period
+        return state, self.scale(np.abs(states[1:]).max(axis=0))
 
 
 def steady_point(
@@ -232,8 +219,7 @@ def steady_point(
     Raises NoPeriodicMotion.
     """
     loaded = partial(run, load=load)
-    warm = run.warm_up(velocity, load)
-    guess, scale = warm.shifted(velocity), warm.scale
+    guess, scale = run.warm_up(velocity, load)
     try:
         return fixed_point(loaded, guess, scale, tolerance)
     except NoPeriodicMotion:
@@ -244,24 +230,28 @@ def steady_point(
 
 
 def blocked_point(
-    run: PeriodicRun, warm: WarmedUp, load: float, load_scale: float, tolerance: float = TOLERANCE
+    run: PeriodicRun,
+    guess: Vector,
+    scale: Vector,
+    load: float,
+    load_scale: float,
+    tolerance: float = TOLERANCE,
 ) -> tuple[float, FixedPoint]:
     """Find the load of the repeating motion without displacement over a period, near `load` (N).
 
-    `warm` comes from a warm-up under that load, `load_scale` (N) is a typical load. One more
-    unknown and one more equation than `fixed_point`: the load and displacement = 0. Raises
+    `guess` and `scale` come from a warm-up under that load, `load_scale` (N) is a typical load. One
+    more unknown and one more equation than `fixed_point`: the load and displacement = 0. Raises
     NoPeriodicMotion.
     """
-    scale = np.append(warm.scale, load_scale)
-    displacement_scale = float(warm.scale[0]) * run.period
+    displacement_scale = float(scale[0]) * run.period
+    scale = np.append(scale, load_scale)
 
     def change(unknowns: Vector) -> Vector:
         state, load = unknowns[:-1], float(unknowns[-1])
         end, displacement = run(state, load)
         return np.append(end - state, displacement * load_scale / displacement_scale)
 
-    guess = np.append(warm.shifted(0.0), load)
-    root = solve(change, guess, scale, tolerance=tolerance)
+    root = solve(change, np.append(guess, load), scale, tolerance=tolerance)
     jacobian = central_jacobian(change, root.x, DIFFERENCE * scale)
     multipliers = _multipliers(jacobian[:-1, :-1])
     state, load = root.x[:-1], float(root.x[-1])

@@ -19,11 +19,7 @@ from slider_resonator.references.averaged.averaged_motion import simulate_averag
 from slider_resonator.references.equivalent_force import equivalent_force
 from slider_resonator.references.resolved.simulate import simulate as simulate_series
 from slider_resonator.references.resolved.trajectory import Trajectory
-from slider_resonator.steady.reference_steady import (
-    Simulate,
-    reference_blocking_force,
-    reference_steady_velocity,
-)
+from slider_resonator.steady.reference_steady import ReferenceMotion, Simulate
 from slider_resonator.steady.searches import SteadyAnswer
 from slider_resonator.trading.peers import event_free, located_scipy, moreau_jean
 from slider_resonator.trading.peers.switching_taylor import heyoka_in_one_call
@@ -155,9 +151,8 @@ def shoot(
         return simulate(device, held, times)
 
     phase, load, ratio = (problem.inputs[name] for name in ("phase", "load", "frequency_ratio"))
-    velocity = partial(reference_steady_velocity, problem.device, phase, load, ratio)
-    force = partial(reference_blocking_force, problem.device, phase, ratio)
-    search = velocity if quantity == "steady_velocity" else force
-    value = search(simulate=counted, tolerance=tolerance)
+    motion = ReferenceMotion(problem.device, phase, ratio, simulate=counted, tolerance=tolerance)
+    is_velocity = quantity == "steady_velocity"
+    value = motion.steady_velocity(load) if is_velocity else motion.blocking_force()
     seconds, none = process_time() - began, "the search by shooting found none"
     return SteadyAnswer(seconds, value, none, round(sum(simulated)))

@@ -9,7 +9,6 @@ import pytest
 from slider_resonator.device.device import Device
 from slider_resonator.steady.shooting import (
     PeriodicRun,
-    WarmedUp,
     blocked_point,
     fixed_point,
     steady_point,
@@ -181,8 +180,8 @@ class _Slider(PeriodicRun):
     def scale(self, sizes: Vector) -> Vector:
         return np.ones_like(sizes)
 
-    def warm_up(self, velocity: float, load: float) -> WarmedUp:
-        return WarmedUp(np.array([velocity + 0.02, 0.1]), np.ones(2), velocity + 0.01)
+    def warm_up(self, velocity: float, load: float) -> tuple[Vector, Vector]:
+        return np.array([velocity + 0.01, 0.1]), np.ones(2)
 
 
 @pytest.mark.parametrize("velocity", [0.0, 0.3, 40.0])
@@ -192,7 +191,7 @@ def test_steady_motion_is_found_from_any_guess(velocity: float) -> None:
 
 
 def test_the_load_that_stops_the_drift_is_found() -> None:
-    load, found = blocked_point(_Slider(), _Slider().warm_up(0.0, 0.0), 0.0, 0.2)
+    load, found = blocked_point(_Slider(), *_Slider().warm_up(0.0, 0.0), 0.0, 0.2)
     assert load == pytest.approx(0.1, abs=1e-10)
     assert found.displacement == pytest.approx(0.0, abs=1e-10)
     assert found.multipliers[0] == pytest.approx(0.99, abs=1e-8)
@@ -202,7 +201,7 @@ def test_no_load_blocks_what_does_not_move(monkeypatch: pytest.MonkeyPatch) -> N
     """A state that decays without any motion."""
     monkeypatch.setattr(_Slider, "run", lambda _, state, *__: (0.5 * state[None], np.zeros(1)))
     with pytest.raises(NoPeriodicMotion):
-        blocked_point(_Slider(), WarmedUp(np.ones(2), np.ones(2), 0.0), 0.1, 1.0)
+        blocked_point(_Slider(), np.ones(2), np.ones(2), 0.1, 1.0)
 
 
 def test_bounds_that_change_sides_by_rounding_are_no_bracket() -> None:

@@ -15,10 +15,7 @@ from slider_resonator.steady.periodic import (
     FmuPeriodMap,
     repeating_periods,
 )
-from slider_resonator.steady.reference_steady import (
-    reference_blocking_force,
-    reference_steady_velocity,
-)
+from slider_resonator.steady.reference_steady import ReferenceMotion
 from slider_resonator.steady.searches import find_blocking, find_steady
 from slider_resonator.steady.solvers import NoPeriodicMotion
 
@@ -95,8 +92,8 @@ def test_searches_find_what_the_reference_has(instance: Instance, values: Values
     motion, blocking = find_steady(instance, values), find_blocking(instance, values)
     assert (motion.status, blocking.status) == ("steady", "blocked")
     assert max(motion.periods, blocking.periods) <= 100, "with bristles, too"
-    velocity = reference_steady_velocity(device, phase, 0.0, 1.0, motion.predicted)
-    force = reference_blocking_force(device, phase, 1.0)
+    reference = ReferenceMotion(device, phase, 1.0)
+    velocity, force = reference.steady_velocity(0.0, motion.predicted), reference.blocking_force()
     assert motion.steady_velocity == pytest.approx(velocity, abs=1e-7)
     assert blocking.blocking_force == pytest.approx(force, abs=1e-7)
 
@@ -207,10 +204,10 @@ def test_maps_can_be_chained(instance: Instance, stiffness: float | None) -> Non
 
 @pytest.mark.slow
 def test_what_never_repeats_has_no_steady_motion() -> None:
-    assert reference_steady_velocity(Device(), 0.0, 0.0, 1.001) is None
-    assert reference_blocking_force(Device(), 0.0, 1.001) is None
+    assert ReferenceMotion(Device(), 0.0, 1.001).steady_velocity(0.0) is None
+    assert ReferenceMotion(Device(), 0.0, 1.001).blocking_force() is None
     for device, load in ((Device(), 0.25), (Device(friction_law=1), 3.0)):
-        found = reference_steady_velocity(device, 0.0, load, 1.0)
+        found = ReferenceMotion(device, 0.0, 1.0).steady_velocity(load)
         assert found is None, "a load above friction"
 
 
@@ -255,8 +252,8 @@ def test_errors_of_averages_fall_with_the_frequency(kappa: float, amplitude_rati
             device_average.blocking_force(device, 1.0, 1.0),
         )
         exact = (
-            reference_steady_velocity(device, 1.0, 0.0, 1.0, averages[0]),
-            reference_blocking_force(device, 1.0, 1.0),
+            ReferenceMotion(device, 1.0, 1.0).steady_velocity(0.0, averages[0]),
+            ReferenceMotion(device, 1.0, 1.0).blocking_force(),
         )
         errors.append(np.subtract(averages, np.array(exact, dtype=float)))
     for coarse, fine in zip(*errors, strict=True):
