@@ -80,8 +80,8 @@ class FmuPeriodMap(PeriodicRun):
         self.phase, self.ratio = self.values["phase"], self.values["frequency_ratio"]
         self.periods = 0
         self.stick_fraction = 0.0
-        is_lugre = self.device.friction_law == 1 and self.device.fidelity != 0
         # Averaged motion keeps no bristle.
+        is_lugre = self.device.friction_law == 1 and self.device.fidelity != 0
         self.bends = is_lugre and self.friction > 0.0 and self.device.bristle_stiffness > 0.0
         self.names = (*STATE, "bristle_deflection") if self.bends else STATE
         self._read = instance.block(["position", *STATE, "stick_fraction"])
