@@ -210,7 +210,7 @@ def validate(
         raise SceneError("scenes = []: must be at least one scene; leave it out to run all")
     named = [str(scene) for scene in given if isinstance(scene, str | Path)]
     found = find_scenes(named) if named or scenes is None else []
-    found += [read_scene(scene) for scene in given if isinstance(scene, Mapping | Scene)]
+    found += [read_scene(s) for s in given if s is not None and not isinstance(s, str | Path)]
     _check_positive(time_limit=time_limit, jobs=jobs)
     processes = jobs or available_cores()
     return validate_scenes(_fmus(fmus), found, time_limit=time_limit, jobs=processes)
@@ -232,6 +232,7 @@ def choose(
     in place of the scene's, `time` (s) is that of the run, `step` (s) between samples of signals.
     A `device` takes the place of the scene's, as in `OpenFmu.run`.
     """
+    _check_kind(Mapping, "errors by quantity", need=need)
     read = _scene_of(scene, _stated(device), values)
     with explained():
         if time is not None or step is not None:
@@ -291,6 +292,8 @@ def fit(
     the `device` to go on with.
     """
     _check_positive(starts=starts, jobs=jobs, time_limit=time_limit)
+    _check_kind(Sequence, "names of parameters", free=free)
+    _check_kind(Mapping, "lowest and highest value by name", bounds=bounds)
     measurements = measurements_of(data)
     names = [free] if isinstance(free, str) else free
     checked = {**_stated(device), **_checked(values)}
@@ -382,10 +385,11 @@ def _warn(slips: Sequence[str]) -> None:
 
 
 def _fmus(fmus: Sequence[str | Path]) -> list[Path]:
-    return [Path(fmu) for fmu in fmus] or [fmu_path()]
+    return [_fmu(fmu) for fmu in fmus or (None,)]
 
 
 def _fmu(fmu: str | Path | None) -> Path:
+    _check_kind(str | Path, "a path", fmu=fmu)
     return fmu_path() if fmu is None else Path(fmu)
 
 
@@ -403,6 +407,13 @@ def _plain(data: Any) -> Any:
     if hasattr(data, "tolist"):
         return data.tolist()
     return [_plain(entry) for entry in data] if isinstance(data, list | tuple | range) else data
+
+
+def _check_kind(kind: Any, meaning: str, **arguments: Any) -> None:
+    """Raise HarnessError for an argument that is given and is of another kind."""
+    for name, value in arguments.items():
+        if value is not None and not isinstance(value, kind):
+            raise HarnessError(f"{name} = {value!r}: must be {meaning}")
 
 
 def _check_positive(**arguments: float | None) -> None:

@@ -179,6 +179,9 @@ def test_arrays_and_numbers_of_numpy_are_data(native_fmu: Path, tmp_path: Path) 
     assert (result.points, result.failed) == (4, 0)
 
 
+wrong: Any = 3
+
+
 @pytest.mark.parametrize(
     ("call", "text"),
     [
@@ -201,6 +204,12 @@ def test_arrays_and_numbers_of_numpy_are_data(native_fmu: Path, tmp_path: Path) 
         (lambda: sr.fit({"fase": [0]}, "damping_ratio"), "data: unknown column 'fase'; did you"),
         (lambda: sr.fit({}, "damping_ratio"), "data: must be columns of one"),
         (lambda: sr.to_toml("no.toml"), r"no\.toml: cannot be read: No such file"),
+        (lambda: sr.validate(wrong), "fmu = 3: must be a path"),
+        (lambda: sr.validate(scenes=wrong), "unknown scene '3'"),
+        (lambda: sr.choose(need=wrong), "need = 3: must be errors by quantity"),
+        (lambda: sr.fit(wrong, "damping_ratio"), "data = 3: must be a file, columns, or"),
+        (lambda: sr.fit("no.csv", wrong), "free = 3: must be names of parameters"),
+        (lambda: sr.fit("no.csv", "load", bounds=wrong), "bounds = 3: must be lowest and highest"),
     ],
 )
 def test_bad_arguments_are_one_line(call: Callable[[], object], text: str) -> None:

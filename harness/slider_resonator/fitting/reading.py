@@ -119,6 +119,8 @@ def measurements_of(data: Any, source: str = "data") -> Measurements:
         data = data.to_dict("list")
     if isinstance(data, Mapping):
         return measurements_from(data, source)
+    if not isinstance(data, Iterable):
+        raise HarnessError(f"{source} = {data!r}: must be a file, columns, or several of these")
     parts = (measurements_of(one, f"data {number}") for number, one in enumerate(data, 1))
     return sum(parts, Measurements())
 
