@@ -3,6 +3,7 @@
 import math
 import random
 from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -48,8 +49,12 @@ def test_the_error_follows_the_tolerance(instantiate: Instantiate) -> None:
     assert error <= 1e-3 * 3.0 * 1e-6 * FAST
 
 
-Case = tuple[dict[str, float], float, float]
-"""A device by its parameters, with v_q [m/s] and drive periods in which it nearly settles."""
+class Case(NamedTuple):
+    """A device by its parameters, with v_q [m/s] and a third of its transient [s]."""
+
+    values: dict[str, float]
+    fast: float
+    step: float
 
 
 def case_of(draw: random.Random, law: int, tolerance: float) -> Case:
@@ -83,7 +88,7 @@ def case_of(draw: random.Random, law: int, tolerance: float) -> Case:
         stiffness = 10.0 ** draw.uniform(1.0, 3.5) * friction * w / fast
         values |= {"friction_law": 1, "bristle_stiffness": stiffness}
         values |= {"bristle_damping": 10.0 ** draw.uniform(-3.0, -1.0) * friction / fast}
-    return values, fast, 1.0 / share
+    return Case(values, fast, max(200.0, 1.0 / (3.0 * share)) * math.tau / w)
 
 
 MANY = [
@@ -105,92 +110,33 @@ def test_random_devices_keep_the_tolerance_and_know_their_error(
     """
     draw, covered, leapt = random.Random(seed), [], 0
     for _ in range(count):
-        values, fast, transient = case_of(draw, law, tolerance)
-        allowed = tolerance * fast
-        size = max(200.0, transient / 3.0) * math.tau / values["drive_frequency"]
-        errors, _, estimates = compared(instantiate, values, size, 4)
-        assert max(errors) <= 10.0 * allowed, values
+        case = case_of(draw, law, tolerance)
+        allowed = tolerance * case.fast
+        errors, _, estimates = compared(instantiate, case.values, case.step, 4)
+        assert max(errors) <= 10.0 * allowed, case.values
         leapt += estimates[-1] > 0.0
         covered += list((errors <= 3.0 * estimates)[(errors > 0.1 * allowed) & (estimates > 0.0)])
     assert leapt >= 0.6 * count
     assert sum(covered) >= 0.9 * len(covered)
 
 
-LINE_MEETS_RATES = {
-    "slider_mass": 0.12057153656376007,
-    "resonator_mass": 0.008395216377345319,
-    "resonator_frequency": 1082.7799474307253,
-    "damping_ratio": 0.6137313673456617,
-    "base_amplitude": 1.5187170844416565e-05,
-    "drive_frequency": 562.4788096151409,
-    "normal_preload": 1.9463426537219373,
-    "normal_amplitude": 0.17464966950542643,
-    "friction_coefficient": 8.009825583106316e-06,
-    "phase": 4.524618599630677,
-    "bristle_stiffness": 455.4513398815495,
-    "bristle_damping": 0.00015152547429070947,
-}
-ORDERS_AGREE = {
-    "slider_mass": 0.21019097577693516,
-    "resonator_mass": 0.006678332341768228,
-    "resonator_frequency": 2631.1499415535604,
-    "damping_ratio": 0.0043631656139107786,
-    "base_amplitude": 8.887142476514646e-05,
-    "drive_frequency": 3162.1245108166654,
-    "normal_preload": 2.801466773615633,
-    "normal_amplitude": 3.127383017037205,
-    "friction_coefficient": 0.0008472890596040655,
-    "frequency_ratio": 1.0001,
-    "phase": 4.9054584864214075,
-    "load": 0.002242899454704104,
-    "bristle_stiffness": 1398.1035263615147,
-    "bristle_damping": 5.1765428534587607e-05,
-}
-
-
-INTEGRATED_AT_ONCE = {
-    "slider_mass": 1.2399151292914012,
-    "resonator_mass": 0.3162778176192555,
-    "resonator_frequency": 2493.5509103340014,
-    "damping_ratio": 0.049394353235571134,
-    "base_amplitude": 2.4772557947898382e-05,
-    "drive_frequency": 1420.627689886979,
-    "normal_preload": 0.9473213936405634,
-    "normal_amplitude": 1.5429467162931128,
-    "friction_coefficient": 0.01472550719021099,
-    "frequency_ratio": 3.0,
-    "phase": 3.6472444566367073,
-    "load": 0.012676229202151394,
-}
-
-
 @pytest.mark.parametrize(
-    ("device", "law", "tolerance", "periods", "fast"),
+    ("law", "tolerance", "seed", "number"),
     [
-        (LINE_MEETS_RATES, 1, 1e-6, 520.4744398268977, 0.0006711337589362988),
-        (ORDERS_AGREE, 1, 1e-6, 1041.8207557054884, 0.021636363540897444),
-        (INTEGRATED_AT_ONCE, 0, 1e-4, 254.4931061196671, 0.00963498764410792),
-    ],
-    ids=[
-        "a line meets the rates where it ends",
-        "both orders of the pair agree",
-        "both orders agree on interpolated rates",
+        pytest.param(1, 1e-6, 6, 93, id="a line meets the rates where it ends"),
+        pytest.param(1, 1e-6, 5, 300, id="both orders of the pair agree"),
+        pytest.param(0, 1e-4, 111, 551, id="both orders agree on interpolated rates"),
     ],
 )
 def test_errors_that_are_small_by_accident_are_noticed(
-    instantiate: Instantiate,
-    device: dict[str, float],
-    law: int,
-    tolerance: float,
-    periods: float,
-    fast: float,
+    instantiate: Instantiate, law: int, tolerance: float, seed: int, number: int
 ) -> None:
     """In the second step: 56, 15 and 31 tolerances where the estimate of the solver counts alone,
     or tells of a step that is too long for it."""
-    values = {**device, "friction_law": law, "tolerance": tolerance}
-    size = periods * math.tau / values["drive_frequency"]
-    errors, *_ = compared(instantiate, values, size, 2)
-    assert max(errors) <= 3.0 * tolerance * fast
+    draw = random.Random(seed)
+    *_, case = (case_of(draw, law, tolerance) for _ in range(number + 1))
+    errors, *_ = compared(instantiate, case.values, case.step, 2)
+    assert max(errors) <= 3.0 * tolerance * case.fast
 
 
 @pytest.mark.parametrize("tolerance", [1e-14, 1e-12])
