@@ -10,6 +10,7 @@ from slider_resonator.device.interface import INPUTS
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.references.averaged import device_average
+from slider_resonator.references.averaged.uniform_average import LugreCase
 from slider_resonator.steady.periodic import (
     FIRM,
     FmuPeriodMap,
@@ -18,6 +19,7 @@ from slider_resonator.steady.periodic import (
 from slider_resonator.steady.reference_steady import ReferenceMotion
 from slider_resonator.steady.searches import find_blocking, find_steady
 from slider_resonator.steady.solvers import NoPeriodicMotion
+from studies.paper.mapping import lugre_case, stiffness_of
 
 Values = dict[str, float]
 PERIOD = 2.0 * pi / 3500.0
@@ -218,35 +220,15 @@ KAPPAS = [
 ]
 
 
-def unit_device(kappa: float, frequency: float, amplitude_ratio: float) -> Device:
-    """Model 2 of the paper with q = 1, mu = 0.4, sigma_1 = 1 at a stiffness number kappa.
-
-    In its units x0 = 1 m, w0 = 1 rad/s: one mass, driven directly, on one face.
-    """
-    friction = 0.4
-    return Device(
-        slider_mass=1.0,
-        resonator_mass=0.0,
-        base_amplitude=0.0,
-        tangential_force=frequency,
-        drive_frequency=frequency,
-        normal_amplitude=amplitude_ratio,
-        friction_coefficient=friction,
-        friction_faces=1,
-        friction_law=1,
-        bristle_stiffness=kappa * friction * frequency,
-        bristle_damping=1.0,
-        fidelity=1,
-    )
-
-
 @pytest.mark.parametrize("amplitude_ratio", [0.8, 1.6])
 @pytest.mark.parametrize("kappa", KAPPAS)
 def test_errors_of_averages_fall_with_the_frequency(kappa: float, amplitude_ratio: float) -> None:
-    """Soft to hard bristles, closed and lifting: velocity and blocking force."""
-    errors = []
+    """Soft to hard bristles, closed and lifting: velocity and blocking force of model 2."""
+    errors, case = [], LugreCase(amplitude_ratio=amplitude_ratio)
     for frequency in (1000.0, 4000.0):
-        device = unit_device(kappa, frequency, amplitude_ratio)
+        values = lugre_case(case, frequency, stiffness_of(kappa, case, frequency))
+        del values["phase"]
+        device = Device.from_mapping(values)
         averages = (
             device_average.steady_velocity(device, 1.0, 0.0, 1.0),
             device_average.blocking_force(device, 1.0, 1.0),
