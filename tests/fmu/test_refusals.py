@@ -93,6 +93,8 @@ def test_text_names_what_is_wrong_in_an_experiment(
 LUGRE = {"friction_law": 1}
 LARGEST = 1.7976931348623157e308
 TOGETHER, NEARER = "together with the other values", "must be nearer to"
+SLIP_RESONANCE = {"resonator_mass": 3.0, "resonator_frequency": 1.0, "drive_frequency": 2.0}
+"""wn^2 = (1 - r_m) w^2."""
 
 
 @pytest.mark.parametrize(
@@ -118,9 +120,14 @@ TOGETHER, NEARER = "together with the other values", "must be nearer to"
         ({"drive_frequency": 1e200, "frequency_ratio": 1e190}, NEARER),
         ({"base_amplitude": 1e160}, NEARER),
         ({"resonator_frequency": 1e170}, NEARER),
+        (
+            {"damping_ratio": 0.0, "fidelity": 1, **SLIP_RESONANCE},
+            "the steady force of the resonator",
+        ),
+        ({"friction_coefficient": 0.0, **LUGRE}, "with LuGre friction it must be"),
     ],
 )
-def test_values_that_leave_the_range_of_numbers(
+def test_values_that_together_have_no_meaning(
     instantiate: Instantiate, values: dict[str, float], said: str
 ) -> None:
     """The text names the first of them."""

@@ -55,9 +55,6 @@ BESIDE = {
 MIN_FAST_VELOCITY = 1e-4
 """Smallest fast velocity of the devices below, m/s."""
 
-SLIP_RESONANCE = {"resonator_mass": 3.0, "resonator_frequency": 1.0, "drive_frequency": 2.0}
-"""wn^2 = (1 - r_m) w^2."""
-
 Twins = tuple[Instance, Instance]
 
 
@@ -179,7 +176,7 @@ def test_coulomb_devices(
     try:
         native, python = both(twins, values, course_of(values, inputs))
     except Refusal:
-        assume(False)  # `test_refusals` compares those
+        assume(False)  # test_refusals.py compares those
     vibrates = values["resonator_mass"] or values["tangential_force"]
     averages = values["fidelity"] == 0 and vibrates
     assert differences(native, python, AVERAGES if averages else RANDOM) == []
@@ -213,28 +210,3 @@ def test_short_steps_of_order_2(
     }
     native, python = both(twins, {"fidelity": 0, **values}, schedule(0.5, 0.01, **held))
     assert differences(native, python, allowed) == []
-
-
-def refused(instance: Instance, values: Mapping[str, float]) -> str:
-    with pytest.raises(Refusal) as refusal:
-        run(instance, values, schedule(0.01, 0.001))
-    return str(refusal.value).partition(": ")[2]
-
-
-@pytest.mark.parametrize(
-    "values",
-    [
-        {**SLIP_RESONANCE, "damping_ratio": 0.0, "fidelity": 1},
-        {"friction_law": 1, "friction_coefficient": 0.0},
-        {"slider_mass": 0.0},
-        {"base_amplitude": math.nan},
-        {"drive_frequency": 1e300, "base_amplitude": 1e300},
-        {"resonator_frequency": 1e170},
-        {"friction_faces": 3},
-        {"tolerance": 0.5},
-    ],
-)
-def test_refusals(twins: Twins, values: dict[str, float]) -> None:
-    native, python = (refused(instance, values) for instance in twins)
-    assert native == python
-    assert "must be" in native
