@@ -80,26 +80,6 @@ def test_a_first_slide_is_no_reversal_whatever_the_load_was_before(
     assert instance.get("contact_mode", "reversals") == (1.0, 0.0)
 
 
-def test_turns_in_flight_are_no_reversals(instantiate: Instantiate) -> None:
-    """Sliding begins at touchdown.
-
-    Hard bristles give Coulomb friction, and bend in flight, too, whenever the slider turns. The
-    contact is open for some periods of the drive.
-    """
-    thrown = {"tangential_force": 2000.0, "base_amplitude": 0.0, "resonator_mass": 0.0}
-    flight = {"normal_amplitude": 3.0, "frequency_ratio": 0.05, "bristle_damping": 0.0}
-    found = []
-    for law in (0, 1):
-        instance = instantiate().initialize(
-            **thrown, **flight, friction_law=law, bristle_stiffness=1e7
-        )
-        instance.step(40 * 1.795195802e-3)
-        found.append(instance.get("reversals", "last_event_time"))
-    coulomb, lugre = found
-    assert lugre == pytest.approx(coulomb, rel=1e-6)
-    assert coulomb[0] == 51.0, "79 with the turns in flight"
-
-
 @pytest.mark.parametrize("preload", [0.0, 5e-324, 1e-17])
 @pytest.mark.parametrize("ratio", [1.0, -1.0, 0.75, 100.0])
 def test_friction_of_bristles_with_next_to_no_preload(
