@@ -25,23 +25,6 @@ def _mean(function: Callable[[float], float], turn: float) -> float:
     return sum(quad(function, *part, limit=200)[0] for part in pairwise(kinks)) / (2.0 * math.pi)
 
 
-@pytest.mark.parametrize(
-    ("strength", "ratio", "phase", "load"),
-    [(1.0, 1.0, 0.5, 0.0), (1.3, 0.6, 2.0, 0.2), (2.0, 0.9, -1.0, -0.4), (0.5, 0.0, 1.0, 0.7)],
-)
-def test_steady_velocity_balances_the_averaged_friction(
-    strength: float, ratio: float, phase: float, load: float
-) -> None:
-    velocity = theory.steady_velocity(strength, ratio, phase, load)
-
-    def friction(angle: float) -> float:
-        fast_velocity = velocity - strength * math.cos(angle)
-        return math.copysign(1.0, fast_velocity) * (1.0 + ratio * math.sin(angle + phase))
-
-    mean = _mean(friction, math.acos(velocity / strength))
-    assert mean == pytest.approx(-load, abs=1e-9), "(20): mean friction and load cancel"
-
-
 def test_linear_velocities_are_limits_of_small_ones() -> None:
     linear = theory.linear_velocity(1.3, 1e-3, 0.8)
     assert linear == pytest.approx(1.3e-3 * math.sin(0.8)), "(7) is q alpha sin(phase)"
