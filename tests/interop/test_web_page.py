@@ -17,8 +17,10 @@ from selenium.webdriver.support.wait import WebDriverWait
 from fmu_src.building.web_page import build_page
 from slider_resonator.commands.page import started_at
 from slider_resonator.device.device import Device
+from slider_resonator.errors import HarnessError
 from slider_resonator.scenes.device_file import example_devices, read_device_file
 from tests.fmu.host import OUTPUTS
+from tests.harness.golden import assert_mistakes_as_before
 from tests.interop.conftest import PHONE, screen
 
 pytestmark = pytest.mark.interop
@@ -89,7 +91,6 @@ return found;
 """The texts of the page, each with left, top, right and bottom [px]."""
 
 
-MASS_REFUSED = "slider_mass = -1.0 refused: must be a finite number of at least 1e-12 kg"
 UNFOLD = "document.querySelectorAll('details').forEach((d) => d.open = true)"
 
 
@@ -183,24 +184,24 @@ def test_nothing_is_loaded_and_nothing_is_complained_of(browser: Chrome, page: s
     assert browser.get_log("browser") == []
 
 
-@pytest.mark.parametrize(
-    ("settings", "said"),
-    [
-        ("slider_mass=-1", MASS_REFUSED),
-        ("t=-1", "t = -1 refused: must be above 0 and at most 3600 s"),
-        ("position=1", "position refused: must be device, t, an input or a parameter"),
-        ("device=drill", f"device = drill refused: must be one of {', '.join(EXAMPLES)}"),
-        ("phase=0.4&phase=0.5", "phase = 0.5 refused: must be given once"),
-        ("nonsense", "nonsense refused: must be device, t, an input or a parameter"),
-        ("%3Cimg%20src=x%20onerror=document.title=1%3E", "<img src refused: must be device, t, "),
-    ],
-)
-def test_a_refused_setting_is_named_as_text_and_no_number_is_shown(
-    browser: Chrome, page: str, settings: str, said: str
+def test_a_refused_setting_or_device_file_is_named(
+    browser: Chrome, page: str, tmp_path: Path
 ) -> None:
-    assert show(browser, page, settings) == {}
-    assert message(browser).startswith(said)
-    assert browser.find_elements(By.CSS_SELECTOR, "main img") == []
+    """As text; no number is shown for a setting."""
+
+    def address(file: Path) -> None:
+        assert show(browser, page, file.read_text()) == {}
+        assert browser.find_elements(By.CSS_SELECTOR, "main img") == []
+        raise HarnessError(f"{file.name}: {message(browser)}")
+
+    def device(file: Path) -> None:
+        show(browser, page)
+        browser.find_element(By.ID, "file").send_keys(str(file))
+        WebDriverWait(browser, SECONDS).until(lambda _: message(browser) != "")
+        raise HarnessError(f"{file.name}: {message(browser)}")
+
+    assert_mistakes_as_before("page_settings_mistakes.txt", tmp_path / "settings", address)
+    assert_mistakes_as_before("page_device_mistakes.txt", tmp_path / "mine.toml", device)
 
 
 def test_a_refused_address_shows_what_it_would_run_and_can_be_mended(
@@ -302,48 +303,6 @@ def test_a_saved_device_file_is_the_device_for_other_commands(
         lambda _: "friction_coefficient=0.35" in settings_of(browser)
     )
     assert results(browser) == found
-
-
-REFUSED_FILES = {
-    '[device]\nslider_mass = "5 mm"\n': (
-        "line 2: slider_mass = 5 mm refused: mm is no unit of kg that is known here; "
-        'must be a text with a unit such as "2 g"'
-    ),
-    "[device]\n# mine\nslider_mas = 5\n": (
-        "line 3: slider_mas refused: must be a parameter, such as slider_mass"
-    ),
-    "[device]\nfriction_faces = two\n": (
-        "line 2: friction_faces = two refused: must be a finite number, "
-        'or a text with a unit such as "2 %"'
-    ),
-    "[device]\nslider_mass = -1\n": MASS_REFUSED,
-    "slider_mass = 1\n[device]\n": (
-        "line 1: slider_mass refused: must be below [device], or one of name, title, description"
-    ),
-    "[wheel]\nmass = 1\n": "line 1: [wheel] refused: must be [device]",
-    "[device]\nslider_mass = 1\n\n[[expect]]\n": (
-        "the file refused: must be a device file; it is a scene: slider-resonator run FILE"
-    ),
-    "[grid]\n": (
-        "the file refused: must be a device file; it is a grid: slider-resonator sweep FILE"
-    ),
-    "[device]\nload = [1, 2]\n": (
-        'line 2: load = [1, 2] refused: must be [device], or a name = a number or "text"'
-    ),
-    "title = 'none'\n": "the file must have a table headed [device]",
-}
-
-
-@pytest.mark.parametrize(("text", "expected"), REFUSED_FILES.items())
-def test_a_device_file_is_refused_by_line_key_value_and_requirement(
-    browser: Chrome, page: str, tmp_path: Path, text: str, expected: str
-) -> None:
-    show(browser, page)
-    path = tmp_path / "mine.toml"
-    path.write_text(text)
-    browser.find_element(By.ID, "file").send_keys(str(path))
-    WebDriverWait(browser, SECONDS).until(lambda _: message(browser) != "")
-    assert message(browser) == expected
 
 
 def test_curves_are_saved_where_the_prediction_is_valid(
