@@ -3,7 +3,6 @@
 import csv
 import math
 import tomllib
-from math import pi
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +18,7 @@ from slider_resonator.sweeping.grid import Sweep, grid_from, read_grid
 from slider_resonator.sweeping.measures import Row, Run, Task
 from slider_resonator.sweeping.picture import MAX_POINTS, check_page, sweep_figure, write_sweep_page
 from slider_resonator.sweeping.table import Columns, check_writer, table_columns, write_table
-from tests.harness.golden import assert_mistakes_as_before
+from tests.harness.golden import assert_as_before, assert_mistakes_as_before
 from tests.harness.known_provenance import PROVENANCE
 from tests.html_pages import Page
 
@@ -122,56 +121,31 @@ def columns_of(sweep: Sweep, *, answered: bool = True) -> Columns:
     return table_columns(sweep.task, sweep.points, rows.values())
 
 
-def plots(path: Path, content: dict[str, Any], *, answered: bool = True) -> list[dict[str, Any]]:
-    """The data of the plots on the page of a sweep."""
-    sweep = grid_from(content, "grid.toml")
-    write_sweep_page(path, sweep, columns_of(sweep, answered=answered), PROVENANCE)
-    text = path.read_text(encoding="utf-8")
-    page = Page(text)
-    assert page.loaded == ["data:,"]
-    assert page.ids == ["provenance"]
-    assert "0123abcd" in text
-    return page.plots
+LINE = {"title": "<i>", "grid": {"phase": AXIS}}
+FEW_LINES = {"grid": {"phase": AXIS, "load": [0.0, 0.1]}}
+MAP = {"grid": {"phase": AXIS, "load": AXIS}}
+LOGARITHMIC_MAP = {"grid": {"friction_coefficient": LOGARITHMIC, "phase": AXIS}}
+SAMPLE = {"random": {"count": 9, "seed": 1, "friction_coefficient": LOGARITHMIC_RANGE}}
 
 
-def test_a_line_has_every_point_with_what_it_is(tmp_path: Path) -> None:
-    (plot,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS}, "title": "<i>"})
-    line, missing = plot["series"]
-    assert plot["x"]["label"] == "phase [deg]"
-    assert plot["y"]["label"] == "steady velocity [m/s]"
-    assert line["y"] == [-3.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.0]
-    assert line["notes"][0] == "steady velocity [m/s]: -3\nsteady"
-    assert missing["x"] == [pytest.approx(180.0 / pi / 7.0)]
-    assert missing["y"] == [None]
-    assert missing["notes"] == ["no answer\n<refused>"]
+def test_plots_of_pages(tmp_path: Path) -> None:
+    """Every point with what it is; few values are lines that differ, and many are cells."""
+    said, page = [], tmp_path / "a.html"
+    for content in (LINE, FEW_LINES, MAP, LOGARITHMIC_MAP, SAMPLE, None):
+        sweep = grid_from(content or MAP, "grid.toml")
+        columns = columns_of(sweep, answered=content is not None)
+        write_sweep_page(page, sweep, columns, PROVENANCE)
+        read = Page.read(page)
+        assert (read.loaded, read.ids) == (["data:,"], ["provenance"])
+        (plot,) = read.plots
+        shown = [f"{key}: {value}" for one in plot.pop("series") for key, value in one.items()]
+        said += [f"{content or 'nothing has an answer'}\n", f"{plot}\n"]
+        said += [f"    {line}\n" for line in shown]
+    assert_as_before("sweep_plots.txt", "".join(said))
 
 
-def test_few_values_are_lines_that_differ_and_many_are_cells(tmp_path: Path) -> None:
-    (lines,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS, "load": [0.0, 0.1]}})
-    drawn = [one for one in lines["series"] if one["width"] > 0]
-    assert [one["label"] for one in drawn] == ["load 0 mN", "load 100 mN"]
-    assert drawn[0]["colour"] != drawn[1]["colour"]
-    assert drawn[0]["marker"] != drawn[1]["marker"]
-    (cells,) = plots(tmp_path / "a.html", {"grid": {"phase": AXIS, "load": AXIS}})
-    assert cells["series"][0]["cells"]
-    assert len(cells["series"][0]["colours"]) == 63
-    assert cells["y"]["label"] == "load [N]"
-
-
-def test_axes_are_logarithmic_where_the_grid_is(tmp_path: Path) -> None:
-    grid = {"friction_coefficient": LOGARITHMIC, "phase": AXIS}
-    (plot,) = plots(tmp_path / "a.html", {"grid": grid})
-    assert (plot["x"]["log"], plot["y"]["log"]) == (True, False)
-    content = {"random": {"count": 9, "seed": 1, "friction_coefficient": LOGARITHMIC_RANGE}}
-    (plot,) = plots(tmp_path / "a.html", content)
-    assert plot["x"]["log"]
-
-
-def test_a_sweep_without_any_answer_is_drawn_and_says_so(tmp_path: Path) -> None:
-    content = {"grid": {"phase": AXIS, "load": AXIS}}
-    (plot,) = plots(tmp_path / "a.html", content, answered=False)
-    assert [one["label"] for one in plot["series"]] == ["steady velocity: no answer"]
-    sweep = grid_from(content, "grid.toml")
+def test_a_sweep_without_any_answer_is_drawn_and_says_so() -> None:
+    sweep = grid_from(MAP, "grid.toml")
     (axes,) = sweep_figure(sweep, columns_of(sweep, answered=False)).axes
     assert axes.get_legend_handles_labels()[1] == ["steady velocity: no answer"]
     assert axes.get_legend() is not None
@@ -186,9 +160,9 @@ def test_too_many_points_are_refused() -> None:
 @pytest.mark.parametrize(
     ("content", "drawn"),
     [
-        ({"grid": {"phase": AXIS}}, Line2D),
-        ({"grid": {"phase": AXIS, "load": [0.0, 0.1]}}, Line2D),
-        ({"grid": {"phase": AXIS, "load": AXIS}}, QuadMesh),
+        (LINE, Line2D),
+        (FEW_LINES, Line2D),
+        (MAP, QuadMesh),
         ({"list": {"phase": [0.0, 0.1], "load": [0.0, 0.1]}}, PathCollection),
     ],
 )
