@@ -26,11 +26,10 @@ from slider_resonator.trading.result import (
     comparisons,
     duration,
     front,
-    sentence,
     standings,
     write_choices,
 )
-from tests.harness.golden import assert_page_as_before
+from tests.harness.golden import assert_as_before, assert_page_as_before
 from tests.harness.known_provenance import PROVENANCE
 
 
@@ -67,29 +66,6 @@ def test_the_cheapest_that_is_exact_enough() -> None:
     assert cheapest(rows, "position", 1e-9) is rows[1]
     assert cheapest(rows, "position", 1e-13) is None
     assert cheapest(rows, "velocity", 1.0) is None, "none of them has a velocity"
-
-
-def test_classes_are_compared_where_they_reach_the_error() -> None:
-    rows = (
-        row(1e-5, 1e-3, AVERAGED, "mean_velocity"),
-        row(3e-4, 1e-13, RESOLVED, "mean_velocity"),
-        row(6e-3, 1e-10, PEER, "mean_velocity"),
-        row(1e-5, 1e-3, AVERAGED),
-        row(3e-4, 1e-13, RESOLVED),
-        row(6e-3, 1e-8, PEER),
-    )
-    trade = Trade("s", "S", 0, 10, 1.0, rows, ())
-    reported = {(s.quantity, s.kind): s for s in standings(trade)}
-    assert reported["mean_velocity", AVERAGED].ratio == pytest.approx((1 / 30,) * 3)
-    assert reported["mean_velocity", PEER].ratio == pytest.approx((20.0,) * 3)
-    assert sentence(reported["position", AVERAGED]) == "averages and leaps: not reached"
-    assert sentence(reported["position", PEER]) == "peers: not reached"
-    assert sentence(reported["position", RESOLVED]).startswith("resolved: 300 us a simulated")
-    assert "20 times the cost of resolved" in sentence(reported["mean_velocity", PEER])
-    assert "30 times cheaper than resolved" in sentence(reported["mean_velocity", AVERAGED])
-    mean, exact = (target for target, _ in comparisons(trade))
-    assert mean == "at an error of 1 % in mean velocity"
-    assert exact == "at an error of 1e-09 in position"
 
 
 def test_another_friction_law_is_no_candidate() -> None:
@@ -131,20 +107,24 @@ TRADE = Trade(
 )
 
 
-def test_the_native_fmu_decides_the_model() -> None:
-    found = {row[:2]: row for row in choices(TRADE)}
-    assert found["position", "1e-02"] == (
-        *("position", "1e-02", "fidelity 0, steps of 10 periods", "3e-03", "20 us / s"),
-        *("not reached", "4 ms / s (heyoka, tol 1e-06)"),
-    )
-    assert found["position", "1e-09"] == (
-        *("position", "1e-09", "fidelity 2, steps of 10 periods", "1e-13", "300 us / s"),
-        *("10 ms / s", "not reached"),
-    )
-    assert {quantity for quantity, _ in found} == {"position"}, "the scene has nothing else"
+COMPARED = (
+    row(1e-5, 1e-3, AVERAGED, "mean_velocity"),
+    row(3e-4, 1e-13, RESOLVED, "mean_velocity"),
+    row(6e-3, 1e-10, PEER, "mean_velocity"),
+    row(1e-5, 1e-3, AVERAGED),
+    row(3e-4, 1e-13, RESOLVED),
+    row(6e-3, 1e-8, PEER),
+)
 
 
-def test_an_fmu_of_fmi_3_that_is_cheaper_changes_nothing() -> None:
+def test_classes_are_compared_and_the_native_fmu_decides_the_model() -> None:
+    """Where they reach an error. A cheaper FMU of FMI 3.0 changes nothing."""
+    compared = comparisons(replace(TRADE, rows=COMPARED))
+    said = [f"{target}: {words}\n" for target, sentences in compared for words in sentences]
+    rough = replace(TRADE, rows=TRADE.rows[:1])
+    for title, trade in (("Choices", TRADE), ("A need that no method meets", rough)):
+        said += [f"{title}\n", *(f"{' | '.join(one)}\n" for one in choices(trade))]
+    assert_as_before("trade_choices.txt", "".join(said))
     fmi3 = row(1e-5, 1e-13, family="native SliderResonator3.fmu FMU, fidelity 2")
     assert choices(replace(TRADE, rows=(*TRADE.rows, fmi3))) == choices(TRADE)
 
@@ -191,9 +171,3 @@ def test_a_page_stands_alone(tmp_path: Path) -> None:
 def test_the_picture_is_drawn_where_a_quantity_is_missing_too(tmp_path: Path) -> None:
     draw_picture(TRADE, tmp_path / "trade.png")
     assert (tmp_path / "trade.png").read_bytes().startswith(b"\x89PNG")
-
-
-def test_a_need_that_no_method_meets_is_shown() -> None:
-    rough = replace(TRADE, rows=TRADE.rows[:1])
-    (_, _, exact) = choices(rough)
-    assert exact[2:] == ("none", "", "not reached", "not reached", "not reached")
