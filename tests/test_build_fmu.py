@@ -140,24 +140,6 @@ def test_variables_are_those_of_the_table(fmu: Path) -> None:
     assert first == (2 if fmu.stem == "SliderResonator3" else 0)
 
 
-@every_fmu
-def test_dependencies_are_those_of_the_table(fmu: Path) -> None:
-    table = TABLES.get(fmu.stem, VARIABLES)
-    outputs = {v.name: v for v in table if v.causality == "output"}
-    description = read_model_description(str(fmu))
-    for unknowns, attribute in (
-        (description.outputs, "depends_on"),
-        (description.initialUnknowns, "depends_initially_on"),
-    ):
-        assert [u.variable.name for u in unknowns] == list(outputs), "each output once"
-        for unknown in unknowns:
-            name, found = unknown.variable.name, [v.name for v in unknown.dependencies]
-            assert set(found) == set(getattr(outputs[name], attribute)), name
-            assert set(found).isdisjoint(outputs), "on no other output"
-            assert set(unknown.dependenciesKind) <= {"dependent"}, name
-            assert len(unknown.dependenciesKind) == len(found), f"{name}: one kind for each"
-
-
 def test_only_the_velocity_error_of_the_controller_depends_on_inputs() -> None:
     depends = {v.name: v.depends_on for v in CONTROLLER if v.causality == "output" and v.depends_on}
     assert depends == {"velocity_error": ("velocity_reference", "measured_velocity")}, (

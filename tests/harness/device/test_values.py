@@ -1,6 +1,5 @@
 """Values of variables, and signals and schedules of inputs."""
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 from math import inf, nan, pi
@@ -90,15 +89,6 @@ REAL = [name for name in sorted(PARAMETERS) if VARIABLES[name].kind == "Real"]
 @given(st.sampled_from(REAL), st.floats(1e-9, 1e9))
 def test_what_is_shown_is_read_back(name: str, value: float) -> None:
     assert VARIABLES[name].in_si(VARIABLES[name].shown(value)) == pytest.approx(value, rel=1e-5)
-
-
-def test_starts_are_table_1() -> None:
-    device = Device()
-    assert device.mass_ratio == pytest.approx(1.0 / 11.0), "r_m = m / (m + M) of table 1"
-    natural = math.sqrt(device.stiffness / device.resonator_mass)
-    assert natural == pytest.approx(3500.0), "table 1 gives (k/m)^(1/2) = 3500 rad/s"
-    factor = 0.5 * device.damping / math.sqrt(device.stiffness * device.resonator_mass)
-    assert factor == pytest.approx(0.05), "table 1 gives 0.5 c / (k m)^(1/2) = 0.05"
 
 
 def test_fmu_has_this_interface_and_these_starts(fmu: Fmu) -> None:

@@ -21,7 +21,7 @@ from slider_resonator.fmu.interface_check import (
     unit_problems,
 )
 from slider_resonator.fmu.opening import Fmu, open_fmu
-from tests.fmus import both_fmus
+from tests.fmus import every_slider
 from tests.harness import faulty_fmus
 from tests.harness.faulty_fmus import altered, redescribed
 from tests.harness.golden import assert_as_before
@@ -191,7 +191,7 @@ CHANGES = {
 """A place of the description and what to put there, by what is wrong then."""
 
 
-@both_fmus
+@every_slider
 def test_the_builds_say_what_the_interface_says(fmu: Fmu) -> None:
     assert interface_problems(fmu.description) == []
     assert description_faults(fmu.description) == []
