@@ -15,12 +15,14 @@ from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.finished import COMMANDS_LOOK_IN, FMUS, finished_path
 from slider_resonator.fmu.opening import check_unpacked_size
 from slider_resonator.fmu.provenance import provenance_of
+from slider_resonator.output import markdown
 from slider_resonator.output.console import noting_on_interrupt, print_json, print_table, print_text
+from slider_resonator.output.files import write_marked
 from slider_resonator.output.progress import counted, progress_bar
 from slider_resonator.output.table import Table, texts, verdict
 from studies.hosts.hosts import OWN_ENVIRONMENTS, Host, hosts
 from studies.hosts.runs import ALLOWED, TIME_LIMIT, HostResult, run_host
-from studies.hosts.table import host_table, write_table
+from studies.hosts.table import BEGIN, END, host_table
 
 NAMES = [host.name for host in hosts()]
 
@@ -107,7 +109,7 @@ def hosts_command(
     for host, reason in missing.items():
         print_text(f"not run: {host.name}: {reason}", err=True)
     if out is not None:
-        write_table(out, host_table(results))
+        write_marked(out, markdown.rendered(host_table(results)), BEGIN, END)
     if as_json:
         print_json([_entry(result) for result in results], provenance)
     else:

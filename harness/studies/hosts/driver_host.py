@@ -7,7 +7,6 @@ import subprocess
 import tempfile
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -21,17 +20,11 @@ BINARY = {
 }
 
 
-@dataclass(frozen=True)
-class DriverFiles:
-    """The files of a driver's standard input, output and error."""
+SCRIPT, PRINTED, ERRORS = "script", "printed", "errors"
+"""Files of a driver's standard input, output and error."""
 
-    script: Path
-    printed: Path
-    errors: Path
-
-
-Execute = Callable[[Sequence[str], DriverFiles], str]
-"""Runs a driver and returns how it ended, such as "ended with 0"."""
+Execute = Callable[[Sequence[str], Path], str]
+"""Runs a driver on these files of a folder; returns how it ended, such as "ended with 0"."""
 
 
 def run(job: Job) -> Rows:
@@ -45,13 +38,13 @@ def run_natively(fmu: Path, script: str, execute: Execute | None = None) -> Rows
     return run_driver(fmu, script, command, *binary, str, execute or execute_directly)
 
 
-def execute_directly(command: Sequence[str], files: DriverFiles) -> str:
+def execute_directly(command: Sequence[str], folder: Path) -> str:
     """Run a driver without a time limit."""
     # Files, not pipes: Wine's server keeps what it inherits open long after the driver's end.
     with (
-        files.script.open() as stdin,
-        files.printed.open("w") as stdout,
-        files.errors.open("w") as stderr,
+        (folder / SCRIPT).open() as stdin,
+        (folder / PRINTED).open("w") as stdout,
+        (folder / ERRORS).open("w") as stderr,
     ):
         done = subprocess.run(command, stdin=stdin, stdout=stdout, stderr=stderr, check=False)
     return f"ended with {done.returncode}"
@@ -78,15 +71,14 @@ def run_driver(
             archive.extractall(unpacked)
         library = unpacked / "binaries" / folder / f"{description.identifier}{suffix}"
         arguments = [path_for_driver(library), description.guid, (unpacked / "resources").as_uri()]
-        files = DriverFiles(*(unpacked / name for name in ("script", "printed", "errors")))
-        files.script.write_text(script)
-        ended = execute([*command, *arguments], files)
+        (unpacked / SCRIPT).write_text(script)
+        ended = execute([*command, *arguments], unpacked)
         if ended != "ended with 0":
-            problem = files.errors.read_text(errors="replace").strip()
+            problem = (unpacked / ERRORS).read_text(errors="replace").strip()
             raise RuntimeError(f"the driver {ended}: {problem}")
         return [
             [float(value) for value in line.split()]
-            for line in files.printed.read_text().splitlines()
+            for line in (unpacked / PRINTED).read_text().splitlines()
         ]
 
 

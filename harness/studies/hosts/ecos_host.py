@@ -2,7 +2,9 @@
 
 import ctypes
 import sys
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from studies.hosts.job import Job, Rows, serve
 
@@ -31,14 +33,22 @@ def run(job: Job) -> Rows:
         with EcosSimulation(step_size=job.step, structure=structure) as simulation:
             if not simulation.init(parameter_set="start"):
                 raise RuntimeError("ecos could not initialise the FMU")
-            rows = []
-            for index in range(job.steps):
-                for name, held in job.inputs.items():
-                    simulation.set_real(f"{SLIDER}::{name}", held[index])
-                simulation.step()
-                rows.append([simulation.get_real(f"{SLIDER}::{name}") for name in job.outputs])
-            simulation.terminate()
-            return rows
+            inputs, outputs = (
+                [f"{SLIDER}::{name}" for name in names] for names in (job.inputs, job.outputs)
+            )
+            return stepped(simulation, job, inputs, outputs)
+
+
+def stepped(simulation: Any, job: Job, inputs: Sequence[str], outputs: Sequence[str]) -> Rows:
+    """Take the steps of a job and end; `inputs` and `outputs` are in the order of the job's."""
+    rows = []
+    for index in range(job.steps):
+        for name, held in zip(inputs, job.inputs.values(), strict=True):
+            simulation.set_real(name, held[index])
+        simulation.step()
+        rows.append([simulation.get_real(name) for name in outputs])
+    simulation.terminate()
+    return rows
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """ecos with an SSP package; what comes from outside is set in the components, by name."""
 
-from studies.hosts.ecos_host import preload_tbb
+from studies.hosts.ecos_host import preload_tbb, stepped
 from studies.hosts.job import Job, Rows, serve
 from studies.hosts.ssp_package import system_inputs
 
@@ -11,7 +11,7 @@ def run(job: Job) -> Rows:
     from ecospy import EcosSimulation
 
     entries = system_inputs(job.fmu)
-    inputs = [(_identifier(entries[name]), values) for name, values in job.inputs.items()]
+    inputs = [_identifier(entries[name]) for name in job.inputs]
     outputs = [_identifier(name) for name in job.outputs]
     with EcosSimulation(step_size=job.step, ssp_path=job.fmu) as simulation:
         for name, value in job.start.items():
@@ -21,14 +21,7 @@ def run(job: Job) -> Rows:
                 simulation.set_real(_identifier(name), value)
         if not simulation.init():
             raise RuntimeError("ecos could not initialise the package")
-        rows = []
-        for index in range(job.steps):
-            for name, held in inputs:
-                simulation.set_real(name, held[index])
-            simulation.step()
-            rows.append([simulation.get_real(name) for name in outputs])
-        simulation.terminate()
-        return rows
+        return stepped(simulation, job, inputs, outputs)
 
 
 def _identifier(name: str) -> str:

@@ -8,7 +8,7 @@ from statistics import median
 
 from slider_resonator.errors import FmuError
 from slider_resonator.output.progress import Progress, counted
-from studies.hosts.driver_host import DriverFiles, initialised, run_natively
+from studies.hosts.driver_host import ERRORS, PRINTED, SCRIPT, initialised, run_natively
 from studies.hosts.job import describe
 from studies.hosts.program import run_program
 
@@ -100,9 +100,8 @@ def measure_steps(
 def _microseconds(fmu: Path, step: Step, time_limit: float) -> float:
     """Return what a step costs in the driver, which is supervised: the median of its runs."""
 
-    def execute(command: Sequence[str], files: DriverFiles) -> str:
-        folder = files.script.parent
-        given, printed, errors = files.script, files.printed, files.errors
+    def execute(command: Sequence[str], folder: Path) -> str:
+        given, printed, errors = (folder / name for name in (SCRIPT, PRINTED, ERRORS))
         return run_program(command, folder, printed, time_limit, script=given, errors=errors)
 
     try:

@@ -1,10 +1,7 @@
 """The host table: Markdown that a page holds between two marks."""
 
 from collections.abc import Sequence
-from pathlib import Path
 
-from slider_resonator.output import markdown
-from slider_resonator.output.files import write_marked
 from slider_resonator.output.table import Cell, Row, Style, Table, numbers, texts
 from studies.hosts.runs import CASES, HostComparison, HostResult
 
@@ -19,11 +16,6 @@ def host_table(results: Sequence[HostResult]) -> Table:
         for result in results
     ]
     return Table(COLUMNS, rows)
-
-
-def write_table(path: Path, table: Table) -> None:
-    """Write the table to `path`, between the marks if the file has them, as `write_marked`."""
-    write_marked(path, markdown.rendered(table), BEGIN, END)
 
 
 def _cell(comparison: HostComparison) -> Cell:
