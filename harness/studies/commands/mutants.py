@@ -23,12 +23,11 @@ from slider_resonator.output.progress import progress_bar
 from slider_resonator.scenes.scene_files import find_scenes
 from studies.mutants.archive import read_python_fmu
 from studies.mutants.bench import TIME_LIMIT, Judging
-from studies.mutants.changes import Change, hand_written_faults, harmless_variants
+from studies.mutants.changes import Change, hand_written_changes
 from studies.mutants.enumerate_fmu import fmu_mutants, sample
 from studies.mutants.listing import (
-    change_as_plain,
+    as_plain,
     changes_as_plain,
-    mutant_as_plain,
     mutants_as_plain,
     print_run,
     print_variants,
@@ -138,7 +137,7 @@ def mutants_command(
     judge: Callable[[Judging], MutationRun[Any]]
     if native:
         changes = sample(_changes(files), count, seed)
-        listed = {"changes": [change_as_plain(change) for change in changes]}
+        listed = {"changes": [as_plain(change) for change in changes]}
         judge, min_rate = partial(run_changes, path, changes), MIN_NATIVE_RATE
     else:
         original = read_python_fmu(path)
@@ -147,7 +146,7 @@ def mutants_command(
             asked = ", ".join([*files, *kinds])
             raise HarnessError(f"{path}: nothing to change: no mutant is of {asked}")
         mutants = sample(made, count, seed)
-        listed = {"mutants": [mutant_as_plain(mutant) for mutant in mutants]}
+        listed = {"mutants": [as_plain(mutant) for mutant in mutants]}
         judge, min_rate = partial(run_mutants, path, original, mutants, len(made)), MIN_RATE
     if only_list:
         if as_json:
@@ -176,7 +175,7 @@ def _kept(journal: Path | None) -> str:
 
 def _changes(files: tuple[str, ...]) -> list[Change]:
     """Return the changes of some files, with or without folder; HarnessError for an unknown one."""
-    made = [*hand_written_faults(), *harmless_variants()]
+    made = hand_written_changes()
     known = sorted({PurePosixPath(change.file).name for change in made})
     for file in files:
         if not any(PurePosixPath(change.file).match(file) for change in made):

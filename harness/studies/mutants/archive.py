@@ -21,7 +21,8 @@ class PythonFmu:
     @property
     def modules(self) -> dict[str, str]:
         """The source of each module of the package, by file name in alphabetical order."""
-        paths = sorted(path for path in self.files if self._is_module(path))
+        pattern = self.path_of("*.py")
+        paths = sorted(path for path in self.files if PurePosixPath(path).match(pattern))
         return {PurePosixPath(path).name: self.text(path) for path in paths}
 
     def path_of(self, module: str) -> str:
@@ -38,9 +39,6 @@ class PythonFmu:
         with zipfile.ZipFile(out, "w") as archive:  # stored: it is unpacked again at once
             for path, data in content.items():
                 archive.writestr(path, data)
-
-    def _is_module(self, path: str) -> bool:
-        return str(PurePosixPath(path).parent) == self.package and path.endswith(".py")
 
 
 def files_in(path: Path) -> dict[str, bytes]:

@@ -54,7 +54,11 @@ def bench_of(fmu: Path, judging: Judging) -> list[BenchPoint]:
             rejection = not_run(at, outcome)
             if rejection is None and at is not None:
                 measured, cost = outcome.value
-                point = _completed(at, expected, measured, cost)
+                values = expected.at(at)
+                for error in values:
+                    if isinstance(error, SceneError):
+                        raise error
+                point = replace(at, expected=tuple(values), original=measured, cost=cost)
                 rejection = first_failure(point, measured)
                 bench.append(point)
                 label = counted(f"{point_name(point)} unchanged", len(bench) - 1, len(points))
@@ -67,16 +71,6 @@ def bench_of(fmu: Path, judging: Judging) -> list[BenchPoint]:
 def _timed(side: FmuSide) -> tuple[tuple[Measurement, ...], float]:
     began = time.process_time()
     return measure_all(side), time.process_time() - began
-
-
-def _completed(
-    point: BenchPoint, expected: ExpectedValues, measured: tuple[Measurement, ...], cost: float
-) -> BenchPoint:
-    values = expected.at(point)
-    for value in values:
-        if isinstance(value, SceneError):
-            raise value
-    return replace(point, expected=tuple(values), original=measured, cost=cost)
 
 
 def _rejected_unchanged(fmu: Path, rejection: Rejection) -> FmuError:

@@ -50,18 +50,17 @@ class Change:
         return text.replace(self.old, self.new)
 
 
-def hand_written_faults() -> list[Change]:
-    """Return the faults, in the order of their file."""
-    return _read("faults.toml", harmless=False)
+def hand_written_changes() -> list[Change]:
+    """Return the faults, then the harmless variants, in the order of their files."""
+    folder = resources.files(__package__)
+    return [
+        *changes_in((folder / "faults.toml").read_text(encoding="utf-8")),
+        *changes_in((folder / "variants.toml").read_text(encoding="utf-8"), harmless=True),
+    ]
 
 
-def harmless_variants() -> list[Change]:
-    """Return the variants, in the order of their file."""
-    return _read("variants.toml", harmless=True)
-
-
-def _read(name: str, *, harmless: bool) -> list[Change]:
-    text = (resources.files(__package__) / name).read_text(encoding="utf-8")
+def changes_in(text: str, *, harmless: bool = False) -> list[Change]:
+    """Return the changes in a TOML text: tables of names below those of files."""
     return [
         Change(name, file, entry["old"], entry["new"], entry["what"], harmless)
         for file, entries in tomllib.loads(text).items()

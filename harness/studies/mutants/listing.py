@@ -69,7 +69,7 @@ def mutants_as_plain(run: MutationRun[Mutant]) -> dict[str, Any]:
         "rejections": dict(run.rejections()),
         "wall_time": run.wall_time,
         "mutants": [
-            mutant_as_plain(verdict.variant) | {"status": verdict.status} | _rejection(verdict)
+            as_plain(verdict.variant) | {"status": verdict.status} | _rejection(verdict)
             for verdict in run.verdicts
         ],
     }
@@ -83,22 +83,18 @@ def changes_as_plain(run: MutationRun[Change]) -> dict[str, Any]:
         "false_alarms": len(run.false_alarms),
         "wall_time": run.wall_time,
         "changes": [
-            change_as_plain(verdict.variant) | {"rejected": verdict.rejected} | _rejection(verdict)
+            as_plain(verdict.variant) | {"rejected": verdict.rejected} | _rejection(verdict)
             for verdict in (*run.verdicts, *run.harmless)
         ],
     }
 
 
-def mutant_as_plain(mutant: Mutant) -> dict[str, Any]:
-    """Return the identity of a mutant and its diff."""
-    names = ("name", "file", "line", "column", "kind", "change", "diff")
-    return {name: getattr(mutant, name) for name in names}
-
-
-def change_as_plain(change: Change) -> dict[str, Any]:
-    """Return a change of the C sources, with its texts."""
-    names = ("name", "file", "old", "new", "meaning", "harmless")
-    return {name: getattr(change, name) for name in names}
+def as_plain(variant: Mutant | Change) -> dict[str, Any]:
+    """Return what identifies a variant, with its diff or its texts."""
+    own: tuple[str, ...] = ("line", "column", "kind", "change", "diff")
+    if isinstance(variant, Change):
+        own = ("old", "new", "meaning", "harmless")
+    return {name: getattr(variant, name) for name in ("name", "file", *own)}
 
 
 def tally(key: str, counts: Mapping[str, Mapping[str, int]]) -> Table:

@@ -20,7 +20,7 @@ from slider_resonator.fmu.instance import Instance, instantiate
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.scenes.scene_files import find_scene
 from studies.mutants.bench import Judging
-from studies.mutants.changes import Change
+from studies.mutants.changes import changes_in
 from studies.mutants.runs import run_changes
 from tests.harness.scene_text import scene_of
 
@@ -91,19 +91,15 @@ def test_status_that_ends_a_run_is_a_fault(function: str, number: int, status: s
     assert trial.faults == [f"a step gives {status}, at which hosts end a run"]
 
 
-FAULTS = tomllib.loads(Path(__file__).with_name("fmi3_faults.toml").read_text(encoding="utf-8"))
+FAULTS = Path(__file__).with_name("fmi3_faults.toml").read_text(encoding="utf-8")
 
 
 @pytest.mark.isolated
 @pytest.mark.slow
 def test_faults_of_fmi_3_are_rejected(native_3_fmu: Path) -> None:
-    changes, noticed = [], {}
-    for file, entries in FAULTS.items():
-        for name, entry in entries.items():
-            changes.append(Change(name, file, entry["old"], entry["new"], entry["what"]))
-            if "quantity" in entry:
-                noticed[name] = entry["quantity"]
-    run = run_changes(native_3_fmu, changes, Judging([find_scene("interface")]))
+    run = run_changes(native_3_fmu, changes_in(FAULTS), Judging([find_scene("interface")]))
     assert [verdict.variant.meaning for verdict in run.survivors] == []
     found = {verdict.variant.name: verdict.quantity for verdict in run.verdicts}
+    entries = {n: entry for table in tomllib.loads(FAULTS).values() for n, entry in table.items()}
+    noticed = {name: e["quantity"] for name, e in entries.items() if "quantity" in e}
     assert {name: found[name] for name in noticed} == noticed
