@@ -49,12 +49,8 @@ class Agreement:
     passed: bool
 
 
-def judge_intervals(record: LoopRecord, duty: Duty) -> list[IntervalResult]:
-    """Judge one record, load by load."""
-    return [_held(record, duty, interval) for interval in duty.intervals]
-
-
-def _held(record: LoopRecord, duty: Duty, interval: LoadInterval) -> IntervalResult:
+def judge_interval(record: LoopRecord, duty: Duty, interval: LoadInterval) -> IntervalResult:
+    """Judge one record under one load."""
     inside = _inside(record.times, duty, interval)
     since = record.times[inside] - interval.start
     deviation = np.abs(record.velocity[inside] / duty.reference - 1.0)

@@ -56,7 +56,12 @@ def run_loop(
     """
     host.version()
     jobs = [_job(package, name, duty) for name in (DESIGN, PROOF)]
-    _check_structures(package)
+    with zipfile.ZipFile(package) as archive:
+        if WITH_CONNECTORS not in archive.namelist():
+            raise HarnessError(
+                f"{package}: has no {WITH_CONNECTORS}, the structure with system inputs; "
+                "must be a package of version 0.2.0 or later: `make build` builds one"
+            )
     records = []
     for job, answer in zip(jobs, run_jobs(host, jobs, time_limit), strict=True):
         if answer.error is not None:
@@ -73,15 +78,6 @@ def run_loop(
         load = np.array([duty.load(time - late) for time in duty.times])
         records.append(LoopRecord(host.name, fidelity, times, rows[:, 0], rows[:, 1], load))
     return records[0], records[1]
-
-
-def _check_structures(package: Path) -> None:
-    with zipfile.ZipFile(package) as archive:
-        if WITH_CONNECTORS not in archive.namelist():
-            raise HarnessError(
-                f"{package}: has no {WITH_CONNECTORS}, the structure with system inputs; "
-                "must be a package of version 0.2.0 or later: `make build` builds one"
-            )
 
 
 def _job(package: Path, name: str, duty: Duty) -> Job:

@@ -45,7 +45,7 @@ def predicted_errors(
         largest: list[float | None] = []
         for index, interval in enumerate(duty.load_steps):
             found = [
-                _error(slider, _scene(design, duty, device, stop))
+                slider.run(partial(_error, scene=_scene(design, duty, device, stop)))
                 for stop in _instants(duty, interval)
             ]
             progress((index + 1) / len(duty.load_steps))
@@ -68,21 +68,19 @@ def _device(package: Path) -> dict[str, float]:
     return {n.removeprefix("slider."): v for n, v in values.items() if n.startswith("slider.")}
 
 
-def _error(slider: IsolatedFmu, scene: Scene) -> float | None:
-    """Return the error (m/s) of averaged motion in a scene, None above the allowed one."""
-    error, allowed = slider.run(partial(_probed, scene=scene))
-    return error if error <= allowed else None
+def _error(instance: Instance, scene: Scene) -> float | None:
+    """Return the error (m/s) of averaged motion in a scene, None above the allowed one.
 
-
-def _probed(instance: Instance, scene: Scene) -> tuple[float, float]:
-    """Return error and allowed error (m/s) of averaged motion of the order of the device."""
+    Its order is that of the device.
+    """
     assert scene.need is not None
     device = scene.device
     order = device.averaging_order if instance.fmu.has_orders else None
     model = Model(0, device.friction_law, order)
     candidate = Candidate(model, START_TOLERANCE, scene.step_size)
     found = Probe(instance, scene).measure(candidate)[0]["mean_velocity"]
-    return found.error, scene.need.needs["mean_velocity"].at(found.magnitude)
+    allowed = scene.need.needs["mean_velocity"].at(found.magnitude)
+    return found.error if found.error <= allowed else None
 
 
 def _scene(design: LoopRecord, duty: Duty, device: Mapping[str, float], stop: int) -> Scene:

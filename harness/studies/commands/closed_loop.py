@@ -18,7 +18,7 @@ from slider_resonator.output.progress import counted, part_of, progress_bar
 from slider_resonator.output.readable import one_line
 from slider_resonator.output.table import Row, Table, numbers, texts, verdict
 from studies.closed_loop.duty import Duty
-from studies.closed_loop.judge import Agreement, IntervalResult, judge_agreement, judge_intervals
+from studies.closed_loop.judge import Agreement, IntervalResult, judge_agreement, judge_interval
 from studies.closed_loop.loop import HOSTS, LoopRecord, run_loop
 from studies.closed_loop.picture import draw_loop
 from studies.closed_loop.prediction import predicted_errors
@@ -89,7 +89,7 @@ def closed_loop_command(
             share(0.0)
             design, proof = run_loop(package, host, duty, time_limit)
             records += [design, proof]
-            held += [*judge_intervals(design, duty), *judge_intervals(proof, duty)]
+            held += [judge_interval(r, duty, i) for r in (design, proof) for i in duty.intervals]
             predicted = predicted_errors(package, design, duty, share, time_limit)
             agreements += judge_agreement(design, proof, duty, predicted)
     title = f"Velocity held by moving the phase: {package.name} in {hosts[0].name}"

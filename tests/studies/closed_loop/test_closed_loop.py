@@ -8,7 +8,7 @@ import pytest
 
 from slider_resonator.errors import HarnessError
 from studies.closed_loop.duty import Duty
-from studies.closed_loop.judge import judge_agreement, judge_intervals
+from studies.closed_loop.judge import judge_agreement, judge_interval
 from studies.closed_loop.loop import HOSTS, LoopRecord, run_loop
 from studies.closed_loop.prediction import predicted_errors
 from tests.harness.faulty_fmus import altered
@@ -36,7 +36,8 @@ def decaying(rate: float) -> np.ndarray:
 
 
 def test_a_velocity_that_settles_in_time_is_held() -> None:
-    for held in judge_intervals(record(decaying(5.0)), DUTY):
+    for interval in DUTY.intervals:
+        held = judge_interval(record(decaying(5.0)), DUTY, interval)
         assert held.passed
         assert held.settled == pytest.approx(np.log(5.0) / 5.0, abs=0.01)
         assert held.largest == pytest.approx(0.1 * np.exp(-0.05))
