@@ -22,8 +22,6 @@ HEAD = (
 _UNITS = {"_m_per_s": "m/s", "_N": "N", "_rad": "rad", "_um": "um", "_hertz": "Hz"}
 """How the name of a number ends, and its unit."""
 
-_CLAIM_COLUMNS = texts("statement", "where", "measured", "verdict", "why")
-
 
 def write_figures(folder: Path, figures: Iterable[PaperFigure], provenance: Provenance) -> None:
     """Write FIGURES.md with the caption of each figure; HarnessError when it cannot be written."""
@@ -73,8 +71,7 @@ def write_claims(
     lines = ["# Statements of the paper, and what was measured", "", _origin(provenance)]
     lines += [verdicts(claims), ""]
     for title, group in groups:
-        table = Table(_CLAIM_COLUMNS, [_claim_row(claim) for claim in group])
-        lines += [f"## {title}", "", markdown.rendered(table), ""]
+        lines += [f"## {title}", "", markdown.rendered(_claim_table(group)), ""]
     write_text(folder / "claims.md", "\n".join(lines))
 
 
@@ -95,8 +92,7 @@ def write_index(
     if claims:
         parts.append(f"<h2>Statements of the paper</h2><p>{text(verdicts(claims))}</p>")
     for title, group in groups:
-        table = Table(_CLAIM_COLUMNS, [_claim_row(claim) for claim in group])
-        parts.append(f"<h3>{text(title)}</h3>{html_page.rendered(table)}")
+        parts.append(f"<h3>{text(title)}</h3>{html_page.rendered(_claim_table(group))}")
     for figure in figures:
         name, title = text(figure.name), text(figure.title)
         parts.append(
@@ -104,11 +100,9 @@ def write_index(
             f'<img src="{name}.png" alt="{title}"></a><p>{text(figure.caption)}</p>'
         )
     for shown, data in tables:
-        rendered = html_page.rendered(_measured(shown, data))
-        parts.append(
-            f"<h2>{text(shown.name)}: {text(shown.title)}</h2><p>{text(shown.caption)}</p>"
-        )
-        parts.append(rendered)
+        heading = f"{shown.name}: {shown.title}"
+        parts.append(f"<h2>{text(heading)}</h2><p>{text(shown.caption)}</p>")
+        parts.append(html_page.rendered(_measured(shown, data)))
         parts += [f"<p>{text(line)}</p>" for line in _largest(shown, data)]
     parts.append(provenance_html(provenance))
     html_page.write_page(folder / "index.html", "The paper, reproduced", parts, images_beside=True)
@@ -136,10 +130,13 @@ def verdicts(claims: Sequence[Claim]) -> str:
     return f"{len(claims)} statements: {listed}."
 
 
-def _claim_row(claim: Claim) -> Row:
-    measured = "\n".join(_named_number(name, value) for name, value in claim.numbers.items())
-    verdict = Cell(claim.verdict) if claim.confirmed else Cell("NOT CONFIRMED", Style.FAIL)
-    return (claim.statement, claim.where, measured, verdict, claim.why)
+def _claim_table(claims: Iterable[Claim]) -> Table:
+    rows: list[Row] = []
+    for one in claims:
+        measured = "\n".join(_named_number(name, value) for name, value in one.numbers.items())
+        verdict = Cell(one.verdict) if one.confirmed else Cell("NOT CONFIRMED", Style.FAIL)
+        rows.append((one.statement, one.where, measured, verdict, one.why))
+    return Table(texts("statement", "where", "measured", "verdict", "why"), rows)
 
 
 def _named_number(name: str, value: float | None) -> str:

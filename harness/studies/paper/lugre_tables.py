@@ -10,7 +10,7 @@ from slider_resonator.references.equivalent_force import equivalent_force
 from studies.paper import slow_theory
 from studies.paper.mapping import lugre_case, stiffness_of
 from studies.paper.measure import blocking_force, steady_velocity
-from studies.paper.table import PaperTable, rows_over
+from studies.paper.table import PaperTable
 
 KAPPAS = tuple(np.geomspace(0.01, 1000.0, 11).tolist())
 CASE = LugreCase()
@@ -50,7 +50,7 @@ BLOCKING = PaperTable(
         "paper_deviation": "(24) / FMU - 1",
     },
     {"uniform_deviation": 2e-3},
-    rows_over(KAPPAS, _blocking_row),
+    *(KAPPAS, _blocking_row),
 )
 
 
@@ -98,5 +98,5 @@ DEVICE = PaperTable(
         "force_deviation": "(uniform - FMU) / largest friction",
     },
     {"velocity_deviation": 2e-3, "force_deviation": 2e-3},
-    rows_over(KAPPAS, _device_row),
+    *(KAPPAS, _device_row),
 )

@@ -11,7 +11,7 @@ from studies.paper.figure import Data
 class PaperTable:
     """A table: its columns by name, each with its meaning and unit, and how its rows are measured.
 
-    ``measure`` returns ``rows``, a list of mappings from column to number. ``bounds`` has the
+    ``row`` returns the number of each column at one of the values ``over``. ``bounds`` has the
     largest size that each deviation, a column too, may have.
     """
 
@@ -20,7 +20,12 @@ class PaperTable:
     caption: str
     columns: Mapping[str, str]
     bounds: Mapping[str, float]
-    measure: Callable[[Instance], Data]
+    over: Sequence[float]
+    row: Callable[[Instance, float], Mapping[str, float]]
+
+    def measure(self, instance: Instance) -> Data:
+        """Return ``rows``, one for each value."""
+        return {"rows": [self.row(instance, value) for value in self.over]}
 
     def largest(self, data: Data) -> dict[str, float]:
         """Return the largest size of each deviation that has a bound."""
@@ -29,10 +34,3 @@ class PaperTable:
     def confirmed(self, data: Data) -> bool:
         """Return whether all deviations are within their bounds."""
         return all(size <= self.bounds[name] for name, size in self.largest(data).items())
-
-
-def rows_over(
-    values: Sequence[float], row: Callable[[Instance, float], Mapping[str, float]]
-) -> Callable[[Instance], Data]:
-    """Return the measurement of a table with one row for each value."""
-    return lambda instance: {"rows": [row(instance, value) for value in values]}

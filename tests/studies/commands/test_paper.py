@@ -22,7 +22,7 @@ CLAIM = Claim("speed", "(5)", "It flies", {"v": 1.0}, "agrees", "it does not", F
 GROUP = ClaimGroup("claims_x", "X", (lambda instance: [CLAIM],))
 TABLE = PaperTable(
     *("lugre_device", "Forces", "", {"error": "error"}, {"error": 0.1}),
-    lambda instance: {"rows": [{"error": 0.3}]},
+    *((0.0,), lambda instance, value: {"error": 0.3}),
 )
 
 

@@ -37,7 +37,7 @@ def test_claims_and_tables_are_written(tmp_path: Path) -> None:
     write_claims(tmp_path, [("All", [CLAIM, wrong])], PROVENANCE)
     columns = {"kappa": "kappa", "error": "theory / FMU - 1", "other": "of FMUs"}
     bounds = {"error": 0.1, "other": 1.0}
-    table = PaperTable("forces", "Forces", "In N.", columns, bounds, lambda i: {})
+    table = PaperTable("forces", "Forces", "In N.", columns, bounds, (), lambda *_: {})
     first, second = ({"kappa": k, "error": -0.05, "other": 0.02} for k in (1.0, 10.0))
     right, off = {"rows": [first, second]}, {"rows": [first, {**second, "error": -0.11}]}
     assert (table.confirmed(right), table.confirmed(off)) == (True, False), "of either sign"
@@ -48,7 +48,9 @@ def test_claims_and_tables_are_written(tmp_path: Path) -> None:
 
 def test_the_index_has_all_figures_tables_and_claims_escaped(tmp_path: Path) -> None:
     wrong = replace(CLAIM, statement="It <b>flies</b>", verdict="disagrees", confirmed=False)
-    table = PaperTable("speeds", "Speeds", "By <load>.", {"v": "speed"}, {"v": 0.1}, lambda _: {})
+    table = PaperTable(
+        "speeds", "Speeds", "By <load>.", {"v": "speed"}, {"v": 0.1}, (), lambda *_: {}
+    )
     known = replace(PROVENANCE, fmus=(replace(PROVENANCE.fmus[0], fmu="<a>.fmu"),))
     shown = [(table, {"rows": [{"v": 0.2}]})]
     write_index(tmp_path, FIGURES.values(), shown, [("All", [CLAIM, wrong])], known)
