@@ -8,6 +8,8 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
+from studies.hosts.job import HostAnswer
+from studies.hosts.runs import compare
 from tests.fmu.host import OUTPUTS, Unpacked
 from tests.fmu.host_3 import Run, instance_3
 
@@ -37,14 +39,6 @@ def run(
         return instance.initialize(**values).run(steps, size)
 
 
-def deviation(ours: Run, theirs: Run) -> float:
-    """Largest difference of any output over its peak."""
-    expected = np.array(theirs.rows)
-    peaks = np.abs(expected).max(axis=0)
-    found = np.abs(np.array(ours.rows) - expected).max(axis=0)
-    return float(np.max(found / np.where(peaks > 0.0, peaks, 1.0)))
-
-
 @pytest.mark.parametrize("device", DEVICES)
 def test_every_reversal_ends_a_step(unpacked_3: Unpacked, device: str) -> None:
     values = DEVICES[device]
@@ -64,7 +58,10 @@ def test_every_reversal_ends_a_step(unpacked_3: Unpacked, device: str) -> None:
         touches_down = index > 0 and modes[index - 1] == LIFTED != modes[index]
         if after > before and not touches_down:
             assert abs(stopping.events[index].outputs["velocity"]) <= 1e-14 * peak
-    assert deviation(stopping, passing) <= 1e-12
+    expected, found = ([[*row] for row in one.rows] for one in (passing, stopping))
+    deviation = compare(expected, HostAnswer(found)).deviation
+    assert deviation is not None
+    assert deviation <= 1e-12
 
 
 @pytest.mark.parametrize("device", ["table 1", "table 1, LuGre", "stick-slip", "flight"])

@@ -61,6 +61,11 @@ def redescribed(fmu: Path, out: Path, old: bytes, new: bytes, file: str = DESCRI
     return altered(fmu, out, alter)
 
 
+def reworded(archive: Path, out: Path, old: str, new: str) -> Path:
+    """Copy an FMU or a package with a text replaced in all its files."""
+    return altered(archive, out, lambda _, content: content.replace(old.encode(), new.encode()))
+
+
 def renumber(root: ET.Element, places: dict[str, str]) -> None:
     """Give the variables of the structure their new indices, and leave out those without one."""
     for parent in root.iterfind("ModelStructure/*"):

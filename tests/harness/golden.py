@@ -1,17 +1,29 @@
 """Texts against the files in the folder `screens`, which `UPDATE_SCREENS=1 pytest` writes anew."""
 
+import io
 import os
 import re
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 
 from slider_resonator.errors import HarnessError
 from slider_resonator.output.readable import escaped
 from tests.html_pages import Page
 
 SCREENS = Path(__file__).parent / "screens"
+
+
+def screen(show: Callable[[Console], None], width: int) -> str:
+    """What `show` prints on a terminal without colours, without blanks at the ends of lines."""
+    console = Console(
+        file=io.StringIO(), width=width, force_terminal=True, color_system=None, highlight=False
+    )
+    show(console)
+    assert isinstance(console.file, io.StringIO)
+    return "".join(f"{line.rstrip()}\n" for line in console.file.getvalue().splitlines())
 
 
 def assert_as_before(name: str, text: str) -> None:

@@ -4,7 +4,6 @@ They are compared with the files in the folder `screens`.
 """
 
 import hashlib
-import io
 import json
 import re
 from collections.abc import Callable, Sequence
@@ -31,7 +30,7 @@ from slider_resonator.output.console import LOG_WIDTH
 from slider_resonator.output.table import Table
 from slider_resonator.output.terminal import show_table
 from slider_resonator.scenes.vocabulary import QUANTITIES, REFERENCES
-from tests.harness.golden import assert_as_before, assert_page_as_before
+from tests.harness.golden import assert_as_before, assert_page_as_before, screen
 from tests.harness.known_provenance import PROVENANCE
 from tests.harness.scene_text import built_in, scene_of
 from tests.harness.verdicts import (
@@ -81,15 +80,6 @@ RAMPS = tuple(NotApplied(f"ramp_{i}", "position", "needs ramps", {}) for i in ra
 
 def numbered(count: int, *checks: Check) -> list[Check]:
     return [replace(one, scene=f"scene_{n}") for n in range(count) for one in checks]
-
-
-def screen(show: Callable[[Console], None], width: int) -> str:
-    console = Console(
-        file=io.StringIO(), width=width, force_terminal=True, color_system=None, highlight=False
-    )
-    show(console)
-    assert isinstance(console.file, io.StringIO)
-    return "".join(f"{line.rstrip()}\n" for line in console.file.getvalue().splitlines())
 
 
 def shown(table: Table) -> Callable[[Console], None]:
@@ -222,28 +212,19 @@ def test_of_many_scenes_those_that_fail_are_unfolded(tmp_path: Path) -> None:
     assert few.count('" open>') == MAX_UNFOLDED
 
 
-def test_a_start_far_outside_does_not_set_the_axis_and_is_named(tmp_path: Path) -> None:
-    times = np.linspace(0.0, 1.0, 101)
-    velocity = 0.1 * (1.0 - np.exp(-5.0 * times))
-    velocity[1:3] = 2.0, -1.0
-    signal = replace(SIGNAL, quantity="mean_velocity_in_run", unit="m/s")
-    overview = Curves(signal, times, velocity, velocity)
-    passed = replace(SIGNAL, passed=True)
-    text, read = page(tmp_path, Validation("good.fmu", (passed,), 1.0, overviews=(overview,)))
-    low, high = read.plots[0]["y"]["range"]
-    assert -0.02 < low < 0.0
-    assert 0.1 < high < 0.12
-    assert "start beyond the axis: -1 to 2" in text
-
-
 def test_plots_show_the_fmu_on_the_reference_over_time_or_the_sweep(tmp_path: Path) -> None:
+    """A start far outside does not set the axis, and is named."""
     times = np.array([0.0, 0.1, 0.2])
     overview = Curves(SIGNAL, times, 1.0 + times, 1.0 + 2.0 * times)
     passed = replace(SIGNAL, passed=True, first_time=None, worst_time=None)
+    begun, far = replace(passed, scene="begun"), np.array([2.0, -1.0, 0.5])
+    start = Curves(begun, np.array([0.0, 0.01, 0.2]), far, far)
     other = replace(PASSED, against="closed_form", reference=0.2)
-    validation = Validation("a.fmu", (passed, SLOWER, other, PASSED), 1.0, overviews=(overview,))
+    checks = (passed, begun, SLOWER, other, PASSED)
+    validation = Validation("a.fmu", checks, 1.0, overviews=(overview, start))
     lines = [
         f"{plot['title']}: {plot['y']['label']} over {plot['x']['label']}\n"
+        + (f"  range {plot['y']['range']}\n" if plot["y"]["range"] else "")
         + "".join(f"  {one['label']}: {one['x']} {one['y']}\n" for one in plot["series"])
         for plot in page(tmp_path, validation)[1].plots
     ]

@@ -3,10 +3,12 @@ from pathlib import Path
 
 import pytest
 
+from slider_resonator.checks.expecting import EXPECTED
 from slider_resonator.checks.fmu_side import PREDICTIONS, FmuSide
-from slider_resonator.checks.measuring import measure
+from slider_resonator.checks.measuring import MEASURES, measure
 from slider_resonator.checks.validate import validate, worst_of_sweeps
 from slider_resonator.device.device import DEVIATIONS
+from slider_resonator.device.interface import ALL_OUTPUTS
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.scenes.scene_files import find_scene
 from slider_resonator.scenes.vocabulary import QUANTITIES
@@ -143,3 +145,15 @@ def test_a_scene_that_expects_a_prediction_reads_it(instance: Instance, quantity
     expecting = FmuSide(instance, scene_of(SLOW + expect.format(quantity)))
     assert measure(quantity, expecting).applicable
     assert PREDICTIONS[quantity] in expecting.record.outputs
+
+
+def test_every_quantity_has_its_measure_or_is_an_output() -> None:
+    assert set(MEASURES) | set(PREDICTIONS) <= set(QUANTITIES)
+    for name in QUANTITIES.keys() - MEASURES.keys():
+        assert PREDICTIONS.get(name, name.removesuffix("_in_run")) in ALL_OUTPUTS
+
+
+def test_every_reference_of_a_quantity_has_its_function() -> None:
+    named = {name: set(quantity.references) for name, quantity in QUANTITIES.items()}
+    assert {name: set(EXPECTED.get(name, {})) for name in QUANTITIES} == named
+    assert set(EXPECTED) <= set(QUANTITIES)

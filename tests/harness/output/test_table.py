@@ -1,6 +1,5 @@
 """Tables, text and progress as they are shown: terminal, Markdown, pages, JSON."""
 
-import io
 import json
 import re
 from dataclasses import dataclass
@@ -11,14 +10,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from rich.cells import cell_len
-from rich.console import Console
 
 from slider_resonator.output import html_page, markdown, readable, terminal
 from slider_resonator.output.json_output import SCHEMA_VERSION, to_json
 from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.table import Cell, Style, Table, numbers, texts, verdict
 from slider_resonator.output.terminal import fitting
-from tests.harness.golden import assert_as_before
+from tests.harness.golden import assert_as_before, screen
 
 HOSTILE = "a|b\n::error::x \x1b[31m<b>`c` *d* _e_ f_g ~h~ [i](j) \\"
 TABLE = Table(
@@ -90,10 +88,8 @@ def test_rows_of_a_table_too_wide_for_a_phone_are_cards_with_headings() -> None:
 
 def test_a_table_in_every_form() -> None:
     """Numbers to the right, a row on its line, and foreign text that passes for nothing else."""
-    console = Console(file=io.StringIO(), width=120, force_terminal=False)
-    terminal.show_table(console, TABLE)
-    assert isinstance(console.file, io.StringIO)
-    assert_as_before("table.txt", console.file.getvalue())
+    printed = screen(lambda console: terminal.show_table(console, TABLE), 120)
+    assert_as_before("table.txt", printed)
     assert_as_before("table.md", markdown.rendered(TABLE))
     note = Table(texts("note"), [["4e-8 m of 5e-3 mm: run --cell 'a-b' my-file"]])
     assert_as_before("table.html", html_page.rendered(TABLE) + html_page.rendered(note))

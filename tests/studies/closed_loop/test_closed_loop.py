@@ -11,7 +11,7 @@ from studies.closed_loop.duty import Duty
 from studies.closed_loop.judge import judge_agreement, judge_interval
 from studies.closed_loop.loop import HOSTS, LoopRecord, run_loop
 from studies.closed_loop.prediction import predicted_errors
-from tests.harness.faulty_fmus import altered
+from tests.harness.faulty_fmus import reworded
 
 
 def test_a_load_counts_from_its_own_time_on_despite_rounding() -> None:
@@ -61,18 +61,13 @@ def test_design_and_proof_are_compared_from_the_step_of_the_load_on() -> None:
 BRIEF_DUTY = Duty(loads=((0.0, 0.0), (0.8, 0.03)), end=1.6, settling=0.5)
 
 
-def changed(package: Path, out: Path, old: bytes, new: bytes) -> Path:
-    """Copy a package with something replaced in all its files."""
-    return altered(package, out, lambda _, content: content.replace(old, new))
-
-
-PLACE = b'<ssv:Parameter name="slider.fidelity">'
-ORDER_1 = b'<ssv:Parameter name="slider.averaging_order"><ssv:Integer value="1"/></ssv:Parameter>'
+PLACE = '<ssv:Parameter name="slider.fidelity">'
+ORDER_1 = '<ssv:Parameter name="slider.averaging_order"><ssv:Integer value="1"/></ssv:Parameter>'
 
 
 @pytest.mark.slow
 def test_errors_are_of_the_order_of_the_averages(closed_loop_package: Path, tmp_path: Path) -> None:
-    first = changed(closed_loop_package, tmp_path / "first.ssp", PLACE, ORDER_1 + PLACE)
+    first = reworded(closed_loop_package, tmp_path / "first.ssp", PLACE, ORDER_1 + PLACE)
     per_radian, fast = 2.0 * 0.1 * 1.0 / (1.1 * 3500.0), 0.2366
     (error, made), (second, made_then) = (
         errors_of(package) for package in (first, closed_loop_package)
@@ -98,13 +93,13 @@ def test_averaged_motion_that_does_not_do_has_no_error(
     closed_loop_package: Path, tmp_path: Path
 ) -> None:
     strict = replace(BRIEF_DUTY, band=1e-8)
-    first = changed(closed_loop_package, tmp_path / "first.ssp", PLACE, ORDER_1 + PLACE)
+    first = reworded(closed_loop_package, tmp_path / "first.ssp", PLACE, ORDER_1 + PLACE)
     design, _ = run_loop(first, HOSTS[0], strict)
     assert predicted_errors(first, design, strict) == [None]
 
 
 def test_a_package_without_slider_is_refused(closed_loop_package: Path, tmp_path: Path) -> None:
     design, _ = run_loop(closed_loop_package, HOSTS[0], BRIEF_DUTY)
-    other = changed(closed_loop_package, tmp_path / "other.ssp", b'"slider"', b'"motor"')
+    other = reworded(closed_loop_package, tmp_path / "other.ssp", '"slider"', '"motor"')
     with pytest.raises(HarnessError, match="no component slider, only controller, motor"):
         predicted_errors(other, design, BRIEF_DUTY)

@@ -3,25 +3,15 @@
 import csv
 import json
 import tempfile
-import zipfile
 from pathlib import Path
 
 import pytest
 
 from studies.closed_loop import prediction
 from studies.hosts.ssp_package import WITH_CONNECTORS
-from tests.harness import faulty_fmus
 from tests.harness.calling import call, refused
+from tests.harness.faulty_fmus import altered, reworded
 from tests.harness.public_json import assert_public_keys
-
-
-def changed(package: Path, target: Path, old: str, new: str) -> Path:
-    """The package with another text in its parameter sets."""
-
-    def alter(name: str, content: bytes) -> bytes:
-        return content.replace(old.encode(), new.encode()) if name.endswith(".ssv") else content
-
-    return faulty_fmus.altered(package, target, alter)
 
 
 @pytest.mark.slow
@@ -52,7 +42,7 @@ def test_a_controller_without_integral_does_not_hold(
     closed_loop_package: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(prediction, "FIRST", 1)  # predictions do not matter here
-    loose = changed(closed_loop_package, tmp_path / "loose.ssp", '"400.0"', '"0.0"')
+    loose = reworded(closed_loop_package, tmp_path / "loose.ssp", '"400.0"', '"0.0"')
     done = call("closed-loop", loose, "--out", tmp_path)
     assert done.exit_code == 1
     assert "FAIL" in done.stdout
@@ -78,7 +68,7 @@ def test_a_package_that_cannot_be_run_is_no_verdict(
     temporary.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(temporary))
     monkeypatch.setenv("TMPDIR", str(temporary))
-    broken = changed(closed_loop_package, tmp_path / "broken.ssp", old, new)
+    broken = reworded(closed_loop_package, tmp_path / "broken.ssp", old, new)
     done = call("closed-loop", broken, "--out", tmp_path)
     assert done.exit_code == 2
     assert reported in done.stderr
@@ -87,13 +77,8 @@ def test_a_package_that_cannot_be_run_is_no_verdict(
 
 def test_what_is_no_package_is_reported(closed_loop_package: Path, tmp_path: Path) -> None:
     (tmp_path / "text.ssp").write_text("no zip")
-    with (
-        zipfile.ZipFile(closed_loop_package) as new,
-        zipfile.ZipFile(tmp_path / "old.ssp", "w") as old,
-    ):
-        for name in new.namelist():
-            if name != WITH_CONNECTORS:
-                old.writestr(name, new.read(name))
+    old = tmp_path / "old.ssp"
+    altered(closed_loop_package, old, lambda name, text: None if name == WITH_CONNECTORS else text)
     for package, said in {
         "none.ssp": "none.ssp: no such file",
         "text.ssp": "text.ssp: no parameter set design can be read",

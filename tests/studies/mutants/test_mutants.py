@@ -1,11 +1,9 @@
 """Mutants: how they are made, judged and listed."""
 
 from collections import Counter
-from io import StringIO
 from pathlib import Path
 
 import pytest
-from rich.console import Console
 
 from fmu_src.building.c_sources import slider_sources
 from slider_resonator.errors import HarnessError
@@ -20,6 +18,7 @@ from studies.mutants.mutant import KINDS, Mutant
 from studies.mutants.runs import run_mutants
 from studies.mutants.verdict import EQUIVALENT, REJECTED, SURVIVED, MutationRun, Verdict
 from tests.harness import faulty_fmus
+from tests.harness.golden import screen
 from tests.harness.scene_text import read_scene
 
 CHANGES_OF_C = hand_written_changes()
@@ -172,9 +171,7 @@ def test_survivors_and_false_alarms_are_printed_with_reasons() -> None:
     survived = Verdict(FAULT, SURVIVED, reason="passes")
     alarm = Verdict(HARMLESS, REJECTED, "scene", "position", "off")
     run = MutationRun("x.fmu", 2, (Verdict(FAULT, *SEEN), survived), 12.3, (alarm,))
-    text = StringIO()
-    print_run(Console(file=text, width=100), run)
-    printed = text.getvalue()
+    printed = screen(lambda console: print_run(console, run), 100)
     assert "SURVIVED seen\n     passes\na.c: breaks it\n-x\n+y" in printed
     assert "FALSE ALARM fine\n     scene: position: off" in printed
     assert "rejected 1 of 1 harmless variants" in printed
