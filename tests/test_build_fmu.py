@@ -16,6 +16,7 @@ from fmu_src.building.platforms import HOST
 from fmu_src.building.python_fmu import MODEL as PYTHON_MODEL
 from fmu_src.controller.variables import VARIABLES as CONTROLLER
 from fmu_src.python.slider_component.variables import VARIABLES
+from studies.mutants.archive import files_in
 from tests.fmus import every_fmu, every_slider
 from tests.processes import ROOT, run_command
 
@@ -34,8 +35,7 @@ def archive(fmu: Path) -> zipfile.ZipFile:
 
 
 def description(fmu: Path) -> ET.Element:
-    with zipfile.ZipFile(fmu) as archive:
-        return ET.fromstring(archive.read("modelDescription.xml"))
+    return ET.fromstring(files_in(fmu)["modelDescription.xml"])
 
 
 @every_fmu

@@ -2,7 +2,6 @@
 
 import ctypes
 import math
-import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ from lxml import etree
 from fmu_src.python.slider_component.variables import VARIABLES
 from slider_resonator.checks.validate import validate
 from slider_resonator.scenes.scene_files import find_scene
+from studies.mutants.archive import files_in
 from tests.fmu.host import Unpacked
 from tests.fmu.host_3 import Instance3, instance_3
 from tests.fmu.native_calls import call, check
@@ -194,8 +194,7 @@ def test_capabilities(unpacked_3: Unpacked) -> None:
 
 def test_the_flange_names_variables(native_3_fmu: Path, unpacked_3: Unpacked) -> None:
     """In a document that fmpy's validation does not read."""
-    with zipfile.ZipFile(native_3_fmu) as archive:
-        root = etree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
+    root = etree.fromstring(files_in(native_3_fmu)["terminalsAndIcons/terminalsAndIcons.xml"])
     etree.XMLSchema(etree.parse(str(SCHEMA))).assertValid(root)
     members = [m.get("variableName") for m in root.iter("TerminalMemberVariable")]
     assert members == ["position", "velocity", "load"]

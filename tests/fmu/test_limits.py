@@ -4,7 +4,6 @@ import math
 import time
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from tests.fmu.host import OUTPUTS, Instantiate
@@ -106,25 +105,6 @@ def test_without_any_force_the_slider_rests(
     instance = instantiate().initialize(**free, **device)
     instance.step(1.0)
     assert instance.get("position", "velocity") == (0.0, 0.0)
-
-
-def test_long_steps_pass_kinks_of_a_slow_load_as_short_ones_do(instantiate: Instantiate) -> None:
-    """The contact lifts and touches down between communication points of averaged motion.
-
-    The scene `averaged_kinks` judges the kinks that friction has in a beat.
-    """
-    values = {
-        **{"fidelity": 0, "averaging_order": 1, "friction_faces": 1, "normal_amplitude": 1.7},
-        **{"phase": 0.4, "frequency_ratio": 0.004, "initial_velocity": 0.2},
-    }
-    fast_velocity = 0.144  # m/s
-    velocities = []
-    for parts in (1, 4):
-        instance = instantiate().initialize(**values)
-        rows = instance.run(40 * parts, 0.04 / parts)[parts - 1 :: parts]
-        velocities.append([row[OUTPUTS.index("mean_velocity")] for row in rows])
-    gap = np.abs(np.diff(velocities, axis=0)).max()
-    assert gap < 2e-8 * fast_velocity, "2e-10 v_q is allowed in each of some steps"
 
 
 W = 3500.0

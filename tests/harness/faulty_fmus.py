@@ -12,6 +12,7 @@ import fmpy
 
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.variable import FIRST
+from studies.mutants.archive import files_in
 
 SOURCE = Path(__file__).with_name("faulty_fmu.c")
 DESCRIPTION = "modelDescription.xml"
@@ -40,15 +41,13 @@ def scene(folder: Path, name: str = "short") -> Path:
 
 def altered(fmu: Path, out: Path, alter: Callable[[str, bytes], bytes | None]) -> Path:
     """Copy an FMU with each file replaced by what `alter` makes of it, or left out for None."""
-    changed = 0
-    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(out, "w") as new:
-        for name in old.namelist():
-            content = old.read(name)
-            other = alter(name, content)
-            changed += other != content
-            if other is not None:
-                new.writestr(name, other)
-    assert changed, "the alteration must alter something"
+    files = files_in(fmu)
+    others = {name: alter(name, content) for name, content in files.items()}
+    assert others != files, "the alteration must alter something"
+    with zipfile.ZipFile(out, "w") as new:
+        for name, content in others.items():
+            if content is not None:
+                new.writestr(name, content)
     return out
 
 
@@ -106,14 +105,13 @@ def other_friction(python_fmu: Path, out: Path) -> Path:
     Its modules have other names, so that one process can run both.
     """
     row = b"tunable friction_coefficient 1, start 0.1"
-    altered = 0
-    with zipfile.ZipFile(python_fmu) as old, zipfile.ZipFile(out, "w") as new:
-        (digest,) = set(re.findall(r"slider_component_([0-9a-f]{12})/", " ".join(old.namelist())))
-        for name in old.namelist():
-            content = old.read(name).replace(digest.encode(), digest[::-1].encode())
-            altered += content.count(row)
-            new.writestr(name.replace(digest, digest[::-1]), content.replace(row, row + b"001"))
-    assert altered == 1, "the table of variables must have the row that is altered"
+    files = files_in(python_fmu)
+    (digest,) = set(re.findall(r"slider_component_([0-9a-f]{12})/", " ".join(files)))
+    assert sum(content.count(row) for content in files.values()) == 1
+    with zipfile.ZipFile(out, "w") as new:
+        for name, content in files.items():
+            other = content.replace(digest.encode(), digest[::-1].encode())
+            new.writestr(name.replace(digest, digest[::-1]), other.replace(row, row + b"001"))
     return out
 
 

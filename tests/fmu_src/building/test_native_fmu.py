@@ -4,12 +4,11 @@ import re
 import shutil
 import subprocess
 import sys
-import zipfile
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from fmpy import simulate_fmu
+from fmpy import extract, simulate_fmu
 
 from fmu_src.building.build_error import BuildError
 from fmu_src.building.c_sources import (
@@ -22,6 +21,7 @@ from fmu_src.building.compiling import FLAGS, Compiler, default_compiler
 from fmu_src.building.native_fmu import build_native
 from fmu_src.building.platforms import HOST, host_platform
 from fmu_src.sources import C_SOURCES, CONTROLLER_SOURCES
+from studies.mutants.archive import files_in
 from tests.processes import run_command
 
 # Those of this machine, each once; the build's own is always there.
@@ -35,13 +35,8 @@ WARNINGS = (
 BINARY = host_platform().binary("SliderResonator")
 
 
-def contents(fmu: Path) -> dict[str, bytes]:
-    with zipfile.ZipFile(fmu) as archive:
-        return {name: archive.read(name) for name in archive.namelist()}
-
-
 def guid(fmu: Path) -> str:
-    return ET.fromstring(contents(fmu)["modelDescription.xml"]).attrib["guid"]
+    return ET.fromstring(files_in(fmu)["modelDescription.xml"]).attrib["guid"]
 
 
 @pytest.fixture
@@ -61,7 +56,7 @@ def test_another_content_gets_another_guid(
 
 
 def test_the_guid_is_in_the_sources_and_in_the_binary(native_fmu: Path) -> None:
-    inside = contents(native_fmu)
+    inside = files_in(native_fmu)
     for name in ("sources/component/model_guid.h", BINARY):
         assert inside[name].count(guid(native_fmu).encode()) == 1, name
 
@@ -77,7 +72,7 @@ def test_the_guid_is_in_the_sources_and_in_the_binary(native_fmu: Path) -> None:
 def test_every_source_is_inside_and_listed(
     fmu: Path, document: str, tag: str, version: FmiVersion
 ) -> None:
-    code, archive = slider_sources(version), contents(fmu)
+    code, archive = slider_sources(version), files_in(fmu)
     other_shell = "fmi3" if version == "2.0" else "fmi2"
     paths = [p.relative_to(C_SOURCES) for p in C_SOURCES.rglob("*.[ch]")]
     assert {str(p) for p in paths if not p.name.startswith(other_shell)} < code.keys()
@@ -101,8 +96,7 @@ def test_every_source_is_inside_and_listed(
 def test_sources_compile_alone_without_a_warning(
     fmu: Path, tmp_path: Path, compiler: Compiler
 ) -> None:
-    with zipfile.ZipFile(fmu) as archive:
-        archive.extractall(tmp_path)
+    extract(fmu, str(tmp_path))
     target = ["-target", host_platform().targets[0]] if compiler.crosses else []
     files = sorted((tmp_path / "sources").rglob("*.c"))
     warnings = [*WARNINGS, "-Wno-strict-prototypes"] if fmu.stem.endswith("3") else WARNINGS
@@ -167,7 +161,7 @@ def test_a_compiler_of_the_user_gives_the_same_motion(
     native_fmu: Path, tmp_path: Path, compiler: str
 ) -> None:
     own = build_native(tmp_path, compiler=compiler)
-    assert [n for n in contents(own) if n.startswith("binaries/")] == [BINARY]
+    assert [n for n in files_in(own) if n.startswith("binaries/")] == [BINARY]
     theirs, ours = (simulate_fmu(str(f), stop_time=0.05)["position"] for f in (own, native_fmu))
     assert theirs == pytest.approx(ours, rel=1e-11, abs=1e-11 * max(abs(ours)))
 
@@ -197,7 +191,7 @@ def test_sources_that_make_no_library_are_refused(
 
 def test_fmi_functions_are_shared_and_the_model_is_not(controller_fmu: Path) -> None:
     slider, own = slider_sources(), set()
-    for name, data in contents(controller_fmu).items():
+    for name, data in files_in(controller_fmu).items():
         source = name.removeprefix("sources/")
         if source != name and data.decode() != slider.get(source):
             own.add(source)

@@ -2,7 +2,6 @@ import ast
 import re
 import shutil
 import sys
-import zipfile
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -11,15 +10,14 @@ import pytest
 from fmu_src.building.build_error import BuildError
 from fmu_src.building.python_fmu import build_python
 from fmu_src.sources import PACKAGE
+from studies.mutants.archive import files_in
 
 
 def identity(fmu: Path) -> tuple[str, str]:
     """The GUID and the name of the package inside."""
-    with zipfile.ZipFile(fmu) as archive:
-        guid = ET.fromstring(archive.read("modelDescription.xml")).attrib["guid"]
-        found = (re.search("slider_component_[^/]*(?=/)", name) for name in archive.namelist())
-        (package,) = {match[0] for match in found if match}
-    return guid, package
+    files = files_in(fmu)
+    (package,) = set(re.findall("slider_component_[^/ ]*(?=/)", " ".join(files)))
+    return ET.fromstring(files["modelDescription.xml"]).attrib["guid"], package
 
 
 @pytest.fixture
@@ -45,9 +43,9 @@ def test_another_content_gets_another_name_and_guid(
 
 def test_component_imports_the_standard_library_only(python_fmu: Path) -> None:
     allowed = sys.stdlib_module_names | {"pythonfmu"}
-    archive, (_, package) = zipfile.ZipFile(python_fmu), identity(python_fmu)
-    for name in (n for n in archive.namelist() if f"/{package}/" in n):
-        for node in ast.walk(ast.parse(archive.read(name))):
+    files, (_, package) = files_in(python_fmu), identity(python_fmu)
+    for name in (n for n in files if f"/{package}/" in n):
+        for node in ast.walk(ast.parse(files[name])):
             imported = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
             if isinstance(node, ast.ImportFrom) and node.level == 0:
                 imported = [str(node.module)]

@@ -4,10 +4,9 @@ import re
 import zipfile
 from math import pi
 from pathlib import Path
-from zipfile import ZipFile
 
 import pytest
-from fmpy import read_model_description
+from fmpy import extract, read_model_description
 from fmpy.model_description import BaseUnit, DisplayUnit, Unit
 
 from slider_resonator.device.interface import INPUTS, OUTPUTS, PARAMETERS
@@ -21,6 +20,7 @@ from slider_resonator.fmu.interface_check import (
     unit_problems,
 )
 from slider_resonator.fmu.opening import Fmu, open_fmu
+from studies.mutants.archive import files_in
 from tests.fmus import every_slider
 from tests.harness import faulty_fmus
 from tests.harness.faulty_fmus import altered, redescribed
@@ -58,8 +58,8 @@ def test_an_archive_that_is_no_fmu_is_refused_unopened(
 
 
 def test_model_exchange_alone_is_refused(python_fmu: Path, tmp_path: Path) -> None:
-    with zipfile.ZipFile(python_fmu) as archive:
-        found = re.search(rb"<CoSimulation.*?(/>|</CoSimulation>)", archive.read(XML), re.DOTALL)
+    description = files_in(python_fmu)[XML]
+    found = re.search(rb"<CoSimulation.*?(/>|</CoSimulation>)", description, re.DOTALL)
     assert found is not None
     other = b'<ModelExchange modelIdentifier="SliderResonatorPy"/>'
     path = faulty_fmus.redescribed(python_fmu, tmp_path / "me.fmu", found[0], other)
@@ -234,8 +234,7 @@ def test_what_declares_no_dependencies_depends_on_all(native_fmu: Path, tmp_path
 
 def test_wrong_files_of_an_archive_are_named(native_fmu: Path, tmp_path: Path) -> None:
     description = read_model_description(str(native_fmu))
-    with ZipFile(native_fmu) as archive:
-        archive.extractall(tmp_path)
+    extract(native_fmu, str(tmp_path))
     assert [*archive_faults(tmp_path, description)] == []
     (tmp_path / "sources/component/component.h").unlink()
     (tmp_path / "sources/base/other.c").touch()

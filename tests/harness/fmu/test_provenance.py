@@ -19,13 +19,13 @@ from slider_resonator.fmu.provenance import (
     provenance_of,
     provenance_properties,
 )
+from studies.mutants.archive import files_in
 from tests.harness.golden import assert_as_before
 from tests.harness.known_provenance import PROVENANCE
 
 
 def test_an_fmu_is_identified_by_its_description_and_its_bytes(native_fmu: Path) -> None:
-    with zipfile.ZipFile(native_fmu) as archive:
-        root = ET.fromstring(archive.read("modelDescription.xml"))
+    root = ET.fromstring(files_in(native_fmu)["modelDescription.xml"])
     digest = hashlib.sha256(native_fmu.read_bytes()).hexdigest()
     guid, version, tool = (root.attrib[name] for name in ("guid", "version", "generationTool"))
     assert identity_of(native_fmu) == FmuIdentity(str(native_fmu), guid, digest, version, tool)
