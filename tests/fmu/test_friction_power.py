@@ -31,21 +31,6 @@ def test_before_a_period_is_complete_it_is_the_mean_since_the_start(
     assert instance.get("friction_power") == (whole,), "then that of the last whole one"
 
 
-@pytest.mark.parametrize("law", [0, 1])
-@pytest.mark.parametrize("last", [0.3, 2.9, 40.2])
-def test_long_steps_give_the_power_of_short_ones(
-    instantiate: Instantiate, last: float, law: int
-) -> None:
-    """Work counts near the end of a step alone, wherever the step began and ends."""
-    powers = []
-    for steps in ([30.4, last], [0.38] * 80 + [last / 8] * 8):
-        instance = instantiate().initialize(friction_law=law, phase=0.4)
-        for size in steps:
-            instance.step(size * TURN)
-        powers.append(instance.get("friction_power")[0])
-    assert powers[0] == pytest.approx(powers[1], rel=1e-12 if law == 0 else 1e-6)
-
-
 def test_averaged_power_is_bounded_work_at_any_ratio(instantiate: Instantiate) -> None:
     """What a rapid normal load adds falls with the square of the ratio."""
     powers: list[float] = []

@@ -3,8 +3,6 @@
 import gc
 import math
 import sys
-from collections.abc import Callable, Mapping
-from functools import partial
 from pathlib import Path
 
 import pytest
@@ -69,47 +67,25 @@ def test_freed_instances_leave_nothing(unpacked: Unpacked) -> None:
     assert (alive(), sys.path) == before
 
 
-def maltreat(instance: Instance) -> None:
-    bad_values: tuple[Mapping[str, float], ...] = (
-        *({"load": math.nan}, {"normal_preload": -1.0}, {"slider_mass": 2.0}),
-        *({"friction_faces": 1}, {"position": 0.0}),
-    )
-    slave, time = instance.slave, instance.time
-    calls: tuple[Callable[[], object], ...] = (
-        *(partial(instance.set, **values) for values in bad_values),
-        *(partial(slave.doStep, time, size) for size in (0.0, math.nan)),
-        partial(slave.doStep, time + 1.0, STEP),
-        partial(slave.setupExperiment, startTime=0.0),
-        slave.exitInitializationMode,
-        partial(slave.getReal, [999]),
-        partial(slave.getInteger, [0]),
-        partial(instance.restore, b"not a state"),
-    )
-    for call in calls:
-        with pytest.raises(FMICallException):
-            call()
-
-
 STORM = """
-import sys, tempfile
+import sys
 from pathlib import Path
 from tests.fmu.host import Instance, unpack
-from tests.fmu.test_python_host import maltreat
 unpacked = unpack(Path(sys.argv[1]), Path(sys.argv[2]))
 for _ in range(5):
     instance = Instance(unpacked).initialize()
-    for _ in range(40):
-        maltreat(instance)
-    instance.step(1e-3)
+    for _ in range(300):
+        with instance.refuses("load = nan"):
+            instance.set(load=float("nan"))
+        with instance.refuses("communicationStepSize = 0.0"):
+            instance.step(0.0)
     instance.slave.reset()
     instance.initialize().step(1e-3)
-    maltreat(instance)
     instance.free()
-print("alive", instance.time)
+print("alive")
 """
 
 
 def test_the_host_outlives_thousands_of_refusals(python_fmu: Path, tmp_path: Path) -> None:
     """Refusals keep references, which are counted. Calls of the native FMU are fuzzed."""
-    printed = run_python(STORM, python_fmu, tmp_path)
-    assert printed.startswith("alive"), "no crash, also when the process ends"
+    assert run_python(STORM, python_fmu, tmp_path) == "alive\n", "also when the process ends"

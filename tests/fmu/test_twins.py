@@ -180,33 +180,3 @@ def test_coulomb_devices(
     vibrates = values["resonator_mass"] or values["tangential_force"]
     averages = values["fidelity"] == 0 and vibrates
     assert differences(native, python, AVERAGES if averages else RANDOM) == []
-
-
-@pytest.mark.parametrize(
-    ("values", "inputs", "allowed"),
-    [
-        ({}, {}, ROUNDING),
-        ({"normal_amplitude": 2.0}, {"frequency_ratio": [1.5], "phase": [0.4]}, ROUNDING),
-        ({"friction_coefficient": 1.0}, {"frequency_ratio": [1.002]}, 1e-9),
-        ({"normal_amplitude": 1.5}, {"frequency_ratio": [1.002]}, 1e-9),
-        ({}, {"phase": [0.0, 1.0, 0.3, 2.0, -1.0, 0.5, 1.7], "load": [0.0, 0.05]}, ROUNDING),
-        (
-            {"friction_law": 1, "tolerance": 1e-10},
-            {"phase": [0.4, 1.0], "load": [0.0, 0.0, 0.05]},
-            1e-8,
-        ),
-        ({"resonator_mass": 0.0, "tangential_force": 900.0}, {}, ROUNDING),
-        ({}, {"frequency_ratio": [1.37]}, ROUNDING),
-        ({"damping_ratio": 0.0}, {}, ROUNDING),
-    ],
-)
-def test_short_steps_of_order_2(
-    twins: Twins, values: dict[str, float], inputs: dict[str, list[float]], allowed: float
-) -> None:
-    """Inputs have these values in turn."""
-    held = {
-        name: steps([(0.05 * i, numbers[i % len(numbers)]) for i in range(10)])
-        for name, numbers in {"frequency_ratio": [1.0], **inputs}.items()
-    }
-    native, python = both(twins, {"fidelity": 0, **values}, schedule(0.5, 0.01, **held))
-    assert differences(native, python, allowed) == []
