@@ -55,7 +55,7 @@ def test_runs_that_cannot_start_are_refused(
 @pytest.mark.isolated
 @pytest.mark.slow
 def test_a_native_run_counts_what_is_rejected(native_fmu: Path) -> None:
-    scenes = ("--scene", "leap_loads", "--scene", "averaged_weak_drive")
+    scenes = ("--scene", "leap_lugre_flight", "--scene", "averaged_weak_drive")
     only = ("--native", "--file", "runge_kutta.c", *scenes, "--jobs", "1")
     result = call("mutants", native_fmu, *only, "--json")
     assert_public_keys("mutants --native", result.output)
