@@ -85,7 +85,7 @@ static Candidate zero_near(const Watch *watch, double start, double limit, doubl
  * [s]: the parabola from the candidate backwards must cover the rest, beyond rounding. */
 static bool is_first(Candidate candidate, const Watch *watch, double t, Signal at, double ahead) {
     double distance = candidate.time - t, back = -2.0 * candidate.slope / at.bound;
-    return distance > 0.0 && distance < SURE * (ahead + back) && distance < watch->horizon &&
+    return distance > 0.0 && distance < SURE * (ahead + back) &&
            candidate.slope * candidate.slope > 16.0 * watch->noise * at.bound;
 }
 
@@ -103,7 +103,7 @@ static double lowest_between(double from, Signal before, double to, Signal at) {
 }
 
 double first_zero(const Watch *watch, double limit, double start, double expected) {
-    double noise = watch->noise, horizon = watch->horizon;
+    double noise = watch->noise;
     double t = start, from = start, shortest = SHORTEST_STEP / watch->fastest;
     double longest_forced = SHORT_STEP / watch->fastest;
     Candidate candidate = zero_near(watch, start, limit, expected);
@@ -138,7 +138,7 @@ double first_zero(const Watch *watch, double limit, double start, double expecte
         before = at;
         from = t;
         step = forced ? fmin(shortest, limit - t) : step;
-        t += step > horizon ? horizon : step; /* NaN stays NaN, and ends the search */
+        t += step; /* NaN ends the search */
     }
     return NO_ZERO;
 }

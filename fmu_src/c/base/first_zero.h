@@ -9,7 +9,7 @@
  * and that from the zero backwards leave no gap between them. */
 #pragma once
 
-/* Signal f, f', and a bound of |f''| from this time on, over the horizon of the signal. */
+/* Signal f, f', and a bound of |f''| from this time on. */
 typedef struct {
     double value, slope, bound;
 } Signal;
@@ -17,11 +17,11 @@ typedef struct {
 typedef Signal (*SignalFunction)(void *motion, double t);
 
 /* A signal whose first zero ends the mode, with the scales that its search needs: `noise` is the rounding error of its
- * values, `fastest` [rad/s] its highest frequency, and `horizon` [s] how far ahead its curvature bound holds. */
+ * values, and `fastest` [rad/s] its highest frequency. */
 typedef struct {
     SignalFunction signal;
     void *motion;
-    double noise, fastest, horizon;
+    double noise, fastest;
 } Watch;
 
 /* Returned where there is no zero; times are not negative. */

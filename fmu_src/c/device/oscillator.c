@@ -53,20 +53,3 @@ Response free_response(const Oscillator *oscillator, double t) {
     double gap = -expm1(-2.0 * spread * t);
     return (Response){slow * (1.0 - 0.5 * gap), slow * gap / (2.0 * spread)};
 }
-
-/* (exp(a t) - exp(b t)) / (a - b) from exp(b t); regular at a = b [s]. */
-static Complex divided_difference(Complex a, Complex b, Complex grown_b, double t) {
-    Complex angle = complex_scale(t, complex_sub(a, b));
-    return complex_scale(t, complex_mul(grown_b, growth_of(angle).once));
-}
-
-Response response_from_rest(const Oscillator *oscillator, Complex forcing, double frequency, double t, Complex turn) {
-    Complex eigenvalue = oscillator->eigenvalue, conjugate = complex_conj(eigenvalue);
-    Complex exponent = complex_of(0.0, frequency);
-    Complex near = divided_difference(eigenvalue, exponent, turn, t);
-    Complex far = divided_difference(conjugate, exponent, turn, t);
-    Complex width = complex_of(0.0, 2.0 * eigenvalue.im);
-    Complex moved = complex_sub(complex_mul(eigenvalue, near), complex_mul(conjugate, far));
-    return (Response){complex_mul(forcing, complex_div(complex_sub(near, far), width)).re,
-                      complex_mul(forcing, complex_div(moved, width)).re};
-}

@@ -1,7 +1,6 @@
 /* Closed forms of one damped oscillator, y'' + 2 decay y' + stiffness y = g(t).
  *
- * Free motion is regular at and around critical damping and without damping. Where the forcing frequency meets the
- * damped one, the response from rest is regular, unlike the steady one. */
+ * Free motion is regular at and around critical damping and without damping. */
 #pragma once
 
 #include <stdbool.h>
@@ -49,7 +48,3 @@ static inline Response free_motion(const Oscillator *oscillator, Response start,
     return (Response){y * (free.displacement + sway) + u * free.rate,
                       u * (free.displacement - sway) - oscillator->stiffness * y * free.rate};
 }
-
-/* Response to the real part of `forcing` [m/s^2] exp(i frequency t) from rest; regular at resonance. Only for
- * oscillatory damping and frequency > 0. `turn` is exp(i frequency t). */
-Response response_from_rest(const Oscillator *oscillator, Complex forcing, double frequency, double t, Complex turn);

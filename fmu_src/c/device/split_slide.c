@@ -323,7 +323,7 @@ static Signal velocity_ahead(void *motion, double t) {
 }
 
 Watch split_slide_watch(SplitSlide *slide) {
-    return (Watch){velocity_ahead, slide, slide->noise, slide->split->fastest, INFINITY};
+    return (Watch){velocity_ahead, slide, slide->noise, slide->split->fastest};
 }
 
 /* Integral of the real part of amplitude exp(i frequency s), between turns `start` and `end`; frequency != 0. */

@@ -109,15 +109,10 @@ static double departure_time(const Plant *plant, int sign, const Moment *now) {
 
 static void begin(Segment *segment, const System *system, const Moment *now, double longest) {
     (void)longest;
-    const Plant *plant = &system->plant;
-    if (now->mode == STICK) {
-        segment_begin_rest(segment, plant, now);
-        return;
-    }
     int direction = now->mode == LIFTED ? 0 : now->mode;
     segment_begin_slide(segment, system, now, direction);
     if (direction != 0 && segment->departs) {
-        segment->watched_from = departure_time(plant, direction, now);
+        segment->watched_from = departure_time(&system->plant, direction, now);
     }
 }
 

@@ -1,14 +1,12 @@
 /* A segment: motion without an event, at rest, sliding or in flight, up to the first zero of what it watches. */
 #pragma once
 
-#include "../device/stick.h"
 #include "bending_panel.h"
 #include "taylor_slide.h"
 
-/* What the motion is: rest, sliding or flight in closed form, or either by series: on bending bristles, under a normal
- * load whose frequency changes, and where the closed form would lose digits; or sliding on bending bristles by a panel,
- * and on after it. */
-typedef enum { RESTS, SLIDES, FOLLOWS_SERIES, BENDS_AND_SLIDES } SegmentKind;
+/* What the motion is: sliding or flight in closed form; any motion by series, as rest always is; or sliding on bending
+ * bristles by a panel, and on after it. */
+typedef enum { SLIDES, FOLLOWS_SERIES, BENDS_AND_SLIDES } SegmentKind;
 
 /* Begun by a friction law, then followed, up to the first zero of what it watches. */
 typedef struct Segment {
@@ -17,7 +15,6 @@ typedef struct Segment {
     int direction;       /* of sliding, in which the velocity is watched; 0 for none */
     double watched_from; /* from when on it is watched [s] */
     union {
-        Stick stick;
         SplitSlide slide;
         TaylorSlide series;
         BendingPanel panel;
@@ -34,11 +31,8 @@ typedef struct Segment {
 /* Computes the phasors at `now`, where the segment begins, unless they are known. */
 void segment_know_phasors(Segment *segment, const Plant *plant, const Moment *now);
 
-/* Rest. */
-void segment_begin_rest(Segment *segment, const Plant *plant, const Moment *now);
-
-/* Sliding in `direction` under full friction, or flight in contact mode LIFTED: in closed form, or by series where
- * there is none. */
+/* Sliding in `direction` under full friction, flight in contact mode LIFTED, or rest in contact with direction 0: in
+ * closed form, or by series where there is none. */
 void segment_begin_slide(Segment *segment, const System *system, const Moment *now, int direction);
 
 /* Sliding in `direction` while a bristle bends, to a relative `tolerance`, for up to `longest` [s]. */
@@ -51,13 +45,23 @@ bool segment_departs(Segment *segment);
 /* Follows the segment until it ends, for up to `longest` [s]. */
 void segment_follow(Segment *segment, const Plant *plant, Moment *now, double longest);
 
+/* Whether the slider rests. */
+static inline bool segment_rests(const Segment *segment) {
+    return segment->mode == STICK && segment->direction == 0;
+}
+
+/* Whether an event begins it that no change of the contact mode has shown: a turn on bristles. */
+static inline bool segment_reverses(const Segment *segment) {
+    return segment->turns && segment->mode == STICK;
+}
+
 /* Whether the segment ended at a stop of the slider, and whether at a release of it. */
 static inline bool segment_stopped(const Segment *segment) {
-    return segment->zero_of >= 0 && segment->kind != RESTS;
+    return segment->zero_of >= 0 && !segment_rests(segment);
 }
 
 static inline bool segment_released(const Segment *segment) {
-    return segment->zero_of >= 0 && segment->kind == RESTS;
+    return segment->zero_of >= 0 && segment_rests(segment);
 }
 
 /* Moves on to the end of the segment, in its mode. */

@@ -86,10 +86,15 @@ static void expand_normal(Complex normal, double q, double chirp, double limit[T
 }
 
 void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle, int direction,
-                        const State *state, double friction, const Phasors *start, double tolerance, double scale) {
+                        const Moment *now, const Phasors *start, double tolerance) {
+    static const Bristle BENT = {1.0, 0.0, 0.0};
+    bool bends = bristle != NULL;
+    int sign = now->mode == LIFTED ? 0 : direction;
+    double friction = bends ? now->bristle : sign;
+    bristle = bends ? bristle : &BENT;
     double w = plant->drive_frequency, q = plant->normal_frequency, mu = bristle->coefficient;
-    double bend = (mu - direction * friction) / mu, share = friction / mu;
-    double drag = bristle->damping / mu, rate_factor = -direction * bristle->stiffness / mu;
+    double bend = (mu - sign * friction) / mu, share = friction / mu;
+    double drag = bristle->damping / mu, rate_factor = -sign * bristle->stiffness / mu;
     double per_mass = 1.0 / plant->slider_mass, spring = plant->spring, damper = plant->damper;
     double stiffness = plant->stick.stiffness, damping = 2.0 * plant->stick.decay;
     Complex hold = plant->holding_drive, e = complex_of(0.0, -1.0);
@@ -98,45 +103,56 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
     double *v = slide->velocity, *y = slide->displacement, *u = slide->rate;
     double limit[TAYLOR_ORDER], decay[TAYLOR_TERMS];
     double passed[TAYLOR_TERMS] = {0.0}, resisting[TAYLOR_TERMS] = {0.0};
-    double load = plant->load, lost = 0.0;
+    double load = plant->load, lost = 0.0, sprung = damper * now->state.rate + spring * now->state.displacement;
     expand_normal(normal, q, plant->normal_rate, limit);
     limit[0] += plant->friction_preload;
     slide->direction = direction;
+    slide->rests = now->mode == STICK && direction == 0;
     slide->resonates = plant->resolves_resonator;
-    v[0] = state->velocity;
-    y[0] = state->displacement;
-    u[0] = state->rate;
+    slide->least = plant->friction_preload - plant->friction_amplitude;
+    v[0] = now->state.velocity;
+    y[0] = now->state.displacement;
+    u[0] = now->state.rate;
     decay[0] = 1.0;
     for (int k = 0; k < TAYLOR_ORDER; k++) {
         double step = INVERSE[k + 1];
         double product = k == 0 ? v[0] : passed[k] + v[0] * decay[k] + v[k];
-        double bent = drag * product + direction * lost;
-        double force = share * limit[k] + bend * (resisting[k] + limit[0] * bent);
+        double bent = drag * product + sign * lost;
+        double pull = hold.re * drive.re - hold.im * drive.im - load + sprung;
+        double force = slide->rests ? pull : share * limit[k] + bend * (resisting[k] + limit[0] * bent);
+        double acceleration = (pull - force) * per_mass;
         slide->force[k] = force;
-        double held = hold.re * drive.re - hold.im * drive.im - load - force;
+        v[k + 1] = acceleration * step;
         if (slide->resonates) {
-            double acceleration = (held + damper * u[k] + spring * y[k]) * per_mass;
             double swing = plant->base_acceleration * drive.re - damping * u[k] - stiffness * y[k];
-            v[k + 1] = acceleration * step;
             u[k + 1] = (swing - acceleration) * step;
             y[k + 1] = u[k] * step;
-        } else {
-            v[k + 1] = held * per_mass * step;
+            sprung = damper * u[k + 1] + spring * y[k + 1];
         }
         decay[k + 1] = rate_factor * product * step;
-        for (int i = 1; i < TAYLOR_ORDER - k; i++) {
-            resisting[k + i] += bent * limit[i];
+        if (bends) {
+            for (int i = 1; i < TAYLOR_ORDER - k; i++) {
+                resisting[k + i] += bent * limit[i];
+            }
+            push_product(passed, v, decay, k + 1);
         }
-        push_product(passed, v, decay, k + 1);
         lost = -decay[k + 1];
         load = k == 0 ? plant->load_rate : 0.0;
         drive = turned(drive, w * step);
     }
-    slide->bound = 0.0;
+    double scale = velocity_scale(plant, &now->state);
     slide->reach = reach_of(v, tolerance, scale);
     if (slide->resonates) {
         double weight = plant->mass_fraction > 0.0 ? plant->mass_fraction : 1.0;
         slide->reach = fmin(slide->reach, reach_of(u, tolerance, scale / weight));
+    }
+    for (int i = 0; i < 2 && slide->rests; i++) {
+        double *margin = slide->margin[i];
+        for (int k = 0; k < TAYLOR_ORDER; k++) {
+            margin[k] = i == 0 ? limit[k] - slide->force[k] : limit[k] + slide->force[k];
+        }
+        margin[TAYLOR_ORDER] = 0.0;
+        slide->reach = fmin(slide->reach, series_reach(margin, tolerance * scale * plant->total_mass * w));
     }
 }
 
@@ -149,27 +165,48 @@ bool taylor_slide_departs(const TaylorSlide *slide) {
     return true;
 }
 
-static Signal velocity_ahead(void *motion, double t) {
-    const TaylorSlide *slide = motion;
+static Signal signal_at(void *motion, double t) {
+    const TaylorSignal *signal = motion;
     double total = 0.0, slope = 0.0;
     for (int k = TAYLOR_ORDER; k >= 0; k--) {
         slope = slope * t + total;
-        total = total * t + slide->velocity[k];
+        total = total * t + signal->coefficients[k];
     }
-    return (Signal){slide->direction * total, slide->direction * slope, slide->bound};
+    return (Signal){signal->sign * total, signal->sign * slope, signal->bound};
 }
 
-Watch taylor_slide_watch(TaylorSlide *slide, double horizon) {
-    double curvature = 0.0, scale = 0.0;
+/* Watch `sign` times a series up to `horizon` [s]. */
+static Watch watch_series(TaylorSignal *signal, const double *coefficients, int sign, double horizon) {
+    double curvature = 0.0, total = 0.0;
     for (int k = TAYLOR_ORDER; k >= 0; k--) {
-        double size = fabs(slide->velocity[k]);
-        scale = scale * horizon + size;
+        double part = fabs(coefficients[k]);
+        total = total * horizon + part;
         if (k >= 2) {
-            curvature = curvature * horizon + k * (k - 1) * size;
+            curvature = curvature * horizon + k * (k - 1) * part;
         }
     }
-    slide->bound = curvature;
-    return (Watch){velocity_ahead, slide, 4.0 * EPSILON * scale, 1.0 / horizon, INFINITY};
+    *signal = (TaylorSignal){coefficients, sign, curvature};
+    return (Watch){signal_at, signal, 4.0 * EPSILON * total, 1.0 / horizon};
+}
+
+int taylor_slide_watches(TaylorSlide *slide, double horizon, Watch watches[2]) {
+    double force = 0.0;
+    if (!slide->rests) {
+        watches[0] = watch_series(&slide->watched[0], slide->velocity, slide->direction, horizon);
+        return slide->direction != 0;
+    }
+    for (int k = TAYLOR_ORDER - 1; k >= 0; k--) {
+        force = force * horizon + fabs(slide->force[k]);
+    }
+    if (force == 0.0 || force < 0.999999 * slide->least) {
+        return 0;
+    }
+    for (int i = 0; i < 2; i++) {
+        watches[i] = watch_series(&slide->watched[i], slide->margin[i], 1, horizon);
+    }
+    /* Margins are differences of numbers as large as the larger one. */
+    watches[0].noise = watches[1].noise = fmax(watches[0].noise, watches[1].noise);
+    return 2;
 }
 
 /* Work of friction [J] after `t` [s]: the integral of the product of force and velocity. */
@@ -186,19 +223,16 @@ static double work_until(const TaylorSlide *slide, double t) {
     return total * t;
 }
 
-Passage taylor_slide_passage(const TaylorSlide *slide, double t, bool counts_work) {
-    double total = 0.0;
-    for (int k = TAYLOR_ORDER; k >= 0; k--) {
-        total = total * t + slide->velocity[k] * INVERSE[k + 1];
-    }
-    return (Passage){total * t, counts_work ? work_until(slide, t) : 0.0};
-}
-
-State taylor_slide_state(const TaylorSlide *slide, double t) {
-    State state = {value(slide->velocity, t), slide->displacement[0], slide->rate[0]};
+Place taylor_slide_place(const TaylorSlide *slide, double t, bool counts_work) {
+    Place place = {.state = {value(slide->velocity, t), slide->displacement[0], slide->rate[0]}};
     if (slide->resonates) {
-        state.displacement = value(slide->displacement, t);
-        state.rate = value(slide->rate, t);
+        place.state.displacement = value(slide->displacement, t);
+        place.state.rate = value(slide->rate, t);
     }
-    return state;
+    double travel = 0.0;
+    for (int k = TAYLOR_ORDER; k >= 0; k--) {
+        travel = travel * t + slide->velocity[k] * INVERSE[k + 1];
+    }
+    place.passed = (Passage){travel * t, counts_work && !slide->rests ? work_until(slide, t) : 0.0};
+    return place;
 }

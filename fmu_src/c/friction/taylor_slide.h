@@ -1,5 +1,5 @@
-/* Sliding or flight as a Taylor series in time: on bending bristles, under a normal frequency that grows, and where the
- * closed form would lose digits.
+/* Motion as a Taylor series in time: rest; sliding on bending bristles; sliding and flight under a normal frequency that
+ * grows, and where the closed form would lose digits. At rest friction is the force that holds the slider.
  *
  * With s the direction of sliding, g = sigma_0 z the friction of the bristle and g_r its value where this series
  * starts, the bristle is a function of the path d = |x - x_r| alone (eq. 8):
@@ -11,36 +11,46 @@
  * coefficients of all factors follow by recurrence. */
 #pragma once
 
+#include <stddef.h>
+
 #include "../device/split_slide.h"
 #include "bristle.h"
 
 /* Order of the series: close to the cheapest one at any tolerance. */
 enum { TAYLOR_ORDER = 22, TAYLOR_TERMS = TAYLOR_ORDER + 1 };
 
-/* Taylor coefficients of the slider's velocity, of the resonator's `displacement` and velocity (`rate`), and of the
- * friction `force` [N]; they hold up to `reach` [s]. `bound` is that of the watched curvature. */
+/* A watched signal, `sign` times a series, and the bound of its curvature. */
+typedef struct {
+    const double *coefficients;
+    double sign, bound;
+} TaylorSignal;
+
+/* Taylor coefficients of the slider's velocity, of the resonator's `displacement` and velocity (`rate`), of the friction
+ * `force` [N] and, at rest, of the `margin` by which it is below its limit, forwards and backwards; they hold up to
+ * `reach` [s]. `least` [N] is the smallest limit. */
 typedef struct {
     int direction;
-    bool resonates;
-    double velocity[TAYLOR_TERMS], displacement[TAYLOR_TERMS], rate[TAYLOR_TERMS], force[TAYLOR_ORDER];
-    double reach, bound;
+    bool rests, resonates;
+    double velocity[TAYLOR_TERMS], displacement[TAYLOR_TERMS], rate[TAYLOR_TERMS];
+    double force[TAYLOR_ORDER], margin[2][TAYLOR_TERMS];
+    double reach, least;
+    TaylorSignal watched[2];
 } TaylorSlide;
 
-/* Motion in contact from `state` on, in `direction`, up to `reach`.
+/* Motion from `now` on, up to `reach`: in `direction`, or in flight in contact mode LIFTED; at rest in contact with
+ * direction 0.
  *
- * `friction` is sigma_0 z and `start` are the phasors at the start. At `reach` the last terms of the series are
- * `tolerance` times `scale` [m/s] or, in a motion that is much slower than that, times its velocity. */
+ * `bristle` is NULL for full friction, and `start` are the phasors at the start. At `reach` the last terms of the series
+ * are `tolerance` times the scale of velocities or, in a motion that is much slower than that, times its velocity. */
 void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle, int direction,
-                        const State *state, double friction, const Phasors *start, double tolerance, double scale);
+                        const Moment *now, const Phasors *start, double tolerance);
 
 /* Whether the motion begins in its direction, or stays at rest. */
 bool taylor_slide_departs(const TaylorSlide *slide);
 
-/* The velocity in the direction of sliding, up to `horizon` [s]. */
-Watch taylor_slide_watch(TaylorSlide *slide, double horizon);
+/* Watch the velocity in the direction of sliding, unless that is 0; at rest the forward, then the backward margin, unless
+ * the force is 0 or always below the smallest limit. For up to `horizon` [s]. Return the number of watches. */
+int taylor_slide_watches(TaylorSlide *slide, double horizon, Watch watches[2]);
 
-/* Displacement [m] of the slider and, if it counts, work of friction [J] after `t` [s]. */
-Passage taylor_slide_passage(const TaylorSlide *slide, double t, bool counts_work);
-
-/* State after `t` [s]. */
-State taylor_slide_state(const TaylorSlide *slide, double t);
+/* Where the motion is after `t` [s], the work of friction included if it counts. */
+Place taylor_slide_place(const TaylorSlide *slide, double t, bool counts_work);
