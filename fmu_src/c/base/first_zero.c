@@ -6,7 +6,7 @@
 /* A step that cannot pass a zero may be as short as rounding allows where the signal is next to zero. Steps are then
  * lengthened to `SHORTEST_STEP`, which doubles every FLOOR_DOUBLING steps up to `SHORT_STEP` [rad]: that bounds the
  * work. What a lengthened step may pass is looked for at its end. */
-enum { FLOOR_DOUBLING = 20 };
+enum { FLOOR_DOUBLING = 5 };
 #define SHORTEST_STEP 1e-7
 #define SHORT_STEP 0.01
 

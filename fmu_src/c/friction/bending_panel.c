@@ -282,6 +282,13 @@ static void end_panel(BendingPanel *panel) {
     panel->work = 0.0;
 }
 
+void bending_panel_skip(BendingPanel *panel, const System *system, int direction, const Moment *now,
+                        const Phasors *start) {
+    split_slide_begin(&panel->slide, &system->split, &system->plant, now, start, direction);
+    panel->length = panel->offset = panel->work = 0.0;
+    panel->reach = INFINITY;
+}
+
 BendingMotion bending_panel_begin(BendingPanel *panel, const System *system, int direction, const Moment *now,
                                   const Phasors *start, double longest, double tolerance) {
     const Plant *plant = &system->plant;
@@ -335,15 +342,14 @@ static double travel_within(const BendingPanel *panel, double t) {
 }
 
 Passage bending_panel_passage(const BendingPanel *panel, double t) {
-    if (t < panel->length) {
-        const GaussIntegrals *gauss = panel->kernels->gauss;
-        Passage within = {travel_within(panel, t), 0.0};
-        if (panel->slide.works) {
-            within.work = panel->length * gauss_integral(gauss, t / panel->length, panel->power);
-        }
-        return within;
+    if (t >= panel->length) {
+        return bending_panel_place(panel, t).passed;
     }
-    return bending_panel_place(panel, t).passed;
+    Passage within = {travel_within(panel, t), 0.0};
+    if (panel->slide.works) {
+        within.work = panel->length * gauss_integral(panel->kernels->gauss, t / panel->length, panel->power);
+    }
+    return within;
 }
 
 Place bending_panel_place(const BendingPanel *panel, double t) {

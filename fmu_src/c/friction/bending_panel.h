@@ -22,7 +22,7 @@
  * than the tolerance; or by series otherwise. */
 typedef enum { BY_PANEL, AS_BENT, BY_SERIES } BendingMotion;
 
-/* `slide` is the motion after the panel, whose length is `length` [s]; it holds up to `reach` [s]. Of f are kept: a
+/* `slide` is the motion after the panel, whose length is `length` [s], 0 for none; it holds up to `reach` [s]. Of f are kept: a
  * (`even`) [N] and b (`late`) [N s] at the points, b at the start (`first`) [N s], and the displacement that f leaves
  * beyond that of the `slide` (`offset`) [m]. `exponent` is k |x - x_r| at the points, with `rate` k [1/m]. `power` is
  * that of friction at the nodes [W], `work` what friction does in the panel beyond what it would do on the `slide`
@@ -40,6 +40,10 @@ typedef struct {
  * series alone are used. */
 BendingMotion bending_panel_begin(BendingPanel *panel, const System *system, int direction, const Moment *now,
                                   const Phasors *start, double longest, double tolerance);
+
+/* Begin motion under full friction, or flight, without a panel. */
+void bending_panel_skip(BendingPanel *panel, const System *system, int direction, const Moment *now,
+                        const Phasors *start);
 
 /* Find the work of friction in the panel; until then it is 0. */
 void bending_panel_weigh(BendingPanel *panel);

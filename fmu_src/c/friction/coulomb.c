@@ -70,50 +70,9 @@ static double force(const System *system, const Moment *moment, int mode) {
     return mode * friction_limit(&system->plant, moment->psi);
 }
 
-/* A time [s] up to which a slider released in direction `sign` is guaranteed to move on; 0 if there is no guarantee.
- *
- * It starts with neither velocity nor acceleration, so that the velocity grows with the second power of time, v >= jerk
- * t^2 / 2 - B t^3 / 6 while B bounds its third derivative, and is positive up to t = 3 jerk / B. The search for the
- * next zero can start there, past the zero that the motion starts from. */
-static double departure_time(const Plant *plant, int sign, const Moment *now) {
-    const State *state = &now->state;
-    double w = plant->drive_frequency, q = plant->normal_frequency, chi = now->psi + plant->phase;
-    double amplitude = sign * plant->friction_amplitude, load_rate = amplitude * q * cos(chi);
-    double drive_sine = sin(now->theta), drive_cosine = cos(now->theta);
-    Complex direct = complex_mul(complex_of(drive_sine, -drive_cosine), plant->holding_drive);
-    double force_rate = -w * direct.im - load_rate - plant->load_rate;
-    double horizon = 1.0 / fmax(fmax(w, fabs(q)), plant->slip.frequency);
-    double highest = fabs(q) + fabs(plant->normal_rate) * horizon;
-    double load_bound = fabs(amplitude) * highest * highest + fabs(amplitude) * fabs(plant->normal_rate);
-    double force_bound = complex_abs(plant->holding_drive) * w * w + load_bound;
-    if (plant->mass_fraction != 0.0) {
-        double decay = plant->slip.decay, stiffness = plant->slip.stiffness;
-        double frequency = plant->slip.frequency;
-        double resisting = sign * plant->friction_preload + amplitude * sin(chi) + plant->load;
-        double forcing = plant->relative_drive * drive_sine + resisting / plant->slider_mass;
-        double forcing_rate =
-            plant->relative_drive * w * drive_cosine + (load_rate + plant->load_rate) / plant->slider_mass;
-        double forcing_bound = fabs(plant->relative_drive) * w * w + load_bound / plant->slider_mass;
-        double second = forcing - 2.0 * decay * state->rate - stiffness * state->displacement;
-        double third = forcing_rate - 2.0 * decay * second - stiffness * state->rate;
-        double energy = hypot(third, frequency * second) + horizon * forcing_bound;
-        force_rate += plant->spring * state->rate + plant->damper * second;
-        force_bound += (plant->spring / frequency + plant->damper) * energy;
-    }
-    double jerk = sign * force_rate;
-    if (!(jerk > 0.0)) {
-        return 0.0;
-    }
-    return 3.0 * jerk >= force_bound * horizon ? horizon : 3.0 * jerk / force_bound;
-}
-
 static void begin(Segment *segment, const System *system, const Moment *now, double longest) {
     (void)longest;
-    int direction = now->mode == LIFTED ? 0 : now->mode;
-    segment_begin_slide(segment, system, now, direction);
-    if (direction != 0 && segment->departs) {
-        segment->watched_from = departure_time(&system->plant, direction, now);
-    }
+    segment_begin_slide(segment, system, now, now->mode == LIFTED ? 0 : now->mode);
 }
 
 static void enter_next_mode(const Segment *segment, const System *system, Moment *now, bool switches) {

@@ -4,18 +4,12 @@
 #include "bending_panel.h"
 #include "taylor_slide.h"
 
-/* What the motion is: sliding or flight in closed form; any motion by series, as rest always is; or sliding on bending
- * bristles by a panel, and on after it. */
-typedef enum { SLIDES, FOLLOWS_SERIES, BENDS_AND_SLIDES } SegmentKind;
-
 /* Begun by a friction law, then followed, up to the first zero of what it watches. */
 typedef struct Segment {
-    SegmentKind kind;    /* what the motion is */
-    int mode;            /* contact mode */
-    int direction;       /* of sliding, in which the velocity is watched; 0 for none */
-    double watched_from; /* from when on it is watched [s] */
+    bool by_series; /* whether the motion is a series, as rest always is, or in closed form, after a panel or not */
+    int mode;       /* contact mode */
+    int direction;  /* of sliding, in which the velocity is watched; 0 for none */
     union {
-        SplitSlide slide;
         TaylorSlide series;
         BendingPanel panel;
     } motion;
@@ -23,7 +17,6 @@ typedef struct Segment {
     double travelled;  /* displacement of the slider [m] once finished */
     int zero_of;       /* index of the watched signal whose zero ends it, or -1 */
     bool turns;        /* whether it slides, beyond rounding, in another direction than it slid before */
-    bool departs;      /* set before: whether it starts from rest and not at a reversal */
     bool counts_means; /* set before: whether it counts in the means of a period; the work of friction is 0 otherwise */
     KnownPhasors known; /* set before: the phasors of the start, if they are known; once finished, of the end */
 } Segment;

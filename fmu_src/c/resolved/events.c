@@ -6,44 +6,12 @@
 #include "../base/constants.h"
 #include "../friction/segment.h"
 
-/* Largest number of segments accepted in a turn of the fastest oscillation: several times as many as presliding on the
- * hardest bristles takes. */
-enum { MAX_TURN_SEGMENTS = 20000 };
-
 /* Drive periods before the end of a motion from which it counts in means: they are those of the last whole one, and the
  * first that ends is counted in part. */
 #define COUNTED 3.0
 
-/* Segments since a turn of the fastest oscillation began at `began` [s], and `all` segments, of which there may be
- * `max_all`; a turn takes `turn` [s]. */
-typedef struct {
-    int segments, all, max_all;
-    double began, turn;
-} SegmentCount;
-
-/* Counts a segment that begins at `time` [s]. Refuses too many segments. */
-static bool count_segment(SegmentCount *count, double time, const Budget *budget, Refusal *refusal) {
-    if (time - count->began > count->turn) {
-        count->began = time;
-        count->segments = 0;
-    }
-    count->segments++;
-    count->all++;
-    if (count->segments > MAX_TURN_SEGMENTS) {
-        return budget_refuse(budget, time, MAX_TURN_SEGMENTS, "segments in a turn of the fastest oscillation", refusal);
-    }
-    return count->all <= count->max_all ||
-           budget_refuse(budget, time, MAX_STEP_SEGMENTS, "segments of motion", refusal);
-}
-
-/* Refuses a motion that takes too many segments even if each has the maximum length `longest` [s]. A search for an
- * event may end it earlier: it is not refused. */
-static bool is_within_budget(const SegmentCount *count, double duration, double longest, const EventSearch *search,
-                             const Budget *budget, Refusal *refusal) {
-    double reach = count->max_all * longest;
-    return search != NULL || duration <= reach ||
-           budget_refuse(budget, reach, MAX_STEP_SEGMENTS, "segments of motion", refusal);
-}
+/* What the work of a motion is called where it is refused. */
+static const char *const SEGMENTS = "segments of motion";
 
 /* Ends a search with the event at the time of the clock, unless the search ignores that time. */
 static bool found_at(EventSearch *search, const Clock *clock) {
@@ -118,19 +86,19 @@ bool events_advance(const System *start, const Moment *moment, double duration, 
     double remaining = duration;
     double counted = COUNTED * TAU / plant->drive_frequency;
     Clock clock = clock_of(duration);
-    SegmentCount count = {.turn = TAU / LONGEST_ARC * system->arc, .max_all = budget_left(budget, MAX_STEP_SEGMENTS)};
+    int count = 0, max_count = budget_left(budget, MAX_STEP_SEGMENTS);
     Segment segment;
     Moment begin;
-    if (!is_within_budget(&count, duration, system->arc, search, budget, refusal)) {
-        return false;
+    /* Segments of the maximum length may be too many already. A search may end before these are over. */
+    if (search == NULL && duration > max_count * system->arc) {
+        return budget_refuse(budget, max_count * system->arc, MAX_STEP_SEGMENTS, SEGMENTS, refusal);
     }
     *now = *moment;
     segment.known.known = false;
-    segment.departs = now->state.velocity == 0.0;
     moment_enter(now, friction->mode(system, now));
     while (remaining > 0.0 && isfinite(now->state.velocity)) {
-        if (!count_segment(&count, clock.elapsed, budget, refusal)) {
-            return false;
+        if (++count > max_count) {
+            return budget_refuse(budget, clock.elapsed, MAX_STEP_SEGMENTS, SEGMENTS, refusal);
         }
         double switching = time_to_switch(plant, now->psi + plant->phase, plant->normal_frequency, plant->normal_rate,
                                           now->mode == LIFTED);
@@ -157,7 +125,6 @@ bool events_advance(const System *start, const Moment *moment, double duration, 
             break;
         }
         friction->enter_next_mode(&segment, system, now, segment.zero_of < 0 && segment.t == switching);
-        segment.departs = now->state.velocity == 0.0 && now->mode != -segment.mode;
         remaining = segment.t == remaining ? 0.0 : clock_advance(&clock, segment.t);
         if (search != NULL && !(remaining > 0.0)) {
             clock = (Clock){duration, duration, 0.0};
@@ -167,6 +134,6 @@ bool events_advance(const System *start, const Moment *moment, double duration, 
             break;
         }
     }
-    budget_spend(budget, count.all, MAX_STEP_SEGMENTS);
+    budget_spend(budget, count, MAX_STEP_SEGMENTS);
     return true;
 }
