@@ -2,6 +2,9 @@
 
 #include "../base/elementary.h"
 
+/* Share of the drive frequency below which the ends of a phasor differ too little to integrate it by them. */
+#define STANDING 1e-3
+
 bool split_prepare(Split *split, const Plant *plant) {
     const Oscillator *slip = &plant->slip;
     double w = plant->drive_frequency, q = plant->normal_frequency, fraction = plant->mass_fraction;
@@ -12,24 +15,24 @@ bool split_prepare(Split *split, const Plant *plant) {
     if (follows && (slip->frequency < SLOW * fmax(w, fabs(q)) || resonates(slip, w) || resonates(slip, q))) {
         return false;
     }
-    Complex zero = complex_of(0.0, 0.0), turn = complex_of(0.0, -1.0);
-    split->merges = q == w || q == 0.0;
-    Complex resonator_drive = zero, resonator_normal = zero, velocity_normal = zero;
-    if (follows) {
-        resonator_drive = complex_scale(plant->relative_drive, transfer(slip, w));
-    }
+    Complex zero = complex_of(0.0, 0.0), turn = complex_of(0.0, -1.0), resonator_normal = zero, velocity_normal = zero;
+    Complex to_drive = follows ? transfer(slip, w) : zero, to_normal = follows ? transfer(slip, q) : zero;
+    Complex resonator_drive = complex_scale(plant->relative_drive, to_drive);
     Complex pull = complex_scale(fraction * w * w, resonator_drive);
     Complex velocity_drive = complex_div(complex_add(plant->drive, pull), complex_of(0.0, w));
     if (q != 0.0) {
-        if (follows) {
-            double push = plant->friction_amplitude / plant->slider_mass;
-            resonator_normal = complex_scale(push, transfer(slip, q));
-        }
+        resonator_normal = complex_scale(plant->friction_amplitude / plant->slider_mass, to_normal);
         Complex resisting = complex_scale(fraction * q * q, resonator_normal);
         resisting.re -= plant->friction_amplitude / plant->total_mass;
         velocity_normal = complex_div(resisting, complex_of(0.0, q));
-        split->work = slide_work_of(plant);
     }
+    for (int i = 0; i < 2; i++) {
+        double frequency = i == 0 ? q + w : q - w;
+        split->frequency[i] = frequency;
+        split->integral[i] = -0.5 / (fabs(frequency) > STANDING * w ? frequency : INFINITY);
+    }
+    split->merges = q == w || q == 0.0;
+    split->recoil = complex_scale(fraction, complex_conj(to_normal));
     split->fastest = fmax(fmax(w, fabs(q)), slip->frequency);
     split->resonator_drive = complex_mul(turn, resonator_drive);
     split->velocity_drive = complex_mul(turn, velocity_drive);
@@ -74,28 +77,24 @@ static Complex drive_at(double theta) {
     return fabs(passed) < 1e-9 ? complex_of(1.0, passed) : complex_rect(1.0, theta);
 }
 
-/* The free motion of the resonator at `t`. */
-static void compute_free(const Plant *plant, double t, Turns *turns) {
+/* The free motion of the resonator at `t`, as in Turns. */
+static Complex free_at(const Plant *plant, double t) {
     Complex eigenvalue = plant->slip.eigenvalue;
-    turns->free = complex_of(1.0, 0.0);
-    turns->envelope = 1.0;
     if (!plant->resolves_resonator) {
-        return;
+        return complex_of(1.0, 0.0);
     }
     if (plant->slip.oscillatory) {
-        turns->envelope = elementary_exp(eigenvalue.re * t);
-        turns->free = complex_rect(turns->envelope, eigenvalue.im * t);
-    } else {
-        Response response = free_response(&plant->slip, t);
-        turns->free = complex_of(response.displacement, response.rate);
+        return complex_rect(elementary_exp(eigenvalue.re * t), eigenvalue.im * t);
     }
+    Response response = free_response(&plant->slip, t);
+    return complex_of(response.displacement, response.rate);
 }
 
 /* Turns at `t`, by sines and cosines. */
 static void compute_turns(const SplitSlide *slide, double t, Turns *turns) {
     const Plant *plant = slide->plant;
     turns->t = t;
-    compute_free(plant, t, turns);
+    turns->free = free_at(plant, t);
     turns->phasors.drive = drive_at(slide->theta + plant->drive_frequency * t);
     turns->phasors.normal = slide->split->merges ? slide->start.phasors.normal
                                                  : complex_rect(1.0, slide->chi + plant->normal_frequency * t);
@@ -120,15 +119,11 @@ static inline void rotate_turns(const SplitSlide *slide, const Turns *anchor, do
     const Plant *plant = slide->plant;
     double ahead = t - anchor->t;
     turns->t = t;
-    turns->free = anchor->free;
-    turns->envelope = anchor->envelope;
     if (plant->resolves_resonator && plant->slip.oscillatory) {
         Complex eigenvalue = plant->slip.eigenvalue;
-        double growth = grown(eigenvalue.re * ahead);
-        turns->envelope *= growth;
-        turns->free = complex_scale(growth, rotated(anchor->free, eigenvalue.im * ahead));
-    } else if (plant->resolves_resonator) {
-        compute_free(plant, t, turns);
+        turns->free = complex_scale(grown(eigenvalue.re * ahead), rotated(anchor->free, eigenvalue.im * ahead));
+    } else {
+        turns->free = free_at(plant, t);
     }
     turns->phasors.drive = rotated(anchor->phasors.drive, plant->drive_frequency * ahead);
     turns->phasors.normal = slide->split->merges ? anchor->phasors.normal
@@ -157,36 +152,14 @@ static inline const Turns *turns_at(const SplitSlide *slide, double t, Turns *pl
 /* Free motion of the resonator, its displacement [m] and rate [m/s]. */
 static inline Response free_motion_at(const SplitSlide *slide, const Turns *turns) {
     const Oscillator *slip = &slide->plant->slip;
-    if (!slip->oscillatory) {
-        return free_motion(slip, slide->free_start, (Response){turns->free.re, turns->free.im});
-    }
-    Complex swing = complex_mul(slide->resonator_free, turns->free);
-    return (Response){swing.re, slip->eigenvalue.re * swing.re - slip->eigenvalue.im * swing.im};
+    double sine = slip->oscillatory ? turns->free.im / slip->eigenvalue.im : turns->free.im;
+    return free_motion(slip, slide->free_start, (Response){turns->free.re, sine});
 }
 
-/* Sets the complex amplitude of the free oscillation of the resonator [m] and returns the velocity amplitude of the
- * slider that belongs to it [m/s]. */
-static double swing_freely(SplitSlide *slide, Complex free) {
+/* Velocity of the slider [m/s] that belongs to the free motion at most. */
+static double free_velocity(const SplitSlide *slide) {
     const Plant *plant = slide->plant;
-    double decaying = plant->mass_fraction * plant->slip.frequency * complex_abs(free);
-    slide->resonator_free = free;
-    slide->free_start.displacement = free.re;
-    slide->free_bound = decaying * plant->slip.stiffness;
-    return decaying;
-}
-
-/* Sets the free motion of the resonator, from displacement [m] and rate [m/s] on; returns the velocity of the slider
- * that belongs to it at most [m/s]. */
-static double begin_freely(SplitSlide *slide, Response free) {
-    const Plant *plant = slide->plant;
-    Complex eigenvalue = plant->slip.eigenvalue;
-    slide->free_start = free;
-    slide->free_bound = 0.0;
-    if (plant->slip.oscillatory) {
-        double quarter = (free.rate - eigenvalue.re * free.displacement) / eigenvalue.im;
-        return swing_freely(slide, complex_of(free.displacement, -quarter));
-    }
-    return plant->mass_fraction * hypot(free.rate, plant->slip.frequency * free.displacement);
+    return plant->mass_fraction * hypot(slide->free_start.rate, plant->slip.frequency * slide->free_start.displacement);
 }
 
 /* Sets the free part and the bounds of a slide whose forced parts are known, so that it begins at `state`. */
@@ -208,10 +181,11 @@ static void match_state(SplitSlide *slide, const State *state) {
         free.displacement = state->displacement - slide->constant - (ae.re + aq.re);
         free.rate = state->rate + w * ae.im + q * aq.im - slide->slope;
     }
-    double decaying = begin_freely(slide, free), drive = complex_abs(slide->velocity_drive);
+    slide->free_start = free;
+    double drive = complex_abs(slide->velocity_drive);
     slide->k0 = state->velocity - forced + plant->mass_fraction * free.rate;
     slide->bound = drive * w * w + bound + 2.0 * fabs(slide->k2);
-    slide->noise = 2.0 * EPSILON * (fabs(slide->k0) + drive + normal + decaying);
+    slide->noise = 2.0 * EPSILON * (fabs(slide->k0) + drive + normal + free_velocity(slide));
 }
 
 void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant, const Moment *now,
@@ -223,13 +197,11 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
     slide->direction = direction;
     slide->sign = sign;
     slide->works = false;
-    slide->begin = now->state;
     slide->theta = now->theta;
     slide->chi = now->psi + plant->phase;
     slide->start.t = 0.0;
     slide->start.phasors = *start;
     slide->start.free = complex_of(1.0, 0.0);
-    slide->start.envelope = 1.0;
     slide->anchored = false;
     slide->resonator_drive = split->resonator_drive;
     slide->velocity_drive = split->velocity_drive;
@@ -253,22 +225,18 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
 
 void split_slide_change(SplitSlide *slide, double momentum, Complex swing) {
     Complex rate = complex_mul(slide->plant->slip.eigenvalue, swing);
-    slide->begin.velocity += momentum - slide->plant->mass_fraction * rate.re;
-    slide->begin.displacement += swing.re;
-    slide->begin.rate += rate.re;
     slide->k0 += momentum;
-    double decaying = swing_freely(slide, complex_add(slide->resonator_free, swing));
-    slide->noise += 2.0 * EPSILON * (fabs(momentum) + decaying);
+    slide->free_start.displacement += swing.re;
+    slide->free_start.rate += rate.re;
+    slide->noise += 2.0 * EPSILON * (fabs(momentum) + free_velocity(slide));
 }
 
 void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex normal, Complex free) {
     const Phasors *start = &slide->start.phasors;
-    bool resolves = slide->plant->resolves_resonator;
     slide->anchor.t = t;
     slide->anchor.phasors.drive = complex_mul(start->drive, drive);
     slide->anchor.phasors.normal = slide->split->merges ? start->normal : complex_mul(start->normal, normal);
-    slide->anchor.free = resolves ? free : complex_of(1.0, 0.0);
-    slide->anchor.envelope = resolves ? complex_abs(free) : 1.0;
+    slide->anchor.free = slide->plant->resolves_resonator ? free : complex_of(1.0, 0.0);
     slide->anchored = true;
 }
 
@@ -296,11 +264,8 @@ static inline double acceleration_by(const SplitSlide *slide, const Turns *turns
 
 /* Bound [m/s^3] on the second derivative of the velocity from turns on. That by the free motion is bounded by its
  * energy, which never grows. */
-static inline double bound_by(const SplitSlide *slide, const Turns *turns, double rate, double acceleration) {
+static inline double bound_by(const SplitSlide *slide, double rate, double acceleration) {
     const Oscillator *slip = &slide->plant->slip;
-    if (slip->oscillatory) {
-        return slide->bound + slide->free_bound * turns->envelope;
-    }
     double jerk = -2.0 * slip->decay * acceleration - slip->stiffness * rate;
     return slide->bound + slide->plant->mass_fraction * hypot(jerk, slip->frequency * acceleration);
 }
@@ -318,8 +283,7 @@ static Signal velocity_ahead(void *motion, double t) {
     Response free = free_motion_at(slide, turns);
     double second = -2.0 * slip->decay * free.rate - slip->stiffness * free.displacement;
     return (Signal){slide->direction * velocity_by(slide, turns, free.rate),
-                    slide->direction * acceleration_by(slide, turns, second),
-                    bound_by(slide, turns, free.rate, second)};
+                    slide->direction * acceleration_by(slide, turns, second), bound_by(slide, free.rate, second)};
 }
 
 Watch split_slide_watch(SplitSlide *slide) {
@@ -344,23 +308,53 @@ static inline double travel_by(const SplitSlide *slide, const Turns *turns, doub
     return (slide->k0 + (0.5 * slide->k1 + slide->k2 * t / 3.0) * t) * t + travel;
 }
 
-static SlideEnd end_by(const Plant *plant, const Turns *turns, State state) {
-    return (SlideEnd){turns->phasors.drive, normal_phasor(plant, &turns->phasors), state};
+/* The integral K up to turns [m], but for an addend that does not change, and what stands still in n v. */
+static Complex swung_until(const SplitSlide *slide, const Turns *turns, Response free) {
+    const Split *split = slide->split;
+    double q = slide->plant->normal_frequency, t = turns->t, per = 1.0 / q;
+    double steady = slide->k0 + (slide->k1 + slide->k2 * t) * t, slope = slide->k1 + 2.0 * slide->k2 * t;
+    double first = split->integral[0], second = split->integral[1];
+    Complex drive = complex_mul(slide->velocity_drive, turns->phasors.drive);
+    Complex swing = complex_of(slide->plant->slip.stiffness * free.displacement, q * free.rate);
+    Complex sum = complex_of(slope * per * per, (2.0 * slide->k2 * per * per - steady) * per);
+    sum = complex_sub(sum, complex_mul(split->recoil, swing));
+    sum.re += (second - first) * drive.im;
+    sum.im += (first + second) * drive.re;
+    if (!split->merges) {
+        Complex normal = complex_mul(slide->velocity_normal, turns->phasors.normal);
+        sum.re += 0.25 * per * normal.im;
+        sum.im -= 0.25 * per * normal.re;
+    }
+    return complex_mul(normal_phasor(slide->plant, &turns->phasors), sum);
 }
 
-/* Work of friction [J] up to turns, where the displacement [m] and the state are known. */
-static double work_by(const SplitSlide *slide, const Turns *turns, State state, double travelled) {
+/* Im K [m] up to turns. */
+static double swung_by(const SplitSlide *slide, const Turns *turns, Response free) {
+    const Split *split = slide->split;
+    Complex first = swung_until(slide, &slide->start, slide->free_start);
+    double t = turns->t, total = swung_until(slide, turns, free).im - first.im;
+    for (int i = 0; i < 2; i++) {
+        if (split->integral[i] == 0.0) {
+            Complex drive = complex_mul(slide->velocity_drive, slide->start.phasors.drive);
+            Complex phasor = normal_phasor(slide->plant, &slide->start.phasors);
+            phasor = complex_mul(phasor, i == 0 ? drive : complex_conj(drive));
+            if (split->frequency[i] != 0.0) {
+                phasor = complex_mul(phasor, growth_of(complex_of(0.0, split->frequency[i] * t)).once);
+            }
+            total += 0.5 * t * phasor.im;
+        }
+    }
+    return split->merges ? total : total - 0.5 * t * slide->velocity_normal.im;
+}
+
+/* Work of friction [J] up to turns, where the displacement [m] and the free motion are known. */
+static double work_by(const SplitSlide *slide, const Turns *turns, Response free, double travelled) {
     const Plant *plant = slide->plant;
     if (!slide->works) {
         return 0.0;
     }
-    double swung;
-    if (plant->normal_frequency == 0.0) {
-        swung = slide->start.phasors.normal.im * travelled;
-    } else {
-        SlideEnd first = end_by(plant, &slide->start, slide->begin), last = end_by(plant, turns, state);
-        swung = slide_work_swung(&slide->split->work, plant, slide->sign, turns->t, &first, &last);
-    }
+    bool stands = plant->normal_frequency == 0.0;
+    double swung = stands ? slide->start.phasors.normal.im * travelled : swung_by(slide, turns, free);
     return slide->sign * (plant->friction_preload * travelled + plant->friction_amplitude * swung);
 }
 
@@ -378,6 +372,6 @@ Place split_slide_place(const SplitSlide *slide, double t) {
         state.rate -= plant->normal_frequency * aq.im;
     }
     double travel = travel_by(slide, turns, free.displacement);
-    Passage passed = {travel, work_by(slide, turns, state, travel)};
+    Passage passed = {travel, work_by(slide, turns, free, travel)};
     return (Place){state, passed, {!is_soon(slide, t), turns->phasors}};
 }

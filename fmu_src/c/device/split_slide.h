@@ -3,21 +3,27 @@
  * Velocity is v(t) = k0 + k1 t + k2 t^2 + Re(ve exp(i w t) + vq exp(i q t)) - r u(t): the particular solutions at drive
  * and normal frequency are split off from the free motion of the resonator, whose rate is u. That loses digits near
  * resonance, for soft resonators and under slow normal loads; `split_prepare` returns false there, and series are used
- * (taylor_slide.h). */
+ * (taylor_slide.h).
+ *
+ * Full friction does the work s (F0 (X - X_0) + F1 Im K), with K the integral of n v, n = exp(i chi). Partial integration
+ * gives K from both ends. Free motion u = y' adds r T n (stiffness y + i q u) to it, with the response T of the resonator
+ * to exp(-i q t). */
 #pragma once
 
 #include "../base/first_zero.h"
 #include "moment.h"
-#include "slide_work.h"
 
 /* Complex amplitudes per unit exp(i theta) and, for s = 1, per unit exp(i chi): displacement of the resonator
- * (`resonator_*`), velocity of the slider (`velocity_*`). Where `merges`, drive and normal load swing at one frequency,
- * or the normal load is constant: one term of v(t) then stands for both. */
+ * (`resonator_*`), velocity of the slider (`velocity_*`); `recoil` is r T. Where `merges`, drive and normal load swing at
+ * one frequency, or the normal load is constant: one term of v(t) then stands for both.
+ *
+ * The drive makes phasors of two frequencies in n v, q + w and q - w (`frequency` [rad/s]). Integration by their ends has
+ * a factor of imaginary part `integral`, 0 where they stand still. */
 typedef struct {
     bool merges;
     double fastest;
-    SlideWork work; /* of friction, where the normal load swings */
-    Complex resonator_drive, velocity_drive, resonator_normal, velocity_normal;
+    Complex resonator_drive, velocity_drive, resonator_normal, velocity_normal, recoil;
+    double frequency[2], integral[2];
 } Split;
 
 /* Compute the amplitudes. Returns false, with `split` undefined, where splitting would lose digits. */
@@ -47,24 +53,20 @@ double force_by(const Plant *plant, const State *state, const Phasors *phasors);
 /* Friction force [N] of all faces when sliding steadily; 0 in flight. */
 double friction_limit_by(const Plant *plant, const Phasors *phasors);
 
-/* Phasors after `t` [s], with the free motion of the resonator: exp(lambda t) (`free`) and its absolute value
- * (`envelope`), both 1 where the resonator is not resolved; where it does not oscillate `free` is its free response C +
- * i S. */
+/* Phasors after `t` [s], with the free motion of the resonator: exp(lambda t), 1 where the resonator is not resolved, or
+ * its free response C + i S where it does not oscillate. */
 typedef struct {
     double t;
     Phasors phasors;
     Complex free;
-    double envelope;
 } Turns;
 
 /* Motion with friction s (F0 + F1 sin(chi)), s = 1, -1, or 0 in flight, from `theta` and `chi` [rad] on. The resonator
- * vibrates about `constant` [m] + `slope` [m/s] t. Its free motion has the complex amplitude `resonator_free` [m] or,
- * where it does not oscillate, begins at `free_start`. `bound` and `free_bound` [m/s^3] bound the second derivative of
- * the velocity: of its forced part, and of the part by a free oscillation at the start. `noise` [m/s] is the rounding
- * error of the velocity.
+ * vibrates about `constant` [m] + `slope` [m/s] t; its free motion begins at `free_start`. `bound` [m/s^3] bounds the
+ * second derivative of the forced part of the velocity. `noise` [m/s] is the rounding error of the velocity.
  *
- * It begins at `begin`. The velocity is watched in `direction`; `sign` is that of friction, 0 in flight. Set after the
- * beginning, `works` says whether the work of friction is wanted.
+ * The velocity is watched in `direction`; `sign` is that of friction, 0 in flight. Set after the beginning, `works` says
+ * whether the work of friction is wanted.
  *
  * Turns at the latest time for which sines were computed are kept in `anchor`, if `anchored`. Close to the anchor or
  * the `start` these are rotated instead of computing sines. */
@@ -73,13 +75,11 @@ typedef struct {
     const Plant *plant;
     int direction, sign;
     bool works;
-    State begin;
     double theta, chi;
     double constant, slope, k0, k1, k2;
     Complex resonator_drive, resonator_normal, velocity_drive, velocity_normal;
-    Complex resonator_free;
     Response free_start;
-    double bound, free_bound, noise;
+    double bound, noise;
     Turns start, anchor;
     bool anchored;
 } SplitSlide;

@@ -87,8 +87,9 @@ static double response_bound(const Plant *plant, double length) {
  *
  * A parabola bounds the velocity under full friction from below. Of f only the part with E' < 0 decreases the velocity:
  * by push rho (1 - E), where 1 - E is at most k times the path. */
-static bool goes_on(const Outlook *outlook, const SplitSlide *slide, double length) {
-    double bound = slide->bound + slide->free_bound;
+static bool goes_on(const Outlook *outlook, SplitSlide *slide, double length) {
+    Watch watch = split_slide_watch(slide);
+    double bound = watch.signal(watch.motion, 0.0).bound;
     double push = outlook->push * response_bound(slide->plant, length);
     double fastest = fmax(outlook->acceleration, 0.0) + push + bound * length;
     double gained = outlook->speed + outlook->acceleration * length;
@@ -130,8 +131,10 @@ static void follow_path(const BendingPanel *panel, const Outlook *outlook, doubl
     }
     add_swing(exponent, complex_mul(slide->velocity_drive, start->drive), &kernels->drive);
     if (slide->plant->mass_fraction != 0.0) {
-        Complex rate = complex_mul(slide->plant->slip.eigenvalue, slide->resonator_free);
-        Complex recoil = complex_scale(-slide->plant->mass_fraction, rate);
+        Complex eigenvalue = slide->plant->slip.eigenvalue;
+        Response free = slide->free_start;
+        Complex swing = complex_of(free.displacement, -(free.rate - eigenvalue.re * free.displacement) / eigenvalue.im);
+        Complex recoil = complex_scale(-slide->plant->mass_fraction, complex_mul(eigenvalue, swing));
         add_swing(exponent, recoil, &kernels->free);
     }
     if (!slide->split->merges) {
