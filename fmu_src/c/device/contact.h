@@ -11,16 +11,12 @@ static inline int direction_of(double velocity) {
     return (velocity > 0.0) - (velocity < 0.0);
 }
 
-/* Whether the contact is lifted at normal phase `chi` [rad].
+/* Whether the contact is lifted at normal phase `psi` [rad].
  *
- * On a boundary this depends on the direction in which the phase moves: `frequency` [rad/s] is its rate. At rate 0 the
- * contact is lifted where the normal load is 0. */
-bool is_lifted(const Plant *plant, double chi, double frequency);
+ * On a boundary this depends on the direction in which the phase moves. Where it stands still the contact is lifted
+ * where the normal load is 0. */
+bool is_lifted(const Plant *plant, double psi);
 
-/* Time [s] until the contact lifts, or touches down when `lifted`; infinite if never. `frequency` [rad/s] is that of
- * the normal load and may be negative; it grows by `rate` [rad/s^2], and the time is valid until it changes its
- * sign. */
-double time_to_switch(const Plant *plant, double chi, double frequency, double rate, bool lifted);
-
-/* Limit of the friction force [N] of all faces at normal phase `psi` [rad]; 0 in flight. */
-double friction_limit(const Plant *plant, double psi);
+/* Time [s] until the contact lifts, or touches down when `lifted`, from normal phase `psi` [rad] on; infinite if never.
+ * It is valid until the normal frequency changes its sign. */
+double time_to_switch(const Plant *plant, double psi, bool lifted);

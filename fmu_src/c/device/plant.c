@@ -13,24 +13,23 @@ static bool is_unbounded(const Device *device, const Oscillator *oscillator) {
     return device->damping_ratio == 0.0 && fabs(oscillator->stiffness - square) <= AT_RESONANCE * square;
 }
 
-/* The resonator against a free slider (eq. 31 divided by 1 - r_m). */
-static Oscillator slip_oscillator(const Device *device) {
-    double free_share = device->slider_mass / device_total_mass(device);
+/* The resonator against a free slider (eq. 31 divided by 1 - r_m), or against a `held` one. */
+static Oscillator resonator_of(const Device *device, bool held) {
+    double free_share = held ? 1.0 : device->slider_mass / device_total_mass(device);
     double wn = device->resonator_frequency;
     return oscillator_of(device->damping_ratio * wn / free_share, wn * wn / free_share);
 }
 
-/* Steady vibration as complex amplitudes of e: displacement of the `resonator` [m] (eqs 31-32), a direct drive
- * included, and F_T* exp(-i theta_1) of eqs (33)-(34) with the direct drive added, `force` [N]. Refuses where it is
- * unbounded. */
-static bool steady_vibration(const Device *device, Complex *resonator, Complex *force, Refusal *refusal) {
-    double w = device->drive_frequency;
-    Oscillator oscillator = slip_oscillator(device);
+/* Steady vibration on a free or a `held` slider as complex amplitudes of e: displacement of the `resonator` [m] (eqs
+ * 31-32), a direct drive included, and F_T* exp(-i theta_1) of eqs (33)-(34) with the direct drive added, `force` [N].
+ * Refuses where it is unbounded. */
+static bool steady_vibration(const Device *device, bool held, Complex *resonator, Complex *force, Refusal *refusal) {
+    double w = device->drive_frequency, direct = held ? 0.0 : device->tangential_force / device->slider_mass;
+    Oscillator oscillator = resonator_of(device, held);
     if (is_unbounded(device, &oscillator)) {
         return refuse_unbounded_resonance(refusal, device->damping_ratio, w);
     }
-    double push = device->base_amplitude * w * w - device->tangential_force / device->slider_mass;
-    *resonator = complex_scale(push, transfer(&oscillator, w));
+    *resonator = complex_scale(device->base_amplitude * w * w - direct, transfer(&oscillator, w));
     Complex swing = complex_of(resonator->re + device->base_amplitude, resonator->im);
     *force = complex_scale(device->resonator_mass * (w * w), swing);
     force->re += device->tangential_force;
@@ -38,16 +37,9 @@ static bool steady_vibration(const Device *device, Complex *resonator, Complex *
 }
 
 double held_amplitude(const Device *device) {
-    double w = device->drive_frequency, wn = device->resonator_frequency;
-    Oscillator oscillator = oscillator_of(device->damping_ratio * wn, wn * wn);
-    if (is_unbounded(device, &oscillator)) {
-        return INFINITY;
-    }
-    Complex swing = complex_scale(w * w, transfer(&oscillator, w));
-    swing.re += 1.0;
-    Complex amplitude = complex_scale(device->base_amplitude, swing);
-    Complex force = complex_scale(device->resonator_mass * w * w, amplitude);
-    return hypot(force.re + device->tangential_force, force.im);
+    Complex resonator, force;
+    Refusal refusal;
+    return steady_vibration(device, true, &resonator, &force, &refusal) ? complex_abs(force) : INFINITY;
 }
 
 FastVibration fast_vibration_of(const Device *device) {
@@ -56,7 +48,7 @@ FastVibration fast_vibration_of(const Device *device) {
     FastVibration fast = {0};
     Complex force;
     Refusal refusal;
-    if (steady_vibration(device, &fast.resonator, &force, &refusal)) {
+    if (steady_vibration(device, false, &fast.resonator, &force, &refusal)) {
         fast.velocity = complex_abs(force) / (mass * w);
         fast.pair_velocity = (shaken + device->tangential_force) / (mass * w);
         /* Adding 0 makes -0 a 0, which atan2 distinguishes. */
@@ -92,7 +84,7 @@ bool plant_prepare(Plant *plant, const Device *device, const Inputs *inputs, Ref
     double base_acceleration = device->base_amplitude * w * w;
     Complex force = complex_of(m * base_acceleration + device->tangential_force, 0.0);
     Complex resonator;
-    if (!full && !steady_vibration(device, &resonator, &force, refusal)) {
+    if (!full && !steady_vibration(device, false, &resonator, &force, refusal)) {
         return false;
     }
     plant->slider_mass = full ? device->slider_mass : total;
@@ -106,8 +98,8 @@ bool plant_prepare(Plant *plant, const Device *device, const Inputs *inputs, Ref
     plant->friction_preload = faces_mu * device->normal_preload;
     plant->friction_amplitude = faces_mu * device->normal_amplitude;
     plant->window = flight_window(device);
-    plant->slip = slip_oscillator(device);
-    plant->stick = oscillator_of(device->damping_ratio * wn, wn * wn);
+    plant->slip = resonator_of(device, false);
+    plant->stick = resonator_of(device, true);
     plant->drive = complex_of(force.re / total, force.im / total);
     plant->relative_drive = base_acceleration - device->tangential_force / device->slider_mass;
     plant->base_acceleration = base_acceleration;

@@ -14,60 +14,41 @@ static bool prepare(const Device *device, Bristle *bristle, Refusal *refusal) {
     return true;
 }
 
-/* Friction force [N] that holds a slider at rest. */
-static double needed_force(const Plant *plant, const Moment *moment) {
-    const State *state = &moment->state;
-    double resonator = plant->spring * state->displacement + plant->damper * state->rate;
-    Complex direct = plant->holding_drive;
-    if (direct.re == 0.0 && direct.im == 0.0) {
-        return resonator - plant->load;
-    }
-    return resonator - plant->load + direct.re * sin(moment->theta) + direct.im * cos(moment->theta);
-}
-
-/* The contact mode at rest where friction is up to `limit` [N]. */
-static int mode_at_rest(double limit, const Plant *plant, const Moment *moment) {
-    double needed = needed_force(plant, moment);
+/* The contact mode at rest: friction holds the slider up to its limit. */
+static int mode_at_rest(const Plant *plant, const Moment *moment, const Phasors *phasors) {
+    double needed = force_by(plant, &moment->state, phasors), limit = friction_limit_by(plant, phasors);
     if (needed > limit) {
         return FORWARD;
     }
     return needed < -limit ? BACKWARD : STICK;
 }
 
-static int mode_in_contact(const Plant *plant, const Moment *moment) {
-    if (moment->state.velocity != 0.0) {
-        return direction_of(moment->state.velocity);
-    }
-    return mode_at_rest(friction_limit(plant, moment->psi), plant, moment);
-}
-
-/* Whether the slider was released at this moment: friction still balances the other forces, and only the mode of the
- * moment shows in which direction the slider departs. */
-static bool just_released(const Plant *plant, const Moment *moment) {
-    if (moment->state.velocity != 0.0 || !(moment->mode == FORWARD || moment->mode == BACKWARD)) {
-        return false;
-    }
-    double limit = friction_limit(plant, moment->psi);
-    double excess = moment->mode * needed_force(plant, moment) - limit;
-    return fabs(excess) <= BALANCED * (limit + plant->friction_preload + fabs(plant->load));
+/* Whether a slider at rest was released at this moment: friction still balances the other forces, and only the mode of
+ * the moment shows in which direction the slider departs. */
+static bool just_released(const Plant *plant, const Moment *moment, const Phasors *phasors) {
+    double limit = friction_limit_by(plant, phasors);
+    double excess = moment->mode * force_by(plant, &moment->state, phasors) - limit;
+    bool departs = moment->mode == FORWARD || moment->mode == BACKWARD;
+    return departs && fabs(excess) <= BALANCED * (limit + plant->friction_preload + fabs(plant->load));
 }
 
 static int mode(const System *system, const Moment *moment) {
     const Plant *plant = &system->plant;
-    if (is_lifted(plant, moment->psi + plant->phase, plant->normal_frequency)) {
-        return LIFTED;
+    int moving = mode_by_velocity(system, moment);
+    if (moving != STICK) {
+        return moving;
     }
-    return just_released(plant, moment) ? moment->mode : mode_in_contact(plant, moment);
+    Phasors phasors = phasors_of(plant, moment);
+    return just_released(plant, moment, &phasors) ? moment->mode : mode_at_rest(plant, moment, &phasors);
 }
 
 static double force(const System *system, const Moment *moment, int mode) {
     if (mode == LIFTED) {
         return 0.0;
     }
-    if (mode == STICK) {
-        return needed_force(&system->plant, moment);
-    }
-    return mode * friction_limit(&system->plant, moment->psi);
+    Phasors phasors = phasors_of(&system->plant, moment);
+    return mode == STICK ? force_by(&system->plant, &moment->state, &phasors)
+                         : mode * friction_limit_by(&system->plant, &phasors);
 }
 
 static void begin(Segment *segment, const System *system, const Moment *now, double longest) {
@@ -81,9 +62,9 @@ static void enter_next_mode(const Segment *segment, const System *system, Moment
     if (segment_released(segment)) {
         mode = segment->zero_of == 0 ? FORWARD : BACKWARD;
     } else if (segment_stopped(segment) || (switches && mode == LIFTED)) {
-        mode = segment->known.known && now->state.velocity == 0.0
-                   ? mode_at_rest(friction_limit_by(plant, &segment->known.phasors), plant, now)
-                   : mode_in_contact(plant, now);
+        Phasors phasors = segment->known.known ? segment->known.phasors : phasors_of(plant, now);
+        int moving = direction_of(now->state.velocity);
+        mode = moving != STICK ? moving : mode_at_rest(plant, now, &phasors);
     } else if (switches) {
         mode = LIFTED;
     }

@@ -24,7 +24,8 @@ static double force(const System *system, const Moment *moment, int mode) {
     double velocity = moment->state.velocity, bent = moment->bristle;
     double drag = velocity - fabs(velocity) * bent / bristle->coefficient;
     double share = (bent + bristle->damping * drag) / bristle->coefficient;
-    return friction_limit(&system->plant, moment->psi) * share;
+    Phasors phasors = phasors_of(&system->plant, moment);
+    return friction_limit_by(&system->plant, &phasors) * share;
 }
 
 static void begin_in(int direction, Segment *segment, const System *system, const Moment *now, double longest) {
@@ -38,22 +39,12 @@ static void begin_in(int direction, Segment *segment, const System *system, cons
     }
 }
 
-/* The direction of the velocity or, at rest, of the force on the slider. */
-static int likely_direction(Segment *segment, const System *system, const Moment *now) {
-    const Plant *plant = &system->plant;
-    if (now->state.velocity != 0.0 || now->mode == LIFTED) {
-        return now->state.velocity < 0.0 ? BACKWARD : FORWARD;
-    }
-    segment_know_phasors(segment, plant, now);
-    double limit = friction_limit_by(plant, &segment->known.phasors);
-    double resisting = limit * now->bristle / system->bristle.coefficient;
-    return force_by(plant, &now->state, &segment->known.phasors) < resisting ? BACKWARD : FORWARD;
-}
-
+/* At rest the likely direction is that of a reversal. */
 static void begin(Segment *segment, const System *system, const Moment *now, double longest) {
-    begin_in(likely_direction(segment, system, now), segment, system, now, longest);
-    if (now->state.velocity == 0.0 && !segment_departs(segment)) {
-        begin_in(-segment->direction, segment, system, now, longest);
+    int moving = direction_of(now->state.velocity), reversed = now->counts.sliding > 0 ? BACKWARD : FORWARD;
+    begin_in(moving != STICK ? moving : reversed, segment, system, now, longest);
+    if (moving == STICK && !segment_departs(segment)) {
+        begin_in(-reversed, segment, system, now, longest);
     }
 }
 

@@ -3,7 +3,10 @@
 /* Tolerance of a series, in velocity scales: rounding. */
 #define SERIES_ROUNDING (2.0 * EPSILON)
 
-void segment_know_phasors(Segment *segment, const Plant *plant, const Moment *now) {
+/* Sets all of a segment that begins at `now` but its motion. */
+static void set_segment(Segment *segment, const Plant *plant, const Moment *now, int direction) {
+    segment->mode = now->mode;
+    segment->direction = direction;
     if (!segment->known.known) {
         segment->known = (KnownPhasors){true, phasors_of(plant, now)};
     }
@@ -19,9 +22,7 @@ static void begin_series(Segment *segment, const System *system, const Bristle *
 
 void segment_begin_slide(Segment *segment, const System *system, const Moment *now, int direction) {
     const Plant *plant = &system->plant;
-    segment->mode = now->mode;
-    segment->direction = direction;
-    segment_know_phasors(segment, plant, now);
+    set_segment(segment, plant, now, direction);
     if (segment_rests(segment) || !system->splits || plant->normal_rate != 0.0) {
         begin_series(segment, system, NULL, now, SERIES_ROUNDING);
         return;
@@ -35,9 +36,7 @@ void segment_begin_bending(Segment *segment, const System *system, const Moment 
                            double tolerance) {
     BendingPanel *panel = &segment->motion.panel;
     double error = tolerance * velocity_scale(&system->plant, &now->state);
-    segment->mode = now->mode;
-    segment->direction = direction;
-    segment_know_phasors(segment, &system->plant, now);
+    set_segment(segment, &system->plant, now, direction);
     switch (bending_panel_begin(panel, system, direction, now, &segment->known.phasors, longest, error)) {
     case BY_SERIES:
         begin_series(segment, system, &system->bristle, now, tolerance);

@@ -21,9 +21,6 @@ typedef struct Segment {
     KnownPhasors known; /* set before: the phasors of the start, if they are known; once finished, of the end */
 } Segment;
 
-/* Computes the phasors at `now`, where the segment begins, unless they are known. */
-void segment_know_phasors(Segment *segment, const Plant *plant, const Moment *now);
-
 /* Sliding in `direction` under full friction, flight in contact mode LIFTED, or rest in contact with direction 0: in
  * closed form, or by series where there is none. */
 void segment_begin_slide(Segment *segment, const System *system, const Moment *now, int direction);

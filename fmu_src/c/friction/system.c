@@ -31,9 +31,7 @@ bool system_prepare(System *system, const Device *device, const Inputs *inputs, 
 }
 
 int mode_by_velocity(const System *system, const Moment *moment) {
-    const Plant *plant = &system->plant;
-    bool lifted = is_lifted(plant, moment->psi + plant->phase, plant->normal_frequency);
-    return lifted ? LIFTED : direction_of(moment->state.velocity);
+    return is_lifted(&system->plant, moment->psi) ? LIFTED : direction_of(moment->state.velocity);
 }
 
 void system_change(System *system, double phase, double load) {

@@ -100,8 +100,7 @@ bool events_advance(const System *start, const Moment *moment, double duration, 
         if (++count > max_count) {
             return budget_refuse(budget, clock.elapsed, MAX_STEP_SEGMENTS, SEGMENTS, refusal);
         }
-        double switching = time_to_switch(plant, now->psi + plant->phase, plant->normal_frequency, plant->normal_rate,
-                                          now->mode == LIFTED);
+        double switching = time_to_switch(plant, now->psi, now->mode == LIFTED);
         double turning = time_to_turn(plant);
         double longest = fmin(fmin(fmin(remaining, switching), system->arc), turning);
         if (search != NULL) {

@@ -79,8 +79,7 @@ int panel_errors(const double *values, double start, double tolerance, double sh
         !search.found || reversal.mode == LIFTED || reversal.state.velocity != 0.0) {
         return 0;
     }
-    double chi = reversal.psi + plant->phase, unused;
-    double switching = time_to_switch(plant, chi, plant->normal_frequency, 0.0, false);
+    double switching = time_to_switch(plant, reversal.psi, false), unused;
     System by_panels = system;
     by_panels.bending = &tables;
     Phasors phasors = phasors_of(plant, &reversal);
