@@ -12,12 +12,13 @@ static void swap(double *a, double *b) {
 }
 
 bool solve_linear(double matrix[UNKNOWNS][UNKNOWNS], double right[UNKNOWNS], int count) {
-    double rows[UNKNOWNS][UNKNOWNS], largest = 0.0;
+    double rows[UNKNOWNS][UNKNOWNS + 1], largest = 0.0; /* the right side is the last column */
     for (int i = 0; i < count; i++) {
         for (int j = 0; j < count; j++) {
             rows[i][j] = matrix[i][j];
             largest = fmax(largest, fabs(rows[i][j]));
         }
+        rows[i][count] = right[i];
     }
     for (int k = 0; k < count; k++) {
         int pivot = k;
@@ -27,23 +28,18 @@ bool solve_linear(double matrix[UNKNOWNS][UNKNOWNS], double right[UNKNOWNS], int
         if (!(fabs(rows[pivot][k]) > SMALLEST_PIVOT * largest)) {
             return false;
         }
-        for (int j = k; j < count; j++) {
+        for (int j = k; j <= count; j++) {
             swap(&rows[k][j], &rows[pivot][j]);
         }
-        swap(&right[k], &right[pivot]);
-        for (int i = k + 1; i < count; i++) {
-            double share = rows[i][k] / rows[k][k];
-            for (int j = k + 1; j < count; j++) {
+        for (int i = 0; i < count; i++) {
+            double share = i == k ? 0.0 : rows[i][k] / rows[k][k];
+            for (int j = k + 1; j <= count; j++) {
                 rows[i][j] -= share * rows[k][j];
             }
-            right[i] -= share * right[k];
         }
     }
-    for (int k = count - 1; k >= 0; k--) {
-        for (int j = k + 1; j < count; j++) {
-            right[k] -= rows[k][j] * right[j];
-        }
-        right[k] /= rows[k][k];
+    for (int k = 0; k < count; k++) {
+        right[k] = rows[k][count] / rows[k][k];
     }
     return true;
 }

@@ -1,5 +1,7 @@
 #include "outputs.h"
 
+#include <stddef.h>
+
 #include "../base/elementary.h"
 #include "../resolved/motion.h"
 #include "variables.h"
@@ -80,7 +82,7 @@ double output_value(unsigned reference, const System *system, const Moment *mome
     case VR_FRICTION_POWER:
         return system->motion->power(system, moment);
     case VR_SLOW_MOTION_ERROR:
-        return system->motion->error(system, moment);
+        return system->motion->error != NULL ? system->motion->error(system, moment) : moment->leap_error;
     }
     return NAN; /* no output has this reference */
 }

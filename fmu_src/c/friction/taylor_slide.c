@@ -35,11 +35,11 @@ static double value(const double *coefficients, double t) {
 }
 
 /* A velocity is measured by the first terms of its series. Below MUCH_SMALLER of the scale to which the tolerance
- * refers a series is cut shorter, so often at most, to keep the tolerance relative to the velocity; below
- * NEGLIGIBLE_MOTION [m/s] it is not. */
+ * refers a series is cut shorter, to keep the tolerance relative to the velocity, but not for less than
+ * NEGLIGIBLE_MOTION [m/s]. */
 #define MUCH_SMALLER 0.1
 #define NEGLIGIBLE_MOTION 1e-200
-enum { FIRST_TERMS = 5, MAX_SHRINKS = 10 };
+enum { FIRST_TERMS = 5 };
 
 /* How far a series holds [s]: up to where one of its last two terms reaches the tolerance; at rest, where nothing
  * moves, at any time. */
@@ -55,19 +55,12 @@ static double series_reach(const double *coefficients, double tolerance) {
 /* How far the series of a velocity holds [s] if its last terms may reach `tolerance` times `scale` [m/s] or, if that is
  * much less, times the velocity itself. */
 static double reach_of(const double *coefficients, double tolerance, double scale) {
-    double reach = series_reach(coefficients, tolerance * scale);
-    for (int i = 0; i < MAX_SHRINKS && reach < INFINITY; i++) {
-        double size = 0.0;
-        for (int k = FIRST_TERMS - 1; k >= 0; k--) {
-            size = size * reach + fabs(coefficients[k]);
-        }
-        if (!(size > NEGLIGIBLE_MOTION && size < MUCH_SMALLER * scale)) {
-            break;
-        }
-        scale = size;
-        reach = series_reach(coefficients, tolerance * scale);
+    double reach = series_reach(coefficients, tolerance * scale), size = 0.0;
+    for (int k = FIRST_TERMS - 1; k >= 0; k--) {
+        size = size * reach + fabs(coefficients[k]);
     }
-    return reach;
+    bool is_slow = reach < INFINITY && size < MUCH_SMALLER * scale;
+    return is_slow ? series_reach(coefficients, tolerance * fmax(size, NEGLIGIBLE_MOTION)) : reach;
 }
 
 /* Coefficients of the vibrating part of the friction limit, from its complex amplitude `normal` [N] on: c[k + 1] = i (q

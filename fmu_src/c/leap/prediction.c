@@ -219,30 +219,6 @@ static Search search_of(const PeriodMap *map, double psi, bool blocked, double v
     return search;
 }
 
-/* Find the steady motion under the load of the map, at normal phase `psi` [rad] at the section, from a slow velocity
- * [m/s] on; `velocity` becomes its mean. Return false where none is found or where it is not stable. */
-static bool find_steady(const PeriodMap *map, double psi, double *velocity) {
-    Search search = search_of(map, psi, false, *velocity, 0.0);
-    if (!solve(&search)) {
-        return false;
-    }
-    *velocity = search.travel / map->period;
-    /* Derivatives that only iterations have updated may miss that it is. */
-    return is_stable(&search) || (differentiate(&search) && is_stable(&search));
-}
-
-/* Find the motion without travel and the `load` [N] that it takes, likewise, from a load on. One that never reverses is
- * none: the slider sticks, under other loads, too. */
-static bool find_blocked(const PeriodMap *map, double psi, double *load) {
-    Search search = search_of(map, psi, true, 0.0, *load);
-    int last = search.count - 1;
-    if (!solve(&search)) {
-        return false;
-    }
-    *load = search.unknown[last] * search.scale[last];
-    return search.reversals > 0.0;
-}
-
 /* The system of the full device under the same inputs. A resonator without mass moves nothing: critical damping at the
  * drive frequency lets its own motion decay within a period, so that the search need not wait for it. */
 static bool full_system(const System *system, System *full) {
@@ -260,10 +236,23 @@ static bool full_system(const System *system, System *full) {
     return true;
 }
 
-/* Find the periodic motion that a quantity belongs to, from averages on, which must hold the load. */
+/* Find the periodic motion that a quantity belongs to, at normal phase `psi` [rad] at the section, from averages on,
+ * which must hold the load: the stable motion under the load of the map, or the motion without travel and the load that
+ * it takes. One that never reverses is none: the slider sticks, under other loads, too. */
 static bool find(const PeriodMap *map, double psi, Quantity quantity, const Prediction *start, Prediction *exact) {
-    *exact = (Prediction){start->value, true, true};
-    return start->holds && (quantity == BLOCKING_FORCE ? find_blocked : find_steady)(map, psi, &exact->value);
+    bool blocked = quantity == BLOCKING_FORCE;
+    Search search = search_of(map, psi, blocked, blocked ? 0.0 : start->value, blocked ? start->value : 0.0);
+    int last = search.count - 1;
+    if (!start->holds || !solve(&search)) {
+        return false;
+    }
+    *exact = (Prediction){search.travel / map->period, true, true};
+    if (blocked) {
+        exact->value = search.unknown[last] * search.scale[last];
+        return search.reversals > 0.0;
+    }
+    /* Derivatives that only iterations have updated may miss that it is stable. */
+    return is_stable(&search) || (differentiate(&search) && is_stable(&search));
 }
 
 /* By second order it belongs to a periodic motion of the full device. The search begins at averages of first order.
