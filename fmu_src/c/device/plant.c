@@ -109,3 +109,13 @@ bool plant_prepare(Plant *plant, const Device *device, const Inputs *inputs, Ref
     plant->resolves_resonator = full;
     return true;
 }
+
+Plant plant_held(const Plant *plant) {
+    Plant held = *plant;
+    held.slider_mass = held.total_mass = INFINITY;
+    held.mass_fraction = 0.0;
+    held.slip = held.stick;
+    held.drive = complex_of(0.0, 0.0);
+    held.relative_drive = held.base_acceleration;
+    return held;
+}

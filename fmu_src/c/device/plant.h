@@ -95,3 +95,6 @@ static inline Response steady_swing(Complex amplitude, double theta, double freq
 /* Coefficients of the motion of `device` while `inputs` are held. Refuses at fidelity 0 and 1 where the steady force of
  * the resonator is unbounded. */
 bool plant_prepare(Plant *plant, const Device *device, const Inputs *inputs, Refusal *refusal);
+
+/* The plant with its slider held: a slider of infinite mass. */
+Plant plant_held(const Plant *plant);

@@ -270,16 +270,22 @@ static inline double bound_by(const SplitSlide *slide, double rate, double accel
     return slide->bound + slide->plant->mass_fraction * hypot(jerk, slip->frequency * acceleration);
 }
 
+/* The turns at `t`. Those of the latest time for which sines are computed become the anchor. */
+static inline const Turns *watched_turns(SplitSlide *slide, double t, Turns *place) {
+    bool is_latest = !is_near(slide, t) && (!slide->anchored || t > slide->anchor.t);
+    if (!is_latest) {
+        return turns_at(slide, t, place);
+    }
+    compute_turns(slide, t, &slide->anchor);
+    slide->anchored = true;
+    return &slide->anchor;
+}
+
 static Signal velocity_ahead(void *motion, double t) {
     SplitSlide *slide = motion;
     const Oscillator *slip = &slide->plant->slip;
-    bool is_latest = !is_near(slide, t) && (!slide->anchored || t > slide->anchor.t);
-    if (is_latest) {
-        compute_turns(slide, t, &slide->anchor);
-        slide->anchored = true;
-    }
     Turns place;
-    const Turns *turns = is_latest ? &slide->anchor : turns_at(slide, t, &place);
+    const Turns *turns = watched_turns(slide, t, &place);
     Response free = free_motion_at(slide, turns);
     double second = -2.0 * slip->decay * free.rate - slip->stiffness * free.displacement;
     return (Signal){slide->direction * velocity_by(slide, turns, free.rate),
@@ -288,6 +294,50 @@ static Signal velocity_ahead(void *motion, double t) {
 
 Watch split_slide_watch(SplitSlide *slide) {
     return (Watch){velocity_ahead, slide, slide->noise, slide->split->fastest};
+}
+
+/* The margin in a direction. The energy of the free motion never grows: it bounds the force by that later. */
+static Signal margin_ahead(SplitSlide *slide, double direction, double t) {
+    const Plant *plant = slide->plant;
+    const Oscillator *held = &plant->slip;
+    double w = plant->drive_frequency, q = plant->normal_frequency, spring = plant->spring, damper = plant->damper;
+    Turns place;
+    const Turns *turns = watched_turns(slide, t, &place);
+    Response free = free_motion_at(slide, turns);
+    Complex forced = complex_mul(slide->resonator_drive, turns->phasors.drive);
+    Complex direct = complex_mul(plant->holding_drive, turns->phasors.drive);
+    Complex limit = complex_scale(plant->friction_amplitude, normal_phasor(plant, &turns->phasors));
+    double rate = free.rate - w * forced.im, swing = w * w * complex_abs(slide->resonator_drive);
+    double second = -2.0 * held->decay * free.rate - held->stiffness * free.displacement;
+    double energy = hypot(2.0 * held->decay * second + held->stiffness * free.rate, held->frequency * second);
+    double force = spring * (free.displacement + forced.re) + damper * rate + direct.im - plant->load;
+    double change = spring * rate + damper * (second - w * w * forced.re) + w * direct.re - plant->load_rate;
+    double bound = spring * (energy / held->frequency + swing) + damper * (energy + w * swing) +
+                   w * w * complex_abs(plant->holding_drive) + q * q * plant->friction_amplitude;
+    return (Signal){plant->friction_preload + limit.im - direction * (force - plant->load_rate * t),
+                    q * limit.re - direction * change, bound};
+}
+
+static Signal forward_margin(void *motion, double t) {
+    return margin_ahead(motion, 1.0, t);
+}
+
+static Signal backward_margin(void *motion, double t) {
+    return margin_ahead(motion, -1.0, t);
+}
+
+int split_slide_margins(SplitSlide *slide, double longest, Watch watches[2]) {
+    const Plant *plant = slide->plant;
+    double w = plant->drive_frequency, frequency = plant->slip.frequency, swing = complex_abs(slide->resonator_drive);
+    double rate = hypot(slide->free_start.rate, frequency * slide->free_start.displacement);
+    double force = fabs(plant->load) + fabs(plant->load_rate) * longest + complex_abs(plant->holding_drive) +
+                   plant->spring * (rate / frequency + swing) + plant->damper * (rate + w * swing);
+    double limit = plant->friction_preload + plant->friction_amplitude;
+    double least = plant->friction_preload - plant->friction_amplitude;
+    double noise = 4.0 * EPSILON * (limit + fmin(force, 1e3 * limit)), fastest = slide->split->fastest;
+    watches[0] = (Watch){forward_margin, slide, noise, fastest};
+    watches[1] = (Watch){backward_margin, slide, noise, fastest};
+    return force == 0.0 || force < 0.999999 * least ? 0 : 2;
 }
 
 /* Integral of the real part of amplitude exp(i frequency s), between turns `start` and `end`; frequency != 0. */

@@ -1,4 +1,4 @@
-/* Sliding or flight in closed form, for most devices.
+/* Sliding, flight or rest in closed form, for most devices. At rest the plant is that of a held slider.
  *
  * Velocity is v(t) = k0 + k1 t + k2 t^2 + Re(ve exp(i w t) + vq exp(i q t)) - r u(t): the particular solutions at drive
  * and normal frequency are split off from the free motion of the resonator, whose rate is u. That loses digits near
@@ -99,6 +99,10 @@ void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex norm
 
 /* The velocity in the direction to watch. */
 Watch split_slide_watch(SplitSlide *slide);
+
+/* At rest, the margins by which the force on the slider is below friction, forwards and backwards, for up to `longest`
+ * [s]. Return their number: 0 where no force comes near. */
+int split_slide_margins(SplitSlide *slide, double longest, Watch watches[2]);
 
 /* Where a motion is after a time: its state, the passage until then, and the phasors if they are known. */
 typedef struct {

@@ -285,9 +285,9 @@ static void end_panel(BendingPanel *panel) {
     panel->work = 0.0;
 }
 
-void bending_panel_skip(BendingPanel *panel, const System *system, int direction, const Moment *now,
+void bending_panel_skip(BendingPanel *panel, const Split *split, const Plant *plant, int direction, const Moment *now,
                         const Phasors *start) {
-    split_slide_begin(&panel->slide, &system->split, &system->plant, now, start, direction);
+    split_slide_begin(&panel->slide, split, plant, now, start, direction);
     panel->length = panel->offset = panel->work = 0.0;
     panel->reach = INFINITY;
 }

@@ -41,8 +41,8 @@ typedef struct {
 BendingMotion bending_panel_begin(BendingPanel *panel, const System *system, int direction, const Moment *now,
                                   const Phasors *start, double longest, double tolerance);
 
-/* Begin motion under full friction, or flight, without a panel. */
-void bending_panel_skip(BendingPanel *panel, const System *system, int direction, const Moment *now,
+/* Begin motion under full friction, flight, or the rest of a held plant, without a panel. */
+void bending_panel_skip(BendingPanel *panel, const Split *split, const Plant *plant, int direction, const Moment *now,
                         const Phasors *start);
 
 /* Find the work of friction in the panel; until then it is 0. */

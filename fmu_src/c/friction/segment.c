@@ -22,13 +22,21 @@ static void begin_series(Segment *segment, const System *system, const Bristle *
 
 void segment_begin_slide(Segment *segment, const System *system, const Moment *now, int direction) {
     const Plant *plant = &system->plant;
+    const Split *split = &system->split;
     set_segment(segment, plant, now, direction);
-    if (segment_rests(segment) || !system->splits || plant->normal_rate != 0.0) {
+    bool splits = system->splits;
+    if (segment_rests(segment)) {
+        segment->held = plant_held(plant);
+        splits = split_prepare(&segment->held_split, &segment->held);
+        split = &segment->held_split;
+        plant = &segment->held;
+    }
+    if (!splits || plant->normal_rate != 0.0) {
         begin_series(segment, system, NULL, now, SERIES_ROUNDING);
         return;
     }
     segment->by_series = false;
-    bending_panel_skip(&segment->motion.panel, system, direction, now, &segment->known.phasors);
+    bending_panel_skip(&segment->motion.panel, split, plant, direction, now, &segment->known.phasors);
     segment->motion.panel.slide.works = segment->counts_means && now->mode != LIFTED;
 }
 
@@ -83,6 +91,9 @@ static int watches_of(Segment *segment, Watch watches[2]) {
     if (segment->by_series) {
         return taylor_slide_watches(&segment->motion.series, segment->t, watches);
     }
+    if (segment_rests(segment)) {
+        return split_slide_margins(&segment->motion.panel.slide, segment->t, watches);
+    }
     watches[0] = split_slide_watch(&segment->motion.panel.slide);
     return segment->direction != 0;
 }
@@ -97,6 +108,9 @@ void segment_follow(Segment *segment, const Plant *plant, Moment *now, double lo
     Watch watches[2];
     int count = watches_of(segment, watches), direction = segment->direction;
     double expected = NO_ZERO;
+    if (count == 2) {
+        segment->t = fmin(segment->t, TAU / plant->drive_frequency); /* the other zero may come soon */
+    }
     if (direction != 0) {
         expected = stop_expected(stop_after(&now->stops, direction), now->theta, plant->drive_frequency);
     }

@@ -6,9 +6,11 @@
 
 /* Begun by a friction law, then followed, up to the first zero of what it watches. */
 typedef struct Segment {
-    bool by_series; /* whether the motion is a series, as rest always is, or in closed form, after a panel or not */
+    bool by_series; /* whether the motion is a series, or in closed form, after a panel or not */
     int mode;       /* contact mode */
     int direction;  /* of sliding, in which the velocity is watched; 0 for none */
+    Plant held;     /* at rest, the plant of the held slider, and its closed form */
+    Split held_split;
     union {
         TaylorSlide series;
         BendingPanel panel;
