@@ -140,6 +140,7 @@ void segment_finish(Segment *segment, const Plant *plant, Moment *now) {
     Place end = place_of(segment, segment->t);
     now->state = end.state;
     segment->known = end.known;
+    segment->known.known &= !segment_rests(segment); /* a step that ends at the release goes on in the same way */
     segment->travelled = end.passed.travel;
     if (segment->counts_means) {
         Interval interval = {segment->t, end.state.velocity, end.passed, segment_rests(segment), passage_at, segment};

@@ -79,7 +79,7 @@ class _EventRun:
                 yield f"a step to {target!r} s ends at {reached!r} s without an early return"
             if event and abs(last - reached) > SAME_TIME:
                 yield f"a step ends at an event at {reached!r} s, but the last one is at {last!r} s"
-            if not event and last != before:
+            if not event and abs(last - before) > SAME_TIME:
                 yield f"the event at {last!r} s ends no step"
             if event:
                 self.seen.append(last)
