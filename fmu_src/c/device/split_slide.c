@@ -270,6 +270,21 @@ static inline double bound_by(const SplitSlide *slide, double rate, double accel
     return slide->bound + slide->plant->mass_fraction * hypot(jerk, slip->frequency * acceleration);
 }
 
+double split_slide_departure(const SplitSlide *slide) {
+    const Plant *plant = slide->plant;
+    double decay = plant->slip.decay, stiffness = plant->slip.stiffness, rate = slide->free_start.rate;
+    double second = -2.0 * decay * rate - stiffness * slide->free_start.displacement;
+    double third = -2.0 * decay * second - stiffness * rate, fourth = -2.0 * decay * third - stiffness * second;
+    double w = plant->drive_frequency, q = slide->split->merges ? 0.0 : plant->normal_frequency;
+    Complex drive = complex_mul(slide->velocity_drive, slide->start.phasors.drive);
+    Complex normal = complex_mul(slide->velocity_normal, slide->start.phasors.normal);
+    double curvature = 2.0 * slide->k2 - w * w * drive.re - q * q * normal.re - plant->mass_fraction * third;
+    double bound = w * w * w * complex_abs(slide->velocity_drive) +
+                   q * q * fabs(q) * complex_abs(slide->velocity_normal) +
+                   plant->mass_fraction * hypot(fourth, plant->slip.frequency * third);
+    return fmax(0.0, 3.0 * slide->direction * curvature / bound);
+}
+
 /* The turns at `t`. Those of the latest time for which sines are computed become the anchor. */
 static inline const Turns *watched_turns(SplitSlide *slide, double t, Turns *place) {
     bool is_latest = !is_near(slide, t) && (!slide->anchored || t > slide->anchor.t);

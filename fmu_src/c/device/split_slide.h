@@ -100,6 +100,11 @@ void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex norm
 /* The velocity in the direction to watch. */
 Watch split_slide_watch(SplitSlide *slide);
 
+/* Time [s] up to which a slide goes on that begins with neither velocity nor acceleration; 0 if it does not begin.
+ *
+ * Its velocity grows with the second power of time, v >= v'' t^2 / 2 - B t^3 / 6 where B bounds its third derivative. */
+double split_slide_departure(const SplitSlide *slide);
+
 /* At rest, the margins by which the force on the slider is below friction, forwards and backwards, for up to `longest`
  * [s]. Return their number: 0 where no force comes near. */
 int split_slide_margins(SplitSlide *slide, double longest, Watch watches[2]);

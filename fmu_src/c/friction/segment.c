@@ -66,6 +66,13 @@ static double panel_of(const Segment *segment) {
     return segment->by_series ? 0.0 : segment->motion.panel.length;
 }
 
+/* Time [s] from which on the motion is watched: the search could not leave the zero in which a release begins. */
+static double watched_from(const Segment *segment) {
+    double panel = panel_of(segment);
+    bool departs = segment->from_rest && segment->direction != 0 && !segment->by_series && panel == 0.0;
+    return departs ? split_slide_departure(&segment->motion.panel.slide) : panel;
+}
+
 bool segment_departs(Segment *segment) {
     if (segment->by_series) {
         return taylor_slide_departs(&segment->motion.series);
@@ -107,7 +114,7 @@ void segment_follow(Segment *segment, const Plant *plant, Moment *now, double lo
     }
     Watch watches[2];
     int count = watches_of(segment, watches), direction = segment->direction;
-    double expected = NO_ZERO;
+    double expected = NO_ZERO, from = watched_from(segment);
     if (count == 2) {
         segment->t = fmin(segment->t, TAU / plant->drive_frequency); /* the other zero may come soon */
     }
@@ -115,7 +122,7 @@ void segment_follow(Segment *segment, const Plant *plant, Moment *now, double lo
         expected = stop_expected(stop_after(&now->stops, direction), now->theta, plant->drive_frequency);
     }
     for (int i = 0; i < count; i++) {
-        double zero = first_zero(&watches[i], segment->t, panel_of(segment), expected);
+        double zero = first_zero(&watches[i], segment->t, from, expected);
         if (zero >= 0.0) {
             segment->t = zero;
             segment->zero_of = i;
@@ -140,6 +147,7 @@ void segment_finish(Segment *segment, const Plant *plant, Moment *now) {
     Place end = place_of(segment, segment->t);
     now->state = end.state;
     segment->known = end.known;
+    segment->from_rest = segment_released(segment);
     segment->known.known &= !segment_rests(segment); /* a step that ends at the release goes on in the same way */
     segment->travelled = end.passed.travel;
     if (segment->counts_means) {

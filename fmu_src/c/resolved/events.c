@@ -95,6 +95,7 @@ bool events_advance(const System *start, const Moment *moment, double duration, 
     }
     *now = *moment;
     segment.known.known = false;
+    segment.from_rest = now->state.velocity == 0.0;
     moment_enter(now, friction->mode(system, now));
     while (remaining > 0.0 && isfinite(now->state.velocity)) {
         if (++count > max_count) {
