@@ -5,20 +5,20 @@
  * resonance, for soft resonators and under slow normal loads; `split_prepare` returns false there, and series are used
  * (taylor_slide.h).
  *
- * Full friction does the work s (F0 (X - X_0) + F1 Im K), with K the integral of n v, n = exp(i chi). Partial integration
- * gives K from both ends. Free motion u = y' adds r T n (stiffness y + i q u) to it, with the response T of the resonator
- * to exp(-i q t). */
+ * Full friction does the work s (F0 (X - X_0) + F1 Im K), with K the integral of n v, n = exp(i chi). Partial
+ * integration gives K from both ends. Free motion u = y' adds r T n (stiffness y + i q u) to it, with the response T of
+ * the resonator to exp(-i q t). */
 #pragma once
 
 #include "../base/first_zero.h"
 #include "moment.h"
 
 /* Complex amplitudes per unit exp(i theta) and, for s = 1, per unit exp(i chi): displacement of the resonator
- * (`resonator_*`), velocity of the slider (`velocity_*`); `recoil` is r T. Where `merges`, drive and normal load swing at
- * one frequency, or the normal load is constant: one term of v(t) then stands for both.
+ * (`resonator_*`), velocity of the slider (`velocity_*`); `recoil` is r T. Where `merges`, drive and normal load swing
+ * at one frequency, or the normal load is constant: one term of v(t) then stands for both.
  *
- * The drive makes phasors of two frequencies in n v, q + w and q - w (`frequency` [rad/s]). Integration by their ends has
- * a factor of imaginary part `integral`, 0 where they stand still. */
+ * The drive makes phasors of two frequencies in n v, q + w and q - w (`frequency` [rad/s]). Integration by their ends
+ * has a factor of imaginary part `integral`, 0 where they stand still. */
 typedef struct {
     bool merges;
     double fastest;
@@ -53,8 +53,8 @@ double force_by(const Plant *plant, const State *state, const Phasors *phasors);
 /* Friction force [N] of all faces when sliding steadily; 0 in flight. */
 double friction_limit_by(const Plant *plant, const Phasors *phasors);
 
-/* Phasors after `t` [s], with the free motion of the resonator: exp(lambda t), 1 where the resonator is not resolved, or
- * its free response C + i S where it does not oscillate. */
+/* Phasors after `t` [s], with the free motion of the resonator: exp(lambda t), 1 where the resonator is not resolved,
+ * or its free response C + i S where it does not oscillate. */
 typedef struct {
     double t;
     Phasors phasors;
@@ -65,8 +65,8 @@ typedef struct {
  * vibrates about `constant` [m] + `slope` [m/s] t; its free motion begins at `free_start`. `bound` [m/s^3] bounds the
  * second derivative of the forced part of the velocity. `noise` [m/s] is the rounding error of the velocity.
  *
- * The velocity is watched in `direction`; `sign` is that of friction, 0 in flight. Set after the beginning, `works` says
- * whether the work of friction is wanted.
+ * The velocity is watched in `direction`; `sign` is that of friction, 0 in flight. Set after the beginning, `works`
+ * says whether the work of friction is wanted.
  *
  * Turns at the latest time for which sines were computed are kept in `anchor`, if `anchored`. Close to the anchor or
  * the `start` these are rotated instead of computing sines. */
@@ -102,7 +102,7 @@ Watch split_slide_watch(SplitSlide *slide);
 
 /* Time [s] up to which a slide goes on that begins with neither velocity nor acceleration; 0 if it does not begin.
  *
- * Its velocity grows with the second power of time, v >= v'' t^2 / 2 - B t^3 / 6 where B bounds its third derivative. */
+ * Its velocity grows with the second power of time, v >= v'' t^2 / 2 - B t^3 / 6 where B bounds v'''. */
 double split_slide_departure(const SplitSlide *slide);
 
 /* At rest, the margins by which the force on the slider is below friction, forwards and backwards, for up to `longest`

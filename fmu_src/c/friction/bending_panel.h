@@ -22,11 +22,11 @@
  * than the tolerance; or by series otherwise. */
 typedef enum { BY_PANEL, AS_BENT, BY_SERIES } BendingMotion;
 
-/* `slide` is the motion after the panel, whose length is `length` [s], 0 for none; it holds up to `reach` [s]. Of f are kept: a
- * (`even`) [N] and b (`late`) [N s] at the points, b at the start (`first`) [N s], and the displacement that f leaves
- * beyond that of the `slide` (`offset`) [m]. `exponent` is k |x - x_r| at the points, with `rate` k [1/m]. `power` is
- * that of friction at the nodes [W], `work` what friction does in the panel beyond what it would do on the `slide`
- * [J]. */
+/* `slide` is the motion after the panel, whose length is `length` [s], 0 for none; it holds up to `reach` [s]. Of f are
+ * kept: a (`even`) [N] and b (`late`) [N s] at the points, b at the start (`first`) [N s], and the displacement that f
+ * leaves beyond that of the `slide` (`offset`) [m]. `exponent` is k |x - x_r| at the points, with `rate` k [1/m].
+ * `power` is that of friction at the nodes [W], `work` what friction does in the panel beyond what it would do on the
+ * `slide` [J]. */
 typedef struct {
     SplitSlide slide;
     BendingKernels *kernels;

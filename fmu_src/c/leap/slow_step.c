@@ -115,7 +115,7 @@ static bool integrate(SlowPath *path, double h, double reach, double allowed, Sl
  *
  * 1. stay where the velocity hardly changes;
  * 2. follow the tangent to an end, and evaluate the rates there;
- * 3. do so at points between, each where the interpolated rates may err most, until the last one tells that they hardly do;
+ * 3. do so at points between, each where the interpolated rates may err most, until the last one shows no error;
  * 4. integrate them to a new end, and evaluate that: it is where to land, if with one point more the end is the
  * same. */
 static bool try_step(SlowPath *path, double h, PathStep *result) {
