@@ -37,7 +37,7 @@ static bool steady_vibration(const Device *device, bool held, Complex *resonator
 }
 
 double held_amplitude(const Device *device) {
-    Complex resonator, force;
+    Complex resonator, force = {0.0, 0.0};
     Refusal refusal;
     return steady_vibration(device, true, &resonator, &force, &refusal) ? complex_abs(force) : INFINITY;
 }
@@ -46,7 +46,7 @@ FastVibration fast_vibration_of(const Device *device) {
     double w = device->drive_frequency, mass = device_total_mass(device);
     double shaken = device->resonator_mass * device->base_amplitude * w * w;
     FastVibration fast = {0};
-    Complex force;
+    Complex force = {0.0, 0.0};
     Refusal refusal;
     if (steady_vibration(device, false, &fast.resonator, &force, &refusal)) {
         fast.velocity = complex_abs(force) / (mass * w);

@@ -27,9 +27,10 @@ bool split_prepare(Split *split, const Plant *plant) {
         velocity_normal = complex_div(resisting, complex_of(0.0, q));
     }
     for (int i = 0; i < 2; i++) {
-        double frequency = i == 0 ? q + w : q - w;
+        double frequency = i == 0 ? q + w : q - w, least = STANDING * w;
+        double half = 0.5 / fmax(fabs(frequency), least); /* compilers divide where nothing swings, too */
         split->frequency[i] = frequency;
-        split->integral[i] = -0.5 / (fabs(frequency) > STANDING * w ? frequency : INFINITY);
+        split->integral[i] = fabs(frequency) > least ? copysign(half, -frequency) : 0.0;
     }
     split->merges = q == w || q == 0.0;
     split->recoil = complex_scale(fraction, complex_conj(to_normal));
@@ -282,7 +283,7 @@ double split_slide_departure(const SplitSlide *slide) {
     double bound = w * w * w * complex_abs(slide->velocity_drive) +
                    q * q * fabs(q) * complex_abs(slide->velocity_normal) +
                    plant->mass_fraction * hypot(fourth, plant->slip.frequency * third);
-    return fmax(0.0, 3.0 * slide->direction * curvature / bound);
+    return 3.0 * fmax(0.0, slide->direction * curvature) / fmax(bound, SMALLEST);
 }
 
 /* The turns at `t`. Those of the latest time for which sines are computed become the anchor. */
