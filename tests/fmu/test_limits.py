@@ -157,3 +157,21 @@ def test_motion_beyond_the_range_of_numbers_is_refused(instantiate: Instantiate)
     instance = instantiate().initialize(initial_velocity=1e308)
     with instance.refuses("leaves the range of floating point numbers"):
         instance.step(10.0)
+
+
+@pytest.mark.parametrize(
+    ("device", "size"),
+    [
+        ({"frequency_ratio": 0.015, "friction_coefficient": 5.0}, 0.01),
+        ({"frequency_ratio": -0.015, "damping_ratio": 0.3}, 0.05),
+        ({"frequency_ratio": 0.015, "damping_ratio": 0.3, "normal_amplitude": 1.2}, 0.05),
+    ],
+)
+def test_a_slider_that_leaves_rest_beside_flight_moves_on(
+    instantiate: Instantiate, device: dict[str, float], size: float
+) -> None:
+    """A decaying resonator releases it just before lift-off, or only rounding does as the contact
+    touches down: no step is refused for the work of releases that end at once."""
+    decaying = {"amplitude_deviation": -1.0, "initial_resonator_displacement": 1e-4}
+    instance = instantiate().initialize(**{"normal_amplitude": 1.5, **decaying, **device})
+    instance.run(25, size)

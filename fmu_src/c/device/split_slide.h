@@ -100,7 +100,8 @@ void split_slide_anchor(SplitSlide *slide, double t, Complex drive, Complex norm
 /* The velocity in the direction to watch. */
 Watch split_slide_watch(SplitSlide *slide);
 
-/* Time [s] up to which a slide goes on that begins with neither velocity nor acceleration; 0 if it does not begin.
+/* Time [s] up to which a slide goes on that begins at rest, and whose acceleration is 0 or in its direction; 0 if its
+ * third derivative gives no guarantee.
  *
  * Its velocity grows with the second power of time, v >= v'' t^2 / 2 - B t^3 / 6 where B bounds v'''. */
 double split_slide_departure(const SplitSlide *slide);

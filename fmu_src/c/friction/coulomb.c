@@ -14,9 +14,11 @@ static bool prepare(const Device *device, Bristle *bristle, Refusal *refusal) {
     return true;
 }
 
-/* The contact mode at rest: friction holds the slider up to its limit. */
+/* The contact mode at rest: friction holds the slider up to its limit. Rounding releases nothing as the contact touches
+ * down: each release would end at once, at the same time. */
 static int mode_at_rest(const Plant *plant, const Moment *moment, const Phasors *phasors) {
-    double needed = force_by(plant, &moment->state, phasors), limit = friction_limit_by(plant, phasors);
+    double rounding = EPSILON * (plant->friction_preload + plant->friction_amplitude);
+    double needed = force_by(plant, &moment->state, phasors), limit = friction_limit_by(plant, phasors) + rounding;
     if (needed > limit) {
         return FORWARD;
     }

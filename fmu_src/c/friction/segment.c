@@ -69,8 +69,11 @@ static double panel_of(const Segment *segment) {
 /* Time [s] from which on the motion is watched: the search could not leave the zero in which a release begins. */
 static double watched_from(const Segment *segment) {
     double panel = panel_of(segment);
-    bool departs = segment->from_rest && segment->direction != 0 && !segment->by_series && panel == 0.0;
-    return departs ? split_slide_departure(&segment->motion.panel.slide) : panel;
+    if (!segment->from_rest || segment->direction == 0 || panel > 0.0) {
+        return panel;
+    }
+    return segment->by_series ? taylor_slide_departure(&segment->motion.series, segment->t)
+                              : split_slide_departure(&segment->motion.panel.slide);
 }
 
 bool segment_departs(Segment *segment) {
@@ -161,8 +164,6 @@ void segment_finish(Segment *segment, const Plant *plant, Moment *now) {
     if (segment->turns) {
         now->counts.reversals += now->counts.sliding == -segment->direction;
         now->counts.sliding = segment->direction;
-    }
-    if (segment_reverses(segment)) {
         now->event_age = 0.0;
     }
     now->event_age += segment->t;

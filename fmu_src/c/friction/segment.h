@@ -43,11 +43,6 @@ static inline bool segment_rests(const Segment *segment) {
     return segment->mode == STICK && segment->direction == 0;
 }
 
-/* Whether an event begins it that no change of the contact mode has shown: a turn on bristles. */
-static inline bool segment_reverses(const Segment *segment) {
-    return segment->turns && segment->mode == STICK;
-}
-
 /* Whether the segment ended at a stop of the slider, and whether at a release of it. */
 static inline bool segment_stopped(const Segment *segment) {
     return segment->zero_of >= 0 && !segment_rests(segment);

@@ -182,6 +182,14 @@ static Watch watch_series(TaylorSignal *signal, const double *coefficients, int 
     return (Watch){signal_at, signal, 4.0 * EPSILON * total, 1.0 / horizon};
 }
 
+double taylor_slide_departure(const TaylorSlide *slide, double horizon) {
+    double bound = 0.0;
+    for (int k = TAYLOR_ORDER; k >= 3; k--) {
+        bound = bound * horizon + k * (k - 1) * (k - 2) * fabs(slide->velocity[k]);
+    }
+    return 3.0 * fmax(0.0, slide->direction * 2.0 * slide->velocity[2]) / fmax(bound, SMALLEST);
+}
+
 int taylor_slide_watches(TaylorSlide *slide, double horizon, Watch watches[2]) {
     double force = 0.0;
     if (!slide->rests) {

@@ -45,6 +45,9 @@ typedef struct {
 void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *bristle, int direction,
                         const Moment *now, const Phasors *start, double tolerance);
 
+/* As split_slide_departure, by a bound for up to `horizon` [s]. */
+double taylor_slide_departure(const TaylorSlide *slide, double horizon);
+
 /* Whether the motion begins in its direction, or stays at rest. */
 bool taylor_slide_departs(const TaylorSlide *slide);
 

@@ -43,8 +43,8 @@ static double periods_of_error(double factor, double h) {
 }
 
 /* Error of a rate on the line between two points where that is the tangent at the first one: by the slope at the other.
- * A line that meets the rates there by accident has the wrong slope. On a short way the slope changes by less than its
- * rounding: it changes by as much as itself within the reach of a step. */
+ * A line that meets the rates there by accident has the wrong slope. Next to the start the difference of slopes is
+ * rounding: the slope is taken to change by at most itself over the reach of a step. */
 static double error_of_line(const SlowPath *path, const PathPoint *to, double length) {
     const SlowRates *first = &path->here.rates, *last = &to->rates;
     double slope = first->jerk / first->acceleration;
@@ -79,11 +79,10 @@ double expected_step(const SlowPath *path) {
 }
 
 /* Integrate interpolated rates over `h` periods; a velocity that settles to a share of `allowed` stays. Return false
- * where it changes by more than `reach`, or by jumps. A first step that is too long may have a small estimate by
- * accident. */
+ * where it changes by more than `reach`, or by jumps. */
 static bool integrate(SlowPath *path, double h, double reach, double allowed, SlowPoint *now) {
     const PathPoint *here = &path->here;
-    double step = expected_step(path);
+    double step = expected_step(path); /* a longer one may have a small estimate by accident */
     *now = (SlowPoint){.velocity = here->velocity, .rate = {here->rates.acceleration, here->rates.travel}};
     while (now->t < h) {
         SlowStep found;

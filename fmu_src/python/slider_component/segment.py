@@ -215,13 +215,13 @@ class Series:
         """As of `ClosedForm`."""
         if self.rests:
             pairs = list(zip(self._limit, self._needed, strict=False))
-            sizes = [abs(limit) + abs(needed) for limit, needed in pairs]
+            noise = 4.0 * EPSILON * _value([abs(one) + abs(two) for one, two in pairs], horizon)
             spare = [limit - needed for limit, needed in pairs], [sum(pair) for pair in pairs]
-            return tuple(_watch_series(side, sizes, horizon) for side in spare)
-        if self.direction == 0:
-            return ()
+            return tuple(_watch_series(side, noise, horizon) for side in spare)
         watched = [self.direction * c for c in self._velocity]
-        return (_watch_series(watched, list(map(abs, watched)), horizon),)
+        reach = self.reach if self.reach < inf else horizon
+        noise = 4.0 * EPSILON * _value(list(map(abs, watched)), reach)
+        return (_watch_series(watched, noise, horizon),) if self.direction else ()
 
     def at(self, t: float) -> Place:
         """As of `ClosedForm`."""
@@ -243,15 +243,15 @@ def _sinusoid(amplitude: complex, frequency: float) -> list[float]:
     return [term.real for term in terms]
 
 
-def _watch_series(coefficients: list[float], sizes: list[float], horizon: float) -> Watch:
-    """A series as a signal up to `horizon` [s]; its rounding errors grow with `sizes`."""
+def _watch_series(coefficients: list[float], noise: float, horizon: float) -> Watch:
+    """A series as a signal up to `horizon` [s]."""
     slope = list(map(mul, coefficients[1:], _COUNT))
     bound = _value([abs(c) * count for c, count in zip(slope[1:], _COUNT, strict=False)], horizon)
 
     def signal(t: float) -> tuple[float, float, float]:
         return _value(coefficients, t), _value(slope, t), bound
 
-    return Watch(signal, 4.0 * EPSILON * _value(sizes, horizon), 1.0 / horizon)
+    return Watch(signal, noise, 1.0 / horizon)
 
 
 def _value(coefficients: list[float], t: float) -> float:
