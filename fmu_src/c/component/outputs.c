@@ -1,7 +1,5 @@
 #include "outputs.h"
 
-#include <stddef.h>
-
 #include "../base/elementary.h"
 #include "../resolved/motion.h"
 #include "variables.h"
@@ -82,7 +80,7 @@ double output_value(unsigned reference, const System *system, const Moment *mome
     case VR_FRICTION_POWER:
         return system->motion->power(system, moment);
     case VR_SLOW_MOTION_ERROR:
-        return system->motion->error != NULL ? system->motion->error(system, moment) : moment->leap_error;
+        return system->motion->error(system, moment);
     }
     return NAN; /* no output has this reference */
 }

@@ -144,7 +144,7 @@ void taylor_slide_begin(TaylorSlide *slide, const Plant *plant, const Bristle *b
         for (int k = 0; k < TAYLOR_ORDER; k++) {
             margin[k] = i == 0 ? limit[k] - slide->force[k] : limit[k] + slide->force[k];
         }
-        margin[TAYLOR_ORDER] = 0.0;
+        margin[TAYLOR_ORDER] = 0.0; /* forces have a term less than velocities */
         slide->reach = fmin(slide->reach, series_reach(margin, tolerance * scale * plant->total_mass * w));
     }
 }

@@ -123,4 +123,5 @@ const Motion LEAPING_MOTION = {
     .force = resolved_force,
     .power = resolved_power,
     .rates = resolved_rates,
+    .error = resolved_error,
 };

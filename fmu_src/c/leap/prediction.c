@@ -238,7 +238,8 @@ static bool full_system(const System *system, System *full) {
 
 /* Find the periodic motion that a quantity belongs to, at normal phase `psi` [rad] at the section, from averages on,
  * which must hold the load: the stable motion under the load of the map, or the motion without travel and the load that
- * it takes. One that never reverses is none: the slider sticks, under other loads, too. */
+ * it takes. One that never reverses is none: the slider sticks, under other loads, too. Return false, with `exact`
+ * undefined, where there is none. */
 static bool find(const PeriodMap *map, double psi, Quantity quantity, const Prediction *start, Prediction *exact) {
     bool blocked = quantity == BLOCKING_FORCE;
     Search search = search_of(map, psi, blocked, blocked ? 0.0 : start->value, blocked ? start->value : 0.0);

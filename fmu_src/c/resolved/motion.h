@@ -38,7 +38,7 @@ typedef struct Motion {
 
     Rates (*rates)(const System *system, const Moment *moment);
 
-    /* Estimate of the error of the slow velocity [m/s]. NULL: what leaps have left. */
+    /* Estimate of the error of the slow velocity [m/s]. */
     double (*error)(const System *system, const Moment *moment);
 
     /* Where inputs grow by `ramp`: the time [s], at most `left`, for which one system holds that is prepared for its
@@ -48,9 +48,10 @@ typedef struct Motion {
 
 extern const Motion RESOLVED_MOTION, AVERAGED_MOTION, LEAPING_MOTION;
 
-/* What motion that leaps over periods shares with resolved motion. */
+/* What motion that leaps over periods shares with resolved motion; the error is that which leaps have left. */
 Moment resolved_start(const System *system);
 int resolved_mode(const System *system, const Moment *moment);
 double resolved_force(const System *system, const Moment *moment, int mode);
 double resolved_power(const System *system, const Moment *moment);
 Rates resolved_rates(const System *system, const Moment *moment);
+double resolved_error(const System *system, const Moment *moment);

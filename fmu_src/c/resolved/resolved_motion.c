@@ -66,6 +66,11 @@ Rates resolved_rates(const System *system, const Moment *moment) {
     return (Rates){rates, 0.0};
 }
 
+double resolved_error(const System *system, const Moment *moment) {
+    (void)system;
+    return moment->leap_error;
+}
+
 const Motion RESOLVED_MOTION = {
     .start = resolved_start,
     .advance = resolved_advance,
@@ -73,4 +78,5 @@ const Motion RESOLVED_MOTION = {
     .force = resolved_force,
     .power = resolved_power,
     .rates = resolved_rates,
+    .error = resolved_error,
 };

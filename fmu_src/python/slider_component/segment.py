@@ -219,7 +219,7 @@ class Series:
             spare = [limit - needed for limit, needed in pairs], [sum(pair) for pair in pairs]
             return tuple(_watch_series(side, noise, horizon) for side in spare)
         watched = [self.direction * c for c in self._velocity]
-        reach = self.reach if self.reach < inf else horizon
+        reach = self.reach if self.reach < inf else horizon  # that may be next to nothing
         noise = 4.0 * EPSILON * _value(list(map(abs, watched)), reach)
         return (_watch_series(watched, noise, horizon),) if self.direction else ()
 
