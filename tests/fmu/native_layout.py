@@ -1,4 +1,4 @@
-"""The native state's layout, as state_bytes.h and snapshot.c say, read by other code."""
+"""The native state's layout, as state_bytes.h and snapshot.h say, read by other code."""
 
 import json
 import struct
@@ -8,19 +8,18 @@ from fmu_src.python.slider_component.variables import VARIABLES
 
 SETTABLE = [v for v in VARIABLES if v.causality != "output"]
 FIELDS = (
-    *("lifecycle", "time", "time_carry", "stop_time", "last_event_time"),
-    *("phase_derivative", "phase_is_new", "load_derivative", "load_is_new"),
-    *("ratio_derivative", "ratio_is_new"),
-    *("velocity", "displacement", "rate", "position", "theta", "psi", "mode"),
-    *("sliding", "reversals", "sticks", "event_age"),
-    *("travel", "work", "elapsed", "sticking", "complete"),
+    *("velocity", "displacement", "rate", "position", "theta", "psi", "mode", "sliding"),
+    *("reversals", "event_age", "travel", "work", "elapsed", "sticking", "complete"),
     *("mean_velocity", "friction_power", "stick_fraction", "bristle"),
     *("backward_stop", "backward_drift", "backward_curvature"),
-    *("forward_stop", "forward_drift", "forward_curvature"),
-    "leap_error",
+    *("forward_stop", "forward_drift", "forward_curvature", "leap_error"),
+    *("time", "time_carry", "stop_time", "last_event_time"),
+    *("phase_derivative", "phase_is_new", "load_derivative", "load_is_new"),
+    *("ratio_derivative", "ratio_is_new"),
+    *(v.name for v in SETTABLE),
+    "lifecycle",
 )
-HEAD = 8 + 40
-LAYOUT = struct.Struct(f"<8s40s{len(FIELDS) + len(SETTABLE)}dQ")
+LAYOUT = struct.Struct(f"<8s40s6d2i{len(FIELDS) - 9}diQ")
 
 
 def checksum(data: bytes) -> int:
@@ -31,14 +30,9 @@ def checksum(data: bytes) -> int:
     return total
 
 
-def numbers(data: bytes) -> dict[str, float]:
-    found = LAYOUT.unpack(data)[2:-1]
-    return dict(zip([*FIELDS, *(v.name for v in SETTABLE)], found, strict=True))
-
-
 def moment_of(state: bytes) -> dict[str, Any]:
-    """The motion in a state of either FMU by name, such as theta, psi and sticks."""
-    if state.startswith(b"SLIDRES\x01") and len(state) == LAYOUT.size:
-        return numbers(state)
+    """The motion in a state of either FMU by name, such as theta and psi."""
+    if state.startswith(b"SLIDRES\x02"):
+        return dict(zip(FIELDS, LAYOUT.unpack(state)[2:-1], strict=True))
     moment: dict[str, Any] = json.loads(state.partition(b"\n")[2])["moment"]
     return moment

@@ -18,7 +18,7 @@
 static Moment start(const System *system) {
     Moment first = first_moment(&system->device);
     first.mode = mode_by_velocity(system, &first);
-    first.means.complete = true;
+    first.means.complete = 1.0;
     first.means.mean_velocity = slow_velocity(system, &first.state, first.theta);
     return first;
 }
@@ -45,11 +45,13 @@ static bool averaged_advance(const System *system, const Moment *moment, double 
     state.velocity = reached.velocity - drive * cos(theta) - share * swing.rate;
     state.displacement = swing.displacement;
     state.rate = swing.rate;
-    Moment next = {.state = state, .theta = theta, .psi = psi, .counts = moment->counts};
+    Moment next = {.state = state, .theta = theta, .psi = psi};
+    next.sliding = moment->sliding;
+    next.reversals = moment->reversals;
     next.position = centre + reached.travel - drive / w * sin(theta) - share * swing.displacement;
     next.mode = mode_by_velocity(system, &next);
     next.event_age = INFINITY;
-    next.means.complete = true;
+    next.means.complete = 1.0;
     next.means.mean_velocity = reached.velocity;
     *after = next;
     return true;

@@ -45,7 +45,7 @@ bool change_derivatives(InputDerivative derivatives[VARYING_COUNT], Lifecycle li
     }
     for (size_t i = 0; i < count; i++) {
         if (references[i] < VARYING_COUNT) {
-            derivatives[references[i]] = (InputDerivative){values[i], true};
+            derivatives[references[i]] = (InputDerivative){values[i], 1.0};
         }
     }
     return true;
@@ -53,7 +53,7 @@ bool change_derivatives(InputDerivative derivatives[VARYING_COUNT], Lifecycle li
 
 void hold_inputs(InputDerivative derivatives[VARYING_COUNT], const unsigned *references, size_t count) {
     for (size_t i = 0; i < count; i++) {
-        if (references[i] < VARYING_COUNT && !derivatives[references[i]].is_new) {
+        if (references[i] < VARYING_COUNT && derivatives[references[i]].is_new == 0.0) {
             derivatives[references[i]].value = 0.0;
         }
     }
@@ -61,6 +61,6 @@ void hold_inputs(InputDerivative derivatives[VARYING_COUNT], const unsigned *ref
 
 void derivatives_used(InputDerivative derivatives[VARYING_COUNT]) {
     for (size_t i = 0; i < VARYING_COUNT; i++) {
-        derivatives[i].is_new = false;
+        derivatives[i].is_new = 0.0;
     }
 }

@@ -11,10 +11,9 @@
 /* The inputs that may vary over a step are the first variables: phase, load and frequency ratio. */
 enum { VARYING_COUNT = 3 };
 
-/* The derivative of an input, per s. It `is_new` until a step has been made with it. */
+/* The derivative of an input, per s. It `is_new`, 1 or 0, until a step has been made with it. */
 typedef struct {
-    double value;
-    bool is_new;
+    double value, is_new;
 } InputDerivative;
 
 /* Whether any input varies: has a derivative other than 0. */

@@ -65,7 +65,7 @@ double output_value(unsigned reference, const System *system, const Moment *mome
     case VR_CONTACT_MODE:
         return system->motion->mode(system, moment);
     case VR_REVERSALS:
-        return moment->counts.reversals;
+        return moment->reversals;
     case VR_STICK_FRACTION:
         return period_stick_fraction(&moment->means, system->motion->mode(system, moment) == STICK);
     case VR_LAST_EVENT_TIME:

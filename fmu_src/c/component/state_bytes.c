@@ -1,81 +1,64 @@
 #include "state_bytes.h"
 
+#include <stddef.h>
 #include <stdint.h>
 #include <string.h>
 
 #include "model_guid.h"
 
-static const unsigned char FORMAT[8] = {'S', 'L', 'I', 'D', 'R', 'E', 'S', 1};
+static const unsigned char FORMAT[8] = {'S', 'L', 'I', 'D', 'R', 'E', 'S', 2};
 
-static void put_bits(unsigned char *bytes, uint64_t bits) {
-    for (int i = 0; i < STATE_NUMBER_SIZE; i++) {
-        bytes[i] = (unsigned char)((bits >> (8 * i)) & 0xff);
-    }
-}
+enum {
+    HEADER_SIZE = 48,
+    SNAPSHOT_SIZE = offsetof(Snapshot, lifecycle) + sizeof(Lifecycle), /* without padding behind the last field */
+    CHECKED_SIZE = HEADER_SIZE + SNAPSHOT_SIZE,
+    STATE_SIZE = CHECKED_SIZE + sizeof(uint64_t)
+};
 
-static uint64_t get_bits(const unsigned char *bytes) {
-    uint64_t bits = 0;
-    for (int i = 0; i < STATE_NUMBER_SIZE; i++) {
-        bits |= (uint64_t)bytes[i] << (8 * i);
-    }
-    return bits;
-}
-
-void state_number_put(unsigned char *bytes, double number) {
-    uint64_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    put_bits(bytes, bits);
-}
-
-double state_number_get(const unsigned char *bytes) {
-    uint64_t bits = get_bits(bytes);
-    double number;
-    memcpy(&number, &bits, sizeof number);
-    return number;
+size_t state_bytes_size(void) {
+    return STATE_SIZE;
 }
 
 /* FNV-1a: detects every change of a single byte. */
-static uint64_t checksum(const unsigned char *bytes, size_t size) {
+static uint64_t checksum(const unsigned char *bytes) {
     uint64_t sum = 14695981039346656037u;
-    for (size_t i = 0; i < size; i++) {
+    for (size_t i = 0; i < CHECKED_SIZE; i++) {
         sum = (sum ^ bytes[i]) * 1099511628211u;
     }
     return sum;
 }
 
 static void write_header(unsigned char *bytes) {
-    memset(bytes, 0, STATE_HEADER_SIZE);
+    memset(bytes, 0, HEADER_SIZE);
     memcpy(bytes, FORMAT, sizeof FORMAT);
     memcpy(bytes + sizeof FORMAT, MODEL_GUID, sizeof MODEL_GUID);
 }
 
-void state_seal(unsigned char *bytes, size_t size) {
+void state_bytes_write(const Snapshot *snapshot, unsigned char *bytes) {
     write_header(bytes);
-    size_t checked = size - STATE_CHECKSUM_SIZE;
-    put_bits(bytes + checked, checksum(bytes, checked));
+    memcpy(bytes + HEADER_SIZE, snapshot, SNAPSHOT_SIZE);
+    uint64_t sum = checksum(bytes);
+    memcpy(bytes + CHECKED_SIZE, &sum, sizeof sum);
 }
 
-bool state_seal_check(const unsigned char *bytes, size_t size, size_t expected, Refusal *refusal) {
-    unsigned char header[STATE_HEADER_SIZE];
+bool state_bytes_read(Snapshot *snapshot, const unsigned char *bytes, size_t size, Refusal *refusal) {
+    unsigned char header[HEADER_SIZE];
+    uint64_t sum;
     write_header(header);
-    if (size < STATE_HEADER_SIZE || memcmp(bytes, header, sizeof FORMAT) != 0) {
+    if (size < HEADER_SIZE || memcmp(bytes, header, sizeof FORMAT) != 0) {
         return refuse(refusal,
                       "FMU state refused: %lu bytes without the header of a state; must "
                       "be bytes that a state of this build was serialised to",
                       (unsigned long)size);
     }
-    if (memcmp(bytes, header, STATE_HEADER_SIZE) != 0) {
-        return refuse(refusal,
-                      "FMU state refused: it is of another build; must be of the build "
-                      "%s",
-                      MODEL_GUID);
+    if (memcmp(bytes, header, HEADER_SIZE) != 0) {
+        return refuse(refusal, "FMU state refused: it is of another build; must be of the build %s", MODEL_GUID);
     }
-    if (size != expected) {
-        return refuse(refusal, "FMU state refused: it has %lu bytes; must be %lu", (unsigned long)size,
-                      (unsigned long)expected);
+    if (size != STATE_SIZE) {
+        return refuse(refusal, "FMU state refused: it has %lu bytes; must be %d", (unsigned long)size, STATE_SIZE);
     }
-    size_t checked = size - STATE_CHECKSUM_SIZE;
-    return get_bits(bytes + checked) == checksum(bytes, checked) ||
-           refuse(refusal, "FMU state refused: damaged, its bytes do not match their checksum; "
-                           "must be bytes that a state was serialised to");
+    memcpy(&sum, bytes + CHECKED_SIZE, sizeof sum);
+    memcpy(snapshot, bytes + HEADER_SIZE, SNAPSHOT_SIZE);
+    return sum == checksum(bytes) || refuse(refusal, "FMU state refused: damaged, its bytes do not match their "
+                                                     "checksum; must be bytes that a state was serialised to");
 }

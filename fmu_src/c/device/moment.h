@@ -37,13 +37,6 @@ static inline double stop_expected(const Stop *stop, double theta, double drive_
     return within_turn(stop->theta + stop->drift + stop->curvature - theta) / drive_frequency;
 }
 
-/* Events so far. Counts are doubles: exact for more events than any run has. */
-typedef struct {
-    int sliding;      /* direction of the last sliding, 0 before any */
-    double reversals; /* number of reversals */
-    double sticks;    /* number of sticks begun */
-} Counts;
-
 /* `stops` determine where the search for a stop begins, and so the last digit of the time that it finds: as part of the
  * state they make a replay equal to the last bit. */
 typedef struct {
@@ -51,7 +44,8 @@ typedef struct {
     double position;   /* of the slider [m] */
     double theta, psi; /* phases of the drive and of the normal load [rad], without the input `phase` */
     int mode;          /* contact mode */
-    Counts counts;     /* events so far */
+    int sliding;       /* direction of the last sliding, 0 before any */
+    double reversals;  /* number of reversals so far: exact for more than any run has */
     double event_age;  /* time [s] since the last event, infinite before any */
     PeriodMeans means; /* sums over the drive period that goes on, means over the last whole one */
     double bristle;    /* friction sigma_0 z of the bristle per unit normal load, 0 with Coulomb friction */
@@ -70,7 +64,6 @@ static inline Moment first_moment(const Device *device) {
 static inline void moment_enter(Moment *moment, int mode) {
     if (mode != moment->mode) {
         moment->mode = mode;
-        moment->counts.sticks += mode == STICK;
         moment->event_age = 0.0;
     }
 }

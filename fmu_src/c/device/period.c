@@ -38,7 +38,7 @@ double period_advance(PeriodMeans *means, const Interval *interval, double theta
         means->friction_power = (until.work - before.work) / length;
         fraction = interval->sticks ? 1.0 : 0.0;
     }
-    means->complete = true;
+    means->complete = 1.0;
     means->stick_fraction = fmin(fmax(fraction, 0.0), 1.0);
     means->travel = interval->passed.travel - until.travel;
     means->work = interval->passed.work - until.work;
@@ -49,7 +49,7 @@ double period_advance(PeriodMeans *means, const Interval *interval, double theta
 
 /* The `mean` of the last whole period; before one has ended that of `sum` since the start, and at the start `first`. */
 static double mean_of(const PeriodMeans *means, double mean, double sum, double first) {
-    if (means->complete) {
+    if (means->complete != 0.0) {
         return mean;
     }
     return means->elapsed > 0.0 ? sum / means->elapsed : first;

@@ -10,11 +10,10 @@
 /* Sums since the last period ended, and the means of the last whole period.
  *
  * `travel` [m], `work` of friction [J], `elapsed` [s] and `sticking` [s] since the last period ended (or the start);
- * `mean_velocity` [m/s], `friction_power` [W] and `stick_fraction` of the last whole period once `complete`. */
+ * `mean_velocity` [m/s], `friction_power` [W] and `stick_fraction` of the last whole period once `complete`, 1 or 0. */
 typedef struct {
     double travel, work, elapsed, sticking;
-    bool complete;
-    double mean_velocity, friction_power, stick_fraction;
+    double complete, mean_velocity, friction_power, stick_fraction;
 } PeriodMeans;
 
 /* Displacement [m] and work of friction [J] since a motion began. */

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "../component/state_bytes.h"
+
 /* Refuse a null pointer; the text names the argument. */
 static bool pointer_check(const char *call, const char *argument, const void *pointer, Refusal *refusal) {
     return pointer != NULL ||
@@ -51,7 +53,7 @@ Status state_size(const Instance *instance, const char *call, const void *state,
     bool done = instance != NULL && pointer_check(call, "the FMU state", state, &refusal) &&
                 pointer_check(call, "the size", size, &refusal);
     if (done) {
-        *size = snapshot_size();
+        *size = state_bytes_size();
     }
     return answer(instance, done, &refusal);
 }
@@ -60,12 +62,12 @@ Status state_write(const Instance *instance, const char *call, const void *state
     Refusal refusal;
     bool done = instance != NULL && pointer_check(call, "the FMU state", state, &refusal) &&
                 pointer_check(call, "the serialised state", bytes, &refusal);
-    if (done && size != snapshot_size()) {
+    if (done && size != state_bytes_size()) {
         done = refuse(&refusal, "%s: size = %lu refused: must be %lu", call, (unsigned long)size,
-                      (unsigned long)snapshot_size());
+                      (unsigned long)state_bytes_size());
     }
     if (done) {
-        snapshot_write(state, bytes);
+        state_bytes_write(state, bytes);
     }
     return answer(instance, done, &refusal);
 }
@@ -75,6 +77,7 @@ Status state_read(const Instance *instance, const char *call, const void *bytes,
     Snapshot snapshot;
     bool done = instance != NULL && pointer_check(call, "the serialised state", bytes, &refusal) &&
                 pointer_check(call, "the FMU state", state, &refusal) &&
-                snapshot_read(&snapshot, bytes, size, &refusal) && copy_out(instance, &snapshot, call, state, &refusal);
+                state_bytes_read(&snapshot, bytes, size, &refusal) &&
+                copy_out(instance, &snapshot, call, state, &refusal);
     return answer(instance, done, &refusal);
 }

@@ -41,7 +41,7 @@ static void begin_in(int direction, Segment *segment, const System *system, cons
 
 /* At rest the likely direction is that of a reversal. */
 static void begin(Segment *segment, const System *system, const Moment *now, double longest) {
-    int moving = direction_of(now->state.velocity), reversed = now->counts.sliding > 0 ? BACKWARD : FORWARD;
+    int moving = direction_of(now->state.velocity), reversed = now->sliding > 0 ? BACKWARD : FORWARD;
     begin_in(moving != STICK ? moving : reversed, segment, system, now, longest);
     if (moving == STICK && !segment_departs(segment)) {
         begin_in(-reversed, segment, system, now, longest);

@@ -131,7 +131,7 @@ void segment_follow(Segment *segment, const Plant *plant, Moment *now, double lo
             segment->zero_of = i;
         }
     }
-    segment->turns = direction != 0 && segment->mode != LIFTED && direction != now->counts.sliding &&
+    segment->turns = direction != 0 && segment->mode != LIFTED && direction != now->sliding &&
                      (panel_of(segment) > 0.0 || moves(&watches[0], segment->t));
 }
 
@@ -162,8 +162,8 @@ void segment_finish(Segment *segment, const Plant *plant, Moment *now) {
     now->psi = within_turn(now->psi + turned_by(plant, segment->t));
     now->position += segment->travelled;
     if (segment->turns) {
-        now->counts.reversals += now->counts.sliding == -segment->direction;
-        now->counts.sliding = segment->direction;
+        now->reversals += now->sliding == -segment->direction;
+        now->sliding = segment->direction;
         now->event_age = 0.0;
     }
     now->event_age += segment->t;

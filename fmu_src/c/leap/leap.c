@@ -74,8 +74,7 @@ static void land(const SlowPath *path, double periods, double travel, Moment *af
     *after = here->after;
     after->psi = psi_after(path->manifold.map, path->psi, periods + DIFFERENCES);
     after->position += travel;
-    after->counts.reversals += periods * here->rates.reversals;
-    after->counts.sticks += periods * here->rates.sticks;
+    after->reversals += periods * here->rates.reversals;
     if (after->event_age > DIFFERENCES * period) {
         after->event_age += periods * period;
     }

@@ -95,13 +95,12 @@ void moment_place(const PeriodMap *map, double velocity, const double fast[MAX_F
     moment->state.velocity =
         velocity - map->system.fast.pair_velocity * cos(map->section) - system->plant.mass_fraction * fast[1];
     moment->mode = system->friction->mode(system, moment);
-    moment->counts.sliding = moment->mode == LIFTED ? STICK : moment->mode;
+    moment->sliding = moment->mode == LIFTED ? STICK : moment->mode;
 }
 
 static SectionState section_state(const PeriodMap *map, const Moment *moment) {
     return (SectionState){{slow_velocity(&map->system, &moment->state, moment->theta), moment->state.displacement,
-                           moment->state.rate, moment->bristle, moment->position, moment->counts.reversals,
-                           moment->counts.sticks}};
+                           moment->state.rate, moment->bristle, moment->position, moment->reversals}};
 }
 
 bool map_periods(const PeriodMap *map, double begin, int count, Moment *moment, Budget *budget, SectionState *sections,

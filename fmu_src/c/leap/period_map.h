@@ -14,8 +14,8 @@
 /* Largest number of fast states: Y [m], Y' [m/s], and the bristle's friction per unit load. */
 enum { MAX_FAST = 3 };
 
-/* The motion at a section, as numbers: slow velocity V [m/s], the fast states, position X [m], and counts so far. */
-enum { SLOW_VELOCITY, FAST_STATES, SLOW_POSITION = FAST_STATES + MAX_FAST, REVERSALS, STICKS, NUMBERS };
+/* The motion at a section, as numbers: slow velocity V [m/s], the fast states, position X [m], and number of reversals so far. */
+enum { SLOW_VELOCITY, FAST_STATES, SLOW_POSITION = FAST_STATES + MAX_FAST, REVERSALS, NUMBERS };
 
 typedef struct {
     double at[NUMBERS];

@@ -84,7 +84,6 @@ bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
         }
         SectionState *last = &sections[DIFFERENCES];
         double reversals = last->at[REVERSALS] - last[-1].at[REVERSALS];
-        double sticks = last->at[STICKS] - last[-1].at[STICKS];
         take_differences(sections);
         double ratio = ratio_of(map, sections);
         correction_of(map, sections, ratio, step, &missing);
@@ -93,7 +92,6 @@ bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
         if (size <= manifold->allowed) {
             *rates = rates_of(sections, ratio, step);
             rates->reversals = reversals;
-            rates->sticks = sticks;
             rates->error += map->share * map->speed * (missing + size);
             rates->offset = offset;
             rates->itinerary = itinerary;

@@ -23,13 +23,12 @@ typedef struct {
 } Manifold;
 
 /* Per period: the change of the slow velocity [m/s] (`acceleration`), of the position [m] (`travel`), of `acceleration`
- * (`jerk`) and of the `fast` states, and the number of reversals and sticks. `error` is the estimated error of
+ * (`jerk`) and of the `fast` states, and the number of reversals. `error` is the estimated error of
  * `acceleration`, `offset` the size of the first correction of the fast states, over their scales. */
 typedef struct {
     double acceleration, travel, jerk;
     double fast[MAX_FAST], fast_rate[MAX_FAST];
-    double reversals, sticks;
-    double error, offset;
+    double reversals, error, offset;
     uint64_t itinerary;
 } SlowRates;
 

@@ -30,7 +30,7 @@ static bool found_at(EventSearch *search, const Clock *clock) {
 static bool found_reversal(EventSearch *search, const Clock *clock, const Segment *segment, const Moment *begin,
                            Moment *now) {
     bool turns = segment->turns && begin->state.velocity == 0.0 && begin->event_age != 0.0;
-    bool moved = clock->elapsed > 0.0 || begin->counts.sliding == -segment->direction;
+    bool moved = clock->elapsed > 0.0 || begin->sliding == -segment->direction;
     if (!turns || !moved || !found_at(search, clock)) {
         return false;
     }

@@ -96,7 +96,6 @@ class SlowMotion:
         landing.position += travel
         landing.leap_error = error
         landing.reversals += round(n * (landing.reversals - last_but_one.reversals))
-        landing.sticks += round(n * (landing.sticks - last_but_one.sticks))
         landing.time += n * self.map.period
         if landing.last_event_time > self.begin.time:
             landing.last_event_time += n * self.map.period

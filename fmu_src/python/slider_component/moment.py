@@ -3,8 +3,6 @@
 from dataclasses import dataclass
 from operator import attrgetter
 
-from .contact import STICK
-
 Place = tuple[float, float, float, float]
 """Slider velocity [m/s], resonator displacement [m] and rate [m/s], and slider travel [m]."""
 
@@ -16,7 +14,7 @@ class Moment:
     Slider `velocity` [m/s] and `position` [m], resonator `displacement` [m] and `rate` [m/s], and
     the friction sigma_0 z of the `bristle` per unit normal load, 0 with Coulomb friction. Phases of
     the drive `theta` and of the normal load `psi` [rad]. The `time` and `last_event_time` [s];
-    `sliding` is the direction of the last sliding, 0 before any; `reversals` and `sticks` count.
+    `sliding` is the direction of the last sliding, 0 before any; `reversals` counts.
     `travel` [m], `work` of friction [J], `elapsed` [s] and `sticking` [s] are sums since the last
     drive period ended (or the start), `mean_velocity` [m/s], `friction_power` [W] and
     `stick_fraction` the means of the last whole one once it is `complete`. `leap_error` [m/s] is
@@ -34,7 +32,6 @@ class Moment:
     mode: int = 0
     sliding: int = 0
     reversals: int = 0
-    sticks: int = 0
     time: float = 0.0
     last_event_time: float = 0.0
     bristle: float = 0.0
@@ -56,7 +53,6 @@ class Moment:
         """Change to contact mode `mode`; that is an event unless it is the present mode."""
         if mode != self.mode:
             self.mode, self.last_event_time = mode, self.time
-            self.sticks += mode == STICK
 
     def turn(self, direction: int) -> None:
         """Begin to slide in another direction than before: an event."""
