@@ -124,28 +124,6 @@ double elementary_cos(double x) {
     return elementary_sine_cosine(x).cosine;
 }
 
-double elementary_asin(double x) {
-    double size = fabs(x);
-    if (size <= 0.5) {
-        return asin_within(x);
-    }
-    if (!(size <= 1.0)) {
-        return asin(x);
-    }
-    return copysign(HALF_PI - (2.0 * asin_within(sqrt(0.5 * (1.0 - size))) - HALF_PI_REST), x);
-}
-
-double elementary_acos(double x) {
-    if (fabs(x) <= 0.5) {
-        return HALF_PI - (asin_within(x) - HALF_PI_REST);
-    }
-    if (!(fabs(x) <= 1.0)) {
-        return acos(x);
-    }
-    double half = asin_within(sqrt(0.5 * (1.0 - fabs(x))));
-    return x > 0.0 ? 2.0 * half : PI - 2.0 * (half - HALF_PI_REST);
-}
-
 double elementary_hypot(double x, double y) {
     double square = x * x + y * y;
     return square > SMALL_SQUARE && square < LARGE_SQUARE ? sqrt(square) : hypot(x, y);
@@ -156,11 +134,22 @@ double elementary_atan2(double y, double x) {
     if (!(square > SMALL_SQUARE && square < LARGE_SQUARE)) {
         return atan2(y, x);
     }
-    double length = sqrt(square), across = elementary_asin(fabs(y) / length);
+    double least = fmin(fabs(x), fabs(y)) / sqrt(square), across = asin_within(least);
+    if (least > 0.5) {
+        across = HALF_PI - (2.0 * asin_within(sqrt(0.5 * (1.0 - least))) - HALF_PI_REST);
+    }
     if (fabs(y) > fabs(x)) {
-        across = HALF_PI - (elementary_asin(fabs(x) / length) - HALF_PI_REST);
+        across = HALF_PI - (across - HALF_PI_REST);
     }
     return copysign(x < 0.0 ? PI - (across - 2.0 * HALF_PI_REST) : across, y);
+}
+
+double elementary_asin(double x) {
+    return elementary_atan2(x, sqrt((1.0 - x) * (1.0 + x)));
+}
+
+double elementary_acos(double x) {
+    return elementary_atan2(sqrt((1.0 - x) * (1.0 + x)), x);
 }
 
 /* x less its octaves, and 2^n for n of them. */
@@ -206,11 +195,4 @@ double elementary_log(double x) {
     sum = 2.0 / 7.0 + z * (2.0 / 9.0 + z * sum);
     sum = 2.0 / 3.0 + z * (2.0 / 5.0 + z * sum);
     return count * OCTAVE + (count * OCTAVE_REST + (2.0 * s + s * (z * sum)));
-}
-
-double elementary_pow(double x, double y) {
-    if (!(x >= 1e-300 && x <= 1e300)) {
-        return pow(x, y);
-    }
-    return elementary_exp(y * elementary_log(x));
 }

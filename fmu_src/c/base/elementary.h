@@ -15,4 +15,3 @@
 #define exp(x) elementary_exp(x)
 #define expm1(x) elementary_expm1(x)
 #define log(x) elementary_log(x)
-#define pow(a, b) elementary_pow(a, b)

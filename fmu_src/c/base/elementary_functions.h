@@ -23,6 +23,3 @@ double elementary_hypot(double x, double y);
 double elementary_exp(double x);
 double elementary_expm1(double x);
 double elementary_log(double x);
-
-/* To 1e-13. */
-double elementary_pow(double x, double y);

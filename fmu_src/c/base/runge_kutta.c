@@ -52,6 +52,6 @@ bool runge_kutta_step(SlowRateFunction rate, void *motion, const SlowPoint *from
 }
 
 double step_growth(double error, double tolerance) {
-    double growth = error > 0.0 ? SAFETY * pow(tolerance / error, 1.0 / ORDER) : MAX_GROWTH;
+    double growth = error > 0.0 ? SAFETY * exp(log(tolerance / error) / ORDER) : MAX_GROWTH;
     return fmin(MAX_GROWTH, fmax(MIN_GROWTH, growth));
 }

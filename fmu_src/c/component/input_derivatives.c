@@ -27,10 +27,9 @@ static bool derivative_check(Lifecycle lifecycle, unsigned reference, double val
         return require(call, lifecycle, STEP_COMPLETE, refusal);
     }
     if (is_held) {
-        return value == 0.0 || refuse(refusal,
-                                      "derivative of %s = %s refused: the input is held over a step; "
-                                      "must be 0",
-                                      name, number_text(value, text));
+        return value == 0.0 ||
+               refuse(refusal, "derivative of %s = %s refused: the input is held over a step; must be 0", name,
+                      number_text(value, text));
     }
     return isfinite(value) ||
            refuse(refusal, "derivative of %s = %s refused: must be a finite number", name, number_text(value, text));

@@ -23,11 +23,11 @@ static bool reached_check(const Snapshot *now, const double reached[SETTABLE_COU
         Refusal bounds;
         if (!value_check(&VARIABLES[i], reached[i], &bounds)) {
             char step[NUMBER_SIZE], derivative[NUMBER_SIZE], value[NUMBER_SIZE];
-            return refuse(refusal,
-                          "doStep: communicationStepSize = %s refused: with its derivative %s, %s "
-                          "reaches %s; must be %s",
-                          number_text(duration, step), number_text(now->derivatives[i].value, derivative),
-                          VARIABLES[i].name, number_text(reached[i], value), VARIABLES[i].requirement);
+            return refuse(
+                refusal,
+                "doStep: communicationStepSize = %s refused: with its derivative %s, %s reaches %s; must be %s",
+                number_text(duration, step), number_text(now->derivatives[i].value, derivative), VARIABLES[i].name,
+                number_text(reached[i], value), VARIABLES[i].requirement);
         }
     }
     return true;

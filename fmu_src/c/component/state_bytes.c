@@ -47,8 +47,8 @@ bool state_bytes_read(Snapshot *snapshot, const unsigned char *bytes, size_t siz
     write_header(header);
     if (size < HEADER_SIZE || memcmp(bytes, header, sizeof FORMAT) != 0) {
         return refuse(refusal,
-                      "FMU state refused: %lu bytes without the header of a state; must "
-                      "be bytes that a state of this build was serialised to",
+                      "FMU state refused: %lu bytes without the header of a state; must be bytes that a state of this "
+                      "build was serialised to",
                       (unsigned long)size);
     }
     if (memcmp(bytes, header, HEADER_SIZE) != 0) {

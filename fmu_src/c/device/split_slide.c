@@ -72,12 +72,6 @@ static inline bool is_soon(const SplitSlide *slide, double t) {
     return t * slide->split->fastest < SMALL_TURN;
 }
 
-/* exp(i theta), without a sine at the end of a turn, where means over a period need it. */
-static Complex drive_at(double theta) {
-    double passed = theta - TAU;
-    return fabs(passed) < 1e-9 ? complex_of(1.0, passed) : complex_rect(1.0, theta);
-}
-
 /* The free motion of the resonator at `t`, as in Turns. */
 static Complex free_at(const Plant *plant, double t) {
     Complex eigenvalue = plant->slip.eigenvalue;
@@ -96,7 +90,7 @@ static void compute_turns(const SplitSlide *slide, double t, Turns *turns) {
     const Plant *plant = slide->plant;
     turns->t = t;
     turns->free = free_at(plant, t);
-    turns->phasors.drive = drive_at(slide->theta + plant->drive_frequency * t);
+    turns->phasors.drive = complex_rect(1.0, slide->theta + plant->drive_frequency * t);
     turns->phasors.normal = slide->split->merges ? slide->start.phasors.normal
                                                  : complex_rect(1.0, slide->chi + plant->normal_frequency * t);
 }

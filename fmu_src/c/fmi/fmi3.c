@@ -37,9 +37,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String instanceName, fmi3String ins
     Host host = fmi3_host(instanceEnvironment, logMessage);
     if (nRequiredIntermediateVariables > 0) {
         Refusal refusal;
-        refuse(&refusal,
-               "%s: nRequiredIntermediateVariables = %lu refused: must be 0, there is no "
-               "intermediate update",
+        refuse(&refusal, "%s: nRequiredIntermediateVariables = %lu refused: must be 0, there is no intermediate update",
                call, (unsigned long)nRequiredIntermediateVariables);
         return refuse_instance(&host, instanceName, &refusal);
     }

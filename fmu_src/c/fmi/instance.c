@@ -47,9 +47,7 @@ static bool instance_check(const char *call, const char *name, const char *token
                       name == NULL ? "a null pointer" : "empty");
     }
     if (token == NULL || strcmp(token, MODEL_GUID) != 0) {
-        return refuse(refusal,
-                      "%s: %s = '%.80s' refused: must be '%s'; the model description is of "
-                      "another build",
+        return refuse(refusal, "%s: %s = '%.80s' refused: must be '%s'; the model description is of another build",
                       call, FMI.token, token == NULL ? "(null)" : token, MODEL_GUID);
     }
     return true;
@@ -111,10 +109,8 @@ Status set_debug_logging(Instance *instance, const char *call, bool logging_on, 
     }
     bool enabled[STATUSES];
     bool known = (count <= STATUSES && (count == 0 || categories != NULL)) ||
-                 refuse(&refusal,
-                        "%s: nCategories = %lu refused: must be from 0 to %d, with as many "
-                        "categories",
-                        call, (unsigned long)count, STATUSES);
+                 refuse(&refusal, "%s: nCategories = %lu refused: must be from 0 to %d, with as many categories", call,
+                        (unsigned long)count, STATUSES);
     enable_all(enabled, logging_on && count == 0);
     for (size_t i = 0; known && i < count; i++) {
         known = enable(enabled, call, categories[i], &refusal);

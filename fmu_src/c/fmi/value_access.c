@@ -89,9 +89,7 @@ Status values_set(Instance *instance, const char *call, const unsigned *referenc
     bool done = instance != NULL && value_count_check(call, count, value_count, &refusal) &&
                 places_check(call, references, count, values, type, places, &place_count, &refusal);
     if (done && place_count < count) {
-        done = refuse(&refusal,
-                      "time (valueReference = %u) refused: it is the independent variable "
-                      "and cannot be set",
+        done = refuse(&refusal, "time (valueReference = %u) refused: it is the independent variable and cannot be set",
                       FMI.min_reference);
     }
     for (size_t i = 0; done && i < count; i++) {

@@ -20,16 +20,8 @@ int turns_of_load(const System *system) {
 /* Largest change of an unknown in an iteration, and the change at which the iteration ends: as it converges
  * quadratically, the next change would be rounding. Number of iterations. */
 #define MAX_CHANGE 0.2
-#define CONVERGED 1e-10
+#define CONVERGED 1e-7
 enum { MAX_ITERATIONS = 24 };
-
-/* Share of what a period changes that an iteration must leave at most; above it the derivatives are taken anew, as
- * where a reversal has become a stick. */
-#define REDUCED 0.5
-
-/* Periods by which the start of a search is followed where friction may change V by more than an iteration: it brings
- * near what is looked for. */
-enum { LEAD_IN = 2 };
 
 /* Share of the work of a step that a search may take: a host that reads an output does not expect to wait. */
 #define SHARE_OF_STEP 0.1
@@ -99,61 +91,25 @@ static bool differentiate(Search *search) {
     return true;
 }
 
-/* Broyden's update: makes the Jacobian map `step` to what the change has changed by; `left` is what remains of it. */
-static void update(Search *search, const double step[UNKNOWNS], const double left[UNKNOWNS]) {
-    double square = 0.0;
-    for (int j = 0; j < search->count; j++) {
-        square += step[j] * step[j];
-    }
-    for (int i = 0; i < search->count && square > 0.0; i++) {
-        for (int j = 0; j < search->count; j++) {
-            search->jacobian[i][j] += left[i] * step[j] / square;
-        }
-    }
-}
-
-static double largest_of(const Search *search, const double numbers[UNKNOWNS]) {
-    double largest = 0.0;
-    for (int i = 0; i < search->count; i++) {
-        largest = fmax(largest, fabs(numbers[i]));
-    }
-    return largest;
-}
-
-/* Follow the motion for some periods under strong friction, without its travel where it is blocked. */
-static bool lead_in(Search *search) {
-    int states = 1 + search->map.fast_count;
-    for (int k = 0; k < LEAD_IN && search->map.share > MAX_CHANGE; k++) {
-        if (!change_in_period(search, search->unknown, search->change)) {
-            return false;
-        }
-        for (int i = 0; i < states; i++) {
-            search->unknown[i] += search->change[i];
-        }
-        search->unknown[0] -= search->blocked ? search->change[states] : 0.0;
-    }
-    return change_in_period(search, search->unknown, search->change);
-}
-
-/* Newton's method with Broyden's updates. Return false where it does not converge. */
+/* Newton's method. Return false where it does not converge. */
 static bool solve(Search *search) {
-    if (!lead_in(search) || !differentiate(search)) {
+    if (!change_in_period(search, search->unknown, search->change)) {
         return false;
     }
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        double step[UNKNOWNS], left[UNKNOWNS], before = largest_of(search, search->change);
+        double step[UNKNOWNS], largest = 0.0;
         for (int i = 0; i < search->count; i++) {
             step[i] = -search->change[i];
         }
-        if (!solve_linear(search->jacobian, step, search->count)) {
+        if (!differentiate(search) || !solve_linear(search->jacobian, step, search->count)) {
             return false;
         }
-        double largest = largest_of(search, step);
+        for (int i = 0; i < search->count; i++) {
+            largest = fmax(largest, fabs(step[i]));
+        }
         double share = largest > MAX_CHANGE ? MAX_CHANGE / largest : 1.0;
         for (int i = 0; i < search->count; i++) {
-            step[i] *= share;
-            search->unknown[i] += step[i];
-            left[i] = (share - 1.0) * search->change[i];
+            search->unknown[i] += share * step[i];
         }
         if (!change_in_period(search, search->unknown, search->change)) {
             return false;
@@ -161,16 +117,6 @@ static bool solve(Search *search) {
         if (largest <= CONVERGED) {
             return true;
         }
-        if (largest_of(search, search->change) > REDUCED * before) {
-            if (!differentiate(search)) {
-                return false;
-            }
-            continue;
-        }
-        for (int i = 0; i < search->count; i++) {
-            left[i] += search->change[i];
-        }
-        update(search, step, left);
     }
     return false;
 }
@@ -252,8 +198,7 @@ static bool find(const PeriodMap *map, double psi, Quantity quantity, const Pred
         exact->value = search.unknown[last] * search.scale[last];
         return search.reversals > 0.0;
     }
-    /* Derivatives that only iterations have updated may miss that it is stable. */
-    return is_stable(&search) || (differentiate(&search) && is_stable(&search));
+    return is_stable(&search);
 }
 
 /* By second order it belongs to a periodic motion of the full device. The search begins at averages of first order.

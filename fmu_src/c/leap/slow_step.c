@@ -75,7 +75,8 @@ double expected_step(const SlowPath *path) {
     double acceleration = fabs(path->here.rates.acceleration);
     double gain = fabs(path->here.rates.jerk) / fmax(acceleration, SMALLEST);
     double change = acceleration / (fmax(gain, SMALLEST) * map->speed);
-    return gain > 0.0 ? EXPECTED_STEP / gain * pow(map->tolerance / fmax(change, SMALLEST), 1.0 / ORDER) : INFINITY;
+    double share = map->tolerance / fmax(change, SMALLEST);
+    return gain > 0.0 ? EXPECTED_STEP / gain * exp(log(share) / ORDER) : INFINITY;
 }
 
 /* Integrate interpolated rates over `h` periods; a velocity that settles to a share of `allowed` stays. Return false

@@ -36,6 +36,9 @@ KEEP = 0.05
 SMALLEST_DAMPING = 1.0 / 256.0
 ROUNDING = 100.0
 """Correction, in tolerances, that is accepted when it no longer decreases, by rounding."""
+FLAT = 1e-7
+"""Residual over correction, in units of the scale, up to which a Jacobian counts as singular where
+no step brings the zero closer: all that is left is rounding."""
 FAMILY = 1e-9
 """Residual, in units of the scale, below which a singular map has a family of fixed points."""
 
@@ -148,9 +151,11 @@ def solve(
                 return Root(y * scale, iterations, residual(), inverse)
             damping /= 2.0
             if damping < SMALLEST_DAMPING:
-                if is_kept:
-                    break  # a new Jacobian may bring it closer
-                raise unconverged("no step brings it closer")
+                if not is_kept and residual() > FLAT * size:
+                    raise unconverged("no step brings it closer")
+                break  # a new Jacobian may bring it closer, or rounding alone is left
+        if damping < SMALLEST_DAMPING and not is_kept:
+            break
         is_kept = contraction <= KEEP
     determined = np.linalg.pinv(jacobian, rcond=SINGULAR)
     for _ in range(SINGULAR_STEPS):

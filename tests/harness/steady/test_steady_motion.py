@@ -44,7 +44,7 @@ IN_FLIGHT = {"frequency_ratio": 2.0, "normal_amplitude": 3.0}
         ({**IN_FLIGHT, "normal_amplitude": 1.5, "phase": pi / 2.0 - 1.466}, "not_unique", ""),
         (
             {"damping_ratio": 0.0, "resonator_frequency": 3500.0 * sqrt(1.0 / 1.1)},
-            *("not_converged", "damping_ratio = 0"),
+            *("no_fixed_point", "damping_ratio = 0"),
         ),
     ],
 )
