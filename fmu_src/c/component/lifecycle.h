@@ -20,8 +20,6 @@ typedef enum {
     UINT32_TYPE,
     INT64_TYPE,
     UINT64_TYPE,
-    BINARY_TYPE,
-    CLOCK_TYPE,
     VALUE_TYPES
 } ValueType;
 

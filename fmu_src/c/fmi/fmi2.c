@@ -120,50 +120,33 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2R
     return instance->last_step;
 }
 
-/* Refuse a null pointer, and with fmi2Discard any status that is not `known`: FMI 2.0 demands fmi2Discard, and it ends
- * no run. */
-static fmi2Status status_check(fmi2Component c, const void *value, bool known, const char *text) {
-    if (c == NULL || value == NULL) {
-        return report(c, fmi2Error, "status refused: value is a null pointer; must point to memory");
+/* A status that there is not is refused with fmi2Discard: FMI 2.0 demands that, and it ends no run. */
+#define GET_STATUS(NAME, TYPE, KIND, VALUE) \
+    fmi2Status fmi2Get##NAME(fmi2Component c, const fmi2StatusKind s, TYPE *value) { \
+        if (c == NULL || value == NULL) { \
+            return report(c, fmi2Error, "fmi2Get" #NAME ": value refused: null pointer; must point to memory"); \
+        } \
+        if (s != KIND) { \
+            return report(c, fmi2Discard, "fmi2Get" #NAME ": the kind must be " #KIND); \
+        } \
+        *value = VALUE; \
+        return fmi2OK; \
     }
-    return known ? fmi2OK : report(c, fmi2Discard, text);
-}
 
-fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *value) {
-    fmi2Status checked =
-        status_check(c, value, s == fmi2DoStepStatus, "fmi2GetStatus: the kind must be fmi2DoStepStatus");
-    if (checked == fmi2OK) {
-        *value = ((const Instance *)c)->last_step;
-    }
-    return checked;
-}
-
-fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *value) {
-    fmi2Status checked = status_check(c, value, s == fmi2LastSuccessfulTime,
-                                      "fmi2GetRealStatus: the kind must be fmi2LastSuccessfulTime");
-    if (checked == fmi2OK) {
-        *value = ((const Instance *)c)->component.now.time;
-    }
-    return checked;
-}
+GET_STATUS(Status, fmi2Status, fmi2DoStepStatus, ((const Instance *)c)->last_step)
+GET_STATUS(RealStatus, fmi2Real, fmi2LastSuccessfulTime, ((const Instance *)c)->component.now.time)
+GET_STATUS(BooleanStatus, fmi2Boolean, fmi2Terminated, fmi2False)
 
 fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind s, fmi2Integer *value) {
     (void)s;
-    return status_check(c, value, false, "fmi2GetIntegerStatus: there is no such status");
-}
-
-fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boolean *value) {
-    fmi2Status checked =
-        status_check(c, value, s == fmi2Terminated, "fmi2GetBooleanStatus: the kind must be fmi2Terminated");
-    if (checked == fmi2OK) {
-        *value = fmi2False;
-    }
-    return checked;
+    return report(c, c == NULL || value == NULL ? fmi2Error : fmi2Discard,
+                  "fmi2GetIntegerStatus: there is no such status");
 }
 
 fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2String *value) {
     (void)s;
-    return status_check(c, value, false, "fmi2GetStringStatus: there is no such status, no step is ever pending");
+    return report(c, c == NULL || value == NULL ? fmi2Error : fmi2Discard,
+                  "fmi2GetStringStatus: no step is ever pending");
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {

@@ -114,32 +114,6 @@ GET_AND_SET(UInt64, UINT64_TYPE)
 GET_AND_SET(Boolean, BOOLEAN_TYPE)
 GET_AND_SET(String, STRING_TYPE)
 
-fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                         size_t valueSizes[], fmi3Binary values[], size_t nValues) {
-    (void)valueSizes;
-    return values_get(instance, "fmi3GetBinary", valueReferences, nValueReferences, (void *)values, nValues,
-                      BINARY_TYPE);
-}
-
-fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                         const size_t valueSizes[], const fmi3Binary values[], size_t nValues) {
-    (void)valueSizes;
-    return values_set(instance, "fmi3SetBinary", valueReferences, nValueReferences, (const void *)values, nValues,
-                      BINARY_TYPE);
-}
-
-fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                        fmi3Clock values[]) {
-    return values_get(instance, "fmi3GetClock", valueReferences, nValueReferences, (void *)values, nValueReferences,
-                      CLOCK_TYPE);
-}
-
-fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
-                        const fmi3Clock values[]) {
-    return values_set(instance, "fmi3SetClock", valueReferences, nValueReferences, (const void *)values,
-                      nValueReferences, CLOCK_TYPE);
-}
-
 /* Refuse NULL where the function `call` must write its results. */
 static bool results_check(const char *call, bool all_given, Refusal *refusal) {
     return all_given || refuse(refusal, "%s: a null pointer refused: must point to memory for a result", call);

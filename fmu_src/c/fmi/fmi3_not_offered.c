@@ -6,6 +6,7 @@
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
 #define MODEL_EXCHANGE "this FMU is for co-simulation"
+#define BINARIES "there are no variables of type Binary"
 #define CLOCKS "there are no clocks"
 #define CONFIGURATION "there are no structural parameters"
 #define DERIVATIVES "the model description promises none"
@@ -76,6 +77,11 @@ REFUSED(SetIntervalDecimal, CLOCKS, (VARIABLES_OF, const fmi3Float64 intervals[]
 REFUSED(SetIntervalFraction, CLOCKS, (VARIABLES_OF, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[]))
 REFUSED(SetShiftDecimal, CLOCKS, (VARIABLES_OF, const fmi3Float64 shifts[]))
 REFUSED(SetShiftFraction, CLOCKS, (VARIABLES_OF, const fmi3UInt64 counters[], const fmi3UInt64 resolutions[]))
+
+REFUSED(GetBinary, BINARIES, (VARIABLES_OF, size_t valueSizes[], fmi3Binary values[], size_t nValues))
+REFUSED(SetBinary, BINARIES, (VARIABLES_OF, const size_t valueSizes[], const fmi3Binary values[], size_t nValues))
+REFUSED(GetClock, CLOCKS, (VARIABLES_OF, fmi3Clock values[]))
+REFUSED(SetClock, CLOCKS, (VARIABLES_OF, const fmi3Clock values[]))
 
 REFUSED(EnterConfigurationMode, CONFIGURATION, (fmi3Instance instance))
 REFUSED(ExitConfigurationMode, CONFIGURATION, (fmi3Instance instance))

@@ -8,7 +8,7 @@ const FmiVersion FMI = {
     .states = EVENT_MODE + 1,
     .state_names = {"instantiated", "initialization mode", "step mode", "terminated", "event mode"},
     .type_names = {"Float64", "Int32", "Boolean", "String", "Float32", "Int8", "UInt8", "Int16", "UInt16", "UInt32",
-                   "Int64", "UInt64", "Binary", "Clock"},
+                   "Int64", "UInt64"},
     .count_name = "nValueReferences",
     .token = "instantiationToken",
 };
