@@ -1,5 +1,7 @@
 #include "outputs.h"
 
+#include <stddef.h>
+
 #include "../base/elementary.h"
 #include "../resolved/motion.h"
 #include "variables.h"
@@ -95,38 +97,28 @@ static double normal_force_rate(const System *system, const Moment *moment, doub
 bool output_derivative(unsigned reference, const System *system, const Moment *moment, double phase_rate,
                        double *derivative, Refusal *refusal) {
     Rates rates = system->motion->rates(system, moment);
-    switch (reference) {
-    case VR_POSITION:
-        *derivative = moment->state.velocity;
-        return true;
-    case VR_VELOCITY:
-        *derivative = rates.state.velocity;
-        return true;
-    case VR_RESONATOR_DISPLACEMENT:
-        *derivative = rates.state.displacement;
-        return true;
-    case VR_RESONATOR_VELOCITY:
-        *derivative = rates.state.rate;
-        return true;
-    case VR_NORMAL_FORCE:
-        *derivative = normal_force_rate(system, moment, phase_rate);
-        return true;
-    case VR_MEAN_VELOCITY:
-        *derivative = rates.mean_velocity;
-        return true;
-    case VR_CONTACT_MODE:
-    case VR_REVERSALS:
-    case VR_STICK_FRACTION:
-    case VR_LAST_EVENT_TIME:
-    case VR_PREDICTION_VALID:
-        *derivative = 0.0;
-        return true;
-    case VR_FRICTION_FORCE:
-    case VR_STEADY_VELOCITY:
-    case VR_BLOCKING_FORCE:
-    case VR_SLOW_MOTION_ERROR:
-    case VR_FRICTION_POWER:
-        return refuse(refusal, "derivative of %s refused: this FMU does not provide it", VARIABLES[reference].name);
+    const struct {
+        unsigned reference;
+        double rate;
+    } known[] = {
+        {VR_POSITION, moment->state.velocity},
+        {VR_VELOCITY, rates.state.velocity},
+        {VR_RESONATOR_DISPLACEMENT, rates.state.displacement},
+        {VR_RESONATOR_VELOCITY, rates.state.rate},
+        {VR_NORMAL_FORCE, normal_force_rate(system, moment, phase_rate)},
+        {VR_MEAN_VELOCITY, rates.mean_velocity},
+        {VR_CONTACT_MODE, 0.0},
+        {VR_REVERSALS, 0.0},
+        {VR_STICK_FRACTION, 0.0},
+        {VR_LAST_EVENT_TIME, 0.0},
+        {VR_PREDICTION_VALID, 0.0},
+    };
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        if (known[i].reference == reference) {
+            *derivative = known[i].rate;
+            return true;
+        }
     }
-    return refuse(refusal, "derivative of %s refused: it is no output", VARIABLES[reference].name);
+    return refuse(refusal, "derivative of %s refused: %s", VARIABLES[reference].name,
+                  reference < SETTABLE_COUNT ? "it is no output" : "this FMU does not provide it");
 }

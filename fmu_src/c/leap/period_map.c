@@ -3,28 +3,15 @@
 #include <stddef.h>
 
 #include "../base/elementary.h"
+#include "../device/vibrating_load.h"
 #include "../resolved/events.h"
 
 /* Largest tolerance of LuGre friction in a map: differences of high order amplify its error. */
 #define MAP_TOLERANCE 1e-10
 
-/* Smallest number of turns, up to `max_turns`, after which the load repeats best: one more turn must halve its drift
- * [rad] at least. */
-static int repeating_turns(const System *system, int max_turns, double *drift) {
-    double ratio = system->inputs.frequency_ratio;
-    int best = 1;
-    *drift = 0.0;
-    if (system->device.normal_amplitude == 0.0) {
-        return best;
-    }
-    for (int turns = 1; turns <= max_turns; turns++) {
-        double waves = turns * ratio, off = TAU * (waves - nearbyint(waves));
-        if (turns == 1 || fabs(off) < 0.5 * fabs(*drift)) {
-            *drift = off;
-            best = turns;
-        }
-    }
-    return best;
+int turns_of_period(const System *system, int max_turns, double near) {
+    double ratio = system->device.normal_amplitude > 0.0 ? system->inputs.frequency_ratio : 0.0;
+    return turns_to_repeat(ratio, max_turns, near);
 }
 
 static bool prepare_resolvent(PeriodMap *map, const Oscillator *slip) {
@@ -61,16 +48,18 @@ static void prepare_fast_states(PeriodMap *map) {
     }
 }
 
-bool period_map_prepare(PeriodMap *map, const System *system, int max_turns) {
-    if (!(system->fast.velocity > 0.0) || !system->plant.resolves_resonator) {
+bool period_map_prepare(PeriodMap *map, const System *system, int turns) {
+    if (turns == 0 || !(system->fast.velocity > 0.0) || !system->plant.resolves_resonator) {
         return false;
     }
     map->system = *system;
     map->tolerance = system->device.tolerance;
     map->system.device.tolerance = fmin(system->device.tolerance, MAP_TOLERANCE);
     const Plant *plant = &map->system.plant;
-    map->turns = repeating_turns(system, max_turns, &map->drift);
-    map->period = TAU * map->turns / plant->drive_frequency;
+    double waves = system->device.normal_amplitude > 0.0 ? turns * system->inputs.frequency_ratio : 0.0;
+    map->turns = turns;
+    map->drift = TAU * (waves - nearbyint(waves));
+    map->period = TAU * turns / plant->drive_frequency;
     map->section = within_turn(map->system.fast.lag + PI);
     map->speed = map->system.fast.velocity;
     map->share = full_friction(&system->device) * map->period / (plant->total_mass * map->speed);

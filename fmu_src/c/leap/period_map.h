@@ -39,9 +39,13 @@ typedef struct {
     double decay;           /* largest factor by which a transient decays in a period */
 } PeriodMap;
 
-/* Prepare the map of a system of the full device, for a load that repeats after up to `max_turns` turns. Return false
- * where there is none: without vibration, or where transients do not decay. */
-bool period_map_prepare(PeriodMap *map, const System *system, int max_turns);
+/* Number of turns of the drive, at most `max_turns`, after which the normal load repeats, but for rounding or a distance
+ * of the waves from an integer of at most `near` over that number; 0 if it does not. */
+int turns_of_period(const System *system, int max_turns, double near);
+
+/* Prepare the map of a system of the full device, for a load that repeats after that number of turns. Return false where
+ * there is none: where the load does not repeat, without vibration, or where transients do not decay. */
+bool period_map_prepare(PeriodMap *map, const System *system, int turns);
 
 /* Phase of the normal load [rad] at the section `periods` after it was `psi` [rad], as the inputs of the system began
  * to grow; between whole periods, that of a section which the drift would bring there. */

@@ -3,15 +3,13 @@
 #include <string.h>
 
 #include "../base/linear_system.h"
-#include "../device/vibrating_load.h"
 #include "period_map.h"
 
 /* Largest number of turns after which the normal load may repeat. */
 enum { MAX_TURNS_OF_LOAD = 32 };
 
 int turns_of_load(const System *system) {
-    double ratio = system->device.normal_amplitude > 0.0 ? system->inputs.frequency_ratio : 0.0;
-    return turns_to_repeat(ratio, MAX_TURNS_OF_LOAD, 0.0);
+    return turns_of_period(system, MAX_TURNS_OF_LOAD, 0.0);
 }
 
 /* Change of an unknown by which derivatives are taken. */
@@ -22,6 +20,10 @@ int turns_of_load(const System *system) {
 #define MAX_CHANGE 0.2
 #define CONVERGED 1e-7
 enum { MAX_ITERATIONS = 24 };
+
+/* Periods by which the start of a search is followed where friction may change V by more than an iteration: it brings
+ * near what is looked for. */
+enum { LEAD_IN = 2 };
 
 /* Share of the work of a step that a search may take: a host that reads an output does not expect to wait. */
 #define SHARE_OF_STEP 0.1
@@ -91,9 +93,24 @@ static bool differentiate(Search *search) {
     return true;
 }
 
+/* Follow the motion for some periods under strong friction, without its travel where it is blocked. */
+static bool lead_in(Search *search) {
+    int states = 1 + search->map.fast_count;
+    for (int k = 0; k < LEAD_IN && search->map.share > MAX_CHANGE; k++) {
+        if (!change_in_period(search, search->unknown, search->change)) {
+            return false;
+        }
+        for (int i = 0; i < states; i++) {
+            search->unknown[i] += search->change[i];
+        }
+        search->unknown[0] -= search->blocked ? search->change[states] : 0.0;
+    }
+    return change_in_period(search, search->unknown, search->change);
+}
+
 /* Newton's method. Return false where it does not converge. */
 static bool solve(Search *search) {
-    if (!change_in_period(search, search->unknown, search->change)) {
+    if (!lead_in(search)) {
         return false;
     }
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
@@ -209,7 +226,7 @@ static Prediction second_order(const System *system, double normal_lead, Quantit
     PeriodMap map;
     Prediction start, exact;
     int turns = turns_of_load(system);
-    bool repeats = turns > 0 && full_system(system, &full) && period_map_prepare(&map, &full, turns);
+    bool repeats = full_system(system, &full) && period_map_prepare(&map, &full, turns);
     double psi = repeats ? within_turn(normal_lead + system->inputs.frequency_ratio * map.section) : 0.0;
     double damping = damping_share(&system->bristle, system->fast.velocity, system->device.drive_frequency);
     if (repeats && is_elastic(&system->bristle) && damping <= 1.0) {
