@@ -55,7 +55,13 @@ from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes
 from slider_resonator.scenes.schema import DeviceFileTable, allowed_error
 from slider_resonator.scenes.table_reading import table_from
-from slider_resonator.steady.searches import Blocking, SteadyMotion, find_blocking, find_steady
+from slider_resonator.steady.searches import (
+    Blocking,
+    SteadyMotion,
+    find_blocking,
+    find_steady,
+    refuse_load,
+)
 from slider_resonator.stressing.axes import axis_cases, device_cases
 from slider_resonator.stressing.random_cases import random_case
 from slider_resonator.stressing.run import TIME_LIMIT as CASE_LIMIT
@@ -149,6 +155,7 @@ class OpenFmu(AbstractContextManager["OpenFmu"]):
 
     def blocking(self, *, max_denominator: int = MAX_DENOMINATOR, **values: Value) -> Blocking:
         """Find the load that stops the slider; its `status` says why there is none."""
+        refuse_load(values)
         blocking: Blocking = self._search(find_blocking, max_denominator, values)
         return blocking
 

@@ -84,6 +84,8 @@ def test_what_a_script_gets_wrong_is_named(native_fmu: Path) -> None:
     with sr.open_fmu(native_fmu) as fmu:
         with pytest.raises(sr.HarnessError, match=r"phase = '0\.4 kg': not in rad; must be"):
             fmu.steady(phase="0.4 kg")
+        with pytest.raises(sr.HarnessError, match=r"load = '50 mN': it is what is searched; must"):
+            fmu.blocking(load="50 mN")
         with pytest.raises(sr.HarnessError, match=r"friction_coefficient = 0\.0 refused: with"):
             fmu.run("table_1", friction_law=1, friction_coefficient=0.0)
         record = fmu.run(SHORT)

@@ -136,6 +136,11 @@ def test_results_as_json(native_fmu: Path, command: str, quantity: str, value: f
     assert json.loads(result.stdout)[quantity] == pytest.approx(value, rel=1e-5)
 
 
+def test_a_load_is_no_setting_of_the_search_for_it(native_fmu: Path) -> None:
+    said = refused("blocking", native_fmu, "--set", "load=50 mN")
+    assert said.startswith("error: load = 0.05: it is what is searched; must be another par")
+
+
 def test_no_steady_motion_exits_with_1_and_a_status(native_fmu: Path) -> None:
     search = ("steady", native_fmu, "--set", "frequency_ratio=1.001")
     result, printed = call(*search, "--json"), call(*search)

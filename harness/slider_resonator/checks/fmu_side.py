@@ -61,8 +61,7 @@ class FmuSide:
     @cached_property
     def blocking(self) -> Blocking:
         """The blocking force under the inputs of the scene, whatever its load."""
-        values = {name: value for name, value in self.scene.values.items() if name != "load"}
-        return find_blocking(self.instance, values)
+        return find_blocking(self.instance, self.scene.values)
 
 
 def _measure(instance: Instance, scene: Scene, measure: Callable[[FmuSide], Any]) -> Any:

@@ -80,8 +80,6 @@ def find(
         with instance.explained():
             found = instance.value(name)
         return SteadyAnswer(time.process_time() - began, found)
-    if name == "blocking_force":
-        given.pop("load", None)  # the search begins where the FMU predicts it
     search = SEARCHES[name](instance, given)
     seconds = time.process_time() - began
     value: float | None = getattr(search, name) if search.status in EXISTS[name] else None

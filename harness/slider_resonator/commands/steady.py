@@ -13,7 +13,7 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import print_result
 from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.readable import one_line
-from slider_resonator.steady.searches import SearchResult, find_blocking, find_steady
+from slider_resonator.steady.searches import SearchResult, find_blocking, find_steady, refuse_load
 
 STEADY = """\
 Find the steady velocity of an FMU by shooting, without a long run.
@@ -35,8 +35,8 @@ BLOCKING = """\
 Find the load that stops an FMU, by shooting, without a long run.
 
 The load is one more unknown of the shooting, zero displacement over the common period one more
-equation. --set load=... is the initial guess. Exit code: 0 when it is found, 1 when there is
-none (the status says why), 2 when the FMU could not run, crashed or exceeded the time limit.
+equation. Exit code: 0 when it is found, 1 when there is none (the status says why), 2 when the
+FMU could not run, crashed or exceeded the time limit.
 
 \b
 Examples:
@@ -69,6 +69,8 @@ def _search_command(
         time_limit: float,
         as_json: bool,
     ) -> int:
+        if find is find_blocking:
+            refuse_load(given.values)
         provenance = provenance_of(fmu)
         search = partial(find, values=given.values, max_denominator=max_denominator)
         with progress_bar() as progress, IsolatedFmu(fmu, time_limit) as isolated:

@@ -80,7 +80,6 @@ def proved_predictions(
     the outputs show its whole state.
     """
     proved: list[float | None] = [None] * len(points)
-    guessed = "load" if quantity == "blocking_force" else "initial_velocity"
     if any(name not in instance.fmu.variables for name in (quantity, *DEVICE)):
         return proved
     try:
@@ -93,7 +92,7 @@ def proved_predictions(
     left = [
         candidate
         for index, point in enumerate(points)
-        if guessed not in point
+        if "initial_velocity" not in point
         and (candidate := _candidate(instance, quantity, index, point, starts, max_denominator))
     ]
     before: Array | None = None

@@ -7,6 +7,7 @@ from typing import Any, ClassVar, TypeVar
 
 from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.device.interface import INPUTS, VARIABLES
+from slider_resonator.errors import HarnessError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.output.readable import number_of, one_line, readable
 from slider_resonator.output.shown import Shown
@@ -169,16 +170,24 @@ class Blocking(SearchResult):
     blocking_force: float | None = None
 
 
+def refuse_load(values: Mapping[str, object]) -> None:
+    """Raise HarnessError for a load among the values: the search is for the load."""
+    if "load" in values:
+        raise HarnessError(
+            f"load = {values['load']!r}: it is what is searched; must be another parameter or input"
+        )
+
+
 def find_blocking(
     instance: Instance, values: Mapping[str, float], *, max_denominator: int = MAX_DENOMINATOR
 ) -> Blocking:
-    """Find the load that stops an FMU with the given parameters and inputs.
+    """Find the load that stops an FMU with the given parameters and inputs, but their load.
 
-    A `load` among the values is where the search begins. Errors are those of `find_steady`.
+    The search begins where the FMU predicts it. Errors are those of `find_steady`.
     """
-    run = FmuPeriodMap(instance, values)
+    run = FmuPeriodMap(instance, {name: v for name, v in values.items() if name != "load"})
     predicted = run.values["blocking_force"]
-    load = values.get("load", predicted if isfinite(predicted) else 0.0)
+    load = predicted if isfinite(predicted) else 0.0
     try:
         run.drive_periods = repeating_periods(run.ratio, run.drive_period, max_denominator)
         guess, scale = run.warm_up(0.0, load)

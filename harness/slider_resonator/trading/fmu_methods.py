@@ -145,8 +145,6 @@ class FmuMethods:
 
     def _search(self, quantity: str, model: Model) -> SteadyMethod:
         values = {**self._values(model, USUAL_TOLERANCE), **self.problem.inputs}
-        if quantity == "blocking_force":
-            del values["load"]  # the search begins where the FMU predicts it
 
         def find(_: float) -> SteadyAnswer:
             seconds, search = self._run(SEARCHES[quantity], values=values)

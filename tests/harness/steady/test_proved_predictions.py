@@ -34,6 +34,7 @@ def test_they_are_those_of_shooting(instance: Instance) -> None:
     loaded = [{**one, "load": 0.01 * (n % 3)} for n, one in enumerate(free)]
     velocities = proved_predictions(instance, "steady_velocity", loaded, 20)
     forces = proved_predictions(instance, "blocking_force", free, 20)
+    assert forces == proved_predictions(instance, "blocking_force", loaded, 20)
     for proved in (velocities, forces):
         assert sum(value is not None for value in proved) >= 8
     for values, velocity in zip(loaded, velocities, strict=True):
