@@ -241,7 +241,9 @@ class Choosing:
     ) -> Choice:
         evaluation = best or self._nearest()
         model = evaluation.candidate.model
-        none = f"none suffices: {evaluation.why}"
+        worst = evaluation.estimates[evaluation.worst]
+        lacks = "no model can: the resolved motion gives no "
+        none = lacks if worst.error == inf and not worst.magnitude else "none suffices: "
         return Choice(
             fidelity=model.fidelity,
             averaging_order=model.averaging_order,
@@ -257,7 +259,7 @@ class Choosing:
                 for other, why in ruled_out.items()
                 if best is None or other != model
             ),
-            reason=why if best else none,
+            reason=why if best else none + evaluation.why,
             probe=evaluation.probe,
             probe_drive_periods=self.probe.drive_periods,
             drive_period=self.scene.drive_period,

@@ -37,6 +37,7 @@ def test_steady_needs_choose_between_theory_and_shooting(instance: Instance) -> 
         ("", "beat", "no beat at frequency_ratio = 1: at an integer the difference of the two"),
         ("frequency_ratio = 1.5", "beat", "= 1.5: it is farther than 0.1 from an integer"),
         ("frequency_ratio = 1.001", "beat", "0.15 beats"),
+        ("frequency_ratio = 1.02\namplitude_deviation = -1.0", "beat", "does not oscillate"),
     ],
 )
 def test_quantity_without_a_value(instance: Instance, inputs: str, need: str, message: str) -> None:
@@ -44,6 +45,7 @@ def test_quantity_without_a_value(instance: Instance, inputs: str, need: str, me
     scene = scene_of(f"[inputs]\n{inputs}\n{run}[need]\n{need} = {{ rel = 0.1 }}\n")
     choice = choose_with(instance, scene)
     assert not choice.meets
+    assert choice.reason.startswith(f"no model can: the resolved motion gives no {need}: ")
     assert message in choice.reason
     assert len(choice.ruled_out) == 4
 
