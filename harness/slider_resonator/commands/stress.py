@@ -113,8 +113,7 @@ def stress_command(
     else:
         cases = axis_cases(long=long)
     chosen = fmus or options.default_fmus()
-    for path in chosen:
-        applicable(path, cases)  # before any of them runs: it takes minutes
+    apply = [applicable(path, cases) for path in chosen]  # before any runs: it takes minutes
     if out is not None:
         make_folder(out)
     provenance = provenance_of(*chosen)
@@ -126,9 +125,9 @@ def stress_command(
             write_results(results, out, provenance)
 
     with noting_on_interrupt(partial(_kept, results, out)), progress_bar() as progress:
-        for index, fmu in enumerate(chosen):
+        for index, (fmu, own) in enumerate(zip(chosen, apply, strict=True)):
             part = part_of(progress, index, len(chosen))
-            keep(run_cases(fmu, cases, part, time_limit, jobs=jobs, keep=keep))
+            keep(run_cases(fmu, cases, part, time_limit, jobs=jobs, chosen=own, keep=keep))
     lines = [line for result in results for line in result.sentences()]
     lines += [values_of(case) for case in cases if len(cases) == 1]
     lines += [] if out is None else [f"written {one_line(str(out))}"]

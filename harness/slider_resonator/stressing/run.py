@@ -200,17 +200,19 @@ def run_cases(
     time_limit: float = TIME_LIMIT,
     *,
     jobs: int = 1,
+    chosen: Sequence[Case] = (),
     keep: Callable[[StressResult], None] = lambda result: None,
 ) -> StressResult:
     """Run and judge the cases that apply; FmuError when none does or the FMU cannot be run at all.
 
+    `chosen` are these, where they are known.
     A crash or a missed `time_limit` (s) fails its case only. An FMU without fault gets up to `jobs`
     processes. `keep` is called with what there is when the run is interrupted or stopped by an
     error.
     """
     began = time.perf_counter()
     verdicts: list[Verdict] = []
-    chosen = applicable(fmu, cases)
+    chosen = chosen or applicable(fmu, cases)
 
     def result() -> StressResult:
         seconds, left = time.perf_counter() - began, len(chosen) - len(verdicts)

@@ -1,10 +1,13 @@
 import json
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 import pytest
 
 from slider_resonator.commands import stress
 from slider_resonator.device.model import Model
+from slider_resonator.fmu.opening import Fmu, open_fmu
+from slider_resonator.stressing import run
 from slider_resonator.stressing.axes import device_cases
 from slider_resonator.stressing.case import MODELS, Case, Hold, Limit
 from slider_resonator.stressing.run import StressResult
@@ -56,6 +59,18 @@ def test_one_case_is_run_by_its_name(native_fmu: Path, tmp_path: Path) -> None:
     text = " ".join(text_of(*arguments, GOOD.name.replace(",", ""), code=2).split())
     assert "--case 'steps: few: Coulomb fidelity 2' refused: must be AXIS: VALUE: MODEL" in text
     assert f"did you mean '{GOOD.name}'?" in text
+
+
+def test_an_fmu_is_checked_once(native_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    checked: list[Path] = []
+
+    def counted(path: Path) -> AbstractContextManager[Fmu]:
+        checked.append(path)
+        return open_fmu(path)
+
+    monkeypatch.setattr(run, "open_fmu", counted)
+    assert "1 case: 1 passed" in text_of("stress", native_fmu, "--case", GOOD.name)
+    assert checked == [native_fmu]
 
 
 def test_a_random_device_is_run_by_its_name_and_by_its_number(native_fmu: Path) -> None:
@@ -114,10 +129,10 @@ def test_what_cannot_run_exits_with_2_before_anything_runs(
     """Here no case applies to the second FMU: it lacks a variable that they need."""
     few_cases[:] = [Case("steps", "few", Model(0, 0, 2), {}, HOLDS)]
     older = without_later_variables(native_fmu, tmp_path / "older.fmu")
-    run: list[Path] = []
-    monkeypatch.setattr(stress, "run_cases", lambda fmu, *_, **__: run.append(fmu))
+    ran: list[Path] = []
+    monkeypatch.setattr(stress, "run_cases", lambda fmu, *_, **__: ran.append(fmu))
     out = tmp_path / "out"
     text = text_of("stress", native_fmu, older, "--out", out, code=2)
     assert "no case applies to this FMU" in text
-    assert run == []
+    assert ran == []
     assert not out.exists()
