@@ -76,5 +76,7 @@ def validate_command(
         reports.write([], str(error))
         raise
     print_verdicts(validations, details=details, as_json=reports.prints_json)
+    if not own and any(one.checks and one.run_failures for one in validations):
+        options.note(["--scene limits the scenes to those that the FMU can run"])
     reports.write(validations)
     return max(validation.exit_code for validation in validations)

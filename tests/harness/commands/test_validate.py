@@ -65,6 +65,17 @@ def test_run_failures_are_in_all_reports(
         assert cause in said
 
 
+def test_the_option_that_limits_the_scenes_is_named(native_fmu: Path, tmp_path: Path) -> None:
+    sound, not_taken = faulty_fmus.scene(tmp_path), faulty_fmus.scene(tmp_path, "not_taken")
+    device = "[device]\nfriction_law = 1\nfriction_coefficient = 0.0\n"
+    not_taken.write_text(not_taken.read_text() + device)
+    said = refused("validate", native_fmu, "--scene", tmp_path)
+    assert "scene not_taken: SliderResonator.fmu at t = 0 s: friction_coefficient = 0.0" in said
+    assert said.endswith("note: --scene limits the scenes to those that the FMU can run\n")
+    assert "note:" not in refused("validate", native_fmu, "--scene", not_taken)
+    assert call("validate", native_fmu, "--scene", sound).stderr == ""
+
+
 def test_a_scene_at_fault_is_reported_too(native_fmu: Path, tmp_path: Path) -> None:
     scene = tmp_path / "mine.toml"
     scene.write_text('name = "mine"\ntitle = "It expects nothing"\n')
