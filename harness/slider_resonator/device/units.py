@@ -1,6 +1,7 @@
 """Numbers as text: with a unit or without, in SI units and as engineers state them."""
 
 import re
+from decimal import Decimal
 from functools import cache
 from math import inf, isclose, isfinite
 from typing import TYPE_CHECKING, Any
@@ -84,10 +85,14 @@ def si_number(name: str, text: str, unit: str) -> float:
         raise ValueError(f"{name} = {text!r}: not in {unit}; {must}") from error
     if unit == "rad" and factor >= 1e3:
         raise ValueError(f"{name} = {text!r}: {match['unit']} is {factor:g} rad; {must}")
-    # So that "10 us" is 1e-5, to the last bit.
+    return scaled(float(match["number"]), factor)
+
+
+def scaled(number: float, factor: float) -> float:
+    """Return a number of a unit in the SI unit, so that 30.1 mN are 0.0301 N to the last bit."""
     parts = round(1.0 / factor)
-    given = float(match["number"])
-    return given / parts if isclose(parts * factor, 1.0, rel_tol=1e-12) else given * factor
+    is_part = isclose(parts * factor, 1.0, rel_tol=1e-12)
+    return float(Decimal(repr(number)) / parts) if is_part else number * factor
 
 
 def positive_time(text: str) -> float:

@@ -59,14 +59,19 @@ class Variable:
             raise ValueError(f"{self.name} = {text!r}: must be {self.requirement}")
         return si_number(self.name, text, self.unit)
 
-    def shown(self, value: float) -> str:
-        """Return a value in the unit that engineers state it in: Hz, deg, um, g, mm/s, mN."""
+    def shown(self, value: float, beside: float | None = None) -> str:
+        """Return a value in the unit that engineers state it in: Hz, deg, um, g, mm/s, mN.
+
+        The unit is the one that suits the value, or one that is shown `beside` it.
+        """
         if self.unit in ("1", "1/m", "s/m") or not isfinite(value):
             return f"{value:.6g} {self.unit}".removesuffix(" 1")
-        quantity: Any = registry().Quantity(float(value), self.unit)
-        quantity = quantity.to(SHOWN.get(self.unit, self.unit))
-        if value and self.unit != "rad":
-            quantity = quantity.to_compact()
+        quantity, suited = (
+            registry().Quantity(float(one), self.unit).to(SHOWN.get(self.unit, self.unit))
+            for one in (value, value if beside is None else beside)
+        )
+        if suited and self.unit != "rad":
+            quantity = quantity.to(suited.to_compact().units)
         return f"{quantity:.6g~P}".replace("µ", "u")
 
     def checked(self, value: object) -> float:

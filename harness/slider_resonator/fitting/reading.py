@@ -14,7 +14,7 @@ from slider_resonator.arrays import Array
 from slider_resonator.device.interface import ALL_OUTPUTS, HELD, INPUTS, PARAMETERS, VARIABLES
 from slider_resonator.device.schedule import Schedule
 from slider_resonator.device.signal import steps
-from slider_resonator.device.units import is_number
+from slider_resonator.device.units import is_number, scaled
 from slider_resonator.errors import HarnessError, explained, unknown_name
 from slider_resonator.fitting.measurements import STEADY, TIME, Measurements, Point, Run
 from slider_resonator.scenes.csv_signal import csv_number, csv_rows
@@ -165,7 +165,7 @@ def _measurements(
         name, unit, factor = headings.meaning(heading)
         if name in values:
             raise ValueError(f"two columns {name}; must be one")
-        values[name] = factor * column
+        values[name] = np.array([scaled(number, factor) for number in column.tolist()])
         if unit:
             units[name] = (unit, factor)
     for name in values:
