@@ -146,8 +146,9 @@ def _experiment(entry: ET.Element, file: Path, root: Path) -> OwnExperiment:
         where,
     )
     signals = [name for name, one in QUANTITIES.items() if one.kind == "signal"]
-    columns = _columns(sources["References"], signals)
-    found = {name: csv_signal(sources["References"], name, "hold") for name in columns}
+    table = sources["References"]
+    columns = _columns(table, signals)
+    found = {one: csv_signal(table, one, "hold", QUANTITIES[one].unit) for one in columns}
     results = {name: np.array(one.values) for name, one in found.items()}
     annotation = entry.find(f"References/Annotations/Annotation[@type='{ALLOWED}']")
     allowed = USUAL_DEVIATION

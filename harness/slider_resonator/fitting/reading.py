@@ -1,6 +1,5 @@
 """Read measurements from columns with headings: of CSV files, or of arrays."""
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -17,7 +16,7 @@ from slider_resonator.device.signal import steps
 from slider_resonator.device.units import is_number, scaled
 from slider_resonator.errors import HarnessError, explained, unknown_name
 from slider_resonator.fitting.measurements import STEADY, TIME, Measurements, Point, Run
-from slider_resonator.scenes.csv_signal import csv_number, csv_rows
+from slider_resonator.scenes.csv_signal import csv_number, csv_rows, split_heading
 from slider_resonator.scenes.device_file import IN_ANOTHER_UNIT
 
 _ALIASES = {"frequency": "drive_frequency", "amplitude": "base_amplitude"}
@@ -27,7 +26,6 @@ _STEADY_ALIASES = {
     "force": "blocking_force",
 }
 """Other names of what a table measures; those of a run are the outputs themselves."""
-_HEADING = re.compile(r"\s*(\w[\w ]*?)([_ ]std)?\s*(?:[\[(]([^\])]*)[\])])?\s*", re.I)
 _ROW_NUMBERS = ("", "#", "index", "no", "nr", "point")
 """Headings of columns that only number the rows, without a dot and in small letters."""
 MAX_ROWS = 100_000
@@ -51,10 +49,10 @@ class _Headings:
 
     def parts(self, heading: str) -> tuple[str, str, str]:
         """Return name, std and unit of a heading; the last two are empty if it lacks them."""
-        match = _HEADING.fullmatch(heading)
-        name, std, unit = match.groups("") if match else (heading, "", "")
-        name = "_".join(name.lower().split())
-        return self.aliases.get(name, name), std, unit
+        name, unit = split_heading(heading)
+        words = "_".join(name.lower().split())
+        name = words.removesuffix("_std")
+        return self.aliases.get(name, name), words.removeprefix(name), unit
 
     def meaning(self, heading: str) -> tuple[str, str, float]:
         """Return name, unit and factor to the SI unit; ValueError for a wrong heading."""

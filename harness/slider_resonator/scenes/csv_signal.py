@@ -9,13 +9,15 @@ from dataclasses import replace
 from pathlib import Path
 
 from slider_resonator.device.signal import Signal, ramp, steps
-from slider_resonator.device.units import finite_number
+from slider_resonator.device.units import finite_number, scaled, si_number
 from slider_resonator.errors import explained
 
 SEPARATORS = (";", "\t")
 """What programs write between two columns where numbers may have a decimal comma."""
 _SEPARATOR_LINE = re.compile(r'"?sep=(.)"?\s*', re.IGNORECASE)
 """The first line by which a file tells spreadsheets its separator."""
+
+_HEADING = re.compile(r"\s*(.*?)\s*[\[(]([^\])]*)[\])]\s*")
 
 
 def _text(path: Path) -> str:
@@ -67,27 +69,44 @@ def csv_rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     return header, rows[1:]
 
 
-def csv_signal(path: Path, column: str, between: str) -> Signal:
+def split_heading(heading: str) -> tuple[str, str]:
+    """Return name and unit of a heading such as `phase [deg]`, "" where it has no unit."""
+    match = _HEADING.fullmatch(heading)
+    return (match[1], match[2]) if match else (heading, "")
+
+
+def heading_factor(heading: str, unit: str) -> float:
+    """Return the factor to the SI unit of a heading; ValueError for a unit of something else."""
+    given = split_heading(heading)[1]
+    return si_number(heading, f"1 {given}", unit) if given else 1.0
+
+
+def csv_signal(path: Path, column: str, between: str, unit: str) -> Signal:
     """Return a column over time, of a file with the columns `time` and `column`, or `value`.
 
-    `between` its rows it is "hold" or "linear". Raises ValueError naming the file, the line and
-    what is wrong.
+    Its values are in the SI `unit`, or in that of its heading. `between` its rows it is "hold" or
+    "linear". Raises ValueError naming the file, the line and what is wrong.
     """
     header, rows = csv_rows(path)
-    if not header or header[0] != "time":
+    names = [split_heading(heading)[0] for heading in header]
+    if not header or names[0] != "time":
         raise ValueError(
             f"csv {path}: the header is {header}: it must begin with 'time', then the values"
         )
-    name = column if column in header else "value"
-    if name not in header:
+    column = split_heading(column)[0]
+    name = column if column in names else "value"
+    if name not in names:
         raise ValueError(f"csv {path}: no column {column!r} or 'value', only {header[1:]}")
-    if header.count(name) > 1:
-        raise ValueError(f"csv {path}: {header.count(name)} columns {name!r}; must be one")
-    index = header.index(name)
+    if names.count(name) > 1:
+        raise ValueError(f"csv {path}: {names.count(name)} columns {name!r}; must be one")
+    index = names.index(name)
+    with explained(f"csv {path}: heading ", ValueError):
+        factors = heading_factor(header[0], "s"), heading_factor(header[index], unit)
     points = []
     for line, row in rows:
         try:
-            points.append((csv_number("time", row, 0), csv_number(name, row, index)))
+            time, value = csv_number("time", row, 0), csv_number(name, row, index)
+            points.append((scaled(time, factors[0]), scaled(value, factors[1])))
         except ValueError as error:
             raise ValueError(f"csv {path} line {line}: {error}") from error
     with explained(f"csv {path}: ", ValueError):

@@ -360,7 +360,8 @@ def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:
         elif table.ramp is not None:
             signal = ramp(table.ramp)
         elif table.csv is not None:
-            signal = csv_signal(folder / table.csv, table.column or name, table.between)
+            unit = VARIABLES[name].unit
+            signal = csv_signal(folder / table.csv, table.column or name, table.between, unit)
         else:
             signal = constant(table.constant or 0.0)
         for value in signal.values:

@@ -42,7 +42,8 @@ class InputTable(KeyTable):
         "Times count from the start of the run and increase strictly. Before the first and after "
         "the last point of `steps` and `ramp` the value is theirs.",
         "A CSV file has a header and begins with the column `time`. It must have values from 0 to "
-        "the end of the run: a run that goes beyond them is refused.",
+        "the end of the run: a run that goes beyond them is refused. A heading may have a unit in "
+        "brackets: `load [mN]`.",
         "`column` and `between` belong to a `csv`.",
         "A jump is a communication point: no step goes over it.",
         "Straight lines are sampled at communication points and held until the next, unless [run] "

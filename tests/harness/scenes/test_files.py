@@ -178,7 +178,7 @@ def test_numbers_that_may_be_hertz_are_named(table: dict[str, object], named: li
 
 
 def points(path: Path, column: str) -> list[tuple[float, float]]:
-    signal = csv_signal(path, column, "hold")
+    signal = csv_signal(path, column, "hold", "N")
     return list(zip(signal.times, signal.values, strict=True))
 
 
@@ -187,6 +187,18 @@ def test_the_named_column_wins_over_value(tmp_path: Path) -> None:
     path.write_text("time, value, load\n0,1,2\n1,3,4\n")
     assert points(path, "load") == [(0.0, 2.0), (1.0, 4.0)]
     assert points(path, "phase") == [(0.0, 1.0), (1.0, 3.0)]
+
+
+def test_headings_may_have_units(tmp_path: Path) -> None:
+    (tmp_path / "in.csv").write_text("time [ms],load (mN),mu\n0,30.1,0.1\n2.2,-5,0.2\n")
+    load = {"csv": "in.csv", "column": "load", "between": "hold"}
+    content = {"name": "a", "title": "A", "run": {"stop_time": 2.2e-3, "step_size": 1e-3}}
+    for column in ("load", "load (mN)"):
+        inputs = {"load": load | {"column": column}}
+        signal = scene_from({**content, "inputs": inputs}, "a", tmp_path).signals["load"]
+        assert (signal.times, signal.values) == ((0.0, 2.2e-3), (0.0301, -5e-3))
+    with pytest.raises(SceneError, match=r"in.csv: heading load \(mN\) = '1 mN': not in rad; must"):
+        scene_from({**content, "inputs": {"phase": load}}, "a", tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -219,7 +231,7 @@ def test_a_csv_that_cannot_be_used_is_named(tmp_path: Path, text: str, message: 
     path = tmp_path / "in.csv"
     path.write_text(text)
     with pytest.raises(ValueError, match=message) as caught:
-        csv_signal(path, "load", "hold")
+        csv_signal(path, "load", "hold", "N")
     assert str(path) in str(caught.value)
 
 
