@@ -15,12 +15,11 @@ from pydantic.fields import FieldInfo
 from slider_resonator.device.interface import PARAMETERS, TUNABLES, VARIABLES
 from slider_resonator.scenes.expansion import bundles
 from slider_resonator.scenes.key_table import PARAMETER_MEANINGS, KeyTable
+from slider_resonator.scenes.needs import AllowedTable, NeedTable
 from slider_resonator.scenes.schema import (
-    AllowedTable,
     ExpectTable,
     InputsTable,
     InputTable,
-    NeedTable,
     RunTable,
     SceneTable,
     SweepTable,

@@ -51,9 +51,10 @@ from slider_resonator.fmu.run import run as run_schedule
 from slider_resonator.output.shown import Drawable
 from slider_resonator.scenes.device_file import possible_slips, read_device_file
 from slider_resonator.scenes.device_file import to_toml as device_text
+from slider_resonator.scenes.needs import allowed_error
 from slider_resonator.scenes.scene import Scene, scene_from
 from slider_resonator.scenes.scene_files import find_scene, find_scenes
-from slider_resonator.scenes.schema import DeviceFileTable, allowed_error
+from slider_resonator.scenes.schema import DeviceFileTable
 from slider_resonator.scenes.table_reading import table_from
 from slider_resonator.steady.searches import (
     Blocking,

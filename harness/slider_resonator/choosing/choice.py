@@ -11,8 +11,8 @@ from slider_resonator.device.model import Model
 from slider_resonator.output.readable import number_of
 from slider_resonator.output.shown import Shown, Tabular
 from slider_resonator.scenes.key_table import units_of
+from slider_resonator.scenes.needs import NeedTable
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.scenes.schema import NeedTable
 
 MARGIN = 0.99
 """Largest share of an allowed error that an estimate may take."""

@@ -28,8 +28,8 @@ from slider_resonator.device.signal import Signal
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record, run
+from slider_resonator.scenes.needs import RUN_NEEDS, STEADY_NEEDS
 from slider_resonator.scenes.scene import Scene
-from slider_resonator.scenes.schema import RUN_NEEDS, STEADY_NEEDS
 from slider_resonator.steady.searches import SEARCHES, SteadyAnswer
 
 SIGNALS = ("position", "velocity", "mean_velocity", "reversals", "last_event_time")

@@ -11,7 +11,7 @@ from slider_resonator.fmu.provenance import provenance_of
 from slider_resonator.output.console import print_result
 from slider_resonator.output.progress import progress_bar
 from slider_resonator.output.table import Table, numbers, texts
-from slider_resonator.scenes.schema import AllowedTable, allowed_error
+from slider_resonator.scenes.needs import AllowedTable, allowed_error
 
 
 def _need(text: str) -> tuple[str, AllowedTable]:

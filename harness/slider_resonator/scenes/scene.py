@@ -18,17 +18,8 @@ from slider_resonator.output.shown import Shown
 from slider_resonator.scenes.csv_signal import csv_signal
 from slider_resonator.scenes.device_file import possible_slips, read_device_file, refuse_other_kinds
 from slider_resonator.scenes.expansion import variants
-from slider_resonator.scenes.schema import (
-    RUN_NEEDS,
-    STEADY_NEEDS,
-    AllowedTable,
-    ExpectTable,
-    InputTable,
-    NeedTable,
-    RunTable,
-    SceneTable,
-    SweepTable,
-)
+from slider_resonator.scenes.needs import RUN_NEEDS, STEADY_NEEDS, AllowedTable, NeedTable
+from slider_resonator.scenes.schema import ExpectTable, InputTable, RunTable, SceneTable, SweepTable
 from slider_resonator.scenes.table_reading import table_from
 from slider_resonator.scenes.toml_file import read_toml
 from slider_resonator.scenes.vocabulary import QUANTITIES

@@ -15,7 +15,8 @@ from slider_resonator.device.units import si_number
 from slider_resonator.errors import SceneError, explained, unknown_name
 from slider_resonator.scenes.expansion import with_bundles
 from slider_resonator.scenes.key_table import HAS_UNIT, units_of
-from slider_resonator.scenes.schema import DeviceFileTable, NeedTable, RunTable, SceneTable
+from slider_resonator.scenes.needs import NeedTable
+from slider_resonator.scenes.schema import DeviceFileTable, RunTable, SceneTable
 from slider_resonator.scenes.toml_file import toml_value
 from slider_resonator.scenes.vocabulary import QUANTITIES
 

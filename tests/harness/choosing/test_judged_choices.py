@@ -23,8 +23,8 @@ from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record
 from slider_resonator.references.equivalent_force import equivalent_force
+from slider_resonator.scenes.needs import STEADY_NEEDS
 from slider_resonator.scenes.scene import Scene, scene_from
-from slider_resonator.scenes.schema import STEADY_NEEDS
 
 COUNT = 200
 STEADY_SHARE = 0.2

@@ -17,7 +17,7 @@ from slider_resonator.choosing.probe import CAUTION, Probe, exact_schedule, must
 from slider_resonator.device.model import Model
 from slider_resonator.fmu.instance import Instance
 from slider_resonator.fmu.run import Record
-from slider_resonator.scenes.schema import AllowedTable
+from slider_resonator.scenes.needs import AllowedTable
 from slider_resonator.steady.searches import SteadyAnswer
 from tests.harness.scene_text import scene_of
 
