@@ -18,24 +18,33 @@ The `repr` of a result says what was found, on a screen at most. `to_pandas()` g
 `plot()` its picture, where it has one.
 """
 
-import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import partial
-from inspect import currentframe
-from numbers import Real
 from pathlib import Path
-from traceback import walk_stack
-from typing import TYPE_CHECKING, Any, SupportsFloat
+from typing import TYPE_CHECKING, Any
 
+from slider_resonator.arguments import (
+    DeviceLike,
+    SceneLike,
+    Value,
+    check_kind,
+    check_positive,
+    fmu_of,
+    fmus_of,
+    parameters_of,
+    plain,
+    read_scene,
+    scene_of,
+    values_of,
+)
 from slider_resonator.checks.validate import Validation
 from slider_resonator.checks.validate import validate as validate_scenes
 from slider_resonator.choosing.choice import Choice
 from slider_resonator.choosing.choosing import choose as choose_model
 from slider_resonator.device.device import Device
 from slider_resonator.device.drive_periods import MAX_DENOMINATOR
-from slider_resonator.device.interface import settable_value
 from slider_resonator.device.units import positive_time
 from slider_resonator.errors import HarnessError, SceneError, explained
 from slider_resonator.fitting.fit import STARTS, isolated
@@ -49,13 +58,10 @@ from slider_resonator.fmu.isolation.tasks import available_cores
 from slider_resonator.fmu.run import Record
 from slider_resonator.fmu.run import run as run_schedule
 from slider_resonator.output.shown import Drawable
-from slider_resonator.scenes.device_file import possible_slips, read_device_file
 from slider_resonator.scenes.device_file import to_toml as device_text
 from slider_resonator.scenes.needs import allowed_error
-from slider_resonator.scenes.scene import Scene, scene_from
-from slider_resonator.scenes.scene_files import find_scene, find_scenes
-from slider_resonator.scenes.schema import DeviceFileTable
-from slider_resonator.scenes.table_reading import table_from
+from slider_resonator.scenes.scene import Scene
+from slider_resonator.scenes.scene_files import find_scenes
 from slider_resonator.steady.searches import (
     Blocking,
     SteadyMotion,
@@ -81,11 +87,6 @@ __all__ = ["Blocking", "Choice", "Device", "Fit", "HarnessError", "OpenFmu", "Re
 __all__ += ["SteadyMotion", "StressResult", "SweepResult", "Trade", "Validation"]
 __all__ += ["choose", "fit", "fmu_path", "open_fmu", "read_device", "read_scene", "stress"]
 __all__ += ["sweep", "to_toml", "trade", "validate"]
-
-SceneLike = str | Path | Mapping[str, Any] | Scene
-Value = SupportsFloat | str
-"""A number in SI units, or a text with a unit."""
-DeviceLike = str | Path | Device | Mapping[str, Value]
 
 
 @dataclass(frozen=True, repr=False)
@@ -120,9 +121,9 @@ class OpenFmu(AbstractContextManager["OpenFmu"]):
         device: DeviceLike | None = None,
         time_limit: float = TIME_LIMIT,
     ) -> None:
-        _check_positive(time_limit=time_limit)
-        self.path = _fmu(fmu)
-        self._device = _stated(device)
+        check_positive(time_limit=time_limit)
+        self.path = fmu_of(fmu)
+        self._device = parameters_of(device)
         self._isolated = IsolatedFmu(self.path, time_limit)
 
     def __exit__(self, kind: type[BaseException] | None, error: Any, trace: Any) -> None:
@@ -144,7 +145,7 @@ class OpenFmu(AbstractContextManager["OpenFmu"]):
         The device that the FMU was opened with takes the place of the scene's, as in
         `Scene.with_device`.
         """
-        read = _scene_of(scene, self._device, values)
+        read = scene_of(scene, self._device, values)
         task = partial(run_schedule, parameters=read.parameters, schedule=read.schedule())
         record: Record = self._isolated.run(task)
         return SceneRecord(**vars(record), scene=read)
@@ -161,8 +162,8 @@ class OpenFmu(AbstractContextManager["OpenFmu"]):
         return blocking
 
     def _search(self, find: Any, max_denominator: int, values: Mapping[str, Value]) -> Any:
-        _check_positive(max_denominator=max_denominator)
-        checked = {**self._device, **_checked(values)}
+        check_positive(max_denominator=max_denominator)
+        checked = {**self._device, **values_of(values)}
         return self._isolated.run(partial(find, values=checked, max_denominator=max_denominator))
 
 
@@ -175,7 +176,7 @@ def read_device(device: DeviceLike) -> Device:
 
     Raises SceneError with file, key, value and requirement.
     """
-    return Device.from_mapping(_stated(device))
+    return Device.from_mapping(parameters_of(device))
 
 
 def to_toml(device: DeviceLike, title: str = "") -> str:
@@ -184,20 +185,6 @@ def to_toml(device: DeviceLike, title: str = "") -> str:
     Raises SceneError as `read_device` does.
     """
     return device_text(read_device(device), title)
-
-
-def read_scene(scene: SceneLike, **values: Value) -> Scene:
-    """Return a scene, its parameters and inputs replaced by `values`.
-
-    Data without a name is called "scene". Raises SceneError with key, value and requirement.
-    """
-    checked = _checked(values)
-    if isinstance(scene, Scene):
-        return scene.with_values(checked)
-    if isinstance(scene, Mapping):
-        named = {"name": "scene", "title": "scene", **_plain(scene)}
-        return scene_from(named, str(named["name"])).with_values(checked)
-    return find_scene(str(scene), checked)
 
 
 def validate(
@@ -219,9 +206,9 @@ def validate(
     named = [str(scene) for scene in given if isinstance(scene, str | Path)]
     found = find_scenes(named) if named or scenes is None else []
     found += [read_scene(s) for s in given if s is not None and not isinstance(s, str | Path)]
-    _check_positive(time_limit=time_limit, jobs=jobs)
+    check_positive(time_limit=time_limit, jobs=jobs)
     processes = jobs or available_cores()
-    return validate_scenes(_fmus(fmus), found, time_limit=time_limit, jobs=processes)
+    return validate_scenes(fmus_of(fmus), found, time_limit=time_limit, jobs=processes)
 
 
 def choose(
@@ -240,15 +227,15 @@ def choose(
     in place of the scene's, `time` (s) is that of the run, `step` (s) between samples of signals.
     A `device` takes the place of the scene's, as in `OpenFmu.run`.
     """
-    _check_kind(Mapping, "errors by quantity", need=need)
-    read = _scene_of(scene, _stated(device), values)
+    check_kind(Mapping, "errors by quantity", need=need)
+    read = scene_of(scene, parameters_of(device), values)
     with explained():
         if time is not None or step is not None:
             spans = [one if one is None else positive_time(str(one)) for one in (time, step)]
             read = read.timed(stop_time=spans[0], step_size=spans[1])
         if need:
             read = read.needing({name: allowed_error(name, str(e)) for name, e in need.items()})
-    return choose_model(read, _fmu(fmu))
+    return choose_model(read, fmu_of(fmu))
 
 
 def sweep(
@@ -268,15 +255,15 @@ def sweep(
     the table. Finished points are kept beside `out` until it is written; `restart` discards them. A
     table of another grid is replaced only with `overwrite`.
     """
-    _check_positive(workers=workers)
+    check_positive(workers=workers)
     count = workers or available_cores()
-    stated = _stated(device)
+    stated = parameters_of(device)
     if isinstance(grid, Mapping):
-        read = grid_from(_plain(grid), "grid", stated)
+        read = grid_from(plain(grid), "grid", stated)
     else:
         read = read_grid(Path(grid), stated)
     return run_sweep(
-        read, _fmu(fmu), Path(out), workers=count, restart=restart, overwrite=overwrite
+        read, fmu_of(fmu), Path(out), workers=count, restart=restart, overwrite=overwrite
     )
 
 
@@ -299,15 +286,15 @@ def fit(
     `values` are parameters and inputs that are not in the data. The result has `parameters`, and
     the `device` to go on with.
     """
-    _check_positive(starts=starts, jobs=jobs, time_limit=time_limit)
-    _check_kind(Sequence, "names of parameters", free=free)
-    _check_kind(Mapping, "lowest and highest value by name", bounds=bounds)
+    check_positive(starts=starts, jobs=jobs, time_limit=time_limit)
+    check_kind(Sequence, "names of parameters", free=free)
+    check_kind(Mapping, "lowest and highest value by name", bounds=bounds)
     measurements = measurements_of(data)
     names = [free] if isinstance(free, str) else free
-    checked = {**_stated(device), **_checked(values)}
-    with isolated(_fmu(fmu), jobs or available_cores(), time_limit) as run:
+    checked = {**parameters_of(device), **values_of(values)}
+    with isolated(fmu_of(fmu), jobs or available_cores(), time_limit) as run:
         return fit_parameters(
-            measurements, names, checked, run, bounds=_plain(bounds), starts=starts
+            measurements, names, checked, run, bounds=plain(bounds), starts=starts
         )
 
 
@@ -324,18 +311,18 @@ def stress(
     The cases are those of the axes, or `random` devices drawn from `seed`, or several inputs and
     steps of `device`. A case that exceeds the `time_limit` (s) fails.
     """
-    _check_positive(random=random, jobs=jobs, time_limit=time_limit)
+    check_positive(random=random, jobs=jobs, time_limit=time_limit)
     if random is not None and device is not None:
         raise HarnessError(f"random = {random!r} and device = {device!r}: must be only one")
     if device is not None:
         name = str(device) if isinstance(device, str | Path) else "mine"
-        cases = device_cases(name, _stated(device))
+        cases = device_cases(name, parameters_of(device))
     elif random is not None:
         cases = [random_case(seed, number) for number in range(random)]
     else:
         cases = axis_cases()
     run = partial(run_cases, cases=cases, time_limit=time_limit, jobs=jobs or available_cores())
-    return tuple(run(fmu) for fmu in _fmus(fmus))
+    return tuple(run(fmu) for fmu in fmus_of(fmus))
 
 
 def trade(
@@ -354,78 +341,9 @@ def trade(
     periods; each method is repeated `repeats` times, or as often as the `budget` (s of CPU time)
     allows. The peer that needs heyoka is left out without it.
     """
-    _check_positive(periods=periods, repeats=repeats, budget=budget, time_limit=time_limit)
-    read = _scene_of(scene, _stated(device), values)
+    check_positive(periods=periods, repeats=repeats, budget=budget, time_limit=time_limit)
+    read = scene_of(scene, parameters_of(device), values)
     problems = [problem_of(point.scene, point.at, periods) for point in read.points()]
-    with opened(_fmus(fmus), time_limit) as instances:
+    with opened(fmus_of(fmus), time_limit) as instances:
         measured = partial(measure_trade, instances=instances, repeats=repeats, budget=budget)
         return tuple(map(measured, problems))
-
-
-def _scene_of(
-    scene: SceneLike, parameters: Mapping[str, float], values: Mapping[str, Value]
-) -> Scene:
-    """Return a scene with the device of some parameters, and values on top."""
-    return read_scene(scene).with_device(parameters).with_values(_checked(values))
-
-
-def _stated(device: DeviceLike | None) -> dict[str, float]:
-    """Return the parameters that a device states: of a `Device` those that differ from table 1."""
-    if device is None:
-        return {}
-    if isinstance(device, Device):
-        device = device.differing
-    if isinstance(device, Mapping):
-        table = table_from(DeviceFileTable, {"device": _plain(device)}, "device")
-        _warn(possible_slips(device))
-        return table.device.stated
-    read = read_device_file(str(device))
-    _warn(read.slips)
-    return read.values
-
-
-def _warn(slips: Sequence[str]) -> None:
-    """Warn of numbers that may be meant in another unit, where this package was called."""
-    modules = [frame.f_globals.get("__name__", "") for frame, _ in walk_stack(currentframe())]
-    inside = sum(name.startswith("slider_resonator.") for name in modules)
-    for slip in slips:
-        warnings.warn(slip, stacklevel=1 + inside)
-
-
-def _fmus(fmus: Sequence[str | Path]) -> list[Path]:
-    return [_fmu(fmu) for fmu in fmus or (None,)]
-
-
-def _fmu(fmu: str | Path | None) -> Path:
-    _check_kind(str | Path, "a path", fmu=fmu)
-    return fmu_path() if fmu is None else Path(fmu)
-
-
-def _checked(values: Mapping[str, Value]) -> dict[str, float]:
-    with explained():
-        checked = {name: settable_value(name, value) for name, value in _plain(values).items()}
-    _warn(possible_slips(values))
-    return checked
-
-
-def _plain(data: Any) -> Any:
-    """Return data with arrays, ranges and tuples as lists, and numpy's numbers as Python's."""
-    if isinstance(data, Mapping):
-        return {key: _plain(value) for key, value in data.items()}
-    if hasattr(data, "tolist"):
-        return data.tolist()
-    return [_plain(entry) for entry in data] if isinstance(data, list | tuple | range) else data
-
-
-def _check_kind(kind: Any, meaning: str, **arguments: Any) -> None:
-    """Raise HarnessError for an argument that is given and is of another kind."""
-    for name, value in arguments.items():
-        if value is not None and not isinstance(value, kind):
-            raise HarnessError(f"{name} = {value!r}: must be {meaning}")
-
-
-def _check_positive(**arguments: float | None) -> None:
-    """Raise HarnessError for an argument that is given and is no number above 0."""
-    for name, value in arguments.items():
-        if value is not None and not (isinstance(value, Real) and value > 0):
-            raise HarnessError(f"{name} = {value!r}: must be a number above 0")
