@@ -116,6 +116,8 @@ function keyOf({ curves, marks = [], bands = [] }) {
     element("span", { class: kind, style: `--mark: var(--${name})` }, label));
 }
 
+const csvCell = (value) => (typeof value === "number" ? Number(value.toPrecision(12)) : value ?? "");
+
 /** Return the curves as text of a CSV file, each under its own x where these differ. */
 function csvOf({ x, y, curves }) {
   const columns = curves.flatMap((curve, i) => [
@@ -123,7 +125,7 @@ function csvOf({ x, y, curves }) {
     [titled({ ...y, label: curve.label }), ...curve.y],
   ]);
   const rows = Array.from({ length: Math.max(...columns.map((column) => column.length)) },
-    (_, i) => columns.map((column) => column[i] ?? "").join(","));
+    (_, i) => columns.map((column) => csvCell(column[i])).join(","));
   return rows.join("\n") + "\n";
 }
 

@@ -36,7 +36,7 @@ function cardsOf({ outputs, isPredicted, end, phase, load, faces, fullFriction: 
     ["theory", "blocking force", isPredicted ? shown("blocking_force") : "none",
       isPredicted ? "the load that stops the slider" : remark],
     ["run", "mean velocity", shown("mean_velocity"), `of the last period, after ${factor * end}\u00a0${unit}`],
-    ["friction", `friction of ${facesOf(faces)}`, shown("load", friction),
+    ["friction", `friction of ${facesOf(faces)}`, shown("normal_preload", friction),
       `while sliding; it heats by ${shown("friction_power")}`],
   ];
 }

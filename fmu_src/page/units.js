@@ -54,10 +54,11 @@ function valueOf(variable, text, bareUnit = variable.unit) {
     throw new Refused(
       `${name} = ${text} refused: ${given} is no unit of ${of} that is known here; ${mustBe(variable, bareUnit)}`);
   }
-  // So that "10 um" is 1e-5, to the last bit.
-  const parts = Math.round(1 / scale.factor);
-  const whole = Math.abs(parts * scale.factor - 1) < 1e-12;
-  return whole ? Number(number) / parts : Number(number) * scale.factor;
+  // So that "10 um" is 1e-5 and "30.1 mN" is 0.0301, to the last bit.
+  const power = Math.round(Math.log10(scale.factor));
+  const [digits, exponent = "0"] = number.toLowerCase().split("e");
+  const isDecimal = Math.abs(scale.factor / 10 ** power - 1) < 1e-12;
+  return isDecimal ? Number(`${digits}e${Number(exponent) + power}`) : Number(number) * scale.factor;
 }
 
 function mustBe({ unit, display_unit: display }, bareUnit) {

@@ -317,6 +317,7 @@ def test_curves_are_saved_where_the_prediction_is_valid(
     path = saved(browser, tmp_path, chart.find_element(By.TAG_NAME, "button"))
     rows = list(csv.DictReader(path.read_text().splitlines()))
     assert len(rows) > 50
+    assert max(len(row["phase [deg]"]) for row in rows) <= 8, "without the rounding of conversions"
     device = read_device_file("stick_slip").values | {"friction_coefficient": 0.5}
     columns = {"predicted [mm/s]": "steady_velocity", "ends of runs [mm/s]": "mean_velocity"}
     shown = set()
