@@ -38,6 +38,12 @@ def other_value(name: str, value: float) -> float:
     return value + SHARE * (abs(value) or variable.nominal or 1.0)
 
 
+def values_to_vary(instance: Instance) -> list[str]:
+    """Return the variables that can be set and choose no model."""
+    settable = [name for name, v in VARIABLES.items() if v.causality != "output"]
+    return [n for n in settable if n in instance.fmu.variables and n not in CHOSEN]
+
+
 def outputs_after(instance: Instance, size: float, count: int = 1) -> dict[str, float]:
     """Return all outputs after some steps of a size (s)."""
     for _ in range(count):

@@ -91,7 +91,8 @@ def host_faults(fmu: FmuSide) -> list[str]:
     if is_native:
         slave.dll.fmi2FreeInstance(None)  # which is no error, and must not crash
         faults += [*crowd_faults(instance), *process_faults(instance)]
-    return [*faults, *step_leaks(instance), *instance_leaks(instance)]
+    faults += [*step_leaks(instance), *instance_leaks(instance)]
+    return [*faults, f"{instance.warned} is answered with a warning"] if instance.warned else faults
 
 
 def _instance_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
@@ -211,12 +212,13 @@ def _other_host_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     ) -> None:
         environments.append(environment)
         called = (category or b"").decode("utf-8", "replace")
+        due = dict(enumerate(STATUSES)).get(status)
         if name != BESIDE.encode():
             wrong.append("with the name of another instance")
         if status <= fmi2Warning:
             wrong.append("as a success")
-        if called in STATUSES and STATUSES.index(called) != status:
-            wrong.append("in the category of another status")
+        if called != due and (called in STATUSES or due in declared):
+            wrong.append("in another category than that of its status")
         if EVERYTHING in declared and called not in declared:
             wrong.append("in a category that is not declared")
 
@@ -251,6 +253,10 @@ def _number_faults(instance: Instance) -> Iterator[str]:
     expected, found = instance.value("normal_force"), (c_double * MANY)()
     load = instance.fmu.reference("load")
     twice = list(instance.slave.getReal([reference, load, reference]))
+    if instance.fmu.runs_without_python and not is_refused(
+        instance.call, "fmi2GetReal", byref(c_uint(reference)), 1, None
+    ):
+        yield "a null pointer is accepted as the place of a value"
     if twice != [expected, instance.value("load"), expected]:
         yield "normal_force read twice in a call is not the same"
     with suppress(FMICallException):
@@ -265,7 +271,8 @@ def _offer_faults(instance: Instance, slave: FMU2Slave) -> Iterator[str]:
     yield from derivative_offer_faults(instance)
     pending = is_refused(instance.call, "fmi2GetStringStatus", fmi2PendingStatus, byref(c_char_p()))
     number = is_refused(instance.call, "fmi2GetIntegerStatus", fmi2DoStepStatus, byref(c_int()))
-    if not (pending and number):
+    other = is_refused(instance.call, "fmi2GetStatus", fmi2PendingStatus, byref(c_int()))
+    if not (pending and number and other):
         yield "a status is given of a step that is not pending"
     is_refused(instance.call, "fmi2DoStep", instance.time, -1.0, True)
     if answer_of(slave.getStatus, fmi2DoStepStatus) == fmi2OK:

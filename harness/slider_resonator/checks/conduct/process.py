@@ -26,8 +26,15 @@ from typing import Any
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
-from slider_resonator.checks.conduct.findings import SMOOTH, UNKNOWN, is_refused
+from slider_resonator.checks.conduct.findings import (
+    SMOOTH,
+    UNKNOWN,
+    is_refused,
+    other_value,
+    values_to_vary,
+)
 from slider_resonator.checks.conduct.replays import Replay
+from slider_resonator.device.interface import VARIABLES
 from slider_resonator.device.schedule import schedule
 from slider_resonator.device.signal import constant
 from slider_resonator.errors import FmuError
@@ -280,8 +287,9 @@ STACK = 1 << 20
 def crowd_faults(instance: Instance) -> Iterator[str]:
     """Compare each of several instances with the same run alone, to the last bit.
 
-    Each has its own load and is stepped in a thread of its own; all are freed in their runs.
-    Nothing is tried where a process can have only one.
+    Each has its own load and is stepped in a thread of its own. They are made beside one that is
+    another device, and freed in the middle of its next run. Nothing is tried where a process can
+    have only one.
     """
     if instance.fmu.offers.canBeInstantiatedOnlyOncePerProcess:
         return
@@ -290,7 +298,9 @@ def crowd_faults(instance: Instance) -> Iterator[str]:
         schedule(steps * size, (size,), {}, False, load=constant(0.01 * number))
         for number in range(INSTANCES)
     ]
-    alone = [Replay(instance, {}, course).rows for course in courses]
+    first, *alone = (Replay(instance, {}, course) for course in (courses[0], *courses))
+    names = values_to_vary(instance)
+    instance.start({name: other_value(name, VARIABLES[name].start or 0.0) for name in names})
     with ExitStack() as stack:
         try:
             others = [stack.enter_context(instantiate(instance.fmu)) for _ in courses]
@@ -300,9 +310,12 @@ def crowd_faults(instance: Instance) -> Iterator[str]:
         stack.callback(stack_size, stack_size(STACK))  # of threads of hosts that save memory
         with ThreadPoolExecutor(INSTANCES) as pool:
             together = [one.rows for one in pool.map(Replay, others, repeat({}), courses)]
-            if together != alone:
+            if together != [one.rows for one in alone]:
                 yield "instances that step in threads have other outputs than alone"
+        running = first.started()
+        running.finish(end=steps // 2)
         for other in others:
             other.end(terminates=False)
-    if Replay(instance, {}, courses[0]).rows != alone[0]:
+    running.finish(steps // 2)
+    if running.rows != first.rows:
         yield "an instance has other outputs after others are freed in the middle of their runs"

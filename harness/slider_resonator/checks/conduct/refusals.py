@@ -182,7 +182,8 @@ class Trial:
             if variable.start is not None:
                 value = other_value(variable.name, variable.start)
             what = f"{variable.name} = {value!r} {when}"
-            self.refuses(what, partial(self._set, {variable: value}), [variable.name])
+            told = [] if variable.name in SHARPER else [value]
+            self.refuses(what, partial(self._set, {variable: value}), [variable.name], told)
 
     def refuses_calls(self, when: str) -> None:
         """Make the calls that are out of order."""
@@ -299,6 +300,7 @@ def bad_values(variable: Variable) -> list[float]:
         assert high is not None
         return [low - 1.0, high + 1.0]
     below = [] if low is None else [math.nextafter(low, -math.inf), low - 1.0]
+    below += [0.0] if low is not None and low > 0.0 else []
     above = [] if high is None else [math.nextafter(high, math.inf), high + 1.0]
     return [*NOT_FINITE, *below, *above]
 

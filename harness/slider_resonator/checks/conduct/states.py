@@ -14,11 +14,12 @@ from slider_resonator.checks.conduct.findings import (
     is_refused,
     other_value,
     outputs_after,
+    unequal,
+    values_to_vary,
 )
 from slider_resonator.checks.conduct.output_derivatives import status_faults
 from slider_resonator.checks.conduct.process import state_leaks
 from slider_resonator.checks.fmu_side import FmuSide
-from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import FmuError
 from slider_resonator.fmu.instance import Instance, SavedState
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, IsolatedFmu
@@ -31,8 +32,6 @@ STATES, MANY = 12, 300
 """How many states a host goes back to, and how many it keeps at a time."""
 OTHER = {"resonator_mass": 0.2, "damping_ratio": 0.1, "friction_faces": 1.0}
 """Another device."""
-CHANGED = ("friction_coefficient", "base_amplitude")
-"""Parameters that are set after a state is saved."""
 GUID = b"00000000-0000-0000-0000-000000000000"
 """The GUID of another FMU."""
 DAMAGED = 24
@@ -98,6 +97,9 @@ def _damage_faults(instance: Instance) -> Iterator[str]:
         content = saved.serialised()
     instance.step_by(STEP)
     time, before = instance.time, instance.outputs()
+    slave.freeFMUstate(slave.deSerializeFMUstate(content))
+    if instance.outputs() != before:
+        yield "a serialised state that is read is set at once"
     state = slave.getFMUstate()
     size = len(content)
     damaged = {f"cut off after {n} bytes": content[:n] for n in (0, size // 2, size - 8, size - 1)}
@@ -215,7 +217,7 @@ def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
     The state goes back as it is and, where the FMU offers that, in serialised form.
     """
     instance.start(parameters)
-    expected = outputs_after(instance, STEP)
+    values, expected = instance.read(values_to_vary(instance)), outputs_after(instance, STEP)
     ways: list[Callable[[SavedState], None]] = [SavedState.restore]
     if instance.fmu.offers.canSerializeFMUstate:
         ways.append(lambda state: state.transfer(instance))
@@ -225,8 +227,7 @@ def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
         if when == "in":
             instance.call("fmi2EnterInitializationMode")
         with SavedState.of(instance) as state:
-            others = {name: other_value(name, VARIABLES[name].start or 0.0) for name in CHANGED}
-            instance.set(others)
+            instance.set({name: other_value(name, value) for name, value in values.items()})
             if when == "before":
                 instance.call("fmi2EnterInitializationMode")
             else:
@@ -236,6 +237,7 @@ def _early_faults(instance: Instance, parameters: Mapping[str, float]) -> Iterat
                 go_back(state)
                 if when == "before":
                     instance.call("fmi2EnterInitializationMode")
+                yield from unequal(instance, values, f"after a state saved {when} initialization")
                 instance.begin()
                 instance.step_by(STEP)
             except FMICallException as error:
