@@ -196,8 +196,8 @@ def _allowed(case: Case, signals: Signals, share: float) -> dict[str, float]:
     """Return the allowed deviation of the four signals: a share of their scales, and rounding.
 
     Scales are peaks, with the resonator's share in the slider, as steps may always meet the same
-    phase. With LuGre friction they hold what friction does in a period, and the error `tolerance`
-    of the velocity accumulates in the position.
+    phase. With LuGre friction they hold what friction does in a period. The error of the velocity
+    by `tolerance`, of LuGre friction and of leaps, accumulates in the position.
     """
     device, time = case.device, case.duration
     w = device.drive_frequency
@@ -210,7 +210,9 @@ def _allowed(case: Case, signals: Signals, share: float) -> dict[str, float]:
     force += device.resonator_mass * device.base_amplitude * w**2
     off = 8.0 * float(np.finfo(float).eps) * force * time / device.slider_mass
     drift = off * time
-    if device.friction_law == 1 and device.fidelity > 0:
+    if case.model.leaps:
+        drift += MARGIN * device.tolerance * largest_fast_velocity(device, case.held) * time
+    elif device.friction_law == 1 and device.fidelity > 0:
         drift += device.tolerance * velocity * time
     return {
         "position": share * max(position, velocity / w) + drift,
