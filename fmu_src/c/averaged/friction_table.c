@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "../base/elementary.h"
-
 /* Last Legendre coefficients that a panel may have, as a share of mu or of the largest mean on the panel where that is
  * larger. */
 #define MAX_ERROR 1e-8

@@ -1,7 +1,5 @@
 #include "outputs.h"
 
-#include <stddef.h>
-
 #include "../base/elementary.h"
 #include "../resolved/motion.h"
 #include "variables.h"
@@ -97,28 +95,19 @@ static double normal_force_rate(const System *system, const Moment *moment, doub
 bool output_derivative(unsigned reference, const System *system, const Moment *moment, double phase_rate,
                        double *derivative, Refusal *refusal) {
     Rates rates = system->motion->rates(system, moment);
-    const struct {
-        unsigned reference;
-        double rate;
-    } known[] = {
-        {VR_POSITION, moment->state.velocity},
-        {VR_VELOCITY, rates.state.velocity},
-        {VR_RESONATOR_DISPLACEMENT, rates.state.displacement},
-        {VR_RESONATOR_VELOCITY, rates.state.rate},
-        {VR_NORMAL_FORCE, normal_force_rate(system, moment, phase_rate)},
-        {VR_MEAN_VELOCITY, rates.mean_velocity},
-        {VR_CONTACT_MODE, 0.0},
-        {VR_REVERSALS, 0.0},
-        {VR_STICK_FRACTION, 0.0},
-        {VR_LAST_EVENT_TIME, 0.0},
-        {VR_PREDICTION_VALID, 0.0},
+    const double known[VARIABLE_COUNT] = {
+        [VR_POSITION] = moment->state.velocity,
+        [VR_VELOCITY] = rates.state.velocity,
+        [VR_RESONATOR_DISPLACEMENT] = rates.state.displacement,
+        [VR_RESONATOR_VELOCITY] = rates.state.rate,
+        [VR_NORMAL_FORCE] = normal_force_rate(system, moment, phase_rate),
+        [VR_MEAN_VELOCITY] = rates.mean_velocity,
     };
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
-        if (known[i].reference == reference) {
-            *derivative = known[i].rate;
-            return true;
-        }
-    }
-    return refuse(refusal, "derivative of %s refused: %s", VARIABLES[reference].name,
-                  reference < SETTABLE_COUNT ? "it is no output" : "this FMU does not provide it");
+    bool unknown = reference == VR_FRICTION_FORCE || reference == VR_FRICTION_POWER ||
+                   reference == VR_STEADY_VELOCITY || reference == VR_BLOCKING_FORCE ||
+                   reference == VR_SLOW_MOTION_ERROR;
+    *derivative = known[reference];
+    return (reference >= SETTABLE_COUNT && !unknown) ||
+           refuse(refusal, "derivative of %s refused: %s", VARIABLES[reference].name,
+                  unknown ? "this FMU does not provide it" : "it is no output");
 }

@@ -137,17 +137,14 @@ GET_STATUS(Status, fmi2Status, fmi2DoStepStatus, ((const Instance *)c)->last_ste
 GET_STATUS(RealStatus, fmi2Real, fmi2LastSuccessfulTime, ((const Instance *)c)->component.now.time)
 GET_STATUS(BooleanStatus, fmi2Boolean, fmi2Terminated, fmi2False)
 
-fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind s, fmi2Integer *value) {
-    (void)s;
-    return report(c, c == NULL || value == NULL ? fmi2Error : fmi2Discard,
-                  "fmi2GetIntegerStatus: there is no such status");
-}
+#define NO_STATUS(NAME, TYPE, REASON) \
+    fmi2Status fmi2Get##NAME(fmi2Component c, const fmi2StatusKind s, TYPE *value) { \
+        (void)s; \
+        return report(c, c == NULL || value == NULL ? fmi2Error : fmi2Discard, "fmi2Get" #NAME ": " REASON); \
+    }
 
-fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2String *value) {
-    (void)s;
-    return report(c, c == NULL || value == NULL ? fmi2Error : fmi2Discard,
-                  "fmi2GetStringStatus: no step is ever pending");
-}
+NO_STATUS(IntegerStatus, fmi2Integer, "there is no such status")
+NO_STATUS(StringStatus, fmi2String, "no step is ever pending")
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
     return state_get(c, "fmi2GetFMUstate", FMUstate);

@@ -2,7 +2,6 @@
  *
  * Events are a stop of the slider (then it sticks if friction can hold it, and reverses otherwise), a release, and the
  * lift-off and touchdown of the contact. There is no step size, no tolerance. */
-#include "../base/elementary.h"
 #include "segment.h"
 
 /* Relative difference of the forces on a slider up to which they count as balanced. */

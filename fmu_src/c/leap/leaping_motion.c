@@ -6,7 +6,6 @@
 #include <stddef.h>
 
 #include "../base/clock.h"
-#include "../base/elementary.h"
 #include "../resolved/motion.h"
 #include "leap.h"
 

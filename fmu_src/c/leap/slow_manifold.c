@@ -88,7 +88,7 @@ bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
         double ratio = ratio_of(map, sections);
         correction_of(map, sections, ratio, step, &missing);
         double size = fast_size(map, step);
-        offset = i == 0 ? size : offset;
+        rates->offset = offset = i == 0 ? size : offset;
         if (size <= manifold->allowed) {
             *rates = rates_of(sections, ratio, step);
             rates->reversals = reversals;
@@ -98,7 +98,6 @@ bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
             return true;
         }
         if (!(size <= SHRINKS * before)) {
-            rates->offset = offset;
             return false;
         }
         before = size;
@@ -108,6 +107,5 @@ bool slow_rates(Manifold *manifold, double begin, Moment *moment, Moment *after,
         }
         moment_place(map, velocity, fast, moment->psi, moment);
     }
-    rates->offset = offset;
     return false;
 }
