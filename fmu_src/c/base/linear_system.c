@@ -5,12 +5,6 @@
 /* Smallest pivot that counts as different from 0, relative to the largest entry of the matrix. */
 #define SMALLEST_PIVOT 1e-13
 
-static void swap(double *a, double *b) {
-    double kept = *a;
-    *a = *b;
-    *b = kept;
-}
-
 bool solve_linear(double matrix[UNKNOWNS][UNKNOWNS], double right[UNKNOWNS], int count) {
     double rows[UNKNOWNS][UNKNOWNS + 1], largest = 0.0; /* the right side is the last column */
     for (int i = 0; i < count; i++) {
@@ -29,7 +23,9 @@ bool solve_linear(double matrix[UNKNOWNS][UNKNOWNS], double right[UNKNOWNS], int
             return false;
         }
         for (int j = k; j <= count; j++) {
-            swap(&rows[k][j], &rows[pivot][j]);
+            double kept = rows[k][j];
+            rows[k][j] = rows[pivot][j];
+            rows[pivot][j] = kept;
         }
         for (int i = 0; i < count; i++) {
             double share = i == k ? 0.0 : rows[i][k] / rows[k][k];

@@ -23,7 +23,7 @@ static void prepare_normal(BendingKernels *kernels, double frequency) {
         put(&kernels->turn, i, grow(complex_of(0.0, frequency), kernels->time[i], &integral));
         put(&kernels->normal, i, integral);
     }
-    kernels->has_normal = true;
+    kernels->normal_frequency = frequency;
 }
 
 /* The integrals of a unit force a and of a unit impulse b at a node. */
@@ -67,7 +67,7 @@ static void prepare(BendingKernels *kernels, const GaussIntegrals *gauss, const 
     double per_mass = 1.0 / plant->total_mass;
     double swing = plant->mass_fraction / (plant->slider_mass * eigenvalue.im);
     kernels->gauss = gauss;
-    kernels->has_normal = false;
+    kernels->normal_frequency = NAN;
     kernels->length = length;
     for (int i = 0; i < POINTS; i++) {
         double t = i < END ? 0.5 * length * (1.0 + GAUSS_NODE[i]) : length;
@@ -102,14 +102,8 @@ BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, do
                              plant->slip.eigenvalue};
     if (memcmp(&tables->plant, &key_of_plant, sizeof key_of_plant) != 0) {
         tables->plant = key_of_plant;
-        tables->kept_count = tables->oldest = 0;
+        tables->kept_count = tables->next = 0;
         gauss_integrals_prepare(&tables->gauss);
-    }
-    if (tables->normal_frequency != plant->normal_frequency) {
-        tables->normal_frequency = plant->normal_frequency;
-        for (int i = 0; i < KEPT_KERNELS; i++) {
-            tables->kept[i].has_normal = false;
-        }
     }
     double w = plant->drive_frequency;
     int key = (int)ceil(log(length * w) / LENGTH_STEP), place = 0;
@@ -117,17 +111,14 @@ BendingKernels *bending_kernels_of(BendingTables *tables, const Plant *plant, do
         place++;
     }
     if (place == tables->kept_count) {
-        if (place == KEPT_KERNELS) {
-            place = tables->oldest;
-            tables->oldest = (place + 1) % KEPT_KERNELS;
-        } else {
-            tables->kept_count++;
-        }
+        place = tables->next;
+        tables->next = (place + 1) % KEPT_KERNELS;
+        tables->kept_count += tables->kept_count < KEPT_KERNELS;
         tables->key[place] = key;
         prepare(&tables->kept[place], &tables->gauss, plant, exp(key * LENGTH_STEP) / w);
     }
     BendingKernels *kernels = &tables->kept[place];
-    if (!kernels->has_normal) {
+    if (kernels->normal_frequency != plant->normal_frequency) {
         prepare_normal(kernels, plant->normal_frequency);
     }
     return kernels;

@@ -25,8 +25,9 @@ typedef struct {
 enum { IMPULSE, LEVER, BACK_RE, BACK_IM, LEFT };
 
 /* At the points of a panel of one `length` [s]: `time` [s], `response` G [m/(N s)], `turn` exp(i q t), and `drive`,
- * `normal` and `free`, int (exp(z s) - 1) ds from 0 to t [s] for z = i w, i q and lambda; `end_drive` and `end_free`
- * are exp(z t) at the end. `interpolating` are the barycentric weights of the points but the last.
+ * `normal` and `free`, int (exp(z s) - 1) ds from 0 to t [s] for z = i w, i q and lambda; `turn` and `normal` are
+ * those of `normal_frequency` q. `end_drive` and `end_free` are exp(z t) at the end. `interpolating` are the barycentric
+ * weights of the points but the last.
  *
  * Matrices, the node as first index: `travel` [m/N] turns forces a into displacements at the points (by G), `speed`
  * [m/(N s)] does so for impulses b, which act as forces b' (by G'). `left_even` and `left_late` turn a and b into the
@@ -34,8 +35,7 @@ enum { IMPULSE, LEVER, BACK_RE, BACK_IM, LEFT };
  * derivative at the nodes. */
 typedef struct {
     const GaussIntegrals *gauss;
-    bool has_normal;
-    double length, time[POINTS], response[POINTS], interpolating[POINTS - 1];
+    double normal_frequency, length, time[POINTS], response[POINTS], interpolating[POINTS - 1];
     ComplexRow drive, free, normal, turn;
     Complex end_drive, end_free;
     double travel[GAUSS_NODES][POINTS], speed[GAUSS_NODES][POINTS];
@@ -57,14 +57,12 @@ typedef struct {
     Complex eigenvalue;
 } PlantKey;
 
-/* A cache of kernels, which must not move in memory; zeroed memory is an empty cache. A change of the plant empties it;
- * a change of the normal frequency drops only what depends on that. `key` is the place of each length kept in the grid;
- * of `kept_count` kernels `oldest` is the one to be replaced next. */
+/* A cache of kernels, which must not move in memory; zeroed memory is an empty cache. A change of the plant empties it.
+ * `key` is the place of each of `kept_count` lengths in the grid; `next` is the place of the next one. */
 typedef struct BendingTables {
     GaussIntegrals gauss;
     PlantKey plant;
-    double normal_frequency;
-    int key[KEPT_KERNELS], kept_count, oldest;
+    int key[KEPT_KERNELS], kept_count, next;
     BendingKernels kept[KEPT_KERNELS];
 } BendingTables;
 

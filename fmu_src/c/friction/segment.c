@@ -45,19 +45,14 @@ void segment_begin_bending(Segment *segment, const System *system, const Moment 
     BendingPanel *panel = &segment->motion.panel;
     double error = tolerance * velocity_scale(&system->plant, &now->state);
     set_segment(segment, &system->plant, now, direction);
-    switch (bending_panel_begin(panel, system, direction, now, &segment->known.phasors, longest, error)) {
-    case BY_SERIES:
+    BendingMotion motion = bending_panel_begin(panel, system, direction, now, &segment->known.phasors, longest, error);
+    segment->by_series = false;
+    if (motion == BY_SERIES) {
         begin_series(segment, system, &system->bristle, now, tolerance);
-        return;
-    case AS_BENT:
+    } else if (motion == AS_BENT) {
         segment_begin_slide(segment, system, now, direction);
-        return;
-    case BY_PANEL:
-        segment->by_series = false;
-        if (segment->counts_means) {
-            bending_panel_weigh(panel);
-        }
-        return;
+    } else if (segment->counts_means) {
+        bending_panel_weigh(panel);
     }
 }
 
