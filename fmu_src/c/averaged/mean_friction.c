@@ -85,14 +85,7 @@ static double bent_at(const Quadrature *over, const Arc *arc) {
     }
     for (int i = 0; i < MAX_BISECTIONS; i++) {
         double middle = 0.5 * (low + high);
-        if (middle <= low || middle >= high) {
-            break;
-        }
-        if (stiffness * way(over, arc, middle).path < full) {
-            low = middle;
-        } else {
-            high = middle;
-        }
+        *(stiffness * way(over, arc, middle).path < full ? &low : &high) = middle;
     }
     return high;
 }

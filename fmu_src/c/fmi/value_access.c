@@ -1,12 +1,8 @@
 #include "value_access.h"
 
-/* Whether the time is a variable, which is no row of the table: its reference is the lowest one. */
-static bool has_time(void) {
-    return FMI.min_reference < FMI.reference_offset;
-}
-
+/* Whether it is the reference of the time, a variable of FMI 3.0 that is no row of the table. */
 static bool is_time(unsigned reference) {
-    return has_time() && reference == FMI.min_reference;
+    return reference >= FMI.min_reference && reference < FMI.reference_offset;
 }
 
 /* Refuse more references than there are variables. */
@@ -31,7 +27,7 @@ static bool reference_check(unsigned place, ValueType type, Refusal *refusal) {
 bool places_check(const char *call, const unsigned *references, size_t count, const void *values, ValueType type,
                   unsigned *places, size_t *place_count, Refusal *refusal) {
     *place_count = 0;
-    if (!count_check(call, count, VARIABLE_COUNT + has_time(), refusal)) {
+    if (!count_check(call, count, VARIABLE_COUNT + is_time(FMI.min_reference), refusal)) {
         return false;
     }
     if (count > 0 && (references == NULL || values == NULL)) {
