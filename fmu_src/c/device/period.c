@@ -25,21 +25,17 @@ double period_advance(PeriodMeans *means, const Interval *interval, double theta
     }
     double last = (TAU * ended - theta) / frequency;
     Passage until = passage_until(interval, last, frequency);
-    double fraction;
-    if (ended == 1.0) {
-        double length = means->elapsed + last;
-        means->mean_velocity = (means->travel + until.travel) / length;
-        means->friction_power = (means->work + until.work) / length;
-        fraction = (means->sticking + (interval->sticks ? last : 0.0)) / length;
-    } else {
-        double length = TAU / frequency;
-        Passage before = passage_until(interval, last - length, frequency);
-        means->mean_velocity = (until.travel - before.travel) / length;
-        means->friction_power = (until.work - before.work) / length;
-        fraction = interval->sticks ? 1.0 : 0.0;
+    Passage before = {-means->travel, -means->work};
+    double length = means->elapsed + last, sticking = means->sticking + (interval->sticks ? last : 0.0);
+    if (ended > 1.0) {
+        length = TAU / frequency;
+        before = passage_until(interval, last - length, frequency);
+        sticking = interval->sticks ? length : 0.0;
     }
+    means->mean_velocity = (until.travel - before.travel) / length;
+    means->friction_power = (until.work - before.work) / length;
     means->complete = 1.0;
-    means->stick_fraction = fmin(fmax(fraction, 0.0), 1.0);
+    means->stick_fraction = fmin(fmax(sticking / length, 0.0), 1.0);
     means->travel = interval->passed.travel - until.travel;
     means->work = interval->passed.work - until.work;
     means->elapsed = duration - last;

@@ -66,11 +66,8 @@ double turning_at(double velocity, double fast_velocity) {
 
 static FlightWindow flight_window(const Device *device) {
     double preload = device->normal_preload, amplitude = device->normal_amplitude;
-    if (preload == 0.0 && amplitude == 0.0) {
-        return (FlightWindow){true, 0.0, TAU};
-    }
     if (preload >= amplitude) {
-        return (FlightWindow){false, 0.0, 0.0};
+        return (FlightWindow){preload == 0.0, 0.0, TAU};
     }
     double dip = asin(preload / amplitude);
     return (FlightWindow){true, PI + dip, TAU - dip};
