@@ -23,11 +23,10 @@ typedef enum {
     VALUE_TYPES
 } ValueType;
 
-/* The version has the first `states` entries of Lifecycle. The value reference of a variable is its place in the table
- * plus `reference_offset`; `min_reference` is the lowest one. */
+/* The value reference of a variable is its place in the table plus `reference_offset`; `min_reference` is the lowest
+ * one. */
 typedef struct {
     unsigned min_reference, reference_offset;
-    int states;
     const char *state_names[LIFECYCLES];
     const char *type_names[VALUE_TYPES];
     const char *count_name; /* FMI's name of the number of references in a call */

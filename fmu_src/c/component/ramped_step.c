@@ -20,8 +20,7 @@ static void grow(const Snapshot *now, double t, double values[SETTABLE_COUNT]) {
 static bool reached_check(const Snapshot *now, const double reached[SETTABLE_COUNT], double duration,
                           Refusal *refusal) {
     for (size_t i = 0; i < VARYING_COUNT; i++) {
-        Refusal bounds;
-        if (!value_check(&VARIABLES[i], reached[i], &bounds)) {
+        if (!value_check(&VARIABLES[i], reached[i], refusal)) {
             char step[NUMBER_SIZE], derivative[NUMBER_SIZE], value[NUMBER_SIZE];
             return refuse(
                 refusal,

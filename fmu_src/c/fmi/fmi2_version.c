@@ -4,7 +4,6 @@
 const FmiVersion FMI = {
     .min_reference = 0,
     .reference_offset = 0,
-    .states = TERMINATED + 1,
     .state_names = {"instantiated", "initialization mode", "step complete", "terminated"},
     .type_names = {"Real", "Integer", "Boolean", "String"},
     .count_name = "nvr",

@@ -5,7 +5,6 @@
 const FmiVersion FMI = {
     .min_reference = 1,
     .reference_offset = 2,
-    .states = EVENT_MODE + 1,
     .state_names = {"instantiated", "initialization mode", "step mode", "terminated", "event mode"},
     .type_names = {"Float64", "Int32", "Boolean", "String", "Float32", "Int8", "UInt8", "Int16", "UInt16", "UInt32",
                    "Int64", "UInt64"},

@@ -89,10 +89,10 @@ void instance_free(Instance *instance) {
     }
 }
 
-static bool enable(bool categories[STATUSES], const char *call, const char *category, Refusal *refusal) {
+static bool enable(bool categories[STATUSES], const char *call, const char *category, bool enabled, Refusal *refusal) {
     for (int known = 0; category != NULL && known < STATUSES; known++) {
         if (strcmp(category, CATEGORIES[known]) == 0) {
-            categories[known] = true;
+            categories[known] = enabled;
             return true;
         }
     }
@@ -113,12 +113,10 @@ Status set_debug_logging(Instance *instance, const char *call, bool logging_on, 
                         (unsigned long)count, STATUSES);
     enable_all(enabled, logging_on && count == 0);
     for (size_t i = 0; known && i < count; i++) {
-        known = enable(enabled, call, categories[i], &refusal);
+        known = enable(enabled, call, categories[i], logging_on, &refusal);
     }
     if (known) {
-        for (int category = 0; category < STATUSES; category++) {
-            instance->enabled[category] = logging_on && enabled[category];
-        }
+        memcpy(instance->enabled, enabled, sizeof enabled);
     }
     return answer(instance, known, &refusal);
 }
