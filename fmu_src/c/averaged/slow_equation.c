@@ -75,8 +75,7 @@ static bool rate_at(void *motion, double t, double velocity, SlowRate *rate) {
 static int max_steps(const SlowFriction *friction) {
     bool costs_quadratures = is_elastic(&friction->bristle) && friction->table == NULL;
     if (!costs_quadratures) {
-        bool grows = friction->system->plant.load_rate != 0.0;
-        return grows ? MAX_SLOW_STEPS / GROWING : MAX_SLOW_STEPS;
+        return MAX_SLOW_STEPS / (friction->system->plant.load_rate != 0.0 ? GROWING : 1);
     }
     double waves = fmin(fabs(friction->system->inputs.frequency_ratio), MAX_WAVES);
     return (int)fmax(MIN_STEPS, MAX_QUADRATURE_STEPS / (1.0 + waves / WAVES));

@@ -194,9 +194,7 @@ void split_slide_begin(SplitSlide *slide, const Split *split, const Plant *plant
     slide->works = false;
     slide->theta = now->theta;
     slide->chi = now->psi + plant->phase;
-    slide->start.t = 0.0;
-    slide->start.phasors = *start;
-    slide->start.free = complex_of(1.0, 0.0);
+    slide->start = (Turns){0.0, *start, {1.0, 0.0}};
     slide->anchored = false;
     slide->resonator_drive = split->resonator_drive;
     slide->velocity_drive = split->velocity_drive;

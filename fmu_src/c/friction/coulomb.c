@@ -72,10 +72,4 @@ static void enter_next_mode(const Segment *segment, const System *system, Moment
     moment_enter(now, mode);
 }
 
-const FrictionLaw COULOMB = {
-    .prepare = prepare,
-    .mode = mode,
-    .force = force,
-    .begin = begin,
-    .enter_next_mode = enter_next_mode,
-};
+const FrictionLaw COULOMB = {prepare, mode, force, begin, enter_next_mode};

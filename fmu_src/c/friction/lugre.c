@@ -57,10 +57,4 @@ static void enter_next_mode(const Segment *segment, const System *system, Moment
     }
 }
 
-const FrictionLaw LUGRE = {
-    .prepare = prepare,
-    .mode = mode_by_velocity,
-    .force = force,
-    .begin = begin,
-    .enter_next_mode = enter_next_mode,
-};
+const FrictionLaw LUGRE = {prepare, mode_by_velocity, force, begin, enter_next_mode};

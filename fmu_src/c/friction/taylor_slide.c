@@ -202,9 +202,8 @@ int taylor_slide_watches(TaylorSlide *slide, double horizon, Watch watches[2]) {
     if (force == 0.0 || force < 0.999999 * slide->least) {
         return 0;
     }
-    for (int i = 0; i < 2; i++) {
-        watches[i] = watch_series(&slide->watched[i], slide->margin[i], 1, horizon);
-    }
+    watches[0] = watch_series(&slide->watched[0], slide->margin[0], 1, horizon);
+    watches[1] = watch_series(&slide->watched[1], slide->margin[1], 1, horizon);
     /* Margins are differences of numbers as large as the larger one. */
     watches[0].noise = watches[1].noise = fmax(watches[0].noise, watches[1].noise);
     return 2;

@@ -225,8 +225,7 @@ static Prediction second_order(const System *system, double normal_lead, Quantit
     System full;
     PeriodMap map;
     Prediction start, exact;
-    int turns = turns_of_load(system);
-    bool repeats = full_system(system, &full) && period_map_prepare(&map, &full, turns);
+    bool repeats = full_system(system, &full) && period_map_prepare(&map, &full, turns_of_load(system));
     double psi = repeats ? within_turn(normal_lead + system->inputs.frequency_ratio * map.section) : 0.0;
     double damping = damping_share(&system->bristle, system->fast.velocity, system->device.drive_frequency);
     if (repeats && is_elastic(&system->bristle) && damping <= 1.0) {
