@@ -45,12 +45,11 @@ static bool averaged_advance(const System *system, const Moment *moment, double 
     state.velocity = reached.velocity - drive * cos(theta) - share * swing.rate;
     state.displacement = swing.displacement;
     state.rate = swing.rate;
-    Moment next = {.state = state, .theta = theta, .psi = psi};
+    Moment next = {.state = state, .theta = theta, .psi = psi, .event_age = INFINITY};
     next.sliding = moment->sliding;
     next.reversals = moment->reversals;
     next.position = centre + reached.travel - drive / w * sin(theta) - share * swing.displacement;
     next.mode = mode_by_velocity(system, &next);
-    next.event_age = INFINITY;
     next.means.complete = 1.0;
     next.means.mean_velocity = reached.velocity;
     *after = next;
@@ -119,7 +118,7 @@ static double error(const System *system, const Moment *moment) {
     if (!vibrates || !(changed > 0.0)) {
         return 0.0;
     }
-    double decay = decay_in_turn(system), swing = decay > 0.0 ? 1.0 + 1.0 / decay : INFINITY;
+    double decay = decay_in_turn(system), swing = 1.0 + 1.0 / fmax(decay, SMALLEST);
     return fmin(FIRST_ORDER * changed * swing, fmax(fast, changed));
 }
 
@@ -135,7 +134,6 @@ static double part(const Device *device, const Ramp *ramp, double left) {
 }
 
 const Motion AVERAGED_MOTION = {
-    .averages = true,
     .start = start,
     .advance = averaged_advance,
     .mode = mode_by_velocity,

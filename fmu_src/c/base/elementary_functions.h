@@ -5,7 +5,7 @@
  * nothing depends on it, which is far outside the range of motion (angles beyond 1e6 rad, results that overflow or are
  * subnormal, arguments that are not finite), they are those of the library.
  *
- * Errors are up to 2 units in the last place, those of sine and cosine where they pass through 0 up to 1e-25 for each
+ * Errors are up to 4 units in the last place, those of sine and cosine where they pass through 0 up to 1e-25 for each
  * quarter turn. */
 #pragma once
 

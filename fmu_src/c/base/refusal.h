@@ -12,6 +12,6 @@ typedef struct {
 /* Write the text as snprintf does; return false, so that a function can `return refuse(...)`. */
 bool refuse(Refusal *refusal, const char *format, ...);
 
-/* A short text that reads back as `value`, with a decimal point in every locale, as Python's repr writes most numbers:
+/* A short text that reads back as `value`, with a decimal point in every locale, as Python's repr does below 1e15:
  * "0.1", "1e-05", "3500.0", "nan", "inf". Returns `text`. */
 const char *number_text(double value, char text[NUMBER_SIZE]);

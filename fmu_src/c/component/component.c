@@ -262,8 +262,22 @@ bool component_enter_step_mode(Component *component, Refusal *refusal) {
     return lifecycle_change(&component->now.lifecycle, "enterStepMode", EVENT_MODE, STEP_COMPLETE, refusal);
 }
 
+/* Whether a moment can be that of a component: loops end on finite numbers, and periods on phases within a turn. */
+static bool is_possible(const Moment *moment) {
+    const double numbers[] = {moment->state.velocity, moment->state.displacement, moment->state.rate, moment->position,
+                              moment->bristle,        moment->reversals};
+    bool turned = moment->theta >= -PERIOD_END_TOLERANCE && moment->theta <= TAU &&
+                  moment->psi >= -PERIOD_END_TOLERANCE && moment->psi <= TAU;
+    bool known =
+        moment->mode >= BACKWARD && moment->mode <= LIFTED && moment->sliding >= BACKWARD && moment->sliding <= FORWARD;
+    return turned && known && all_finite(numbers, sizeof numbers / sizeof numbers[0]);
+}
+
 bool component_restore(Component *component, const Snapshot *snapshot, Refusal *refusal) {
     bool begun = has_begun(snapshot->lifecycle);
+    if (!is_possible(&snapshot->moment)) {
+        return refuse(refusal, "FMU state refused: it is damaged; must be one that an instance has had");
+    }
     if (begun && !prepare(component, snapshot->values, refusal)) {
         return false;
     }

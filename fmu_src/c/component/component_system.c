@@ -27,27 +27,11 @@ static bool system_is_finite(const System *system) {
     double bent = fabs(bristle_bent(&system->bristle, device->initial_bristle_deflection));
     double friction = device->friction_faces * (mu + drag + bent * (1.0 + drag_over_mu));
     double strongest = TAU * (device->normal_preload + device->normal_amplitude) * (1.0 + friction);
-    const double numbers[] = {
-        plant->total_mass,
-        plant->mass_fraction,
-        plant->normal_frequency,
-        plant->slip.decay,
-        plant->slip.stiffness,
-        plant->stick.decay,
-        plant->stick.stiffness,
-        plant->drive.re,
-        plant->drive.im,
-        plant->relative_drive,
-        plant->base_acceleration,
-        plant->holding_drive.re,
-        plant->spring,
-        plant->damper,
-        plant->holding_drive.im,
-        fast * fast,
-        drag_over_mu,
-        strongest,
-    };
-    return plant->mass_fraction < 1.0 && all_finite(numbers, sizeof numbers / sizeof numbers[0]);
+    double sum = plant->total_mass + plant->mass_fraction + plant->normal_frequency + plant->slip.decay +
+                 plant->slip.stiffness + plant->stick.decay + plant->stick.stiffness + plant->drive.re +
+                 plant->drive.im + plant->relative_drive + plant->base_acceleration + plant->holding_drive.re +
+                 plant->holding_drive.im + plant->spring + plant->damper + fast * fast + drag_over_mu + strongest;
+    return plant->mass_fraction < 1.0 && isfinite(sum);
 }
 
 /* Refuse values that together leave the range of floating point numbers; the text names the value that is the most
@@ -106,7 +90,7 @@ static bool provide_table(Tables *tables, System *system, Refusal *refusal) {
     if (!is_elastic(&system->bristle)) {
         return true;
     }
-    if (system->motion->averages) {
+    if (system->motion == &AVERAGED_MOTION) {
         tables->means = table_of(&tables->memory, tables->means, sizeof *tables->means);
         system->tables = tables->means;
     } else {

@@ -1,6 +1,7 @@
 #include "outputs.h"
 
 #include "../base/elementary.h"
+#include "../leap/period_map.h"
 #include "../resolved/motion.h"
 #include "variables.h"
 
@@ -25,7 +26,7 @@ static double normal_force(const System *system, const Moment *moment) {
 
 /* psi - n theta [rad], the same in all turns of the load; 0 where it never repeats. */
 static double normal_lead(const System *system, const Moment *moment) {
-    int turns = turns_of_load(system);
+    int turns = turns_of_period(system, MAX_TURNS_OF_LOAD, 0.0);
     if (turns == 0) {
         return 0.0;
     }

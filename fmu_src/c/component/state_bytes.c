@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "model_guid.h"
+#include "values.h"
 
 static const unsigned char FORMAT[8] = {'S', 'L', 'I', 'D', 'R', 'E', 'S', 2};
 
@@ -59,6 +60,12 @@ bool state_bytes_read(Snapshot *snapshot, const unsigned char *bytes, size_t siz
     }
     memcpy(&sum, bytes + CHECKED_SIZE, sizeof sum);
     memcpy(snapshot, bytes + HEADER_SIZE, SNAPSHOT_SIZE);
-    return sum == checksum(bytes) || refuse(refusal, "FMU state refused: damaged, its bytes do not match their "
-                                                     "checksum; must be bytes that a state was serialised to");
+    unsigned lifecycle = (unsigned)snapshot->lifecycle;
+    bool possible = lifecycle < LIFECYCLES && FMI.state_names[lifecycle] != NULL;
+    for (int i = 0; possible && i < SETTABLE_COUNT; i++) {
+        possible = value_check(&VARIABLES[i], snapshot->values[i], refusal);
+    }
+    return (possible && sum == checksum(bytes)) ||
+           refuse(refusal, "FMU state refused: damaged, its bytes do not match their "
+                           "checksum; must be bytes that a state was serialised to");
 }

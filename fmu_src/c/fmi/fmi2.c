@@ -1,8 +1,8 @@
 /* FMI 2.0 for co-simulation. In this order: an instance and its life cycle, values (all of a call or none), steps and
  * their status, the complete state.
  *
- * A refused call returns fmi2Error and leaves the instance as it was, ready for the next call. It never returns
- * fmi2Discard, which hosts take for a request to end the run early. */
+ * A refused call returns fmi2Error and leaves the instance as it was, ready for the next call. Only status functions
+ * return fmi2Discard, which hosts of other calls take for a request to end the run early. */
 #include "fmi2_api.h"
 #include "state_access.h"
 #include "value_access.h"

@@ -26,8 +26,8 @@ enum { IMPULSE, LEVER, BACK_RE, BACK_IM, LEFT };
 
 /* At the points of a panel of one `length` [s]: `time` [s], `response` G [m/(N s)], `turn` exp(i q t), and `drive`,
  * `normal` and `free`, int (exp(z s) - 1) ds from 0 to t [s] for z = i w, i q and lambda; `turn` and `normal` are
- * those of `normal_frequency` q. `end_drive` and `end_free` are exp(z t) at the end. `interpolating` are the barycentric
- * weights of the points but the last.
+ * those of `normal_frequency` q. `end_drive` and `end_free` are exp(z t) at the end. `interpolating` are the
+ * barycentric weights of the points but the last.
  *
  * Matrices, the node as first index: `travel` [m/N] turns forces a into displacements at the points (by G), `speed`
  * [m/(N s)] does so for impulses b, which act as forces b' (by G'). `left_even` and `left_late` turn a and b into the

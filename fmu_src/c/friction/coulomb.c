@@ -63,7 +63,7 @@ static void enter_next_mode(const Segment *segment, const System *system, Moment
     if (segment_released(segment)) {
         mode = segment->zero_of == 0 ? FORWARD : BACKWARD;
     } else if (segment_stopped(segment) || (switches && mode == LIFTED)) {
-        Phasors phasors = segment->known.known ? segment->known.phasors : phasors_of(plant, now);
+        Phasors phasors = segment->phasors.known ? segment->phasors.phasors : phasors_of(plant, now);
         int moving = direction_of(now->state.velocity);
         mode = moving != STICK ? moving : mode_at_rest(plant, now, &phasors);
     } else if (switches) {

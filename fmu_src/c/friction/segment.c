@@ -7,8 +7,8 @@
 static void set_segment(Segment *segment, const Plant *plant, const Moment *now, int direction) {
     segment->mode = now->mode;
     segment->direction = direction;
-    if (!segment->known.known) {
-        segment->known = (KnownPhasors){true, phasors_of(plant, now)};
+    if (!segment->phasors.known) {
+        segment->phasors = (KnownPhasors){true, phasors_of(plant, now)};
     }
 }
 
@@ -17,7 +17,7 @@ static void begin_series(Segment *segment, const System *system, const Bristle *
                          double tolerance) {
     segment->by_series = true;
     taylor_slide_begin(&segment->motion.series, &system->plant, bristle, segment->direction, now,
-                       &segment->known.phasors, tolerance);
+                       &segment->phasors.phasors, tolerance);
 }
 
 void segment_begin_slide(Segment *segment, const System *system, const Moment *now, int direction) {
@@ -36,7 +36,7 @@ void segment_begin_slide(Segment *segment, const System *system, const Moment *n
         return;
     }
     segment->by_series = false;
-    bending_panel_skip(&segment->motion.panel, split, plant, direction, now, &segment->known.phasors);
+    bending_panel_skip(&segment->motion.panel, split, plant, direction, now, &segment->phasors.phasors);
     segment->motion.panel.slide.works = segment->counts_means && now->mode != LIFTED;
 }
 
@@ -45,7 +45,8 @@ void segment_begin_bending(Segment *segment, const System *system, const Moment 
     BendingPanel *panel = &segment->motion.panel;
     double error = tolerance * velocity_scale(&system->plant, &now->state);
     set_segment(segment, &system->plant, now, direction);
-    BendingMotion motion = bending_panel_begin(panel, system, direction, now, &segment->known.phasors, longest, error);
+    BendingMotion motion =
+        bending_panel_begin(panel, system, direction, now, &segment->phasors.phasors, longest, error);
     segment->by_series = false;
     if (motion == BY_SERIES) {
         begin_series(segment, system, &system->bristle, now, tolerance);
@@ -106,7 +107,7 @@ static int watches_of(Segment *segment, Watch watches[2]) {
 void segment_follow(Segment *segment, const Plant *plant, Moment *now, double longest) {
     segment->t = fmin(longest, segment->by_series ? segment->motion.series.reach : segment->motion.panel.reach);
     segment->zero_of = -1;
-    segment->turns = false;
+    segment->changes_direction = false;
     if (!(segment->t > 0.0)) {
         return;
     }
@@ -126,8 +127,8 @@ void segment_follow(Segment *segment, const Plant *plant, Moment *now, double lo
             segment->zero_of = i;
         }
     }
-    segment->turns = direction != 0 && segment->mode != LIFTED && direction != now->sliding &&
-                     (panel_of(segment) > 0.0 || moves(&watches[0], segment->t));
+    segment->changes_direction = direction != 0 && segment->mode != LIFTED && direction != now->sliding &&
+                                 (panel_of(segment) > 0.0 || moves(&watches[0], segment->t));
 }
 
 /* Where the motion of a segment is after `t` [s]. */
@@ -144,9 +145,9 @@ static Passage passage_at(const void *motion, double t) {
 void segment_finish(Segment *segment, const Plant *plant, Moment *now) {
     Place end = place_of(segment, segment->t);
     now->state = end.state;
-    segment->known = end.known;
+    segment->phasors = end.known;
     segment->from_rest = segment_released(segment);
-    segment->known.known &= !segment_rests(segment); /* a step that ends at the release goes on in the same way */
+    segment->phasors.known &= !segment_rests(segment); /* a step that ends at the release goes on in the same way */
     segment->travelled = end.passed.travel;
     if (segment->counts_means) {
         Interval interval = {segment->t, end.state.velocity, end.passed, segment_rests(segment), passage_at, segment};
@@ -156,7 +157,7 @@ void segment_finish(Segment *segment, const Plant *plant, Moment *now) {
     }
     now->psi = within_turn(now->psi + turned_by(plant, segment->t));
     now->position += segment->travelled;
-    if (segment->turns) {
+    if (segment->changes_direction) {
         now->reversals += now->sliding == -segment->direction;
         now->sliding = segment->direction;
         now->event_age = 0.0;

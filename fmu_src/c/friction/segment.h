@@ -15,13 +15,13 @@ typedef struct Segment {
         TaylorSlide series;
         BendingPanel panel;
     } motion;
-    double t;          /* duration [s] once followed */
-    double travelled;  /* displacement of the slider [m] once finished */
-    int zero_of;       /* index of the watched signal whose zero ends it, or -1 */
-    bool from_rest;    /* set before: whether it begins at a release */
-    bool turns;        /* whether it slides, beyond rounding, in another direction than it slid before */
+    double t;               /* duration [s] once followed */
+    double travelled;       /* displacement of the slider [m] once finished */
+    int zero_of;            /* index of the watched signal whose zero ends it, or -1 */
+    bool from_rest;         /* set before: whether it begins at a release */
+    bool changes_direction; /* whether it slides, beyond rounding, in another direction than it slid before */
     bool counts_means; /* set before: whether it counts in the means of a period; the work of friction is 0 otherwise */
-    KnownPhasors known; /* set before: the phasors of the start, if they are known; once finished, of the end */
+    KnownPhasors phasors; /* set before: the phasors of the start, if they are known; once finished, of the end */
 } Segment;
 
 /* Sliding in `direction` under full friction, flight in contact mode LIFTED, or rest in contact with direction 0: in

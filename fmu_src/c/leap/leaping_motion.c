@@ -9,10 +9,10 @@
 #include "../resolved/motion.h"
 #include "leap.h"
 
-/* Largest number of turns after which the normal load may repeat, and distance of waves up to which it may: twice what a
- * drift of an eighth of a beat in the shortest step of a leap amounts to after so many turns. */
+/* A load whose waves in q turns, at most MAX_TURNS_OF_PERIOD, are off an integer by at most NEAR_REPEATING / q counts
+ * as one that repeats. Leaps need less: a drift below an eighth of a beat in their shortest step, 0.0035 waves. */
 enum { MAX_TURNS_OF_PERIOD = 4 };
-#define NEAR 0.03
+#define NEAR_REPEATING 0.03
 
 /* Fewest periods that may be left for a leap. */
 #define SHORTEST_LEAP 64.0
@@ -78,7 +78,7 @@ static double pause_after(const Leap *leap, int attempts) {
 /* The period map under the inputs of now. */
 static bool prepare_map(const Progress *progress, PeriodMap *map) {
     System system = system_after(progress->system, progress->clock.elapsed);
-    return period_map_prepare(map, &system, turns_of_period(&system, MAX_TURNS_OF_PERIOD, NEAR));
+    return period_map_prepare(map, &system, turns_of_period(&system, MAX_TURNS_OF_PERIOD, NEAR_REPEATING));
 }
 
 /* Advance the motion:

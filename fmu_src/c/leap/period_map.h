@@ -14,7 +14,7 @@
 /* Largest number of fast states: Y [m], Y' [m/s], and the bristle's friction per unit load. */
 enum { MAX_FAST = 3 };
 
-/* The motion at a section, as numbers: slow velocity V [m/s], the fast states, position X [m], and number of reversals so far. */
+/* The motion at a section, as numbers: slow velocity V [m/s], the fast states, position X [m], number of reversals. */
 enum { SLOW_VELOCITY, FAST_STATES, SLOW_POSITION = FAST_STATES + MAX_FAST, REVERSALS, NUMBERS };
 
 typedef struct {
@@ -39,12 +39,12 @@ typedef struct {
     double decay;           /* largest factor by which a transient decays in a period */
 } PeriodMap;
 
-/* Number of turns of the drive, at most `max_turns`, after which the normal load repeats, but for rounding or a distance
- * of the waves from an integer of at most `near` over that number; 0 if it does not. */
+/* Number of turns of the drive, at most `max_turns`, after which the normal load repeats, but for rounding or a
+ * distance of the waves from an integer of at most `near` over that number; 0 if it does not. */
 int turns_of_period(const System *system, int max_turns, double near);
 
-/* Prepare the map of a system of the full device, for a load that repeats after that number of turns. Return false where
- * there is none: where the load does not repeat, without vibration, or where transients do not decay. */
+/* Prepare the map of a system of the full device, for a load that repeats after that number of turns. Return false
+ * where there is none: where the load does not repeat, without vibration, or where transients do not decay. */
 bool period_map_prepare(PeriodMap *map, const System *system, int turns);
 
 /* Phase of the normal load [rad] at the section `periods` after it was `psi` [rad], as the inputs of the system began

@@ -5,18 +5,11 @@
 #include "../base/linear_system.h"
 #include "period_map.h"
 
-/* Largest number of turns after which the normal load may repeat. */
-enum { MAX_TURNS_OF_LOAD = 32 };
-
-int turns_of_load(const System *system) {
-    return turns_of_period(system, MAX_TURNS_OF_LOAD, 0.0);
-}
-
 /* Change of an unknown by which derivatives are taken. */
 #define BESIDE 1e-6
 
-/* Largest change of an unknown in an iteration, and the change at which the iteration ends: as it converges
- * quadratically, the next change would be rounding. Number of iterations. */
+/* Largest change of an unknown in an iteration, and the change at which the iteration ends: the
+ * derivatives err by about BESIDE, so that the next change would be rounding. Number of iterations. */
 #define MAX_CHANGE 0.2
 #define CONVERGED 1e-7
 enum { MAX_ITERATIONS = 24 };
@@ -110,10 +103,8 @@ static bool lead_in(Search *search) {
 
 /* Newton's method. Return false where it does not converge. */
 static bool solve(Search *search) {
-    if (!lead_in(search)) {
-        return false;
-    }
-    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
+    bool moves = lead_in(search);
+    for (int iteration = 0; moves && iteration < MAX_ITERATIONS; iteration++) {
         double step[UNKNOWNS], largest = 0.0;
         for (int i = 0; i < search->count; i++) {
             step[i] = -search->change[i];
@@ -128,10 +119,8 @@ static bool solve(Search *search) {
         for (int i = 0; i < search->count; i++) {
             search->unknown[i] += share * step[i];
         }
-        if (!change_in_period(search, search->unknown, search->change)) {
-            return false;
-        }
-        if (largest <= CONVERGED) {
+        moves = change_in_period(search, search->unknown, search->change);
+        if (moves && largest <= CONVERGED) {
             return true;
         }
     }
@@ -225,7 +214,8 @@ static Prediction second_order(const System *system, double normal_lead, Quantit
     System full;
     PeriodMap map;
     Prediction start, exact;
-    bool repeats = full_system(system, &full) && period_map_prepare(&map, &full, turns_of_load(system));
+    int turns = turns_of_period(system, MAX_TURNS_OF_LOAD, 0.0);
+    bool repeats = full_system(system, &full) && period_map_prepare(&map, &full, turns);
     double psi = repeats ? within_turn(normal_lead + system->inputs.frequency_ratio * map.section) : 0.0;
     double damping = damping_share(&system->bristle, system->fast.velocity, system->device.drive_frequency);
     if (repeats && is_elastic(&system->bristle) && damping <= 1.0) {

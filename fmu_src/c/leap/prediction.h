@@ -3,8 +3,8 @@
 
 #include "../averaged/first_order.h"
 
-/* Number of turns of the drive, at most 32, after which the normal load repeats; 0 if it does not. */
-int turns_of_load(const System *system);
+/* Largest number of turns of the drive after which the normal load may repeat. */
+enum { MAX_TURNS_OF_LOAD = 32 };
 
 /* The prediction of the averaging order of the device; `normal_lead` [rad] is psi - ratio theta. Where second order
  * finds no periodic motion, or the normal load never repeats, it is that of first order and not `valid`. */

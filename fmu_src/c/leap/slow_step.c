@@ -217,7 +217,7 @@ bool embedded_step(SlowPath *path, double *h, PathStep *result) {
     const PathPoint *here = &path->here;
     SlowRate rate = {here->rates.acceleration, here->rates.travel};
     SlowPoint from = {here->n, here->velocity, 0.0, rate};
-    double to_reach = reach_of_step(path) / fabs(rate.acceleration);
+    double to_reach = reach_of_step(path) / fmax(fabs(rate.acceleration), SMALLEST);
     double in_beat = periods_in_beat(map, here->n);
     double allowed = STEP_TOLERANCE * map->tolerance * map->speed;
     SlowStep step;

@@ -14,7 +14,7 @@
 static const char *const SEGMENTS = "segments of motion";
 
 /* Ends a search with the event at the time of the clock, unless the search ignores that time. */
-static bool found_at(EventSearch *search, const Clock *clock) {
+static bool record_event(EventSearch *search, const Clock *clock) {
     if (search == NULL || !(clock->elapsed > search->after)) {
         return false;
     }
@@ -29,9 +29,9 @@ static bool found_at(EventSearch *search, const Clock *clock) {
  * start of the search does not reverse. */
 static bool found_reversal(EventSearch *search, const Clock *clock, const Segment *segment, const Moment *begin,
                            Moment *now) {
-    bool turns = segment->turns && begin->state.velocity == 0.0 && begin->event_age != 0.0;
+    bool turns = segment->changes_direction && begin->state.velocity == 0.0 && begin->event_age != 0.0;
     bool moved = clock->elapsed > 0.0 || begin->sliding == -segment->direction;
-    if (!turns || !moved || !found_at(search, clock)) {
+    if (!turns || !moved || !record_event(search, clock)) {
         return false;
     }
     *now = *begin;
@@ -94,7 +94,7 @@ bool events_advance(const System *start, const Moment *moment, double duration, 
         return budget_refuse(budget, max_count * system->arc, MAX_STEP_SEGMENTS, SEGMENTS, refusal);
     }
     *now = *moment;
-    segment.known.known = false;
+    segment.phasors.known = false;
     segment.from_rest = now->state.velocity == 0.0;
     moment_enter(now, friction->mode(system, now));
     while (remaining > 0.0 && isfinite(now->state.velocity)) {
@@ -130,7 +130,7 @@ bool events_advance(const System *start, const Moment *moment, double duration, 
             clock = (Clock){duration, duration, 0.0};
             end_at_event(&segment, system, now);
         }
-        if (now->event_age == 0.0 && found_at(search, &clock)) {
+        if (now->event_age == 0.0 && record_event(search, &clock)) {
             break;
         }
     }

@@ -14,9 +14,6 @@ typedef struct {
 } Rates;
 
 typedef struct Motion {
-    /* Whether friction counts with its mean over a turn. */
-    bool averages;
-
     /* The first moment, at drive and normal phase 0, from the initial values of the device. */
     Moment (*start)(const System *system);
 

@@ -61,8 +61,3 @@ LUGRE_WITHOUT_FRICTION = (
     "friction_coefficient = {friction_coefficient!r} refused: with LuGre friction it must be a "
     "finite number above 0"
 )
-INFINITE_IN_STATE = "FMU state refused: {name} = {value}; must be a finite number"
-OUT_OF_RANGE_IN_STATE = (
-    "FMU state refused: {name} = {value}; must be an integer from {minimum:d} to {maximum:d}"
-)
-PHASE_IN_STATE = "FMU state refused: {name} = {value}; must be a phase from 0 to 2 pi"

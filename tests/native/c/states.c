@@ -2,7 +2,7 @@
  *
  *     states LIBRARY GUID SEED CASES SECONDS
  *
- * The variables that can be set end a state; the numbers before them are its fields.
+ * The variables that can be set and the life cycle end a state; the numbers before them are its fields.
  * Each case takes the state of some device in motion, changes a few of its numbers, seals it anew and
  * restores it; what is refused is left, what is accepted is stepped, read and stored again. Fails (1)
  * when an output that is read with fmi2OK is not finite, when an accepted state cannot be stored, or
@@ -15,7 +15,7 @@
 #include "random_values.h"
 #include "variables.h"
 
-enum { HEADER = 48, NUMBER = 8, MAX_BYTES = 8192, STEPS = 3 };
+enum { HEADER = 48, NUMBER = 8, END = 12, MAX_BYTES = 8192, STEPS = 3 };
 
 static FmuLibrary fmu;
 static double longest = 0.0, seconds;
@@ -127,13 +127,13 @@ static void try_case(fmi2Component c) {
     start(c);
     size = stored(c, bytes);
     if (size == 0) fail("a state could not be stored");
-    fields = (int)((size - HEADER) / NUMBER) - 1 - SETTABLE_COUNT;
-    memcpy(numbers, bytes + HEADER, size - HEADER - NUMBER);
+    fields = (int)((size - HEADER - END) / NUMBER) - SETTABLE_COUNT;
+    memcpy(numbers, bytes + HEADER, size - HEADER - END);
     for (changes = 1 + (int)below(4); changes > 0; changes--) {
         double *number = &numbers[below((unsigned)(fields + SETTABLE_COUNT))];
         *number = odd_number(*number);
     }
-    memcpy(bytes + HEADER, numbers, size - HEADER - NUMBER);
+    memcpy(bytes + HEADER, numbers, size - HEADER - END);
     seal(bytes, size);
     if (!restore(c, bytes, size)) return;
     restored++;
