@@ -385,7 +385,10 @@ def _in_the_run(trial: Trial, present: list[Variable], *, restores: bool) -> Non
     trial.faults += status_faults(instance, refused=True)
     trial.accepts_bounds("in a run", anytime)
     if state is not None:
-        state.restore()
+        if instance.fmu.offers.canSerializeFMUstate:
+            state.transfer(instance)
+        else:
+            state.restore()
         state.free()
         what = "a step far beyond the stop after a state is restored"
         trial.refuses_step(what, instance.time, beyond)
