@@ -45,8 +45,7 @@ static bool averaged_advance(const System *system, const Moment *moment, double 
     state.velocity = reached.velocity - drive * cos(theta) - share * swing.rate;
     state.displacement = swing.displacement;
     state.rate = swing.rate;
-    Moment next = {.state = state, .theta = theta, .psi = psi, .event_age = INFINITY};
-    next.sliding = moment->sliding;
+    Moment next = {.state = state, .theta = theta, .psi = psi, .event_age = INFINITY, .sliding = moment->sliding};
     next.reversals = moment->reversals;
     next.position = centre + reached.travel - drive / w * sin(theta) - share * swing.displacement;
     next.mode = mode_by_velocity(system, &next);

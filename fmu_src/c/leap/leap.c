@@ -91,10 +91,12 @@ Leap leap(const PeriodMap *map, const Moment *moment, double longest, Budget *bu
     PathPoint *here = &path.here;
     Leap done = {.outcome = NO_GAIN, .periods = DIFFERENCES};
     double error = moment->leap_error;
-    bool drifts = path.varies && periods_in_beat(map, 0.0) < SHORTEST_STEP;
-    bool found = !drifts && slow_rates(manifold, 0.0, &here->moment, &here->after, &here->rates);
-    if (drifts || (!found && isinf(here->rates.offset))) {
-        *after = *moment;
+    *after = *moment;
+    if (path.varies && periods_in_beat(map, 0.0) < SHORTEST_STEP) {
+        return (Leap){.outcome = NO_GAIN};
+    }
+    bool found = slow_rates(manifold, 0.0, &here->moment, &here->after, &here->rates);
+    if (!found && isinf(here->rates.offset)) {
         return (Leap){.outcome = NO_GAIN};
     }
     *after = here->after;
