@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from fmu_src.building.c_sources import slider_sources
+from slider_resonator.checks.measuring import Measurement
 from slider_resonator.errors import HarnessError
 from studies.mutants import judging
 from studies.mutants.archive import DESCRIPTION, PythonFmu, read_python_fmu
@@ -16,6 +17,7 @@ from studies.mutants.enumerate_source import source_mutants
 from studies.mutants.listing import print_run, summary
 from studies.mutants.mutant import KINDS, Mutant
 from studies.mutants.runs import run_mutants
+from studies.mutants.trial import BenchPoint, differs
 from studies.mutants.verdict import EQUIVALENT, REJECTED, SURVIVED, MutationRun, Verdict
 from tests.harness import faulty_fmus
 from tests.harness.golden import screen
@@ -157,6 +159,24 @@ def test_mutants_are_judged_once_and_kept(
     assert run.rate == 1.0
     monkeypatch.delattr(judging, "trial")  # nothing is left to be judged
     assert run_kept().verdicts == run.verdicts
+
+
+BOUNDED = """
+name = "bounded"
+title = "An estimate with a bound"
+run = { stop_time = 0.01, step_size = 0.01 }
+expect = [{ quantity = "slow_motion_error", at_most = 1e-6, why = "a bound" }]
+"""
+
+
+@pytest.mark.parametrize(("found", "status"), [(2.0e-7, False), (2.2e-7, True)])
+def test_a_result_with_a_bound_may_change_by_a_share_of_that(
+    tmp_path: Path, found: float, status: bool
+) -> None:
+    (tmp_path / "bounded.toml").write_text(BOUNDED)
+    (point,) = read_scene(tmp_path / "bounded.toml").points()
+    bench = BenchPoint(point.scene, point.at, (1e-6,), (Measurement(1.95e-7),))
+    assert differs(bench, [Measurement(found)]) is status
 
 
 def test_the_rate_counts_only_what_changes_a_result(run: MutationRun[Mutant]) -> None:
