@@ -9,6 +9,7 @@ from itertools import pairwise
 from math import isclose, sqrt
 
 from slider_resonator.checks.conduct.findings import is_refused, outputs_after
+from slider_resonator.checks.conduct.output_derivatives import status_faults
 from slider_resonator.checks.fmu_side import FmuSide
 from slider_resonator.errors import Refusal
 from slider_resonator.fmu.instance import Instance
@@ -92,6 +93,7 @@ def experiment_faults(fmu: FmuSide) -> list[str]:
                 faults.append("last_event_time does not begin at the start time")
             instance.step_by(size)
             instance.step_by(size)
+            faults += status_faults(instance)
     if instance.warned:
         faults.append(f"{instance.warned} is answered with a warning")
     return faults
