@@ -66,7 +66,7 @@ def trial(
             rejection = not_run(point, outcome)
             if rejection is None and point is not None:
                 rejection = first_failure(point, outcome.value)
-                differs = differs or differs(point, outcome.value)
+                differs = differs or changes_a_result(point, outcome.value)
             if rejection is not None:
                 return Tried(rejection, differs)
     return Tried(None, differs)
@@ -94,7 +94,7 @@ def point_name(point: ScenePoint) -> str:
     return f"{point.scene.name}{place(point.at, ' at ')}"
 
 
-def differs(point: BenchPoint, measured: Sequence[Measurement]) -> bool:
+def changes_a_result(point: BenchPoint, measured: Sequence[Measurement]) -> bool:
     """Whether a measurement differs from the original's by more than is negligible."""
     for expect, got, original in zip(point.scene.expect, measured, point.original, strict=True):
         if got.value is None or original.value is None:

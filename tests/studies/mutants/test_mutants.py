@@ -17,7 +17,7 @@ from studies.mutants.enumerate_source import source_mutants
 from studies.mutants.listing import print_run, summary
 from studies.mutants.mutant import KINDS, Mutant
 from studies.mutants.runs import run_mutants
-from studies.mutants.trial import BenchPoint, differs
+from studies.mutants.trial import BenchPoint, changes_a_result
 from studies.mutants.verdict import EQUIVALENT, REJECTED, SURVIVED, MutationRun, Verdict
 from tests.harness import faulty_fmus
 from tests.harness.golden import screen
@@ -176,7 +176,7 @@ def test_a_result_with_a_bound_may_change_by_a_share_of_that(
     (tmp_path / "bounded.toml").write_text(BOUNDED)
     (point,) = read_scene(tmp_path / "bounded.toml").points()
     bench = BenchPoint(point.scene, point.at, (1e-6,), (Measurement(1.95e-7),))
-    assert differs(bench, [Measurement(found)]) is status
+    assert changes_a_result(bench, [Measurement(found)]) is status
 
 
 def test_the_rate_counts_only_what_changes_a_result(run: MutationRun[Mutant]) -> None:
