@@ -152,7 +152,7 @@ def run_sweep(
     work = [__version__, fmu_digest, asdict(sweep.task), sweep.points]
     content = json.dumps(work, default=dict)
     digest = hashlib.sha256(content.encode()).hexdigest()
-    remedy = "move the file away, or discard it with --restart"
+    remedy = "move the file away, or discard it (--restart, restart=True)"
     with Journal(journal_path(out), "sweep", digest, remedy, restart=restart) as journal:
         found: list[Row] = [
             (number, cells, error) for kept in journal.entries for number, cells, error in kept

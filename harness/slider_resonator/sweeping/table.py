@@ -14,6 +14,7 @@ from slider_resonator.output.files import replacing, writable, write_csv
 from slider_resonator.sweeping.measures import Row, Task
 
 SUFFIXES = (".parquet", ".csv")
+REMEDY = "must be a new file, or allow it to be overwritten (--overwrite, overwrite=True)"
 
 Columns = Mapping[str, list[Any]]
 """Column name to its entries, one a point; None where there is none."""
@@ -43,7 +44,6 @@ def replaceable(path: Path, task: Task, points: Sequence[tuple[float, ...]]) -> 
     """
     if not path.exists():
         return {}
-    remedy = "must be a new file, or --overwrite to replace it"
     try:
         columns = _read(path)
         found = [[float(value) for value in columns[name]] for name in ("point", *task.names)]
@@ -52,11 +52,11 @@ def replaceable(path: Path, task: Task, points: Sequence[tuple[float, ...]]) -> 
     if not found or list(zip(*found, strict=True)) != [
         (float(number), *point) for number, point in enumerate(points)
     ]:
-        raise HarnessError(f"{path}: is not a table of this grid's points; {remedy}")
+        raise HarnessError(f"{path}: is not a table of this grid's points; {REMEDY}")
     lost = [name for name in columns if name not in dict(task.columns)]
     if lost:
         raise HarnessError(
-            f"{path}: has columns that this grid does not measure: {', '.join(lost)}; {remedy}"
+            f"{path}: has columns that this grid does not measure: {', '.join(lost)}; {REMEDY}"
         )
     return columns
 
@@ -83,7 +83,7 @@ def check_nothing_lost(path: Path, before: Columns, now: Columns) -> None:
             if old not in (None, "", new):
                 raise HarnessError(
                     f"{path}: has {name} = {old} at point {point}, now {new}, of another device, "
-                    "FMU or version; must be a new file, or --overwrite to replace it"
+                    f"FMU or version; {REMEDY}"
                 )
 
 

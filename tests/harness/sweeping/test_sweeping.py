@@ -107,7 +107,7 @@ def test_points_of_another_grid_are_refused(native_fmu: Path, tmp_path: Path) ->
     out = tmp_path / "a.csv"
     with Journal(journal_path(out), "sweep", "other", ""):
         pass
-    with pytest.raises(HarnessError, match="another sweep"):
+    with pytest.raises(HarnessError, match=r"another sweep.*restart=True"):
         run_sweep(FEW, native_fmu, out, workers=1)
     assert run_sweep(FEW, native_fmu, out, workers=1, restart=True).found == 0
 
@@ -166,7 +166,7 @@ def test_only_a_table_of_this_sweep_is_replaced_unasked(native_fmu: Path, tmp_pa
     more = table.replace("error", "blocking_force,error", 1).replace(",\n", ",1.0,\n")
     for text, said in (*((text, "is not a table of|has ") for text in damaged), (more, "measure")):
         out.write_text(text)
-        with pytest.raises(HarnessError, match=rf"a\.csv: .*({said}).*--overwrite"):
+        with pytest.raises(HarnessError, match=rf"a\.csv: .*({said}).*overwrite=True"):
             run_sweep(FEW, native_fmu, out, workers=1)
         assert out.read_text() == text
     run_sweep(FEW, native_fmu, out, workers=1, overwrite=True)
@@ -189,7 +189,7 @@ def test_kept_points_do_not_replace_other_results(native_fmu: Path, tmp_path: Pa
     out.write_text(own)
     with pytest.raises(KeyboardInterrupt):
         run_sweep(FEW, native_fmu, out, workers=1, overwrite=True, progress=interrupt)
-    with pytest.raises(HarnessError, match=r"must be a new file, or --overwrite"):
+    with pytest.raises(HarnessError, match=r"must be a new file, or allow it"):
         run_sweep(FEW, native_fmu, out, workers=1)
     assert out.read_text() == own
 
