@@ -114,8 +114,9 @@ class Choosing:
         tie = f"{CHEAPEST}, {least:.3g} s, or within {SAME_COST - 1.0:.0%} of it"
         why = CHEAPEST if best.cost == least else tie
         for one in sorted(good, key=lambda one: -one.cost):
-            other = f"meets the needs too, at {one.cost:.3g} s instead of {best.cost:.3g} s"
-            ruled_out[one.candidate.model] = other
+            own, chosen = f"{one.cost:.3g} s", f"{best.cost:.3g} s"
+            at = f"at {own} instead of {chosen}" if own != chosen else "at the same cost"
+            ruled_out[one.candidate.model] = f"meets the needs too, {at}"
         return self._choice(best, {model: ruled_out[model] for model in every}, why)
 
     def _impossible(self) -> str:
