@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any, ClassVar, TypeVar
 
+from slider_resonator.device.device import DEVIATIONS
 from slider_resonator.device.drive_periods import MAX_DENOMINATOR
 from slider_resonator.device.interface import INPUTS, VARIABLES
 from slider_resonator.errors import HarnessError
@@ -28,7 +29,7 @@ class SearchResult(Shown):
     What is `searched` is a field, in `unit`.
     `status` is for machines, `reason` for people; `predicted` is the FMU's own output and
     `prediction_valid` what the FMU says of it, None where it has no such output. `inputs` are those
-    that were held, in SI units, with friction on `friction_faces`.
+    that were held, in SI units, deviations only where not 0, with friction on `friction_faces`.
     The common period has `common_period` drive periods; `periods` counts all simulated ones.
     `multipliers` are the Floquet multipliers, largest first, `residual` the largest change of the
     state over the common period in units of its scale.
@@ -225,7 +226,8 @@ def _result(
     valid = run.values.get("prediction_valid")
     return kind(
         *(status, reason, run.values[kind.searched], None if valid is None else valid == 1.0),
-        {name: run.values[name] for name in kind.held},
+        {name: run.values[name] for name in kind.held}
+        | {name: run.given[name] for name in DEVIATIONS if run.given.get(name)},
         int(run.device.friction_faces),
         common_period=run.drive_periods or None,
         periods=run.periods,

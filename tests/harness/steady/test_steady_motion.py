@@ -55,6 +55,13 @@ def test_no_steady_motion(instance: Instance, values: Values, status: str, reaso
     assert reason in motion.reason
 
 
+def test_deviations_of_the_drive_are_among_the_inputs(instance: Instance) -> None:
+    values = {"frequency_deviation": 0.02, "amplitude_deviation": 0.0}
+    for motion in (find_steady(instance, values), find_blocking(instance, values)):
+        (line,) = [line for line in motion.describe() if line.startswith("inputs")]
+        assert line.endswith(", frequency_ratio 1, frequency_deviation 0.02")
+
+
 def test_a_kept_jacobian_that_does_not_help_is_renewed(instance: Instance) -> None:
     values = {"phase": 5.83, "normal_amplitude": 1.3, "frequency_ratio": 0.5}
     resonator = {"base_amplitude": 1e-5, "resonator_frequency": 1e3, "damping_ratio": 0.01}
