@@ -73,7 +73,7 @@ def step_option(what: str) -> Callable[[FC], FC]:
     return click.option("--step", "step_size", type=DURATION, help=said)
 
 
-def target(suffixes: Sequence[str] = ()) -> Parsed[Path]:
+def target(suffixes: Sequence[str]) -> Parsed[Path]:
     """Return a file to write, checked before anything runs; `suffixes` are the allowed ones."""
     return Parsed("FILE", partial(writable, suffixes=suffixes))
 

@@ -52,7 +52,7 @@ def _overlay(text: str) -> tuple[str, float] | Path:
 @click.argument("scene", required=False)
 @options.stop_time_option
 @options.step_option("The communication step")
-@click.option("--out", type=options.target(), help="CSV file of the run.")
+@click.option("--out", type=options.target([".csv"]), help="CSV file of the run.")
 @click.option(
     "--plot",
     type=options.target(PICTURE_SUFFIXES),

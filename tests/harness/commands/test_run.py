@@ -16,9 +16,9 @@ from tests.harness.calling import call, refused
 
 
 def test_nothing_that_is_read_is_overwritten(python_fmu: Path, tmp_path: Path) -> None:
-    fmu = Path(shutil.copy(python_fmu, tmp_path / "copy.fmu"))
-    scene = Path(shutil.copy(find_scene("lift_off").files[0], tmp_path / "scene.toml"))
-    device = Path(shutil.copy(find_device("conveyor"), tmp_path / "mine.toml"))
+    fmu = Path(shutil.copy(python_fmu, tmp_path / "copy.csv"))
+    scene = Path(shutil.copy(find_scene("lift_off").files[0], tmp_path / "scene.csv"))
+    device = Path(shutil.copy(find_device("conveyor"), tmp_path / "mine.csv"))
     sources = ((fmu, "is the FMU"), (scene, "is the scene's file"), (device, "is the device"))
     for target, reported in sources:
         before = target.read_bytes()
