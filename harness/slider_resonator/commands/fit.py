@@ -132,7 +132,7 @@ def fit_command(
     if not len(measurements.measured):
         raise click.UsageError("no measurements: must be CSV files, --velocity or --blocking")
     if out is not None:
-        make_folder(out)
+        make_folder(out, keep=False)
         sources = {f"the data {path.name}": path for path in data} | given.sources
         distinct({f"{name} of --out": out / name for name in FILES}, sources)
         if (out / "device.toml").exists() and not (out / "fit.html").exists():

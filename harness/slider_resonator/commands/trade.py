@@ -119,10 +119,11 @@ def trade_command(
         noting_on_interrupt(partial(_kept, trades, problems, out)),
         progress_bar() as progress,
     ):
-        make_folder(out)
+        make_folder(out, keep=False)
         for index, problem in enumerate(problems):
             part = part_of(progress, index, len(problems))
             trades.append(measure_trade(problem, instances, part, repeats=repeats, budget=budget))
+            make_folder(out)
             # After each scene, so that a later failure does not lose minutes of measurement.
             page, rows, omissions = tables.values()
             write_tables(rows, omissions, trades)

@@ -3,7 +3,7 @@
 import csv
 import stat
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory, TemporaryFile
 from typing import Any
@@ -51,10 +51,17 @@ def writable(text: str, suffixes: Sequence[str] = ()) -> Path:
     return path
 
 
-def make_folder(path: Path) -> None:
-    """Create a folder for results if it does not exist; HarnessError when that is impossible."""
+def make_folder(path: Path, *, keep: bool = True) -> None:
+    """Create a folder for results if it does not exist; HarnessError when that is impossible.
+
+    Without `keep` only try it: what is new is removed.
+    """
     with explained(f"{path}: cannot be made a folder: ", HarnessError):
+        new = [one for one in (path, *path.parents) if not one.exists()]
         path.mkdir(parents=True, exist_ok=True)
+    with suppress(OSError):
+        for one in () if keep else new:
+            one.rmdir()
 
 
 def distinct(targets: Mapping[str, Path | None], sources: Mapping[str, Path]) -> None:
