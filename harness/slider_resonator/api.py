@@ -291,7 +291,9 @@ def fit(
     check_kind(Mapping, "lowest and highest value by name", bounds=bounds)
     measurements = measurements_of(data)
     names = [free] if isinstance(free, str) else free
-    checked = {**parameters_of(device), **values_of(values)}
+    settings = values_of(values)
+    measurements.refuse_known(settings)
+    checked = {**parameters_of(device), **settings}
     with isolated(fmu_of(fmu), jobs or available_cores(), time_limit) as run:
         return fit_parameters(
             measurements, names, checked, run, bounds=plain(bounds), starts=starts

@@ -131,6 +131,7 @@ def fit_command(
     )
     if not len(measurements.measured):
         raise click.UsageError("no measurements: must be CSV files, --velocity or --blocking")
+    measurements.refuse_known(given.settings)
     if out is not None:
         make_folder(out, keep=False)
         sources = {f"the data {path.name}": path for path in data} | given.sources

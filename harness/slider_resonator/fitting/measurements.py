@@ -142,6 +142,16 @@ class Measurements:
             return self.deviations
         return self.sizes * self.noise
 
+    def refuse_known(self, settings: Mapping[str, float]) -> None:
+        """Raise HarnessError for a setting of no effect, as all data have values of their own."""
+        own = [(one.source, {*one.values}) for one in self.points]
+        own += [(run.source, {*run.schedule.signals, *run.schedule.tuning}) for run in self.runs]
+        for name, value in settings.items():
+            if all(name in names for _, names in own):
+                raise HarnessError(
+                    f"{name} = {value:g}: {own[0][0]} has values of {name}; must be one of the two"
+                )
+
     def under(self, inputs: Mapping[str, float]) -> "Measurements":
         """Return the same with inputs of the points that do not say them."""
         points = (replace(point, values={**inputs, **point.values}) for point in self.points)

@@ -42,6 +42,14 @@ def test_a_fit_writes_its_device(data: Path, native_fmu: Path, tmp_path: Path) -
     assert "device.toml is the device; must be a file of its own" in " ".join(said.split())
 
 
+def test_a_setting_is_not_a_column(data: Path, native_fmu: Path) -> None:
+    free = ("--free", "damping_ratio", "--fmu", native_fmu)
+    said = refused("fit", data, *free, "--set", "load=500 mN", "phase=0.3")
+    assert f"phase = 0.3: {data} has values of phase; must be one of the two" in said
+    with pytest.raises(sr.HarnessError, match=r"^phase = 0\.3: .* has values of phase"):
+        sr.fit(data, "damping_ratio", native_fmu, phase=0.3)
+
+
 def test_what_is_left_open_is_exit_code_1(data: Path, native_fmu: Path) -> None:
     free = "normal_preload,normal_amplitude,friction_coefficient"
     ran = call("fit", data, "--fmu", native_fmu, "--free", free, "--starts", 1, "--json")
