@@ -145,10 +145,9 @@ class ExpectedValues(AbstractContextManager["ExpectedValues"]):
         """
         outcome = self._values[point].result()
         if isinstance(outcome.error, FmuDied):
-            reason = str(outcome.error).replace("the FMU", "it")
             raise HarnessError(
                 f"scene {point.scene.name}: the process that computes its references has ended: "
-                f"{reason}"
+                f"{outcome.error}"
             )
         values: list[Any] = outcome.result()
         return values

@@ -18,6 +18,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
+import slider_resonator as sr
 from slider_resonator.fmu.limits import DEFAULTS, MEMORY
 from tests.harness import faulty_fmus
 from tests.harness.calling import call, refused
@@ -256,6 +257,17 @@ def wait_until(condition: Callable[[], bool]) -> None:
             return
         time.sleep(0.05)
     raise AssertionError("it takes too long")
+
+
+def test_an_fmu_that_crashes_as_it_is_opened_is_named(native_fmu: Path, tmp_path: Path) -> None:
+    cut = faulty_fmus.altered(
+        *(native_fmu, tmp_path / "cut.fmu"),
+        lambda name, content: content[: len(content) // 2] if "/linux64/" in name else content,
+    )
+    said = "cut.fmu crashed in fmi2Instantiate: its process ended with SIG"
+    assert refused("steady", cut).startswith(f"error: {said}")
+    with pytest.raises(sr.HarnessError, match=f"^{said}"):
+        sr.open_fmu(cut)
 
 
 def test_a_crash_after_the_run_ends_with_2(native_fmu: Path, tmp_path: Path) -> None:

@@ -41,11 +41,11 @@ def missed_limit(trace: str, ending: Ending) -> bool:
     return ending.code is None or (ending.code != 0 and _LIMIT_MISSED in trace)
 
 
-def crash_report(printed: str, trace: str, ending: Ending, limit: float) -> str:
+def crash_report(fmu: str, printed: str, trace: str, ending: Ending, limit: float) -> str:
     """Return a sentence on how the process of an FMU ended.
 
-    `printed` is the end of what it wrote to standard error, `trace` the traceback of the call that
-    it was in, `limit` its time limit (s).
+    `fmu` is the name of its file, `printed` the end of what it wrote to standard error, `trace` the
+    traceback of the call that it was in, `limit` its time limit (s).
     """
     call = next((_CALLS[name] for name in _FRAME.findall(trace) if name in _CALLS), "")
     if _FRAME_3.search(trace):
@@ -53,22 +53,21 @@ def crash_report(printed: str, trace: str, ending: Ending, limit: float) -> str:
     where = f" in {call}" if call else ""
     if ending.memory is not None:
         report = (
-            f"the FMU was ended: it had {ending.memory >> 20} MiB in memory; must be at most "
+            f"{fmu} was ended: it had {ending.memory >> 20} MiB in memory; must be at most "
             f"{max_bytes(MEMORY) >> 20} MiB (--max-memory)"
         )
     elif ending.processes is not None:
         report = (
-            f"the FMU was ended: it had {ending.processes} processes; must be at most "
-            f"{MAX_PROCESSES}"
+            f"{fmu} was ended: it had {ending.processes} processes; must be at most {MAX_PROCESSES}"
         )
     elif missed_limit(trace, ending):
-        report = f"no answer within the time limit of {limit:g} s{where}: the FMU was ended"
+        report = f"no answer within the time limit of {limit:g} s{where}: {fmu} was ended"
     else:
         end = f"exit code {ending.code}"
         if ending.code is not None and ending.code < 0:
             end = f"signal {-ending.code}"
             with suppress(ValueError):
                 end = signal.Signals(-ending.code).name
-        report = f"the FMU crashed{where}: its process ended with {end}"
+        report = f"{fmu} crashed{where}: its process ended with {end}"
     own = " ".join(printed.split())[-MAX_PRINTED:]
     return f"{report}; it printed: {own}" if own else report

@@ -63,6 +63,7 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
     ) -> None:
         self.time_limit = time_limit
         self._stop = stop or threading.Event()
+        self._name = fmu.name if fmu else "it"
         self._killed = False
         self._resources = ExitStack()
         # Also for the unpacked FMU, which a process that has crashed leaves behind.
@@ -174,7 +175,7 @@ class IsolatedFmu(AbstractContextManager["IsolatedFmu"]):
         self._process.wait(POLL_INTERVAL)
         ending = self._process.end()
         trace = _last(self._folder / messages.TRACEBACK)
-        report = crash_report(_last(self._log), trace, ending, self.time_limit)
+        report = crash_report(self._name, _last(self._log), trace, ending, self.time_limit)
         over = missed_limit(trace, ending) or ending.over_limit
         self.kill()
         return FmuDied(report, over_limit=over)

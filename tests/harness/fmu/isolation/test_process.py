@@ -101,7 +101,7 @@ def test_the_fmu_shares_no_stream_with_the_harness(isolated: IsolatedFmu) -> Non
 def test_a_crash_of_fmi_3_names_its_function(native_3_fmu: Path) -> None:
     with (
         IsolatedFmu(native_3_fmu, 60.0) as isolated,
-        pytest.raises(FmuDied, match=r"the FMU crashed in fmi3DoStep: .* SIGSEGV"),
+        pytest.raises(FmuDied, match=rf"^{native_3_fmu.name} crashed in fmi3DoStep: .* SIGSEGV"),
     ):
         isolated.run(tasks.crash_in_step_of_fmi_3)
 
@@ -131,16 +131,18 @@ TRACE = (
 
 
 def test_a_crash_names_the_call_and_the_signal() -> None:
-    assert crash_report("stepping\n", TRACE, Ending(-6), 60.0) == (
-        "the FMU crashed in fmi2DoStep: its process ended with SIGABRT; it printed: stepping"
+    assert crash_report("a.fmu", "stepping\n", TRACE, Ending(-6), 60.0) == (
+        "a.fmu crashed in fmi2DoStep: its process ended with SIGABRT; it printed: stepping"
     )
 
 
 def test_a_missed_time_limit_is_reported_however_the_process_ended() -> None:
     trace = TRACE.replace("Fatal Python error: Aborted", "Timeout (0:01:00)!")
-    expected = "no answer within the time limit of 60 s in fmi2DoStep: the FMU was ended"
-    assert crash_report("", trace, Ending(1), 60.0) == expected
-    assert crash_report("", "", Ending(None), 60.0) == expected.replace(" in fmi2DoStep", "")
+    expected = "no answer within the time limit of 60 s in fmi2DoStep: a.fmu was ended"
+    assert crash_report("a.fmu", "", trace, Ending(1), 60.0) == expected
+    assert crash_report("a.fmu", "", "", Ending(None), 60.0) == expected.replace(
+        " in fmi2DoStep", ""
+    )
     assert missed_limit(trace, Ending(1))
     assert missed_limit(trace, Ending(-11)), "it crashed while it wrote the trace"
     assert missed_limit("", Ending(None))
@@ -148,8 +150,8 @@ def test_a_missed_time_limit_is_reported_however_the_process_ended() -> None:
 
 def test_printed_text_is_not_taken_for_a_traceback() -> None:
     printed = TRACE.replace("Fatal Python error: Aborted", "Timeout (0:01:00)!")
-    assert crash_report(printed, "", Ending(1), 60.0).startswith(
-        "the FMU crashed: its process ended with exit code 1; it printed: Timeout"
+    assert crash_report("a.fmu", printed, "", Ending(1), 60.0).startswith(
+        "a.fmu crashed: its process ended with exit code 1; it printed: Timeout"
     )
 
 
@@ -163,4 +165,4 @@ def test_printed_text_is_not_taken_for_a_traceback() -> None:
 def test_exceeded_limits(ending: Ending, what: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(MEMORY, "300")
     assert not missed_limit("", ending)
-    assert crash_report("", "", ending, 60.0) == f"the FMU was ended: it had {what}"
+    assert crash_report("a.fmu", "", "", ending, 60.0) == f"a.fmu was ended: it had {what}"
