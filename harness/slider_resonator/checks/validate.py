@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -70,7 +70,7 @@ class Validation(Shown, Tabular):
 
     `run_failures` are scenes that could not be run, `curves` the signals that differ. `lacks` are
     the later variables of the interface that the FMU does not have, `not_applied` the checks that
-    say nothing about it.
+    say nothing about it. `others_judged` says that another FMU of the run had checks.
     """
 
     fmu: str
@@ -82,6 +82,7 @@ class Validation(Shown, Tabular):
     not_applied: tuple[NotApplied, ...] = ()
     identity: FmuIdentity | None = None
     overviews: tuple[Curves, ...] = ()
+    others_judged: bool = False
 
     @property
     def passed(self) -> bool:
@@ -90,14 +91,19 @@ class Validation(Shown, Tabular):
 
     @property
     def exit_code(self) -> int:
-        """0 for a pass, 1 for a failed check, 2 when a scene could not run or nothing applies."""
-        if self.run_failures or not self.checks:
+        """0 for a pass, 1 for a failed check, 2 when a scene could not run.
+
+        Also 2 where no check applies, unless another FMU of the run had checks.
+        """
+        if self.run_failures or not (self.checks or self.others_judged):
             return 2
         return int(bool(self.failed))
 
     @property
     def outcome(self) -> str:
         """The verdict in words."""
+        if not (self.checks or self.run_failures):
+            return f"none of {number_of(len(self.not_applied), 'check')} applies"
         return ("pass", "fail", "could not be run")[self.exit_code]
 
     @property
@@ -189,7 +195,8 @@ def validate(
             judged = judge_points(path, points, measure_all, judge, part, time_limit, jobs)
             validations.append(judged)
     progress("", 1.0)
-    return tuple(validations)
+    is_judged = any(one.checks for one in validations)
+    return tuple(replace(one, others_judged=is_judged) for one in validations)
 
 
 def points_to_check(scene: Scene) -> tuple[ScenePoint, ...]:

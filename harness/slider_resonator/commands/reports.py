@@ -101,6 +101,8 @@ def print_verdicts(
         if (validation.checks or validation.not_applied) and not as_json:
             print_validation(output(), validation, details=details, only_failed=only_failed)
         print_run_failures(validation.fmu, validation.run_failures)
+        if validation.exit_code == 2 and not validation.run_failures:
+            print_text(f"error: {validation.fmu}: {validation.outcome}", err=True)
 
 
 def print_run_failures(fmu: str, run_failures: Sequence[RunFailure]) -> None:

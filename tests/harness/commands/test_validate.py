@@ -76,6 +76,23 @@ def test_the_option_that_limits_the_scenes_is_named(native_fmu: Path, tmp_path: 
     assert call("validate", native_fmu, "--scene", sound).stderr == ""
 
 
+def test_an_fmu_on_which_nothing_applies_passes_beside_others(
+    native_fmu: Path, tmp_path: Path
+) -> None:
+    other = faulty_fmus.redescribed(
+        *(native_fmu, tmp_path / "other.fmu"),
+        *(b'canInterpolateInputs="true"', b'canInterpolateInputs="false"'),
+    )
+    scene = faulty_fmus.scene(tmp_path)
+    text = scene.read_text().replace("[run]", "[run]\ninterpolate = true")
+    scene.write_text(text + "[inputs]\nload = { ramp = [[0.0, 0.0], [0.002, 0.1]] }\n")
+    both, report, _ = reported(tmp_path, native_fmu, other, "--scene", scene)
+    assert (both.exit_code, report["passed"], both.stderr) == (0, True, "")
+    alone, report, _ = reported(tmp_path, other, "--scene", scene)
+    said = f"error: {other}: none of 1 check applies\n"
+    assert (alone.exit_code, report["passed"], alone.stderr) == (2, False, said)
+
+
 def test_a_scene_at_fault_is_reported_too(native_fmu: Path, tmp_path: Path) -> None:
     scene = tmp_path / "mine.toml"
     scene.write_text('name = "mine"\ntitle = "It expects nothing"\n')
