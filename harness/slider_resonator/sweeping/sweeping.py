@@ -2,21 +2,26 @@
 
 import hashlib
 import json
-from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections import Counter, deque
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass
 from functools import partial
 from importlib.util import find_spec
+from itertools import islice, starmap
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from slider_resonator import __version__
 from slider_resonator.device.interface import VARIABLES
 from slider_resonator.errors import HarnessError
-from slider_resonator.fmu.isolation.messages import Outcome
 from slider_resonator.fmu.isolation.process import TIME_LIMIT, FmuDied
-from slider_resonator.fmu.isolation.tasks import LocalProcesses, Processes, run_all_tasks
+from slider_resonator.fmu.isolation.tasks import (
+    QUEUED,
+    LocalProcesses,
+    Processes,
+    run_all_tasks,
+)
 from slider_resonator.fmu.opening import open_fmu
 from slider_resonator.fmu.provenance import digest_of
 from slider_resonator.output.console import noting_on_interrupt
@@ -50,12 +55,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-BATCH = 200
+BATCH = 100
 """Points whose predictions are proved in one task."""
 ATTEMPTS = 3
 """Processes that may die at a point before it counts as the cause."""
 
-_Key = TypeVar("_Key")
 Keep = Callable[[Sequence[Row]], None]
 """Called with rows as they come, in any order."""
 
@@ -212,41 +216,30 @@ def run_sweep(
 def run_points(processes: Processes, task: Task, points: Sequence[Point], keep: Keep) -> None:
     """Compute all points.
 
-    What the FMU predicts is proved in batches; what remains is measured point by point. A point
-    that exceeds a limit, or at which processes keep dying, has an error as its row. Raises FmuError
-    when the FMU cannot be used.
+    What the FMU predicts is proved in batches; what remains of one is measured point by point
+    before further batches. A point that exceeds a limit, or at which processes keep dying, has an
+    error as its row. Raises FmuError when the FMU cannot be used.
     """
-    left: list[tuple[Point, Proved]] = [(point, {}) for point in points]
-    if any(name in SEARCHES for name in task.measures):
-        left = []
-        batches = [tuple(points[first : first + BATCH]) for first in range(0, len(points), BATCH)]
-        tasks = [(batch, partial(prove_points, task=task, points=batch)) for batch in batches]
-        for batch, outcome in _outcomes(processes, tasks):
-            found = outcome.value if outcome.error is None else [{}] * len(batch)
-            pairs = list(zip(batch, found, strict=True))
-            keep([one for _, one in pairs if isinstance(one, tuple)])
-            left += [(point, one) for point, one in pairs if not isinstance(one, tuple)]
-    searches = [
-        (point, partial(measure_point, task=task, point=point, proved=proved))
-        for point, proved in left
-    ]
-    for point, outcome in _outcomes(processes, searches):
+
+    def measuring(point: Point, proved: Proved) -> partial[Any]:
+        return partial(measure_point, task=task, point=point, proved=proved)
+
+    first = [] if any(name in SEARCHES for name in task.measures) else points
+    starts = range(0, 0 if first else len(points), BATCH)
+    batches = (partial(prove_points, task=task, points=points[n : n + BATCH]) for n in starts)
+    begun = [*(measuring(point, {}) for point in first), *islice(batches, QUEUED * processes.count)]
+    queue = deque(((work, 1), work) for work in begun)
+    for (work, attempt), outcome in run_all_tasks(processes, queue, outcomes=(HarnessError,)):
         error = outcome.error
-        keep([outcome.value if error is None else failed_row(task, point[0], str(error))])
-
-
-def _outcomes(
-    processes: Processes, tasks: Sequence[tuple[_Key, Callable[..., Any]]]
-) -> Iterator[tuple[_Key, Outcome]]:
-    """Yield the outcomes of tasks; one whose process ends runs again, as others may be at fault."""
-    left = tasks
-    for attempt in range(ATTEMPTS):
-        died = []
-        again = [(one, one[1]) for one in left]
-        for one, outcome in run_all_tasks(processes, again, outcomes=(HarnessError,)):
-            error, is_last = outcome.error, attempt == ATTEMPTS - 1
-            if isinstance(error, FmuDied) and not error.over_limit and not is_last:
-                died.append(one)
-            else:
-                yield one[0], outcome
-        left = died
+        if isinstance(error, FmuDied) and not error.over_limit and attempt < ATTEMPTS:
+            queue.append(((work, attempt + 1), work))  # others may be at fault
+        elif "point" in work.keywords:
+            number, _ = work.keywords["point"]
+            keep([outcome.value if error is None else failed_row(task, number, str(error))])
+        else:
+            batch = work.keywords["points"]
+            found = outcome.value if error is None else [{}] * len(batch)
+            keep([one for one in found if isinstance(one, tuple)])
+            left = [pair for pair in zip(batch, found, strict=True) if isinstance(pair[1], dict)]
+            queue.extendleft(((one, 1), one) for one in starmap(measuring, reversed(left)))
+            queue.extend(((one, 1), one) for one in islice(batches, 1))

@@ -1,14 +1,18 @@
 """Points of a sweep: what is measured or proved, and what fails, hangs or crashes the FMU."""
 
+from concurrent.futures import Future
 from math import tau
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from slider_resonator.fmu.instance import Instance
-from slider_resonator.fmu.isolation.tasks import LocalProcesses
+from slider_resonator.fmu.isolation.messages import Outcome
+from slider_resonator.fmu.isolation.tasks import QUEUED, LocalProcesses
 from slider_resonator.steady.searches import find_steady
+from slider_resonator.sweeping import sweeping
 from slider_resonator.sweeping.measures import (
     STATISTICS,
     Row,
@@ -98,6 +102,25 @@ def rows_of(fmu: Path, time_limit: float, measure: str = "velocity.rms") -> list
         run_points(processes, task, POINTS, kept.extend)
     assert sorted(row[0] for row in kept) == [0, 1, 2], "each point is computed once"
     return sorted(kept)
+
+
+def test_points_of_a_batch_are_kept_before_all_batches_are_proved(
+    native_fmu: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sweeping, "BATCH", 2)
+    points = [(number, (0.01 * number,)) for number in range(20)]
+    done: list[str] = []
+
+    class Noted(LocalProcesses):
+        def submit(self, task: Any) -> Future[Outcome]:
+            done.append(task.func.__name__)
+            return super().submit(task)
+
+    kept: list[Row] = []
+    with Noted(native_fmu, 60.0) as processes:
+        run_points(processes, BOTH, points, kept.extend)
+    assert sorted(row[0] for row in kept) == [*range(20)]
+    assert done.index("measure_point") <= QUEUED < done.count("prove_points") == 10
 
 
 @pytest.mark.isolated

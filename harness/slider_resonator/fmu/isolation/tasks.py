@@ -159,6 +159,7 @@ def run_all_tasks(
 ) -> Iterator[tuple[Item, Outcome]]:
     """Run a task for each item, however many crash; yield item and outcome, in this order.
 
+    A deque of `tasks` is emptied, and may get more of them while outcomes are taken.
     Errors that are among the `outcomes` of a task are yielded, others raised: FmuError when the FMU
     cannot be run at all.
     """
@@ -180,7 +181,7 @@ def _outcomes(
     each process. The outcomes do not depend on their number, for an FMU in which each run is
     independent of those before. The last outcome is that of an FMU that cannot be opened.
     """
-    waiting = deque(tasks)
+    waiting = tasks if isinstance(tasks, deque) else deque(tasks)
     submitted: deque[tuple[Item, Task, Future[Outcome]]] = deque()
     count, has_opened = processes.count, False
     while True:
