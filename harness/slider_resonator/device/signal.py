@@ -55,15 +55,6 @@ class Signal:
                 f"must have them from 0 s to {stop:.9g} s, the end of the run"
             )
 
-    def check_changes_before(self, stop: float) -> None:
-        """Raise ValueError where a value, but of a file, changes only after `stop` (s)."""
-        begins = self.jumps or self.times
-        for begin, before, after in zip(begins, self.values, self.values[1:], strict=False):
-            if self.file is None and before != after and begin >= stop * (1.0 - GRID_TOLERANCE):
-                raise ValueError(
-                    f"changes at {begin:.9g} s: must be before {stop:.9g} s, the end of the run"
-                )
-
     @property
     def jumps(self) -> tuple[float, ...]:
         """Times (s) at which the value jumps."""

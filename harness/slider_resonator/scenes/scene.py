@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import inf, pi
+from math import pi
 from pathlib import Path
 from typing import Any
 
@@ -327,7 +327,7 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
     else:
         starts |= {name: signal.at(0.0) for name, signal in deviating.items()}
     plain = {**stated.get("device", {}), "phase": stated.get("inputs", {}).get("phase")}
-    scene = Scene(
+    return Scene(
         name=table.name,
         title=table.title,
         description=table.description.strip(),
@@ -342,10 +342,6 @@ def _scene(content: Mapping[str, Any], source: str, folder: Path) -> Scene:
         tuning=tuning,
         slips=read.slips if isinstance(name, str) else possible_slips(plain),
     )
-    for key, signal in scene._all_signals.items():
-        with explained(f"{source}: {key}: "):
-            signal.check_changes_before(scene.stop_time or inf)
-    return scene
 
 
 def _signal(table: InputTable, name: str, where: str, folder: Path) -> Signal:

@@ -36,7 +36,7 @@ class InputTable(KeyTable):
         "the end of the run: a run that goes beyond them is refused. A heading may have a unit in "
         "brackets: `load [mN]`.",
         "`column` and `between` belong to a `csv`.",
-        "A jump is a communication point, before the end of the run: no step goes over it.",
+        "A jump is a communication point: no step goes over it.",
         "Straight lines are sampled at communication points and held until the next, unless [run] "
         "says `interpolate`.",
     )

@@ -134,16 +134,6 @@ def test_mistakes_are_explained(tmp_path: Path, name: str, head: str) -> None:
     assert_mistakes_as_before(name, tmp_path / "mine.toml", read_scenes, head)
 
 
-@pytest.mark.parametrize(
-    "load", ["steps = [[0, 0], [0.2, 0]]", "ramp = [[0, 0], [0.2, 1]]", "ramp = [[0, 0], [0.1, 1]]"]
-)
-def test_points_after_the_end_may_stay_without_a_change_there(load: str) -> None:
-    run = "[run]\nstop_time = {}\nstep_size = 0.01\n"
-    scene_of(f"[inputs]\nload = {{ {load} }}\n{run.format(0.1)}")
-    scene = scene_of(f"[inputs]\nload = {{ steps = [[0, 0], [0.2, 1]] }}\n{run.format(0.3)}")
-    assert scene.timed(stop_time=0.1).stop_time == 0.1, "a run that is shortened later"
-
-
 def test_a_scene_saved_with_a_byte_order_mark_is_read(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     path.write_text(f"{HEAD}[run]\nstop_time = 0.1\nstep_size = 0.01\n", encoding="utf-8-sig")
